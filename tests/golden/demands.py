@@ -334,8 +334,8 @@ def asked(project, suites_):
 
 
 def unknown_loads(project):
-    """Say whether the bearings' own loads are not known, as the standing of tests has it."""
-    return any("not evaluated" in row["standing"] for row in project.table("programme"))
+    """Say whether the bearings' own loads are not known, as the notes of tests have it."""
+    return any("not evaluated" in row["note"] for row in project.table("programme"))
 
 
 def impact_speed(project):

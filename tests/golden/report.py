@@ -315,7 +315,7 @@ def _checks(project, head, rows, tally):
         ):
             tally.words("tables of the report", label, text, " ".join(given[title].split()))
         tally.words("tables of the report", label, row[clause].removesuffix(" *"), given["clause"])
-        star = given["standing"].startswith("to be confirmed")
+        star = given["standing"].startswith("from memory")
         tally.words("tables of the report", f"{label} star", row[clause].endswith("*"), star)
         void = bool(given["void"])
         numbers = [float(given[name]) for name in ("demand", "limit")]

@@ -436,7 +436,7 @@ def test_each_check_can_be_followed_to_what_was_given() -> None:
         found = analysed(SYSTEM, spectrum, bounds=BOUNDS, superstructure=ABOVE)
         for check in found.checks:
             assert check.symbol in check.trace
-            assert (check.standing == "confirmed") == check.clause.startswith("LIR-DCFP")
+            assert (check.standing.kind == "own") == check.clause.startswith("LIR-DCFP")
             for step in check.trace:
                 assert set(e.symbol for e in step.entered) <= {s.symbol for s in check.trace}
                 scope = {e.symbol: np.asarray(e.value) for e in step.entered}

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal, overload
 
 from frames.design._errors import CheckError
 from frames.design.calculation.rendering import quantity, scale, usual_unit
+from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.calculation.trace import Trace
 from lir_element.argument_checks import as_number, require_choice, require_type
 from lir_element.tables import html_table, text_table
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
 Bound = Literal["lower", "nominal", "upper", ""]
 Scope = Literal["any", "demand", "procedure", "agreement", "minimum"]
 Verdict = Literal["ok", "FAILS", "does not apply", "needs agreement", "raised"]
-CONFIRMED = "confirmed"
-TO_BE_CONFIRMED = "to be confirmed against the standard"
 _ROUND_OFF = 1e-9
 
 
@@ -44,9 +43,8 @@ class Check:
         What the demand must be to the limit.
     trace : Trace, optional
         The calculation; what was entered later does not change the check.
-    standing : str
-        "confirmed", or "to be confirmed against the standard" where clause number, formula or
-        factor were not read in the standard itself.
+    standing : Standing
+        How well clause, formula and limit are known; from memory, with a star, unless it is said.
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings it holds for.
     subject : str
@@ -89,7 +87,7 @@ class Check:
     unit: str = "-"
     relation: Literal["<=", ">="] = "<="
     trace: Trace = Trace()  # noqa: RUF009  (copied, never added to)
-    standing: str = CONFIRMED
+    standing: Standing = MEMORY
     bound: Bound = ""
     subject: str = ""
     note: str = ""
@@ -109,7 +107,7 @@ class Check:
             msg = f"demand and limit of {self.title!r} ({self.clause}) are infinite: give one"
             raise CheckError(msg)
         require_choice("relation", self.relation, ("<=", ">="), error=CheckError)
-        require_choice("standing", self.standing, (CONFIRMED, TO_BE_CONFIRMED), error=CheckError)
+        require_type("standing", self.standing, Standing, "a Standing")
         bounds = ("lower", "nominal", "upper", "")
         require_choice("bound", self.bound, bounds, error=CheckError)
         scopes = ("any", "demand", "procedure", "agreement", "minimum")
@@ -173,8 +171,8 @@ class Check:
 
     @property
     def cited(self) -> str:
-        """The clause, with a star where it is to be confirmed."""
-        return self.clause if self.standing == CONFIRMED else f"{self.clause} *"
+        """The clause, with a star where it is from memory."""
+        return self.standing.cited(self.clause)
 
     @property
     def said(self) -> tuple[str, str, str]:
@@ -315,6 +313,7 @@ class Checks(Sequence[Check]):
         names = [f.name for f in fields(Check) if f.name not in {"trace", "shown", "scope"}]
         rows = [
             {name: getattr(c, name) for name in (*names, "ratio", "passed", "verdict")}
+            | {"standing": str(c.standing)}
             for c in self
         ]
         return pd.DataFrame(rows, columns=[*names, "ratio", "passed", "verdict"])

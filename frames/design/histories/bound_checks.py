@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
+from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.standing import MEMORY, OWN
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.design.codes.registry import HISTORY_RULES
@@ -110,7 +111,7 @@ class BoundChecks:
     def _of_bearings(self) -> list[Check]:
         rules, bearings = self.rules, self._bearings
         clause = self._clause(rules.displacement_clause)
-        moved = bearings.displacement(clause, self._least("D_TM_dyn"), TO_BE_CONFIRMED)
+        moved = bearings.displacement(clause, self._least("D_TM_dyn"), MEMORY)
         found = [
             *moved,
             *self._engagement(moved),
@@ -359,7 +360,7 @@ class BoundChecks:
             t.given(f"{symbol}_lim", limit, unit, shown=shown)
             each[label] = Calculation(t, symbol, f"{symbol}_lim")
         where = self._clause(clause) if clause else PROJECT_LIMIT
-        standing = TO_BE_CONFIRMED if clause else CONFIRMED
+        standing = MEMORY if clause else OWN
         return Governing(self.bound, standing, note, self._suite.void)(where, title, each)
 
     def _least(self, symbol: str) -> float:

@@ -8,6 +8,7 @@ import pandas as pd
 
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.standing import standing_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -68,4 +69,5 @@ def _check(row: dict[Any, Any]) -> Check:
     scope = beyond.get(row["verdict"], "any")
     shown = _SHOWN.get(row["unit"], "")
     numbers = {name: float(row[name]) for name in ("demand", "limit")}
+    texts["standing"] = standing_of(row["standing"])
     return Check(**texts, **numbers, scope=scope, shown=shown)  # type: ignore[arg-type]  # Check judges them

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from frames.design.calculation.check import TO_BE_CONFIRMED
+from frames.design.calculation.standing import LEGEND, standing_of
 from frames.design.histories.demand_table import envelope_said, headed, void_said
 from frames.design.report.by_motion import BY_MOTION, motion_tables
 from frames.design.report.columns import in_parts
@@ -101,6 +101,7 @@ def report_in(
         governing=what_governs(run.checks),
         judged=judged,
         doubts=run.doubts,
+        legend=LEGEND,
         checks=[judged(check) for check in run.checks],
         limits=[judged(check) for check in run.equivalent.checks if check not in run.checks],
         structure=words.table(
@@ -192,12 +193,14 @@ def _friction(friction: pd.DataFrame) -> Table:
 
 
 def _programme(tests: pd.DataFrame) -> Table:
-    # Clauses with a star where they are to be confirmed; kinds of bearings where there are several.
-    starred = tests["clause"].where(tests["standing"] != TO_BE_CONFIRMED, tests["clause"] + " *")
+    # Clauses with a star where they are from memory; kinds of bearings where there are several.
+    cited = [
+        standing_of(said).cited(clause)
+        for clause, said in zip(tests["clause"], tests["standing"], strict=True)
+    ]
     named = pd.Index([f"{k} {name}" for k, name in tests["what"].items()])
-    shown = (
-        tests.assign(clause=starred).drop(columns=["standing", "what", "shows"]).set_index(named)
-    )
+    left_out = ["standing", "note", "what", "shows"]
+    shown = tests.assign(clause=cited).drop(columns=left_out).set_index(named)
     if shown["bearings"].nunique() == 1:
         shown = shown.drop(columns="bearings")
     return page_table(in_mm_and_kn(shown), "test")
