@@ -200,7 +200,7 @@ class Check:
         if math.isinf(self.demand):
             return "no ratio without a demand"
         if self.relation == "<=":
-            return "none allowed" if self.limit == 0.0 else "no ratio to a limit below 0"
+            return "none allowed" if not self.limit else "no ratio to a limit below 0"
         return "no ratio of a demand that is not above 0"
 
     def __str__(self) -> str:
