@@ -171,7 +171,7 @@ def _permanent(frame: FrameData, state: GravityState) -> dict[str, xr.Variable]:
             (), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"
         ),
         "static_axial_force": labelled(
-            ("bearing",), state.axial_forces, "N", "axial force under permanent loads"
+            ("bearing",), state.axial_forces.copy(), "N", "axial force under permanent loads"
         ),
         "level_height": labelled(
             ("level",), np.array([lv.z for lv in frame.levels]), "m", "elevation of the level"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
@@ -296,6 +297,7 @@ def bearing_coordinates(names: Sequence[str]) -> dict[str, Any]:
     }
 
 
+@cache
 def package_version() -> str:
     """Return the installed version, or 'unknown' outside an installation."""
     try:
