@@ -13,6 +13,7 @@ from frames.kernel_data import ENERGY_TERMS, device_records
 from frames.model.components import DOFS
 from frames.recording.nonlinear_results import part_variables
 from frames.recording.section_cuts import storey_rows
+from frames.statics.fresh_runs import once
 from frames.statics.gravity import expand
 from frames.statics.resultants import moving_mass
 from lir_element.results.dataset import (
@@ -88,7 +89,10 @@ def build_dataset(
         variables |= some_bodies("time", state.contacts.row, states[:count], bodies[:count])
     variables |= temperature_variables("time", states[:count], state.model.props)
     node = ("time", "node", "dof")
-    variables |= _device_variables(system)
+    variables |= {
+        name: _own(variable)
+        for name, variable in once(state, "devices", lambda: _device_variables(system)).items()
+    }
     more, names = part_variables(system.parts, frame, out, count)
     variables |= more
     variables |= {
@@ -134,7 +138,9 @@ def build_dataset(
             "J",
             "energy since gravity",
         ),
-    } | _permanent(frame, state)
+    }
+    permanent = once(state, "permanent", lambda: _permanent(frame, state))
+    variables |= {name: _own(variable) for name, variable in permanent.items()}
     storeys = [lv.name for lv in frame.levels[1:]]
     if storeys:
         names["storey"] = storeys
@@ -144,17 +150,27 @@ def build_dataset(
             "N",
             "resisting force of what is below a storey: its members, and bearings through it",
         )
-    coordinates = {
-        "time": labelled(("time",), out.time[:count].copy(), "s", "time"),
-        "node": list(system.node_names),
-        "dof": list(DOFS),
-        "term": list(ENERGY_TERMS),
-        "resultant": list(state.resultants.names),
-        "level": [lv.name for lv in frame.levels],
-        **names,
-        **bearing_coordinates([placed.name for placed in system.bearings]),
-    }
-    return xr.Dataset(variables, coordinates)
+
+    def coordinates() -> xr.Coordinates:
+        return xr.Dataset(
+            coords={
+                "node": list(system.node_names),
+                "dof": list(DOFS),
+                "term": list(ENERGY_TERMS),
+                "resultant": list(state.resultants.names),
+                "level": [lv.name for lv in frame.levels],
+                **names,
+                **bearing_coordinates([placed.name for placed in system.bearings]),
+            }
+        ).coords
+
+    variables["time"] = labelled(("time",), out.time[:count].copy(), "s", "time")
+    return xr.Dataset(variables, once(state, "coordinates", coordinates))
+
+
+def _own(variable: xr.Variable) -> xr.Variable:
+    # With an array and attributes of its own.
+    return xr.Variable(variable.dims, variable.values.copy(), dict(variable.attrs))
 
 
 def _permanent(frame: FrameData, state: GravityState) -> dict[str, xr.Variable]:

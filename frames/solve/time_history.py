@@ -315,7 +315,8 @@ def _run_from(
         "seconds_gravity": state.seconds,
         "seconds_loop": seconds,
     }
-    seen = recorder.judgeable(data).assign_attrs(data.attrs)
+    seen = recorder.judgeable(data)
+    seen.attrs = data.attrs
     outcome = concluded(seen, state, end)
     data.attrs = seen.attrs
     return data, outcome, recorder

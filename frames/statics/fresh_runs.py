@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from frames.kernel_data import IntegrationState, run_arrays
 from frames.nonlinear_data import NonlinearElements
 from lir_element.bundles.contact_data import Contacts, detached
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from frames.statics.gravity import GravityState
+
+T = TypeVar("T")
 
 _REMADE = frozenset({"reduced", "inverse_e", "follow_e", "lead_e", "follow", "pool"})
 # of step sizes: the loop makes them again, as `has_reduced` says
@@ -37,11 +41,35 @@ def with_own_arrays(shared: GravityState, seconds: float) -> GravityState:
     if shared.parts is not None:
         own["parts"] = NonlinearElements(*(array.copy() for array in shared.parts))
     mine = replace(shared, **own)
+    _ = shared.formed  # one for both
     declared = {field.name for field in fields(shared)}
     known = {name: value for name, value in vars(shared).items() if name not in declared}
     vars(mine).update(known)  # what was formed of the structure: no run changes it
     restart(mine, shared)
     return mine
+
+
+def once(state: GravityState, name: str, form: Callable[[], T]) -> T:
+    """Return what results form of a structure alone, formed by the first of its runs.
+
+    Parameters
+    ----------
+    state : GravityState
+        Of the run.
+    name : str
+        Under which it is kept; one name stands for one `form`.
+    form : callable
+        Returns it; nobody changes it, but by a copy.
+
+    Returns
+    -------
+    object
+        The same for all states that share an equilibrium.
+    """
+    if name not in state.formed:  # by two threads at once: the same twice
+        state.formed[name] = form()
+    found: T = state.formed[name]
+    return found
 
 
 def restart(mine: GravityState, shared: GravityState) -> None:
