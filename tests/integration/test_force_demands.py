@@ -14,6 +14,7 @@ from frames.design import (
     bounded_histories,
 )
 from frames.design.histories.force_demands import force_demands
+from frames.design.histories.least_shears import Raise
 from frames.design.histories.suite import Suite
 from frames.model.axes import default_up, local_axes
 from lir_element import CoulombFriction, LIRBearing
@@ -188,6 +189,25 @@ def test_drifts_are_those_that_runs_reached(runs, tables):
     for bound, data in runs.items():
         mean = data["reached_drift"].mean("run")
         assert drifts[bound].to_numpy() == pytest.approx(mean.to_numpy(), rel=1e-12)
+
+
+def test_least_shears_raise_the_earthquakes_part(runs, tables):
+    """Of members, storeys and drifts by one factor, of bearings and the foot of all by another."""
+    raises = {("MCE_R", "upper"): Raise(above=1.4, isolation=1.1)}
+    raised = force_demands({"MCE_R": runs}, RULES, raises)
+    foot = str(runs["upper"]["section"].to_numpy()[0])
+    assert foot not in set(map(str, runs["upper"]["storey"].to_numpy()))
+    for name, own in tables.items():
+        found, upper = raised[name], (own["bound"] == "upper").to_numpy()
+        by = np.where(upper, 1.1 if name == "reactions" else 1.4, 1.0)
+        if name == "storeys":
+            by = np.where(upper & (own["storey"] == foot).to_numpy(), 1.1, by)
+        assert found["raised by"].to_numpy() == pytest.approx(by)
+        assert set(own["raised by"]) == {1.0}
+        rest = np.nan_to_num(own["permanent"].to_numpy())  # drifts have none
+        expected = rest + by * (own["value"].to_numpy() - rest)
+        assert found["value"].to_numpy() == pytest.approx(expected, rel=1e-9, abs=2e-3)
+        assert np.array_equal(found["single"], own["single"], equal_nan=True)
 
 
 def test_fewer_motions_count_with_the_largest(frame):

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import CONFIRMED, Bound, Check
+from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.standing import OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.overlap import liner_pressure, pressure
@@ -100,7 +101,7 @@ class BearingDemands:
     factor: float = 1.0
 
     def displacement(
-        self, clause: str, least: float = 0.0, standing: str = CONFIRMED
+        self, clause: str, least: float = 0.0, standing: Standing = OWN
     ) -> list[Check]:
         """Return the check of the displacement against what rims and overlap allow.
 
@@ -110,7 +111,7 @@ class BearingDemands:
             Clause.
         least : float
             Displacement that is taken at least [m].
-        standing : str
+        standing : Standing
             Of the check.
 
         Returns
@@ -155,7 +156,7 @@ class BearingDemands:
                 if symbol == "s":
                     self._enter_slip(t, k)
                 else:
-                    self.suite.enter(t, symbol, values[:, k], "m", "mm")
+                    self.suite.enter(t, symbol, values[:, k], "m", "mm", of="slip_left")
                 if limit not in t and self.limits.slip_left is not None:
                     t.given(limit, self.limits.slip_left, "m", shown="mm", note="as given")
                 return Calculation(t, symbol, limit)
@@ -289,7 +290,7 @@ class BearingDemands:
         title: str,
         fill: Fill,
         places: list[int],
-        standing: str = CONFIRMED,
+        standing: Standing = OWN,
         note: str = "",
     ) -> list[Check]:
         words = "; ".join(part for part in (note, self.note) if part)

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
+from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.standing import MEMORY, OWN
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.design.codes.registry import HISTORY_RULES
@@ -21,6 +22,7 @@ from frames.design.devices.limits import PROJECT_LIMIT
 from frames.design.histories.bearing_demands import BearingDemands, devices_of
 from frames.design.histories.eccentricity import named_by_way, raised_suite, with_moved
 from frames.design.histories.governing import Calculation, Governing
+from frames.design.histories.least_shears import LEAST, raise_of, shear_checks
 from frames.design.histories.suite import (
     audit_notes,
     contact_notes,
@@ -48,7 +50,6 @@ _DRIFTS = {
     "drift": "mean of the storey, size in plan",
     "line_drift": "line of nodes over one another, size in plan",
 }
-_LEAST = "least one, of the equivalent-linear analysis"
 
 
 @dataclass(frozen=True)
@@ -103,14 +104,14 @@ class BoundChecks:
         if self.level.judges_bearings:
             found += self._of_bearings()
         if self.level.judges_structure:
-            found += [*self._base_shear(), *self._storey_shear()]
+            found += [*self._base_shear(), *self._least_shears]
             found += [*self._drift(), *self._acceleration()]
         return [replace(check, level=self.level.name) for check in found]
 
     def _of_bearings(self) -> list[Check]:
         rules, bearings = self.rules, self._bearings
         clause = self._clause(rules.displacement_clause)
-        moved = bearings.displacement(clause, self._least("D_TM_dyn"), TO_BE_CONFIRMED)
+        moved = bearings.displacement(clause, self._least("D_TM_dyn"), MEMORY)
         found = [
             *moved,
             *self._engagement(moved),
@@ -267,39 +268,21 @@ class BoundChecks:
             t = Trace()
             self._suite.enter(t, "V", values, "N", of="base_shear")
             if least > 0.0:
-                t.given("V_least", least, "N", note=_LEAST)
+                t.given("V_least", least, "N", note=LEAST)
                 self._suite.form(t, "V_d", "max(V, V_least)", "N", of="V")
             return t
 
         symbol = "V_d" if least > 0.0 else "V"
         return self._worst("", "base shear", "base_shear", symbol, "N", limit, fill=fill)
 
-    def _storey_shear(self) -> list[Check]:
-        # On the storey over the lowest level: less is not a failure of the run, but of the demand.
-        if self.equivalent is None or not self._least("V_s_dyn") or len(self.frame.levels) < 2:
+    @cached_property
+    def _least_shears(self) -> list[Check]:
+        # Less than the least is not a failure of the run: forces are raised to it.
+        if self.equivalent is None or not self._least("V_s_dyn"):
             return []
-        if "reached_storey_shear" not in self.data:
-            msg = "runs have no storey shears (reached_storey_shear): compute them anew"
-            raise CheckError(msg)
-        known, t = self.equivalent.bounds[self.bound].trace, Trace()
-        self._suite.enter(t, "V_st", peaks_of_runs(self.data, "storey_shear")[:, 0], "N")
-        t.given("R_I", known.value("R_I"), source=known["R_I"].source)
-        self._suite.form(t, "V_run", "V_st / R_I", "N", of="V_st")
-        t.given("V_s", known.value("V_s"), "N", note="of the equivalent-linear analysis")
-        t.given("a_dyn", known.value("a_dyn"), source=known["a_dyn"].source)
-        t("V_least", "a_dyn * V_s", "N")
-        more = "where it fails, forces above the isolation count times the ratio"
-        return [
-            CheckBuilder(t, self.bound, void=self._suite.void).worst(
-                self._clause(self.rules.force_clause),
-                "storey shear of time histories",
-                "V_run",
-                ">=",
-                "V_least",
-                subjects=(self.frame.levels[1].name,),
-                note="; ".join(part for part in (self._note, more) if part),
-            )
-        ]
+        storey = self.frame.levels[1].name if len(self.frame.levels) > 1 else ""
+        known = self.equivalent.bounds[self.bound]
+        return shear_checks(self.data, self._suite, known, self.rules, storey, self._note)
 
     def _drift(self) -> list[Check]:
         # That of the code, and that of the project beside it.
@@ -324,18 +307,18 @@ class BoundChecks:
         return f"{word} than {100.0 * code:g} % of {clause}, which is checked beside it"
 
     def _drift_within(self, limit: float, clause: str) -> list[Check]:
-        shear, least = peaks_of_runs(self.data, "base_shear"), self._least("V_b_dyn")
+        least = self._least_shears
 
         def fill(values: FloatArray, of: str) -> Trace:
             t = Trace()
             self._suite.enter(t, "theta", values, "-", "%", of=of)
-            if least > 0.0:
-                self._suite.enter(t, "V", shear, "N")
-                t.given("V_least", least, "N", note=_LEAST)
-                self._suite.form(t, "theta_d", "theta * max(V_least / V, 1)", "-", "%", of="theta")
+            if least:
+                more = "least shear over that of the runs, as its own check has it; 1 at least"
+                t.given("f_V", raise_of(least).above, note=more)
+                self._suite.form(t, "theta_d", "f_V * theta", "-", "%", of="theta")
             return t
 
-        symbol, title = "theta_d" if least > 0.0 else "theta", "storey drift ratio"
+        symbol, title = "theta_d" if least else "theta", "storey drift ratio"
         found: list[Check] = []
         for name, of in _DRIFTS.items():
             if f"reached_{name}" in self.data:
@@ -377,7 +360,7 @@ class BoundChecks:
             t.given(f"{symbol}_lim", limit, unit, shown=shown)
             each[label] = Calculation(t, symbol, f"{symbol}_lim")
         where = self._clause(clause) if clause else PROJECT_LIMIT
-        standing = TO_BE_CONFIRMED if clause else CONFIRMED
+        standing = MEMORY if clause else OWN
         return Governing(self.bound, standing, note, self._suite.void)(where, title, each)
 
     def _least(self, symbol: str) -> float:

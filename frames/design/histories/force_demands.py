@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.design.histories.demand_table import said
+from frames.design.histories.least_shears import Raise
 from frames.design.histories.suite import motion_of, peaks_of_runs, suite_of
 from frames.results.recorded import REACHED
 
@@ -43,7 +44,9 @@ _SIGN = np.array([1.0, -1.0])
 _DIGITS = 3  # after the point, of forces: what is less than a millinewton is round-off
 
 
-def force_demands(runs: Runs, rules: HistoryRules) -> dict[str, pd.DataFrame]:
+def force_demands(
+    runs: Runs, rules: HistoryRules, raises: Mapping[tuple[str, str], Raise] | None = None
+) -> dict[str, pd.DataFrame]:
     """Return what time histories ask of members, storeys and what bearings stand on and carry.
 
     Parameters
@@ -53,6 +56,10 @@ def force_demands(runs: Runs, rules: HistoryRules) -> dict[str, pd.DataFrame]:
         (`Recording`); a row a motion.
     rules : HistoryRules
         How the code counts them.
+    raises : mapping, optional
+        By level and bound what the code's least shears raise (`raises_of_runs`): the earthquake's
+        part of forces of members, storeys and drifts, and that of reactions and of the whole
+        structure's foot. Forces of members are taken as above the isolation.
 
     Returns
     -------
@@ -60,10 +67,11 @@ def force_demands(runs: Runs, rules: HistoryRules) -> dict[str, pd.DataFrame]:
         "members", "storeys" and "reactions", as far as the structure has them: a row for each
         level, bound, section, force and extreme [N, N m], with the permanent loads of the model:
 
-        - value: the mean or the largest of the runs' extremes, as "statistic" says; permanent: its
-          part of the permanent loads, the rest being the earthquake's;
+        - value: the mean or the largest of the runs' extremes, as "statistic" says, with its rest
+          times "raised by"; permanent: its part of the permanent loads, the rest being the
+          earthquake's;
         - motion: whose extreme is farthest out, single: that extreme, time [s]: when, and all six
-          forces of the section at that instant;
+          forces of the section at that instant, not raised;
         - governs: whether no other bound of that level is farther out;
         - void: that "value" is no value for design, for so many runs failed; empty where it is one.
 
@@ -72,19 +80,19 @@ def force_demands(runs: Runs, rules: HistoryRules) -> dict[str, pd.DataFrame]:
     import pandas as pd
 
     found: dict[str, pd.DataFrame] = {}
+    known = raises or {}
     for name, kind in _KINDS.items():
         parts = []
         for level, each in runs.items():
-            tables = [
-                _of_bound(data, kind, suite_of(data, rules)).assign(level=level, bound=bound)
-                for bound, data in each.items()
-                if REACHED + kind.variable in data
-            ]
-            if name == "storeys":
-                tables = [
-                    pd.concat([table, _drifts(data, suite_of(data, rules), level, bound)])
-                    for table, (bound, data) in zip(tables, each.items(), strict=False)
-                ]
+            tables = []
+            for bound, data in each.items():
+                if REACHED + kind.variable not in data:
+                    continue
+                suite, more = suite_of(data, rules), known.get((level, bound), Raise())
+                table = _of_bound(data, kind, suite, _factors(data, name, kind, more))
+                if name == "storeys":
+                    table = pd.concat([table, _drifts(data, suite, more.above)])
+                tables.append(table.assign(level=level, bound=bound))
             parts += _with_governing(tables, [*kind.columns.values(), "force", "extreme"])
         if parts:
             table = pd.concat(parts, ignore_index=True)
@@ -94,7 +102,17 @@ def force_demands(runs: Runs, rules: HistoryRules) -> dict[str, pd.DataFrame]:
     return found
 
 
-def _of_bound(data: xr.Dataset, kind: _Kind, suite: Suite) -> pd.DataFrame:
+def _factors(data: xr.Dataset, name: str, kind: _Kind, more: Raise) -> FloatArray:
+    # Of each section, which are in the order of the table: the foot of the lowest level is the
+    # first of the storeys.
+    shape = tuple(data.sizes[dim] for dim in kind.columns)
+    factors = np.full(shape, more.isolation if name == "reactions" else more.above)
+    if name == "storeys":
+        factors[0] = more.isolation
+    return factors.ravel()
+
+
+def _of_bound(data: xr.Dataset, kind: _Kind, suite: Suite, factors: FloatArray) -> pd.DataFrame:
     import pandas as pd
 
     dims, six = tuple(kind.columns), kind.forces
@@ -106,6 +124,9 @@ def _of_bound(data: xr.Dataset, kind: _Kind, suite: Suite) -> pd.DataFrame:
     together, times = together.reshape(runs, -1, 6, 2, 6), times.reshape(runs, -1, 6, 2)
     own = np.einsum("rscwc->rscw", together)
     value, which = _counted(own * _SIGN, suite)
+    still = rest.reshape(-1, 6)[:, :, None]
+    more = factors[:, None, None]
+    value = np.where(more > 1.0, still + more * (value * _SIGN - still), value * _SIGN)
 
     def of_motion(values: FloatArray) -> FloatArray:
         index = which.reshape(1, *which.shape, *(1,) * (values.ndim - 4))
@@ -118,8 +139,9 @@ def _of_bound(data: xr.Dataset, kind: _Kind, suite: Suite) -> pd.DataFrame:
     )
     table = names.to_frame(index=False)
     table["unit"] = ["N m" if force[0] in "MT" else "N" for force in table["force"]]
-    table["value"] = _shown(value * _SIGN)
+    table["value"] = _shown(value)
     table["permanent"] = _shown(np.repeat(rest.ravel(), 2))
+    table["raised by"] = np.repeat(factors, 12)
     table = _with_motions(table, data, suite, which.ravel())
     table["single"] = _shown(of_motion(own))
     table["time [s]"] = of_motion(times).ravel()
@@ -139,7 +161,7 @@ def _void(suite: Suite) -> str:
     return f"{sum(suite.failed)} of {len(suite.failed)} runs failed" if suite.void else ""
 
 
-def _drifts(data: xr.Dataset, suite: Suite, level: str, bound: str) -> pd.DataFrame:
+def _drifts(data: xr.Dataset, suite: Suite, factor: float) -> pd.DataFrame:
     # Of the means of the storeys' nodes.
     import pandas as pd
 
@@ -148,14 +170,13 @@ def _drifts(data: xr.Dataset, suite: Suite, level: str, bound: str) -> pd.DataFr
     each, times = peaks_of_runs(data, "drift"), peaks_of_runs(data, "drift_at")
     value, which = _counted(each, suite)
     table = pd.DataFrame({"storey": list(map(str, data["level"].to_numpy()[1:]))})
-    table = table.assign(force="drift", extreme=EXTREMES[0], unit="1", value=value)
+    table = table.assign(force="drift", extreme=EXTREMES[0], unit="1", value=factor * value)
+    table["raised by"] = factor
     table = _with_motions(table, data, suite, which)
     columns = np.arange(len(which))
     return table.assign(
         **{"single": each[which, columns], "time [s]": times[which, columns]},
         void=_void(suite),
-        level=level,
-        bound=bound,
     )
 
 

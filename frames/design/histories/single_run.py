@@ -6,7 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check, Checks
+from frames.design.calculation.check import Bound, Check, Checks
+from frames.design.calculation.standing import MEMORY, OWN
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.design.codes.secant import CheckBuilder
@@ -166,7 +167,7 @@ def event_checks(
                 if not devices[name].is_dcfp
             }
             title = f"{what}, event {event}"
-            found += Governing(bound, CONFIRMED)(f"{NO_CODE} (2.7)", title, each)
+            found += Governing(bound, OWN)(f"{NO_CODE} (2.7)", title, each)
     return Checks(replace(check, void=void) for check in found)
 
 
@@ -176,7 +177,7 @@ def _complete(data: xr.Dataset, bound: Bound) -> Check:
     t.given("n_allowed", 0.0)
     said = (f"assumption check: {doubt}" for doubt in doubts_of(data))
     note = "; ".join((str(data.attrs["message"]), *said))
-    judge = CheckBuilder(t, bound, CONFIRMED)
+    judge = CheckBuilder(t, bound, OWN)
     return judge("no code", "run is complete", "n_failed", "<=", "n_allowed", note=note)
 
 
@@ -196,7 +197,7 @@ def _structure(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Che
                 label.partition(" of ")[2]: _felt(row, symbol, unit, shown, limit)
                 for label, row in rows.iterrows()
             }
-            found += Governing(bound, CONFIRMED)(PROJECT_LIMIT, f"{kind} at an impact", each)
+            found += Governing(bound, OWN)(PROJECT_LIMIT, f"{kind} at an impact", each)
     return found
 
 
@@ -227,7 +228,7 @@ def _uplift(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]
         t.given(symbol, float(row[column]), unit, shown=shown, note=when)
         t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
         each = {str(row["bearing"]): Calculation(t, symbol, f"{symbol}_lim")}
-        found += Governing(bound, CONFIRMED, note)(PROJECT_LIMIT, title, each)
+        found += Governing(bound, OWN, note)(PROJECT_LIMIT, title, each)
     return found
 
 
@@ -242,7 +243,7 @@ def _engagement(data: xr.Dataset, whole: float, least: float, bound: Bound) -> l
         t.given("eta_least", least)
         t("eta", "U_rim / D_TM")
         found.append(
-            CheckBuilder(t, bound, TO_BE_CONFIRMED).worst(
+            CheckBuilder(t, bound, MEMORY).worst(
                 "ASCE 7-22 17.2.4.5",
                 "displacement where a rim engages, over D_TM",
                 "eta",

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import TO_BE_CONFIRMED
+from frames.design.calculation.standing import MEMORY, OWN
 from frames.design.calculation.unevaluated import NOT_EVALUATED
 from frames.design.codes.bounds import ENDS, with_property_bounds
 from frames.design.codes.pendulum import FrictionPendulum
@@ -60,10 +60,10 @@ def prototype_tests(
         A row a test, numbered from 1: kind of bearing, test, displacement [m], vertical load [N],
         fully reversed cycles, period [s] and peak speed [m/s] of harmonic motion, least and
         largest lateral force to expect with friction of high speed at its bounds [N], what the
-        test shows, clause and its standing. NaN: not given, or without meaning. Of an LIR-DCFP
-        there are tests besides that no code has: the interface alone, and impacts. Where the
-        system's loads are not known (`IsolationSystem.unknown_loads`) and `demands` gives none,
-        tests at the largest and the least load have NaN for it, and say why in their standing.
+        test shows, clause, its standing, a note. NaN: not given, or without meaning. Of an
+        LIR-DCFP there are tests besides that no code has: the interface alone, and impacts. Where
+        the system's loads are not known (`IsolationSystem.unknown_loads`), `demands` giving none,
+        tests at the largest and the least load have NaN for it, and a note that says why.
 
     Raises
     ------
@@ -116,7 +116,7 @@ def _without_loads(table: pd.DataFrame, why: str) -> pd.DataFrame:
     if why:
         of_load = table["what"].str.contains("(?:largest|least) load", regex=True)
         table.loc[of_load, ["vertical load [N]", "least force [N]", "largest force [N]"]] = math.nan
-        table.loc[of_load, "standing"] = f"{NOT_EVALUATED}: {why}"
+        table.loc[of_load, "note"] = f"{NOT_EVALUATED}: {why}"
     return table
 
 
@@ -214,7 +214,8 @@ def _row(kind: str, test: PlannedTest, design: DesignToTest) -> dict[str, object
         "largest force [N]": most,
         "shows": test.shows,
         "clause": test.clause,
-        "standing": "a proposal" if test.clause == PROPOSAL else TO_BE_CONFIRMED,
+        "standing": str(OWN if test.clause == PROPOSAL else MEMORY),
+        "note": "",
     }
 
 
