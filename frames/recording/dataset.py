@@ -28,7 +28,7 @@ from lir_element.results.deferred import deferred
 from lir_element.results.eccentricity import interface_eccentricity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from frames._types import FloatArray
     from frames.assembly.assemble import System
@@ -89,10 +89,7 @@ def build_dataset(
         variables |= some_bodies("time", state.contacts.row, states[:count], bodies[:count])
     variables |= temperature_variables("time", states[:count], state.model.props)
     node = ("time", "node", "dof")
-    variables |= {
-        name: _own(variable)
-        for name, variable in once(state, "devices", lambda: _device_variables(system)).items()
-    }
+    variables |= _own(once(state, "devices", lambda: _device_variables(system)))
     more, names = part_variables(system.parts, frame, out, count)
     variables |= more
     variables |= {
@@ -139,8 +136,7 @@ def build_dataset(
             "energy since gravity",
         ),
     }
-    permanent = once(state, "permanent", lambda: _permanent(frame, state))
-    variables |= {name: _own(variable) for name, variable in permanent.items()}
+    variables |= _own(once(state, "permanent", lambda: _permanent(frame, state)))
     storeys = [lv.name for lv in frame.levels[1:]]
     if storeys:
         names["storey"] = storeys
@@ -151,26 +147,39 @@ def build_dataset(
             "resisting force of what is below a storey: its members, and bearings through it",
         )
 
-    def coordinates() -> xr.Coordinates:
-        return xr.Dataset(
-            coords={
-                "node": list(system.node_names),
-                "dof": list(DOFS),
-                "term": list(ENERGY_TERMS),
-                "resultant": list(state.resultants.names),
-                "level": [lv.name for lv in frame.levels],
-                **names,
-                **bearing_coordinates([placed.name for placed in system.bearings]),
-            }
-        ).coords
-
     variables["time"] = labelled(("time",), out.time[:count].copy(), "s", "time")
-    return xr.Dataset(variables, once(state, "coordinates", coordinates))
+    return xr.Dataset(variables, _coordinates(frame, state, names))
 
 
-def _own(variable: xr.Variable) -> xr.Variable:
-    # With an array and attributes of its own.
-    return xr.Variable(variable.dims, variable.values.copy(), dict(variable.attrs))
+def _coordinates(
+    frame: FrameData, state: GravityState, names: Mapping[str, list[str]]
+) -> xr.Coordinates:
+    # All but the time, `names` among them.
+    return once(
+        state,
+        "coordinates",
+        lambda: (
+            xr.Dataset(
+                coords={
+                    "node": list(state.system.node_names),
+                    "dof": list(DOFS),
+                    "term": list(ENERGY_TERMS),
+                    "resultant": list(state.resultants.names),
+                    "level": [lv.name for lv in frame.levels],
+                    **names,
+                    **bearing_coordinates([placed.name for placed in state.system.bearings]),
+                }
+            ).coords
+        ),
+    )
+
+
+def _own(variables: Mapping[str, xr.Variable]) -> dict[str, xr.Variable]:
+    # With arrays and attributes of their own.
+    return {
+        name: xr.Variable(each.dims, each.values.copy(), dict(each.attrs))
+        for name, each in variables.items()
+    }
 
 
 def _permanent(frame: FrameData, state: GravityState) -> dict[str, xr.Variable]:
