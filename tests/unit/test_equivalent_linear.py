@@ -312,7 +312,8 @@ def test_drifts_and_overturning_by_hand() -> None:
     load = max(x + 0.3 * y, 0.3 * x + y)
     assert t.values("N_E")[0] == pytest.approx(load)
     uplift = next(c for c in found.checks if c.title == "no uplift, minimum")
-    assert uplift.demand == pytest.approx(0.9e6 - load)
+    assert (uplift.demand, uplift.limit) == (pytest.approx(load), 0.9e6)
+    assert uplift.ratio == pytest.approx(load / 0.9e6)
     pressure = next(c for c in found.checks if c.title == "pressure on the slider, maximum")
     assert pressure.demand == pytest.approx((2.8e6 + load) / (math.pi * 0.2**2))
 

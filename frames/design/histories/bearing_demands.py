@@ -154,7 +154,7 @@ class BearingDemands:
                 if symbol == "s":
                     self._enter_slip(t, k)
                 else:
-                    self.suite.enter(t, symbol, values[:, k], "m", "mm")
+                    self.suite.enter(t, symbol, values[:, k], "m", "mm", of="slip_left")
                 if limit not in t and self.limits.slip_left is not None:
                     t.given(limit, self.limits.slip_left, "m", shown="mm", note="as given")
                 return Calculation(t, symbol, limit)

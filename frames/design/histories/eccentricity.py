@@ -50,6 +50,8 @@ _RAISED: tuple[tuple[str, str, Literal["factor", "difference"]], ...] = (
     ("rim_force", "N", "difference"),
     ("eccentricity", "-", "difference"),
     ("axial_tension", "N", "difference"),
+    ("displacement_left", "m", "difference"),
+    ("slip_left", "m", "difference"),
 )
 """Quantities that moved masses raise: by a factor, or, where what begins at a threshold may be
 nothing while the masses are where they are, by a difference."""
