@@ -48,7 +48,7 @@ def test_standings_page_is_up_to_date(build: ModuleType) -> None:
 def test_the_build_says_what_the_demo_needs(
     build: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Without the record the other pages are written, the demo's stays, and the build ends with 1."""
+    """Without the record the other pages are written, the demo's stays, the build ends with 1."""
     pages = {name: tmp_path / f"{name.lower()}.md" for name in ("RESULTS", "STANDINGS", "DEMO")}
     for name, path in pages.items():
         path.write_text(f"before\n{build.BEGIN}\nold\n{build.END}\nafter\n", encoding="utf-8")
