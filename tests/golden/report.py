@@ -384,6 +384,9 @@ def _limit(project, row):
     if e is None:
         return None
     s = e["system"]
+    if title == "capacity with accumulated displacement":
+        left = 0.5 * s.mu.max() * project.bearing.L
+        return 1.2 * e["each"].max() + left, project.bearing.capacity
     if title.startswith("no restrainer contact at "):
         return e["each"].max() * (
             1.2 if project.code == "EN 1998" else 1.0
@@ -402,6 +405,7 @@ def _limit(project, row):
         "effective period": (e["period"], 5.0),
         "effective damping": (e["damping"], 0.30),
         "restoring force": e["restoring"],
+        "total eccentricity over the side of the plan": (e.get("a_tot", 0.0), 0.075),
         "period ratio T_M / T_fb": (e["period"], 3.0 * held),
         "storeys": (len(above["w"]) if above else 0, 4.0),
         "height": (above["h"][-1] if above else 0.0, 19.8),

@@ -52,6 +52,7 @@ _BY_S_M1 = (
     "by S_M1 alone; the ordinate of a multi-period spectrum at T_M is more exact: at one site this "
     "form was 3 % high at 2 s, 6 % low at 3 s, 10 % low at 4 s"
 )
+_NEAR_FAULT = 0.6  # g, S_1 from which on C_s has a further least value
 _STEPS = (0.25, 0.50, 0.67, 1.00)  # of D_M, in tests of increments
 
 if TYPE_CHECKING:
@@ -288,9 +289,8 @@ class ASCE7:
         least = "ASCE 7-22 17.5.4.3"
         t("S_DS", "2 / 3 * S_MS", source="ASCE 7-22 (11.4-3)")
         t("S_D1", "2 / 3 * S_M1", source="ASCE 7-22 (11.4-4)")
-        t.given("I_e", above.importance)
-        formula = "max(min(S_DS, S_D1 / T_M) * I_e / R, 0.044 * S_DS * I_e, 0.01)"
-        t("C_s", formula, source="ASCE 7-22 12.8.1.1", note="fixed base, at T_M")
+        t.given("I_e", above.importance, note=_of_importance(above.importance))
+        self._response_coefficient(t, spectrum)
         t("V_fixed", "C_s * W_s", "N", source=least)
         t.given("V_wind", above.wind_shear, "N", source=least)
         t.given("Q_nom", extremes.nominal.strength, "N", note="starts sliding, nominal properties")
@@ -307,6 +307,19 @@ class ASCE7:
         t("M_o", "sum(C_vx * V_st * h_x)", "N m", note="overturning, unreduced")
         t.given("o", self.orthogonal, note="share of the other direction")
         self._dynamic_minima(t)
+
+    def _response_coefficient(self, t: Trace, spectrum: Spectrum) -> None:
+        # C_s of the structure on a fixed base, with the least ones; S_1 where S_M1 is not above it.
+        formula = "max(min(S_DS, S_D1 / T_M) * I_e / R, 0.044 * S_DS * I_e, 0.01)"
+        source, note = "ASCE 7-22 12.8.1.1", "fixed base, at T_M"
+        s_1, said = spectrum.parameters.get("S_1"), "in g"
+        if s_1 is None:
+            s_1, said = t.value("S_M1"), "in g; not given: S_M1, on the safe side on soil"
+        t.given("S_1", s_1, note=said)
+        if s_1 >= _NEAR_FAULT:
+            formula = formula.replace("0.01)", "0.01, 0.5 * S_1 * I_e / R)")
+            note += "; the last one where S_1 >= 0.6"
+        t("C_s", formula, source=source, note=note)
 
     def _dynamic_minima(self, t: Trace) -> None:
         source = "ASCE 7-22 17.6.4"
@@ -351,6 +364,13 @@ class ASCE7:
         known = self._known(judge, "drift", "V_st", "exponent", "R_I", "F_x")
         drift = drift_checks(t, above, known, clause, limit=self.drift, factor="R_I")
         return Checks([*found, *drift])
+
+
+def _of_importance(factor: float) -> str:
+    # 17.2.1 has I_e = 1.0 for isolated structures, whatever their risk category.
+    if math.isclose(factor, 1.0):
+        return "of isolated structures by 17.2.1"
+    return "as given; 17.2.1 has 1.0 for isolated structures"
 
 
 def _by_points(periods: Sequence[float], accelerations: Sequence[float], **keys: Any) -> Spectrum:
@@ -423,6 +443,7 @@ CODE = DesignCode(
         least=7,
         mean_from=7,
         drift=0.020,
+        second_order=0.010,
         uplift_allowed=True,
         has_minima=True,
         accidental_eccentricity=0.05,
@@ -439,12 +460,14 @@ CODE = DesignCode(
         "s_ms": SpectrumKey(),
         "s_m1": SpectrumKey(),
         "t_l": SpectrumKey(unit="s", default=8.0),
+        "s_1": SpectrumKey(optional=True),
     },
     factors=factors_of_asce7,
     spectrum_by_points=_by_points,
     points_keys={
         "s_ms": SpectrumKey(),
         "s_m1": SpectrumKey(),
+        "s_1": SpectrumKey(),
         "t_l": SpectrumKey(unit="s"),
         "v_s30": SpectrumKey(unit="m/s"),
     },

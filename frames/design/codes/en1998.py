@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import Bound, Checks
+from frames.design.calculation.check import Bound, Check, Checks
 from frames.design.calculation.standing import MEMORY
 from frames.design.codes.code_values import standing_by
 from frames.design.codes.common import (
@@ -89,6 +89,14 @@ class EN1998:
         Distance of the nearest fault of magnitude 6.5 and more [m], for these limits.
     least_distance, largest_side, longest_period, period_ratio, vertical_period : float
         These limits: distance [m], side of the plan [m], T_eff [s], T_eff over T_f, T_v [s].
+    vertical_stiffness : float
+        Another of these limits: K_V over K_eff, K_V by T_v; NTC 2018 has 800.
+    total_eccentricity : float
+        Limit of the eccentricity between the centres of mass and stiffness, the accidental one
+        with it, over the side of the plan (EN 1998-1 10.9.3); NTC 2018 has 0.03.
+    accumulated : float
+        Share of the displacement without force, mu L, that earlier events leave (NTC 2018
+        7.10.6.2.2).
     drift, reduction : float
         Limit of storey drift over height, 0.005 with brittle elements up to 0.010, and factor nu
         on the drift for the more frequent earthquake (EN 1998-1 4.4.3.2).
@@ -130,6 +138,9 @@ class EN1998:
     longest_period: float = 3.0
     period_ratio: float = 3.0
     vertical_period: float = 0.1
+    vertical_stiffness: float = 150.0
+    total_eccentricity: float = 0.075
+    accumulated: float = 0.5
     drift: float = 0.005
     reduction: float = 0.5
     orthogonal: float = 0.3
@@ -213,6 +224,8 @@ class EN1998:
         t("K_lim", "a_k * K_02", "N/m")
         t.given("xi_lim", self.most_damping, shown="%")
         enter_restoring(t, "d_dc", self.restoring)
+        t.given("a_e_lim", self.total_eccentricity)
+        t("a_tot", "max(e_x / b, e_y / d)", note="with the accidental one, over the side")
         t.given("a_S", self.energy_ratio)
         t.each("E_S", "P * d_dc**2 / (2 * L)", "J", source="EN 15129 4.3", note="stored, 0 to d_dc")
         t.each("E_H", "P * mu * d_dc", "J", source="EN 15129 4.3", note="dissipated, 0 to d_dc")
@@ -246,12 +259,35 @@ class EN1998:
             limit("stiffness ratio")(limits, stiffness, "K_eff", ">=", "K_lim"),
             limit("most damping")(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
             limit("restoring")(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
+            limit("total eccentricity")(
+                "EN 1998-1 10.9.3",
+                "total eccentricity over the side of the plan",
+                "a_tot",
+                "<=",
+                "a_e_lim",
+            ),
+            self._accumulated(t, system, limit("accumulated")),
         ]
         if self.property_variation is not None:
             t.given("v", self.property_variation, shown="%")
             t.given("v_lim", self.most_variation, shown="%")
             found.append(limit("variation")(limits, "variation of properties", "v", "<=", "v_lim"))
         return Checks(found)
+
+    def _accumulated(self, t: Trace, system: IsolationSystem, limit: CheckBuilder) -> Check:
+        # What earlier events may leave adds to the displacement: Italy's rule, which is public.
+        t.given("a_0", self.accumulated, source="NTC 2018 7.10.6.2.2")
+        t.each("d_acc", "a_0 * d_r", "m", shown="mm", note="left by earlier events")
+        t.each("d_all", "d_Ed + d_acc", "m", source="NTC 2018 7.10.6.2.2", shown="mm")
+        return limit.worst(
+            "NTC 2018 7.10.6.2.2",
+            "capacity with accumulated displacement",
+            "d_all",
+            "<=",
+            "d_rim",
+            subjects=system.labels,
+            note="in Italy; the residual displacement at damage limitation counts where it is more",
+        )
 
     def _shears(self, t: Trace, above: Superstructure) -> None:
         enter_storeys(t, above)
@@ -284,7 +320,11 @@ class EN1998:
         t("T_least", "a_f * T_f", "s")
         t.given("T_v", above.vertical_period or 0.0, "s")
         t.given("T_v_lim", self.vertical_period, "s")
+        t("K_V", "W / g * (2 * pi / T_v)**2", "N/m", note="by T_v of the mass above")
+        t("r_V", "K_V / K_eff")
+        t.given("r_V_lim", self.vertical_stiffness)
         clause, ratio = "EN 1998-1 10.9.3", "period ratio T_eff / T_fb"
+        upright = "vertical over effective stiffness"
 
         def limit(name: str) -> CheckBuilder:
             return self._known(judge, name).of("procedure")
@@ -296,6 +336,7 @@ class EN1998:
                 limit("fault")(clause, "distance to the fault", "r_f", ">=", "r_lim"),
                 limit("period ratio")(clause, ratio, "T_eff", ">=", "T_least"),
                 limit("vertical period")(clause, "vertical period", "T_v", "<=", "T_v_lim"),
+                limit("vertical stiffness")(clause, upright, "r_V", ">=", "r_V_lim"),
             ]
         )
 

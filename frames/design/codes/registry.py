@@ -93,18 +93,21 @@ class SpectrumKey(NamedTuple):
         Its value if it is left out; it must be given if None.
     most : float, optional
         Largest number [SI].
+    optional : bool
+        Whether it may be left out without a value in its place.
 
     Examples
     --------
     >>> from frames.design import code_named
     >>> code_named("ASCE 7-22").spectrum_keys["t_l"]
-    SpectrumKey(kind=<class 'float'>, unit='s', default=8.0, most=None)
+    SpectrumKey(kind=<class 'float'>, unit='s', default=8.0, most=None, optional=False)
     """
 
     kind: object = float
     unit: str = ""
     default: object = None
     most: float | None = None
+    optional: bool = False
 
 
 class ExampleProject(NamedTuple):

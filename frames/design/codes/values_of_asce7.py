@@ -33,6 +33,8 @@ VALUES = {
         "ASCE 7-22 17.5.4.3", "fixed base at T_M; 1.5 nominal or the upper activation", E031
     ),
     "activation": CodeValue("ASCE 7-22 17.5.4.3", "1.5 times nominal", E031, "activation"),
+    "C_s": CodeValue("ASCE 7-22 12.8.1.1", "C_s at least 0.5 S_1 I_e / R from S_1 = 0.6 on"),
+    "importance": CodeValue("ASCE 7-22 17.2.1", "I_e = 1 of isolated structures"),
     "wind": CodeValue("ASCE 7-22 17.5.4.3", "V_s at least the wind's shear"),
     "F_1": CodeValue("ASCE 7-22 (17.5-8)", "force at the base level", E031),
     "F_x": CodeValue("ASCE 7-22 (17.5-11)", "exponent 14 beta_M T_fb over the height", E031),
@@ -60,6 +62,7 @@ VALUES = {
     "scaling": CodeValue("ASCE 7-22 17.3.3", "RotD100, 0.75 T to 1.25 T"),
     "S_MS, S_M1": CodeValue("ASCE 7-22 21.4", "S_MS and S_M1 of spectra by points", USGS),
     "history drift": CodeValue("ASCE 7-22 17.6.4.4", "storey drift at most 0.020", UFC_BNBC),
+    "second order": CodeValue("ASCE 7-22 17.6.4.4", "P-Delta above a drift of 0.010 / R_I"),
     "history minima": CodeValue(
         "ASCE 7-22 17.6.4", "0.8 D_TM, 0.9 V_b, and V_s whole", field="history_share"
     ),

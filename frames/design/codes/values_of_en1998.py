@@ -31,6 +31,15 @@ VALUES = {
     "period ratio": CodeValue("EN 1998-1 10.9.3", "T_eff at least 3 T_f", NTC, "period_ratio"),
     "vertical period": CodeValue("EN 1998-1 10.9.3", "T_v below 0.1 s", NTC, "vertical_period"),
     "fault": CodeValue("EN 1998-1 10.9.3", "15 km from the fault", field="least_distance"),
+    "vertical stiffness": CodeValue(
+        "EN 1998-1 10.9.3", "K_V at least 150 K_eff", field="vertical_stiffness"
+    ),
+    "total eccentricity": CodeValue(
+        "EN 1998-1 10.9.3", "7.5 % of the side, accidental with it", field="total_eccentricity"
+    ),
+    "accumulated": CodeValue(
+        "NTC 2018 7.10.6.2.2", "half of mu L of earlier events", field="accumulated"
+    ),
     "behaviour": CodeValue("EN 1998-1 10.10", "q at most 1.5", NTC, "behaviour"),
     "forces": CodeValue("EN 1998-1 (10.9)", "forces of the floors"),
     "drift": CodeValue("EN 1998-1 4.4.3.2", "storey drift at most 0.005", field="drift"),

@@ -15,11 +15,12 @@ VALUES = {
     ),
     "capacity": CodeValue("NCh2745 7.3", "D_TM below the rims"),
     "restoring": CodeValue(
-        "NCh2745 10.2", "0.025 W of the second half of D_D, else 3 D_TM", field="restoring"
+        "NCh2745 10.2", "0.025 W of the second half of D_D, else 3 D_TD", field="restoring"
     ),
     "V_b": CodeValue("NCh2745 7.4", "V_b by the largest stiffness at D_D"),
     "R_1": CodeValue("NCh2745 7.4", "R_1 at most 2", field="largest_reduction"),
     "least V_s": CodeValue("NCh2745 7.4", "wind; 1.5 nominal or the upper activation"),
+    "fixed base": CodeValue("NCh433 6.2.3", "V_s at least that of NCh433 at T_D"),
     "activation": CodeValue("NCh2745 7.4", "1.5 times nominal", field="activation"),
     "F_x": CodeValue("NCh2745 7.5", "forces over the height by w h"),
     "drift": CodeValue("NCh2745 7.6", "storey drift at most 0.0025", field="drift"),

@@ -294,12 +294,26 @@ class BoundChecks:
         if len(self.frame.levels) < 2:
             return found
         if self.rules.drift is not None:
-            found += self._drift_within(self.rules.drift, self.rules.drift_clause)
+            for check in self._drift_within(self.rules.drift, self.rules.drift_clause):
+                note = "; ".join(part for part in (check.note, self._gravity(check)) if part)
+                found.append(replace(check, note=note))
         if own is not None:
             for check in self._drift_within(own, ""):
                 note = "; ".join(part for part in (check.note, self._beside()) if part)
                 found.append(replace(check, note=note))
         return found
+
+    def _gravity(self, check: Check) -> str:
+        # Whether the drift asks for P-Delta in the analysis, and whether it is there.
+        known = None if self.equivalent is None else self.equivalent.bounds.get(self.bound)
+        if self.rules.second_order is None or known is None or "R_I" not in known.trace:
+            return ""
+        least = self.rules.second_order / known.trace.value("R_I")
+        if not check.demand > least:
+            return ""
+        clause = self._clause(self.rules.drift_clause)
+        there = "the members have it" if self.frame.members else "springs do not have it"
+        return f"above {100.0 * least:.3g} % P-Delta must be in the analysis ({clause}): {there}"
 
     def _beside(self) -> str:
         # How the project's limit of drifts is to that of the code.
