@@ -45,8 +45,9 @@ def link_demands(runs: Runs, rules: HistoryRules, moved: Runs | None = None) -> 
     -------
     pandas.DataFrame
         A row a level, bound and link, with the statistic: sizes of deformation [m] and force [N],
-        of walls the way to either side and the force of the impact; the motion whose force is largest
-        of all runs, and that force; void: why the values are none for design. Empty without links.
+        of walls the way to either side and the force of the impact; the motion whose force is
+        largest of all runs, and that force; void: why the values are none for design. Empty
+        without links.
     """
     import pandas as pd
 
