@@ -81,16 +81,17 @@ def is_outside(par: Floats, at: int, sigma: Floats, w: Floats) -> bool:
 @kernel
 def set_forces(par: Floats, p: Floats, d: Floats, s: Floats) -> None:
     """Set the member's five forces from its deformations and the plastic parts of its hinges."""
+    e_0, e_1, e_2 = d[0] - p[0] - p[3], d[1] - p[2], d[2] - p[5]  # places of `place`
+    e_3, e_4 = d[3] - p[1], d[4] - p[4]
     for a in range(5):
-        s[a] = par[25 + a]
-    for c in range(5):
-        elastic = d[c]
-        for hinge in range(2):
-            for part in range(3):
-                if place(hinge, part) == c:
-                    elastic -= p[3 * hinge + part]
-        for a in range(5):
-            s[a] += par[5 * a + c] * elastic
+        at = 5 * a
+        s[a] = par[25 + a] + (
+            par[at] * e_0
+            + par[at + 1] * e_1
+            + par[at + 2] * e_2
+            + par[at + 3] * e_3
+            + par[at + 4] * e_4
+        )
 
 
 @kernel
@@ -186,13 +187,13 @@ def return_map(
 
 
 @kernel
-def hinged_member(
-    par: Floats, old: Floats, new: Floats, d: Floats, g: Floats, slope: Floats, w: Floats
+def turn_hinges(
+    par: Floats, old: Floats, new: Floats, d: Floats, flow: Floats, give: Floats, w: Floats
 ) -> int:
-    """Set the forces `g` beyond the elastic ones and their derivatives `slope` (5, 5).
+    """Set the changes `flow` of the plastic parts of the five deformations, and derivatives `give`.
 
-    Returns 0 where nothing yields, 1 where a hinge does, -1 where no state was found. `w` (18, 16)
-    is scratch.
+    Returns 0 where nothing yields, and neither is set; 1 where a hinge does, -1 where no state was
+    found. `w` (18, 16) is scratch.
     """
     s, sigma, on, lam = w[9, :5], w[10, :3], w[17, 8:10], w[17, 10:12]
     for k in range(old.shape[0]):
@@ -200,25 +201,52 @@ def hinged_member(
     yields = 0
     set_forces(par, old, d, s)
     for h in range(2):
-        set_stress(par, h, old, s, sigma)
         on[h] = 0.0
         at = HINGE + STRIDE * h
-        if par[at + 8] > 0.0 and is_outside(par, at, sigma, w):
-            on[h], yields = 1.0, 1
-    if yields and not settle_hinges(par, old, new, lam, on, d, w):
+        if par[at + 8] > 0.0:
+            set_stress(par, h, old, s, sigma)
+            if is_outside(par, at, sigma, w):
+                on[h], yields = 1.0, 1
+    if yields == 0:
+        return 0
+    if not settle_hinges(par, old, new, lam, on, d, w):
         return -1
+    set_give(par, old, new, lam, on, d, give, w)
+    for c in range(5):
+        flow[c] = 0.0
+    for h in range(2):
+        for part in range(3):
+            flow[place(h, part)] += new[3 * h + part] - old[3 * h + part]
+        turn = math.hypot(new[3 * h + 1] - old[3 * h + 1], new[3 * h + 2] - old[3 * h + 2])
+        new[N_PLASTIC + h] = old[N_PLASTIC + h] + turn
+    return 1
+
+
+@kernel
+def hinged_member(
+    par: Floats, old: Floats, new: Floats, d: Floats, g: Floats, slope: Floats, w: Floats
+) -> int:
+    """Set the forces `g` beyond the elastic ones and their derivatives `slope` (5, 5).
+
+    Returns what `turn_hinges` does.
+    """
+    flow, column = w[8, :5], w[8, 5:10]
     for a in range(5):
-        g[a] = 0.0
         for c in range(5):
             slope[a, c] = 0.0
+    yields = turn_hinges(par, old, new, d, flow, slope, w)
+    for a in range(5):
+        g[a] = 0.0
         for h in range(2):
             for part in range(3):
                 g[a] -= par[5 * a + place(h, part)] * new[3 * h + part]
-    if yields:
-        set_slope(par, old, new, lam, on, d, slope, w)
-        for h in range(2):
-            turn = math.hypot(new[3 * h + 1] - old[3 * h + 1], new[3 * h + 2] - old[3 * h + 2])
-            new[N_PLASTIC + h] = old[N_PLASTIC + h] + turn
+    for c in range(5):
+        for a in range(5):
+            column[a] = slope[a, c]
+        for a in range(5):
+            slope[a, c] = 0.0
+            for q in range(5):
+                slope[a, c] -= par[5 * a + q] * column[q]
     return yields
 
 
@@ -248,17 +276,17 @@ def settle_hinges(
 
 
 @kernel
-def set_slope(
+def set_give(
     par: Floats,
     old: Floats,
     p: Floats,
     lam: Floats,
     on: Floats,
     d: Floats,
-    slope: Floats,
+    give: Floats,
     w: Floats,
 ) -> None:
-    """Set the derivatives of the forces beyond the elastic ones by the five deformations."""
+    """Set the derivatives of the plastic parts of the five deformations by these."""
     set_system(par, old, p, lam, on, d, w)
     right = w[:8, 9:14]
     first, second = w[11:13, :3], w[13:16, :3]
@@ -279,8 +307,9 @@ def set_slope(
                 for i in range(3):
                     right[3 * h + i, c] += lam[h] * second[i, q] * stiff
     solve_many(w, right, 8, 5)
-    for a in range(5):
-        for c in range(5):
-            for h in range(2):
-                for part in range(3):
-                    slope[a, c] -= par[5 * a + place(h, part)] * right[3 * h + part, c]
+    for c in range(5):
+        for a in range(5):
+            give[a, c] = 0.0
+        for h in range(2):
+            for part in range(3):
+                give[place(h, part), c] += right[3 * h + part, c]
