@@ -71,7 +71,8 @@ class NonlinearElements(NamedTuple):
     pool: Array  # (size, m) deformations by a flow of 1, at a step
     load_b: Array  # (n_b,) committed forces g in frame coordinates
     load_e: Array
-    matrix: Array  # (m, m) scratch
+    matrix: Array  # (m * m,) scratch
+    order: Array  # (m,) scratch
     right: Array  # (m, max(n_b, 1)) scratch
     small: Array  # SCRATCH, of a hinged member
     vector: Array  # (m,) scratch
@@ -141,7 +142,8 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Non
         pool=np.zeros((pool, m)),
         load_b=np.zeros(n_b),
         load_e=np.zeros(n_e),
-        matrix=np.zeros((m, m)),
+        matrix=np.zeros(m * m),
+        order=np.zeros(m, np.int64),
         right=np.zeros((m, max(n_b, 1))),
         small=np.zeros(SCRATCH),
         vector=each(),

@@ -21,7 +21,7 @@ from frames.kernels.part_states import (
     set_mode_flexibility,
     try_part,
 )
-from lir_element.kernels.linear import add_product, solve_many
+from lir_element.kernels.linear import add_product, factorise, substitute, substitute_many
 
 if TYPE_CHECKING:
     from frames.kernel_data import IntegrationState, IntegratorSettings, ReducedModel
@@ -135,7 +135,8 @@ def try_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElemen
 def set_part_matrix(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> None:
     """List the flows that deformations change or that are not as guessed, and set their matrix.
 
-    It is ``1 + give F``, F the deformations by flows: that of a step of Newton's method.
+    It is ``1 + give F``, F the deformations by flows: that of a step of Newton's method, its
+    columns one after the other.
     """
     count = 0
     for n in range(parts.number[0]):
@@ -149,14 +150,15 @@ def set_part_matrix(model: ReducedModel, run: IntegrationState, parts: Nonlinear
             parts.place[count] = row_of(model, run, parts, i)
             count += 1
     parts.number[2] = count
-    for n in range(count):
-        i = parts.live[n]
-        at, end = parts.first[parts.owner[i]], parts.first[parts.owner[i] + 1]
-        for p in range(count):
+    for p in range(count):
+        row = parts.pool[parts.place[p]]
+        for n in range(count):
+            i = parts.live[n]
+            at, end = parts.first[parts.owner[i]], parts.first[parts.owner[i] + 1]
             total = 1.0 if n == p else 0.0
             for q in range(end - at):
-                total += parts.give[i, q] * parts.pool[parts.place[p], at + q]
-            parts.matrix[n, p] = total
+                total += parts.give[i, q] * row[at + q]
+            parts.matrix[p * count + n] = total
 
 
 @inlined
@@ -164,14 +166,16 @@ def set_newton_step(model: ReducedModel, run: IntegrationState, parts: Nonlinear
     """Set Newton's step of the flows (`right`) and of the deformations (`way`)."""
     set_part_matrix(model, run, parts)
     count = parts.number[2]
-    for n in range(count):
-        parts.right[n, 0] = parts.flow[parts.live[n]] - parts.guess[parts.live[n]]
-    if not solve_many(parts.matrix, parts.right, count, 1):
+    factors = parts.matrix[: count * count].reshape((count, count))
+    if not factorise(factors, parts.order):
         return False
+    for n in range(count):
+        parts.vector[n] = parts.guess[parts.live[n]] - parts.flow[parts.live[n]]
+    substitute(factors, parts.order, parts.vector)
     for i in range(parts.way.shape[0]):
         parts.way[i] = 0.0
     for n in range(count):
-        parts.vector[n] = -parts.right[n, 0]
+        parts.right[n, 0] = -parts.vector[n]
     add_rows(parts.pool, parts.place, parts.vector, count, parts.way)
     return True
 
@@ -327,8 +331,10 @@ def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: Nonlinea
             if value != 0.0:
                 for a in range(n_b):
                     parts.right[n, a] += value * follow[at + q, a]
-    if not solve_many(parts.matrix, parts.right, count, n_b):
+    factors = parts.matrix[: count * count].reshape((count, count))
+    if not factorise(factors, parts.order):
         return False
+    substitute_many(factors, parts.order, parts.right[:count])
     lead = parts.lead[run.clock[0].halvings]
     for n in range(count):
         for a in range(n_b):
