@@ -15,6 +15,7 @@ from frames.assembly.members import MemberArrays, local_geometric_stiffness
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.assembly.nonlinear_parts import NonlinearParts
+    from frames.model.part_elements import ElementTable
     from lir_element import Features, LIRBearing
 
 
@@ -119,6 +120,8 @@ class System:
         Weights and permanent loads before elimination [N, N m].
     members : MemberTable
         The members.
+    elements : ElementTable
+        The line elements of superelements.
     features : Features
         What is modelled.
     parts : NonlinearParts
@@ -140,6 +143,7 @@ class System:
     node_stiffness: SparseMatrix
     node_load: FloatArray
     members: MemberTable
+    elements: ElementTable
     features: Features
     parts: NonlinearParts
 

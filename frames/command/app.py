@@ -17,7 +17,8 @@ from frames.command.console import FAILED_CHECKS, err, out, say, told
 from frames.command.designing import propose
 from frames.command.viewing import view
 from frames.design._errors import ProjectError
-from frames.design.calculation.check import CONFIRMED, Checks
+from frames.design.calculation.check import Checks
+from frames.design.calculation.standing import LEGEND
 from frames.design.histories.demand_table import headed, void_said
 from frames.design.project.bearing_types import columns_by_type
 from frames.design.project.design_run import ProjectRun, evaluate_run, run_project
@@ -89,6 +90,7 @@ def check(file: File = FILE) -> None:
     with told():
         parts = _parts(file)
         ground = preliminary(parts)
+        say(parts.code().cited)
         say(text_table(structure_rows(parts.file, ground.frame), left=2))
         for kind, columns in columns_by_type(ground.types).items():
             say(f"type {kind}: {', '.join(columns)}")
@@ -116,6 +118,7 @@ def run(
     with told():
         try:
             parts = _parts(file)
+            say(parts.code().cited)
             say(said_of_runs(parts, parts.motions()))
             found = run_project(parts, progress=True, resume=results / UNFINISHED)
         except AnalysisInterrupted as stop:
@@ -264,8 +267,8 @@ def _checks(title: str, checks: Checks) -> None:
         out.print(f"[{style}]{each.verdict:{width}}[/] ", end="")
         star = each.cited.removeprefix(each.clause)
         say(f"{each.statement} [{each.clause}]{star}")
-    if any(each.standing != CONFIRMED for each in checks):
-        say("* to be confirmed against the standard")
+    if any(each.standing.starred for each in checks):
+        say(LEGEND)
 
 
 def _frame_table(title: str, frame: pd.DataFrame) -> None:

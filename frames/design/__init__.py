@@ -5,6 +5,7 @@ from frames.design._errors import CheckError as CheckError
 from frames.design._errors import ProjectError as ProjectError
 from frames.design.calculation.check import Check as Check
 from frames.design.calculation.check import Checks as Checks
+from frames.design.calculation.standing import Standing as Standing
 from frames.design.calculation.trace import Trace as Trace
 from frames.design.codes.analysis import equivalent_linear as equivalent_linear
 from frames.design.codes.asce7 import ASCE7 as ASCE7
@@ -106,6 +107,7 @@ __all__ = [
     "ScalingRule",
     "Spectrum",
     "SpectrumKey",
+    "Standing",
     "Superstructure",
     "Trace",
     "acceptance_checks",

@@ -8,6 +8,7 @@ import numpy as np
 from scipy import sparse
 
 from frames._errors import ModelError
+from frames.model.part_elements import WithoutForces, no_elements
 from frames.opensees.model import read_model
 from lir_element.opensees import opensees
 
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 AT_ONCE = 60
 """Elements whose matrices are read together: they are full ones."""
+
+_SHOWN = 8  # names of areas
 
 NONE = 1e-6
 """Factor on a stiffness that stands for none [-]."""
@@ -66,7 +69,25 @@ def add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
             stiffness = sparse.csr_array(stiffness + _part(ops, building, part, points, index))
     finally:
         ops.wipe()
-    frame.add_superelement("shells", names, stiffness, sparse.csr_array(stiffness.shape))
+    frame.add_superelement(
+        "shells",
+        names,
+        stiffness,
+        sparse.csr_array(stiffness.shape),
+        elements=no_elements(_told(mesh)),
+    )
+
+
+def _told(mesh: Mesh) -> list[WithoutForces]:
+    # Elements by kind, with the areas that they are of.
+    found = []
+    for kind, corners in ((QUAD, 4), (TRIANGLE, 3)):
+        of = [area for area, nodes in mesh.elements if len(nodes) == corners]
+        if of:
+            areas = list(dict.fromkeys(of))
+            some = ", ".join(areas[:_SHOWN]) + (", ..." if len(areas) > _SHOWN else "")
+            found.append(WithoutForces(kind, len(of), f"areas {some}", "shells of walls and slabs"))
+    return found
 
 
 def _part(

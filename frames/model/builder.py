@@ -27,6 +27,7 @@ from lir_element.argument_checks import require_type, require_vector
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, MatrixLike
+    from frames.model.part_elements import PartElements
     from lir_element import LIRBearing
 
 
@@ -157,6 +158,7 @@ class FrameBuilder(FrameLoader):
         load: Sequence[float] | FloatArray | None = None,
         equations: MatrixLike | None = None,
         notes: Sequence[str] = (),
+        elements: PartElements | None = None,
     ) -> None:
         """Add a linear part given by its matrices: of another program, or condensed.
 
@@ -182,6 +184,10 @@ class FrameBuilder(FrameLoader):
             Ties of its displacements, ``equations @ u = 0``.
         notes : sequence of str
             What whoever reads the results should know of where it came from.
+        elements : PartElements, optional
+            Line elements that are in the matrices already: how the forces in them follow from
+            displacements (`frames.model.part_elements`), so that results have them with those of
+            members.
 
         Raises
         ------
@@ -200,6 +206,7 @@ class FrameBuilder(FrameLoader):
             load=load,
             equations=equations,
             notes=notes,
+            elements=elements,
         )
 
     def add_diaphragm(self, name: str, nodes: Sequence[str]) -> None:

@@ -110,7 +110,11 @@ def factor_loads(frame: FrameData, factors: Mapping[str, float], weight: str) ->
     _multiply(frame, factors)
     frame._weight_factor *= factors[weight]
     frame._superelements = {
-        name: replace(part, load=frozen(factors[weight] * part.load))
+        name: replace(
+            part,
+            load=frozen(factors[weight] * part.load),
+            elements=part.elements.scaled(factors[weight]),
+        )
         for name, part in frame._superelements.items()
     }
 

@@ -9,6 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from frames._errors import ModelError
+from frames.model.part_elements import PartElements, no_elements, require_elements
 from lir_element.argument_checks import require_vector
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ class Superelement:
     load: FloatArray
     equations: SparseMatrix
     notes: tuple[str, ...]
+    elements: PartElements
 
 
 def superelement(
@@ -44,6 +46,7 @@ def superelement(
     load: Sequence[float] | FloatArray | None,
     equations: MatrixLike | None,
     notes: Sequence[str],
+    elements: PartElements | None,
 ) -> Superelement:
     """Check the arrays of a superelement; see `Frame.add_superelement`.
 
@@ -61,6 +64,8 @@ def superelement(
         Ties.
     notes : sequence of str
         What should be known.
+    elements : PartElements, optional
+        Line elements in it whose forces are told.
 
     Returns
     -------
@@ -70,7 +75,8 @@ def superelement(
     Raises
     ------
     ModelError
-        If a shape is wrong, a number is not finite or a matrix is not symmetric.
+        If a shape is wrong, a number is not finite, a matrix is not symmetric or an element ends at
+        no node of the part.
     """
     size = 6 * len(nodes)
     owner = f'superelement "{name}"'
@@ -87,6 +93,7 @@ def superelement(
             f"equations of {owner}", np.zeros((0, size)) if equations is None else equations, nodes
         ),
         notes=tuple(notes),
+        elements=require_elements(no_elements() if elements is None else elements, nodes, owner),
     )
 
 

@@ -19,10 +19,11 @@ from frames.opensees.checks import (
     refuse_other_supports,
     refuse_unsymmetric,
 )
+from frames.opensees.element_forces import line_elements
 from frames.opensees.loads import light_base, permanent_load, rigid_damping
 from frames.opensees.model import read_model
 from frames.opensees.natures import natures
-from frames.opensees.structure import Options, Structure, Taken
+from frames.opensees.structure import Options, Structure, Taken, turning
 from frames.opensees.vertical_mass import with_vertical_mass
 from frames.opensees.viscous import with_viscous_springs
 from lir_element.argument_checks import require_choice, require_positive
@@ -86,7 +87,8 @@ def read(options: Options) -> tuple[Taken, Structure]:
     notes += said
     load, said = permanent_load(structure, options)
     notes += said + rigid_damping(structure, options) + light_base(structure, options)
-    taken = Taken(load=load, notes=notes)
+    elements = line_elements(ops, model, options)
+    taken = Taken(load=load, notes=notes, elements=elements)
     _add_structure(taken, structure)
     _add_bearings(taken, structure, options)
     _add_levels(taken, structure, options)
@@ -128,6 +130,7 @@ def fill(frame: FrameBuilder, taken: Taken) -> None:
         load=taken.load,
         equations=taken.equations,
         notes=taken.notes,
+        elements=taken.elements,
     )
     for name, (i, j, device) in taken.bearings.items():
         frame.add_bearing(name, i, j, device)
@@ -163,9 +166,7 @@ def _turned(model: OpenSeesModel, options: Options) -> Structure:
     if ndm == 2 and options.vertical == "z":
         message = 'vertical = "z": a plane model of OpenSees has its y axis up, leave vertical out'
         raise ModelError(message)
-    y_up = ndm == 2 or options.vertical == "y"
-    axes = np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]) if y_up else np.eye(3)
-    turn = np.kron(np.eye(2), axes)[:, [0, 1, 5] if ndm == 2 else list(range(6))]
+    axes, turn = turning(ndm, options.vertical)
     moves = np.array([1.0] * ndm + [0.0] * (model.ndf - ndm))
     length = options.length_unit
     to_model = np.where(moves > 0.0, 1.0 / length, 1.0)  # model's displacements from SI

@@ -49,13 +49,15 @@ class Printed:
 
     Attributes
     ----------
-    uniaxial, solid, sections, elements : mapping
-        Uniaxial materials, those of continua, sections and elements: their entries by tag.
+    uniaxial, solid, sections, transformations, elements : mapping
+        Uniaxial materials, those of continua, sections, coordinate transformations and elements:
+        their entries by tag.
     """
 
     uniaxial: Mapping[str, dict[str, Any]]
     solid: Mapping[str, dict[str, Any]]
     sections: Mapping[str, dict[str, Any]]
+    transformations: Mapping[str, dict[str, Any]]
     elements: Mapping[str, dict[str, Any]]
 
 
@@ -97,6 +99,7 @@ def printed_model(ops: Any) -> Printed:
         uniaxial=_plain(_part(text, "uniaxialMaterials")) | _entries(text, "uniaxialMaterials"),
         solid=_entries(text, "ndMaterials"),
         sections=_entries(text, "sections"),
+        transformations=_entries(text, "crdTransformations"),
         elements=_entries(text, "elements"),
     )
 
@@ -108,7 +111,7 @@ def _part(text: str, word: str) -> str:
         return ""
     following = [
         text.find(f'\t"{other}": [', begin + 1)
-        for other in ("ndMaterials", "sections", "crdTransformations", "elements")
+        for other in ("ndMaterials", "sections", "crdTransformations", "nodes", "elements")
     ]
     return text[begin : min((place for place in following if place > 0), default=len(text))]
 

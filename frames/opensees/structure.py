@@ -6,8 +6,11 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix
+    from frames.model.part_elements import PartElements
     from lir_element import LIRBearing
 
 
@@ -28,6 +31,26 @@ class Options:
     vertical_mass: str | Mapping[int, float] | None
     length_unit: float
     force_unit: float
+
+
+def turning(ndm: int, vertical: str | None) -> tuple[FloatArray, FloatArray]:
+    """Return how vectors and displacements of a node turn from the model's axes to the frame's.
+
+    Parameters
+    ----------
+    ndm : int
+        Dimensions of the model: a plane one lies in x-z of the frame.
+    vertical : str or None
+        The axis that points up, as `Options` has it.
+
+    Returns
+    -------
+    tuple of ndarray, (3, 3) and (6, ndf)
+        Of vectors and of displacements.
+    """
+    y_up = ndm == 2 or vertical == "y"
+    axes = np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]) if y_up else np.eye(3)
+    return axes, np.kron(np.eye(2), axes)[:, [0, 1, 5] if ndm == 2 else list(range(6))]
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,3 +81,4 @@ class Taken:
     diaphragms: dict[str, list[str]] = field(default_factory=dict)
     levels: dict[str, list[str]] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    elements: PartElements | None = None

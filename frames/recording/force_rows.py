@@ -13,6 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from frames.assembly.end_zones import at_ends
+from frames.assembly.system import element_dofs
 from frames.model.applied_loads import SpanLoad, applied_loads
 from frames.model.components import TaperedLoad
 from frames.recording.section_cuts import cuts, resultant
@@ -130,7 +131,8 @@ def force_maps(model: FrameData, state: GravityState) -> ForceMaps:
     Returns
     -------
     ForceMaps
-        Of members at both ends and in the middle, of storeys, of bearings.
+        Of members, and of line elements of superelements, at both ends and in the middle, of
+        storeys, of bearings.
     """
     system, axial = state.system, state.member_forces
     names = tuple(placed.name for placed in system.bearings)
@@ -139,7 +141,7 @@ def force_maps(model: FrameData, state: GravityState) -> ForceMaps:
         ForceKind(
             "member",
             ("member", "station"),
-            (system.members.names, STATIONS),
+            (system.members.names + system.elements.names, STATIONS),
             MEMBER_FORCES,
             "force of the part towards end j on the part towards end i",
         ),
@@ -160,6 +162,7 @@ def force_maps(model: FrameData, state: GravityState) -> ForceMaps:
     )
     parts = (
         _member_rows(model, system, axial),
+        _element_rows(system),
         _storey_rows(system, axial, model.levels),
         _reaction_rows(system),
     )
@@ -185,18 +188,43 @@ def force_maps(model: FrameData, state: GravityState) -> ForceMaps:
     )
 
 
-def _member_rows(model: FrameData, system: System, axial: FloatArray) -> _Rows:
+def _sections() -> FloatArray:
     # At end i the opposite of the force on it, at end j that force; in the middle the mean of what
     # equilibrium asks for from either end.
+    section, own = np.zeros((3 * _SIX, 12)), np.eye(_SIX)
+    section[:_SIX, :_SIX], section[2 * _SIX :, _SIX:] = -own, own
+    section[_SIX : 2 * _SIX, :_SIX], section[_SIX : 2 * _SIX, _SIX:] = -0.5 * own, 0.5 * own
+    return section
+
+
+_SECTIONS = _sections()
+
+
+def _element_rows(system: System) -> _Rows:
+    # Of the line elements of superelements, in the same way.
+    table = system.elements
+    count, height = len(table.names), 3 * _SIX
+    blocks = _SECTIONS @ table.rows
+    row = np.repeat(np.arange(height * count), 12)
+    column = np.repeat(element_dofs(table.nodes), height, axis=0).ravel()
+    size = (height * count, 6 * len(system.node_names))
+    over_u = sparse.csr_array(sparse.coo_array((blocks.ravel(), (row, column)), shape=size))
+    rest = table.rest @ _SECTIONS.T
+    rest[:, _SIX : 2 * _SIX] += table.middle
+    return _Rows(
+        q=sparse.csr_array(over_u @ system.transform),
+        beyond=sparse.csr_array((size[0], system.parts.node_rows.shape[0])),
+        bearings=sparse.csr_array((size[0], 12 * len(system.bearings))),
+        rest=rest.ravel(),
+    )
+
+
+def _member_rows(model: FrameData, system: System, axial: FloatArray) -> _Rows:
     table, bearings = system.members, len(system.bearings)
     count, deformations = len(table.names), system.parts.node_rows.shape[0]
     eye = np.tile(np.eye(12)[:, None], (1, count, 1))
     to_ends = at_ends(eye, table.arms).transpose(1, 2, 0)
-    section = np.zeros((3 * _SIX, 12))
-    own = np.eye(_SIX)
-    section[:_SIX, :_SIX], section[2 * _SIX :, _SIX:] = -own, own
-    section[_SIX : 2 * _SIX, :_SIX], section[_SIX : 2 * _SIX, _SIX:] = -0.5 * own, 0.5 * own
-    to_sections = section @ to_ends  # (n, 18, 12)
+    to_sections = _SECTIONS @ to_ends  # (n, 18, 12)
     turned = np.zeros((count, 12, 12))
     for k in range(4):
         turned[:, 3 * k : 3 * k + 3, 3 * k : 3 * k + 3] = table.arrays.axes

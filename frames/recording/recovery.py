@@ -23,6 +23,7 @@ from frames.assembly.assemble import (
 )
 from frames.assembly.end_zones import at_ends
 from frames.assembly.nonlinear import with_axial_forces
+from frames.assembly.system import element_dofs
 from frames.model.axes import to_local
 from frames.model.components import DOFS
 from frames.recording.nonlinear_results import forces_beyond
@@ -34,7 +35,7 @@ from frames.statics.springs import first_displacement
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from frames._types import BoolArray, FloatArray
+    from frames._types import BoolArray, FloatArray, IntArray
     from frames.assembly.system import System
     from frames.model.components import Level
     from frames.model.frame_data import FrameData
@@ -67,7 +68,8 @@ def member_forces(
     data : xarray.Dataset
         Of `time_history`, also one that was saved and loaded.
     members : sequence of str, optional
-        Names; all of them if None.
+        Names, also of line elements of superelements ("element-12" of an OpenSees model); all of
+        them if None.
 
     Returns
     -------
@@ -95,7 +97,7 @@ def member_forces(
     (('time', 'member', 'end', 'component'), ['N', 'Vy', 'Vz', 'T', 'My', 'Mz'])
     """
     found = _structure(model, data)
-    names = found.system.members.names
+    names = _names(found.system)
     chosen = names if members is None else tuple(members)
     unknown = [name for name in chosen if name not in names]
     if unknown:
@@ -226,7 +228,7 @@ def force_tables(model: FrameData, data: xr.Dataset) -> dict[str, pd.DataFrame]:
     """
     require_steps(data, "force_tables")
     found = _structure(model, data)
-    names = found.system.members.names
+    names = _names(found.system)
     parts = {
         "members": [  # by and by: histories of all would fill the memory
             envelope(_member_forces(found, names[first : first + _AT_ONCE]))
@@ -288,9 +290,12 @@ def _with_points(data: xr.Dataset) -> list[str]:
 
 
 def _member_forces(found: _Structure, chosen: tuple[str, ...]) -> xr.DataArray:
-    names = found.system.members.names
+    names, count = _names(found.system), len(found.system.members.names)
     place = np.array([names.index(name) for name in chosen], dtype=np.int64)
-    forces = member_end_forces(found.system, found.u, found.axial, place)
+    own = place < count
+    forces = np.zeros((len(found.u), len(chosen), 12))
+    forces[:, own] = member_end_forces(found.system, found.u, found.axial, place[own])
+    forces[:, ~own] = _element_forces(found, place[~own] - count)
     for row, name in enumerate(chosen):
         if name in found.system.parts.hinged:
             forces[:, row] += _hinge_share(found, name)
@@ -306,6 +311,18 @@ def _member_forces(found: _Structure, chosen: tuple[str, ...]) -> xr.DataArray:
         attrs={"units": "N, N m", "long_name": "end forces in local axes"} | noted(found.data),
         name="member_forces",
     )
+
+
+def _names(system: System) -> tuple[str, ...]:
+    return system.members.names + system.elements.names
+
+
+def _element_forces(found: _Structure, places: IntArray) -> FloatArray:
+    # Of line elements of superelements.
+    table = found.system.elements
+    u = found.u[:, element_dofs(table.nodes[places])]
+    forces: FloatArray = np.einsum("nab,tnb->tna", table.rows[places], u) + table.rest[places]
+    return forces
 
 
 def _hinge_share(found: _Structure, member: str) -> FloatArray:

@@ -39,7 +39,7 @@ class ShownCheck(Protocol):
 
     @property
     def verdict(self) -> str:
-        """Outcome: "ok", "FAILS", "does not apply" or "needs agreement"."""
+        """Outcome: "ok", "FAILS", "does not apply", "needs agreement", "raised"."""
 
     @property
     def title(self) -> str:

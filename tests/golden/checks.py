@@ -3,6 +3,7 @@
 import math
 
 import demands
+import forces
 import motions
 import numpy as np
 
@@ -170,9 +171,8 @@ def landing_force(f):
 
 
 def drift(f):
-    """Worst drift of storeys and lines, grown as the base shear must."""
-    shear = f.suite.of("base_shear")[0]
-    more = max(f.least("V_least") / shear, 1.0)
+    """Worst drift of storeys and lines, grown as the shears must."""
+    more = forces.raised(f.linear, f.suite)[0]
     theta = max(f.suite.of("drift").max(), f.suite.of("line_drift").max())
     return theta * more, f.limits["drift"] if f.own else DRIFT[f.code]
 
@@ -185,6 +185,11 @@ def base_shear(f):
 def storey_shear(f):
     """Shear of the lowest storey over R_I, to be at least V_s."""
     return f.suite.of("storey_shear")[0] / f.linear["R_I"], f.linear["V_s"]
+
+
+def least_base_shear(f):
+    """Shear at the base, to be at least that of the equivalent-linear analysis."""
+    return f.suite.of("base_shear")[0], f.linear["V_least"]
 
 
 def lifted_for(f):
@@ -281,6 +286,7 @@ RULES = {
     "pressure of a landing on the sliders": landing,
     "axial force with a landing": landing_force,
     "base shear": base_shear,
+    "base shear of time histories": least_base_shear,
     "storey shear of time histories": storey_shear,
     "storey drift ratio": drift,
     "floor acceleration in plan": lambda f: f.of("floor_plan", "floor_acceleration"),
@@ -369,6 +375,8 @@ def compare(project, tally):
         no_rule = title.startswith("displacement where a rim") and not found.own
         no_rule = no_rule and RIMS_FROM[project.code] >= 1.0
         beyond = "needs agreement" if no_rule else "FAILS"
+        if title.endswith("shear of time histories") and not void:
+            beyond = "raised"  # less is the shear to design for
         word = "ok" if ratio <= 1.0 + 1e-9 else beyond
         tally.words(verdicts, f"{label} verdict", row["verdict"], word)
         tally.words(verdicts, f"{label} passed", row["passed"], word == "ok")

@@ -29,6 +29,17 @@ def compare(project, tally):
         _groups(project, tally)
 
 
+def raised(linear, suite):
+    """Return the factors of the code's least shears: above the isolation, and of bearings."""
+    if not linear or "V_least" not in linear or suite.void:
+        return 1.0, 1.0
+    base = max(linear["V_least"] / suite.of("base_shear")[0], 1.0)
+    storeys = suite.of("storey_shear")
+    if not len(storeys):
+        return base, base
+    return max(base, linear["V_s"] * linear["R_I"] / storeys[0]), base
+
+
 def _level(project, row):
     return row["level"] if project.code == "NCh2745" else ""
 
@@ -60,10 +71,16 @@ def _reactions(project, key, rows, tally):
         for row in each:
             if row["force"] in acts:
                 told = "reactions of bearings, from histories", tally
-                _row(suite, row, acts, scale[row["unit"]], told)
+                factor = raised(_linear(project, key), suite)[1]
+                _row(suite, row, acts, scale[row["unit"]], told, factor)
 
 
-def _row(suite, row, acts, scale, told):
+def _linear(project, key):
+    # Of the bound of a level at which the structure is judged.
+    return project.linear.get(key[1])
+
+
+def _row(suite, row, acts, scale, told, factor):
     # A row of a table against histories of six forces, (n_runs, steps).
     category, tally = told
     sign, label = EXTREMES[row["extreme"]], " ".join(list(row.values())[:6])
@@ -72,6 +89,8 @@ def _row(suite, row, acts, scale, told):
     k = next(n for n, motion in enumerate(motions) if row["motion"].partition(" x ")[0] == motion)
     if not suite.stopped[_counting(suite)].any():  # the step that ends a run is in no history
         value = sign * _of(suite, sign * extremes)
+        rest = float(row["permanent"])
+        value = value + (factor - 1.0) * (value - rest)
         tally.same(category, label, float(row["value"]), value, scale)
         single = sign * np.max(sign * extremes[_counting(suite)])
         tally.same(category, f"{label}, single", float(row["single"]), single, scale)
@@ -91,6 +110,7 @@ def _row(suite, row, acts, scale, told):
 def _storeys(project, key, rows, tally):
     data, suite = project.runs[key[0]][key[1]], project.suites[key[0]][key[1]]
     statics, category = project.governing, "storey forces, from histories"
+    above, isolation = raised(_linear(project, key), suite)
     storeys = list(map(str, data["storey"]))
     for storey, each in rows.items():
         if storey in storeys:
@@ -101,11 +121,13 @@ def _storeys(project, key, rows, tally):
         for row in each:
             if row["force"] == "drift":
                 column = suite.reached("drift")[:, storeys.index(storey)]
-                tally.same("drifts of storeys", storey, float(row["value"]), _of(suite, column))
+                value = above * _of(suite, column)
+                tally.same("drifts of storeys", storey, float(row["value"]), value)
             elif row["force"] in acts:
                 of = [word for word in acts if (word[0] == "M") == (row["force"][0] == "M")]
                 scale = max(np.nanmax(np.abs(acts[word])) for word in of)
-                _row(suite, row, acts, scale, (category, tally))
+                factor = above if storey in storeys else isolation
+                _row(suite, row, acts, scale, (category, tally), factor)
 
 
 def _through_bearings(data, statics):

@@ -51,6 +51,7 @@ def compare(project, tally):
         _linear,
         _limits,
         _demands,
+        _by_motion,
         _checks,
         _programme,
     ]
@@ -71,6 +72,7 @@ def _kind(heading, head):
         ("Equivalent-linear analysis", "bound"): _linear,
         ("Equivalent-linear analysis", "check"): _limits,
         ("Time histories", "quantity"): _demands,
+        ("Time histories", "motion"): _by_motion,
         ("Time histories", "members"): _members,
         ("Checks", "check"): _checks,
         ("Test programme", "test"): _programme,
@@ -264,6 +266,21 @@ def _demands(project, head, rows, tally):
                 tally.words("tables of the report", label, "" if text == "-" else text, given_text)
 
 
+def _by_motion(project, head, rows, tally):
+    # A wide table is shown in parts, each with the columns that say of which run a row is.
+    own = project.table("demands-by-motion")
+    tally.same("tables of the report", "rows of each motion", len(rows), len(own))
+    for row, given in zip(rows, own, strict=True):
+        columns = {title.partition(" [")[0]: value for title, value in given.items()}
+        for title, text in zip(head, row, strict=True):
+            plain_title, _, unit = title.removesuffix("]").partition(" [")
+            label, value = f"{row[0]} {title}", columns[plain_title]
+            if unit or plain_title == "scale":
+                shown(tally, label, text, value, FACTORS.get(unit, 1.0) if unit != "-" else 1.0)
+            else:
+                tally.words("tables of the report", label, text, value)
+
+
 def _members(project, head, rows, tally):
     own = project.table("member-groups")
     for row, given in zip(rows, own, strict=True):
@@ -298,7 +315,7 @@ def _checks(project, head, rows, tally):
         ):
             tally.words("tables of the report", label, text, " ".join(given[title].split()))
         tally.words("tables of the report", label, row[clause].removesuffix(" *"), given["clause"])
-        star = given["standing"].startswith("to be confirmed")
+        star = given["standing"].startswith("from memory")
         tally.words("tables of the report", f"{label} star", row[clause].endswith("*"), star)
         void = bool(given["void"])
         numbers = [float(given[name]) for name in ("demand", "limit")]
@@ -347,13 +364,12 @@ def _limits(project, head, rows, tally):
             continue
         demand, limit = own
         if row[0].startswith("no uplift"):  # loads of combinations: nearly multiples
-            value = 1e3 * float(plain(row[4]).split(" ")[0])
-            size = max(abs(demand), project.linear[row[2]]["system"].P.max())
-            tally.words(name, label, abs(value - demand) < 2e-3 * size, True)
-            demand = value  # its sign may be decided by what is nearly a multiple
+            value = 1e3 * float(plain(row[6]).split(" ")[0])
+            tally.words(name, label, abs(value - limit) < 2e-3 * limit, True)
+            limit = value  # the verdict may be decided by what is nearly a multiple
         else:
-            _said(tally, f"{label} demand", row[4], demand, name)
             _said(tally, f"{label} limit", row[6], limit, name)
+        _said(tally, f"{label} demand", row[4], demand, name)
         relation = "<=" if row[5] == "≤" or row[6] == "none allowed" else ">="
         ratio = checks.ratio_of(demand, limit, relation)
         word = "ok" if ratio <= 1.0 + 1e-9 else "does not apply"
@@ -368,6 +384,9 @@ def _limit(project, row):
     if e is None:
         return None
     s = e["system"]
+    if title == "capacity with accumulated displacement":
+        left = 0.5 * s.mu.max() * project.bearing.L
+        return 1.2 * e["each"].max() + left, project.bearing.capacity
     if title.startswith("no restrainer contact at "):
         return e["each"].max() * (
             1.2 if project.code == "EN 1998" else 1.0
@@ -379,12 +398,14 @@ def _limit(project, row):
     if title.startswith("no uplift") and "not evaluated" not in title:
         most, least = codes.dead_shares(project)
         share = most if title.endswith("maximum") else least
-        return (share * s.P - overturning(e, above))[s.names.index(subject)], 0.0
+        k = s.names.index(subject)
+        return overturning(e, above)[k], share * s.P[k]
     held = above["T_fb"] if above and above["T_fb"] else 0.0
     simple = {
         "effective period": (e["period"], 5.0),
         "effective damping": (e["damping"], 0.30),
         "restoring force": e["restoring"],
+        "total eccentricity over the side of the plan": (e.get("a_tot", 0.0), 0.075),
         "period ratio T_M / T_fb": (e["period"], 3.0 * held),
         "storeys": (len(above["w"]) if above else 0, 4.0),
         "height": (above["h"][-1] if above else 0.0, 19.8),

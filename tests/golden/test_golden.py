@@ -22,6 +22,7 @@ RUN = {
 LEAST = {
     "peaks of all runs, from histories": 2000,
     "demands: statistics over motions": 80,
+    "demands of each motion": 400,
     "equivalent-linear analysis": 16,
     "demands and limits of checks": 60,
     "tables of the report": 800,
@@ -127,6 +128,12 @@ def agrees(found: Review, share: float = 1.0):
     ("name", "old", "new", "category"),
     [
         ("demands.csv", r"(?m)^(isolator displacement,m,)(\d\.\d{3})\d", r"\g<1>\g<2>9", "demands"),
+        (
+            "demands-by-motion.csv",
+            r"(?m)^(\w+,lower,,[^,]+,1.0,ok,\w+,0\.\d\d)\d\d",
+            r"\g<1>99",
+            "demands of each motion",
+        ),
         ("checks.csv", r",FAILS$", ",ok", "ratios and verdicts"),
         ("report.html", r"(<tr><td>lower</td><td>)(\d)", r"\g<1>9\g<2>", "tables of the report"),
         ("equivalent-linear.csv", r"(?m)^(lower,0\.\d{5})\d", r"\g<1>", "equivalent-linear"),

@@ -18,6 +18,7 @@ from frames import (
     time_history,
 )
 from frames.design import (
+    HISTORY_RULES,
     Check,
     CheckError,
     EquivalentLinear,
@@ -31,6 +32,7 @@ from frames.design import (
     history_demands,
 )
 from frames.design.codes.bounds import BoundName
+from frames.design.histories.least_shears import Raise, raises_of_runs
 from frames.results.peak_response import largest
 from lir_element import CoulombFriction, LIRBearing
 
@@ -156,7 +158,44 @@ def test_least_storey_shear_of_a_suite(frame: Frame, runs: xr.Dataset) -> None:
     assert check.passed == (check.demand >= check.limit)
     windy = least_shear(frame, runs, linear(frame, wind_shear=10.0 * each.mean()))
     assert windy.ratio == pytest.approx(10.0 * reduction)
-    assert not windy.passed
+    assert (windy.passed, windy.verdict) == (False, "raised")
+
+
+def test_less_than_the_least_shear_raises_forces_and_drifts(frame: Frame, runs: xr.Dataset) -> None:
+    """The earthquake's part of forces above the isolation counts times the ratio, and drifts do."""
+    most = runs["reached_storey_shear"].to_numpy()[:, 0].mean()
+    windy = linear(frame, wind_shear=1.5 * most / 1.5)  # V_s is 1.5 times the shear of the runs
+    plain = history_checks({"lower": runs}, frame, "ASCE 7-22")
+    found = history_checks({"lower": runs}, frame, "ASCE 7-22", equivalent=windy)
+    base = runs["reached_base_shear"].to_numpy().mean()
+    at_base = max(windy["lower"].trace.value("V_b_dyn") / base, 1.0)
+    (check,) = (each for each in found if each.title == "base shear of time histories")
+    assert check.demand == pytest.approx(base, rel=1e-12)
+    assert check.ratio == pytest.approx(windy["lower"].trace.value("V_b_dyn") / base, rel=1e-12)
+    drifts = [
+        next(each.demand for each in made if each.title == "storey drift ratio")
+        for made in (plain, found)
+    ]
+    assert drifts[1] == pytest.approx(max(1.5, at_base) * drifts[0], rel=1e-9)
+    assert not [each for each in found.failed if "shear" in each.title]
+    assert "forces are raised to it" in found.tally
+    raises = raises_of_runs({"MCE_R": {"lower": runs}}, HISTORY_RULES["ASCE 7-22"], windy)
+    more = raises["MCE_R", "lower"]
+    assert more.above == pytest.approx(max(1.5, at_base), rel=1e-9)
+    assert more.isolation == pytest.approx(at_base, rel=1e-12)
+
+
+def test_shears_above_the_least_leave_forces_as_they_are(frame: Frame, runs: xr.Dataset) -> None:
+    weak = linear(frame)
+    for name in ("V_b_dyn", "V_s"):
+        assert weak["lower"].trace.value(name) > 0.0
+    strong = runs.copy()
+    for name in ("reached_storey_shear", "reached_base_shear"):
+        strong[name] = 100.0 * runs[name]
+    raises = raises_of_runs({"MCE_R": {"lower": strong}}, HISTORY_RULES["ASCE 7-22"], weak)
+    assert raises == {("MCE_R", "lower"): Raise(1.0, 1.0)}
+    nominal = raises_of_runs({"MCE_R": {"nominal": runs}}, HISTORY_RULES["ASCE 7-22"], weak)
+    assert nominal == {}
 
 
 def test_less_than_seven_motions_count_by_the_largest(frame: Frame, runs: xr.Dataset) -> None:
@@ -175,6 +214,13 @@ def test_a_suite_that_failed_has_no_storey_shear(frame: Frame, runs: xr.Dataset)
     assert check.demand == pytest.approx(each.mean() / 1.5, rel=1e-12)
     assert check.demand > check.limit
     assert not check.passed
+    assert check.verdict == "FAILS"
+    raises = raises_of_runs(
+        {"MCE_R": {"upper": runs.assign(status=status)}},
+        HISTORY_RULES["ASCE 7-22"],
+        linear(frame, wind_shear=100.0 * each.mean()),
+    )
+    assert raises["MCE_R", "upper"] == Raise()  # of no value nothing is raised
     assert "1 of 7 runs failed" in check.note
 
 

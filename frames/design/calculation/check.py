@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal, overload
 
 from frames.design._errors import CheckError
 from frames.design.calculation.rendering import quantity, scale, usual_unit
+from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.calculation.trace import Trace
 from lir_element.argument_checks import as_number, require_choice, require_type
 from lir_element.tables import html_table, text_table
@@ -17,10 +18,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Bound = Literal["lower", "nominal", "upper", ""]
-Scope = Literal["any", "demand", "procedure", "agreement"]
-Verdict = Literal["ok", "FAILS", "does not apply", "needs agreement"]
-CONFIRMED = "confirmed"
-TO_BE_CONFIRMED = "to be confirmed against the standard"
+Scope = Literal["any", "demand", "procedure", "agreement", "minimum"]
+Verdict = Literal["ok", "FAILS", "does not apply", "needs agreement", "raised"]
 _ROUND_OFF = 1e-9
 
 
@@ -44,9 +43,8 @@ class Check:
         What the demand must be to the limit.
     trace : Trace, optional
         The calculation; what was entered later does not change the check.
-    standing : str
-        "confirmed", or "to be confirmed against the standard" where clause number, formula or
-        factor were not read in the standard itself.
+    standing : Standing
+        How well clause, formula and limit are known; from memory, with a star, unless it is said.
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings it holds for.
     subject : str
@@ -58,11 +56,12 @@ class Check:
     void : str
         Why the demand is no value for design, as after runs that failed: the check then fails,
         whatever demand and limit are. The demand is what was reached.
-    scope : {"any", "demand", "procedure", "agreement"}
+    scope : {"any", "demand", "procedure", "agreement", "minimum"}
         What it holds for: any analysis; a demand that a time history finds anew; a limit of
-        the equivalent-linear procedure; or a solution that the code has no rule for. A procedure
-        whose limit is exceeded does not apply, a solution beyond its limit needs the agreement
-        that the note tells: neither is a failure. Not in tables, which show the `verdict`.
+        the equivalent-linear procedure; a solution that the code has no rule for; or a least
+        value of a demand. A procedure whose limit is exceeded does not apply, a solution beyond
+        its limit needs the agreement that the note tells, a demand below its least value is raised
+        to it, by the ratio: none is a failure. Not in tables, which show the `verdict`.
     level : str
         Level of the seismic action that it is made at, such as "MCE_R", "design" or "maximum";
         empty where none enters.
@@ -88,7 +87,7 @@ class Check:
     unit: str = "-"
     relation: Literal["<=", ">="] = "<="
     trace: Trace = Trace()  # noqa: RUF009  (copied, never added to)
-    standing: str = CONFIRMED
+    standing: Standing = MEMORY
     bound: Bound = ""
     subject: str = ""
     note: str = ""
@@ -108,10 +107,10 @@ class Check:
             msg = f"demand and limit of {self.title!r} ({self.clause}) are infinite: give one"
             raise CheckError(msg)
         require_choice("relation", self.relation, ("<=", ">="), error=CheckError)
-        require_choice("standing", self.standing, (CONFIRMED, TO_BE_CONFIRMED), error=CheckError)
+        require_type("standing", self.standing, Standing, "a Standing")
         bounds = ("lower", "nominal", "upper", "")
         require_choice("bound", self.bound, bounds, error=CheckError)
-        scopes = ("any", "demand", "procedure", "agreement")
+        scopes = ("any", "demand", "procedure", "agreement", "minimum")
         require_choice("scope", self.scope, scopes, error=CheckError)
         object.__setattr__(self, "shown", self.shown or usual_unit(self.unit))
         try:
@@ -152,7 +151,8 @@ class Check:
     def verdict(self) -> Verdict:
         """Outcome: "ok", "FAILS", or what exceeding the limit means by the `scope`.
 
-        "does not apply" of a limit of a procedure, "needs agreement" where the code has no rule.
+        "does not apply" of a limit of a procedure, "needs agreement" where the code has no rule,
+        "raised" of a demand that counts with its least value; without a value for design "FAILS".
         """
         if self.passed:
             return "ok"
@@ -160,6 +160,8 @@ class Check:
             "procedure": "does not apply",
             "agreement": "needs agreement",
         }
+        if not self.void:
+            beyond["minimum"] = "raised"
         return beyond.get(self.scope, "FAILS")
 
     @property
@@ -169,17 +171,17 @@ class Check:
 
     @property
     def cited(self) -> str:
-        """The clause, with a star where it is to be confirmed."""
-        return self.clause if self.standing == CONFIRMED else f"{self.clause} *"
+        """The clause, with a star where it is from memory."""
+        return self.standing.cited(self.clause)
 
     @property
     def said(self) -> tuple[str, str, str]:
-        """Demand, limit and ratio as tables show them."""
+        """Demand, limit and ratio as tables show them: "-" where there is no ratio."""
         demand = quantity(self.demand, self.unit, self.shown)
         limit = quantity(self.limit, self.unit, self.shown)
         if self.void:
             return (demand if math.isinf(self.demand) else f"{demand} reached", limit, "-")
-        return demand, limit, f"{self.ratio:.3f}"
+        return demand, limit, f"{self.ratio:.3f}" if math.isfinite(self.ratio) else "-"
 
     @property
     def statement(self) -> str:
@@ -189,7 +191,17 @@ class Check:
         title = f"{self.title}{f' ({where})' if where else ''}"
         if self.void:
             return f"{title}: {demand}, limit {limit}, no value for design: {self.void}"
-        return f"{title}: {demand} {self.relation} {limit}, ratio {self.ratio:.3g}"
+        return f"{title}: {demand} {self.relation} {limit}, {self._ratio_in_words}"
+
+    @property
+    def _ratio_in_words(self) -> str:
+        if math.isfinite(self.ratio):
+            return f"ratio {self.ratio:.3g}"
+        if math.isinf(self.demand):
+            return "no ratio without a demand"
+        if self.relation == "<=":
+            return "none allowed" if not self.limit else "no ratio to a limit below 0"
+        return "no ratio of a demand that is not above 0"
 
     def __str__(self) -> str:
         """Return the check on one line."""
@@ -257,12 +269,19 @@ class Checks(Sequence[Check]):
         return Checks(check for check in self if check.verdict == "needs agreement")
 
     @property
+    def raised(self) -> Checks:
+        """Those of demands below their least value, to which they are raised."""
+        return Checks(check for check in self if check.verdict == "raised")
+
+    @property
     def tally(self) -> str:
-        """How many there are, how many fail, exceed limits of a procedure, or need agreement."""
+        """How many there are; how many fail, exceed limits of a procedure, and so on."""
         beyond = len(self.inapplicable)
         more = f", {beyond} limits of the procedure exceeded: it does not apply" if beyond else ""
         agree = len(self.to_agree)
         more += f", {agree} to be agreed with the authority" if agree else ""
+        less = len(self.raised)
+        more += f", {less} below the code's least value: forces are raised to it" if less else ""
         return f"{len(self)} checks, {len(self.failed)} failed{more}"
 
     @property
@@ -294,6 +313,7 @@ class Checks(Sequence[Check]):
         names = [f.name for f in fields(Check) if f.name not in {"trace", "shown", "scope"}]
         rows = [
             {name: getattr(c, name) for name in (*names, "ratio", "passed", "verdict")}
+            | {"standing": str(c.standing)}
             for c in self
         ]
         return pd.DataFrame(rows, columns=[*names, "ratio", "passed", "verdict"])

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames.design.calculation.check import CONFIRMED, Checks
+from frames.design.calculation.check import Checks
+from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from lir_element.device.bearing import LIRBearing
@@ -45,7 +46,7 @@ def slip_threshold(system: IsolationSystem, bounds: PropertyBounds) -> Checks:
     t.each("mu_h_low", "lambda_h * mu_h")
     t.each("mu_e_up", "lambda_e * mu_e", note="what the interface carries, over the load")
     clause = "LIR-DCFP, docs/theory.md (2.1)"
-    check = CheckBuilder(t, "", CONFIRMED).worst(
+    check = CheckBuilder(t, "", OWN).worst(
         clause,
         "interface holds before the rim",
         "mu_h_low",

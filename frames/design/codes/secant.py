@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import TO_BE_CONFIRMED, Bound, Check, Scope
+from frames.design.calculation.check import Bound, Check, Scope
+from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.outcome import Iteration, Symbols
 
@@ -145,9 +146,9 @@ class CheckBuilder:
         The calculation.
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings that it is for.
-    standing : str
+    standing : Standing
         Of its checks.
-    scope : {"any", "demand", "procedure", "agreement"}
+    scope : {"any", "demand", "procedure", "agreement", "minimum"}
         Of its checks.
     void : str
         Why its demands are no values for design.
@@ -157,7 +158,7 @@ class CheckBuilder:
 
     t: Trace
     bound: Bound
-    standing: str = TO_BE_CONFIRMED
+    standing: Standing = MEMORY
     scope: Scope = "any"
     void: str = ""
     level: str = ""
@@ -165,6 +166,10 @@ class CheckBuilder:
     def of(self, scope: Scope) -> CheckBuilder:
         """Return one that makes checks of this scope."""
         return replace(self, scope=scope)
+
+    def known(self, standing: Standing) -> CheckBuilder:
+        """Return one that makes checks of this standing."""
+        return replace(self, standing=standing)
 
     def at(self, level: str) -> CheckBuilder:
         """Return one that makes checks at this level of the seismic action."""

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check, Checks
+from frames.design.calculation.check import Bound, Check, Checks
+from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.codes.registry import code_named
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import (
@@ -78,7 +79,7 @@ def capacity_checks(
     t("U_slide", "min(D, U_cap)", "m", shown="mm", note="both surfaces, as the slider tilts")
     t("s_D", "max(D - U_cap, 0) + s_left", "m", shown="mm")
     t("U_max", "U_cap + s_lim - s_left", "m", shown="mm")
-    judge, clause = CheckBuilder(t, bound, CONFIRMED), f"{NO_CODE}, section 2"
+    judge, clause = CheckBuilder(t, bound, OWN), f"{NO_CODE}, section 2"
     found = []
     for k, name in enumerate(SURFACES, start=1):
         t(f"d_{k}", f"R_{k} * U_slide / L", "m", shown="mm")
@@ -144,10 +145,12 @@ def engagement_checks(
     require_rims(bearing)
     rule = code_named(code).rims
     share = rule.least if least is None else require_positive("least", least, "-", error=CheckError)
-    asked = [(rule.clause, share, rule.note)]
+    known = rule.standing if least is None else MEMORY
+    asked = [(rule.clause, known, share, rule.note)]
     if agreed is not None:
         require_positive("agreed", agreed, "-", error=CheckError)
-        asked.append((PROJECT_LIMIT, agreed, "as agreed; the code's own is checked beside it"))
+        said = "as agreed; the code's own is checked beside it"
+        asked.append((PROJECT_LIMIT, OWN, agreed, said))
     of: Mapping[Bound, float] = (
         displacement if isinstance(displacement, Mapping) else {"": displacement}
     )
@@ -167,6 +170,7 @@ def _met(
     at: tuple[Bound, float],
     rule: RimRule,
     clause: str,
+    standing: Standing,
     least: float,
     said: str,
 ) -> Check:
@@ -177,8 +181,7 @@ def _met(
     name = SURFACES[k]
     t("U_rim", f"L * d_rim_{k + 1} / R_{k + 1}", "m", shown="mm", note=f"{name} rim is met")
     share = t("eta", "U_rim / D_allowed")
-    standing = CONFIRMED if clause == PROJECT_LIMIT else TO_BE_CONFIRMED
-    no_rule = clause != PROJECT_LIMIT and rule.least >= 1.0
+    no_rule = standing != OWN and rule.least >= 1.0
     judge = CheckBuilder(t, at[0], standing, "agreement" if no_rule else "any")
     return judge.worst(
         clause,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames.design.calculation.check import CONFIRMED, Check, Checks
+from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.standing import OWN
 from frames.design.codes.prototype_programme import ordered_loads
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import (
@@ -88,7 +89,7 @@ def device_checks(
     t = enter_bearing(bearing, bounds, ordered_loads(loads))
     enter_length(t, "s", slip)
     enter_length(t, "s_left", slip_left, note="left by an earlier event")
-    judge = CheckBuilder(t, "", CONFIRMED)
+    judge = CheckBuilder(t, "", OWN)
     return Checks(
         [
             *_holds(judge, limits),

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames._errors import MotionError
+from frames.design.calculation.standing import MEMORY, Standing
 from lir_element.argument_checks import require_choice
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-TO_BE_CONFIRMED = "to be confirmed against the standard"
-"""Standing of what was not compared with the text of the standard."""
 
 LINEAR = "linear between the values, constant outside of them"
 """How factors between those of a table are found."""
@@ -29,7 +27,7 @@ class DampingRule(NamedTuple):
         Where the code gives them.
     rule : str
         The formula, or how values between those of the table are found.
-    standing : str
+    standing : Standing
         How well source and values are known.
     table : tuple of (float, float)
         Damping [-] and factor B [-]; empty where a formula gives them.
@@ -40,13 +38,13 @@ class DampingRule(NamedTuple):
     --------
     >>> from frames.design import code_named
     >>> rule = code_named("EN 1998").damping
-    >>> rule.source, rule.standing
-    ('EN 1998-1:2004, 3.2.2.2(3)', 'to be confirmed against the standard')
+    >>> rule.source, str(rule.standing)
+    ('EN 1998-1:2004, 3.2.2.2(3)', 'from memory, to be confirmed against the standard')
     """
 
     source: str
     rule: str
-    standing: str = TO_BE_CONFIRMED
+    standing: Standing = MEMORY
     table: tuple[tuple[float, float], ...] = ()
     formula: Callable[[float], float] | None = None
 
@@ -74,12 +72,13 @@ class ScalingRule(NamedTuple):
     least : int
         Number of pairs from which the mean response may be used.
     clause : str
-        Where the code says so; to be confirmed against the standard.
+        Where the code says so.
     periods : (float, float)
-        Range of periods over the shortest and the longest effective period of the bounds [-]; to
-        be confirmed.
+        Range of periods over the shortest and the longest effective period of the bounds [-].
     fault_axes : bool
         Whether near-fault pairs are to be turned to the axes of the fault.
+    standing : Standing
+        How well clause, part and range are known.
 
     Examples
     --------
@@ -97,6 +96,7 @@ class ScalingRule(NamedTuple):
     clause: str
     periods: tuple[float, float]
     fault_axes: bool = False
+    standing: Standing = MEMORY
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -22,6 +22,8 @@ from lir_element.units import STANDARD_GRAVITY
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from frames.design.calculation.standing import Standing
+
 Values = TypeVar("Values", float, FloatArray)
 """One number, or an array (n,)."""
 
@@ -57,8 +59,13 @@ class ElasticSpectrum:
         return (self.points[0][0], self.points[-1][0]) if self.shape == "given" else (0.0, np.inf)
 
     @property
-    def standing(self) -> str:
-        """Source of the formula, and how well it is known."""
+    def source(self) -> str:
+        """Where the code has the formula."""
+        return sh.SHAPES[self.shape].source
+
+    @property
+    def standing(self) -> Standing:
+        """How well the formula and its values are known."""
         return sh.SHAPES[self.shape].standing
 
     def damping_factor(self, damping: float) -> float:
@@ -217,7 +224,7 @@ class ElasticSpectrum:
             found["points"] = (
                 f"{len(self.points)}, from {self.points[0][0]:g} s to {self.points[-1][0]:g} s"
             )
-        return {"code": self.code, **found, "source": self.standing}
+        return {"code": self.code, **found, "source": f"{self.source}; {self.standing}"}
 
     def _repr_html_(self) -> str:
         return html_table(self.name, list(self._facts().items()))

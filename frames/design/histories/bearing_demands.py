@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import CONFIRMED, Bound, Check
+from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.standing import OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.overlap import liner_pressure, pressure
@@ -99,19 +100,17 @@ class BearingDemands:
     note: str = ""
     factor: float = 1.0
 
-    def displacement(
-        self, clause: str, least: float = 0.0, standing: str = CONFIRMED
-    ) -> list[Check]:
+    def displacement(self, clause: str, standing: Standing, least: float = 0.0) -> list[Check]:
         """Return the check of the displacement against what rims and overlap allow.
 
         Parameters
         ----------
         clause : str
             Clause.
+        standing : Standing
+            Of the check.
         least : float
             Displacement that is taken at least [m].
-        standing : str
-            Of the check.
 
         Returns
         -------
@@ -155,7 +154,7 @@ class BearingDemands:
                 if symbol == "s":
                     self._enter_slip(t, k)
                 else:
-                    self.suite.enter(t, symbol, values[:, k], "m", "mm")
+                    self.suite.enter(t, symbol, values[:, k], "m", "mm", of="slip_left")
                 if limit not in t and self.limits.slip_left is not None:
                     t.given(limit, self.limits.slip_left, "m", shown="mm", note="as given")
                 return Calculation(t, symbol, limit)
@@ -289,7 +288,7 @@ class BearingDemands:
         title: str,
         fill: Fill,
         places: list[int],
-        standing: str = CONFIRMED,
+        standing: Standing = OWN,
         note: str = "",
     ) -> list[Check]:
         words = "; ".join(part for part in (note, self.note) if part)

@@ -11,16 +11,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
+from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
-from frames.design.codes.registry import HISTORY_RULES
+from frames.design.codes.registry import HISTORY_RULES, standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.limits import PROJECT_LIMIT
 from frames.design.histories.bearing_demands import BearingDemands, devices_of
 from frames.design.histories.eccentricity import named_by_way, raised_suite, with_moved
 from frames.design.histories.governing import Calculation, Governing
+from frames.design.histories.least_shears import LEAST, raise_of, shear_checks
 from frames.design.histories.suite import (
     audit_notes,
     contact_notes,
@@ -48,7 +50,6 @@ _DRIFTS = {
     "drift": "mean of the storey, size in plan",
     "line_drift": "line of nodes over one another, size in plan",
 }
-_LEAST = "least one, of the equivalent-linear analysis"
 
 
 @dataclass(frozen=True)
@@ -103,14 +104,14 @@ class BoundChecks:
         if self.level.judges_bearings:
             found += self._of_bearings()
         if self.level.judges_structure:
-            found += [*self._base_shear(), *self._storey_shear()]
+            found += [*self._base_shear(), *self._least_shears]
             found += [*self._drift(), *self._acceleration()]
         return [replace(check, level=self.level.name) for check in found]
 
     def _of_bearings(self) -> list[Check]:
         rules, bearings = self.rules, self._bearings
         clause = self._clause(rules.displacement_clause)
-        moved = bearings.displacement(clause, self._least("D_TM_dyn"), TO_BE_CONFIRMED)
+        moved = bearings.displacement(clause, MEMORY, self._least("D_TM_dyn"))
         found = [
             *moved,
             *self._engagement(moved),
@@ -167,7 +168,8 @@ class BoundChecks:
         t = Trace()
         t.given("n", float(self.data.sizes["run"]), note="motions")
         t.given("n_least", float(self.rules.least))
-        clause, judge = self._clause(self.rules.statistic_clause), CheckBuilder(t, self.bound)
+        clause = self._clause(self.rules.statistic_clause)
+        judge = CheckBuilder(t, self.bound, self._known("number of motions", "least"))
         note = f"{self._suite.statistic} of the motions counts; {self._eccentricity}"
         return judge(clause, "number of motions", "n", ">=", "n_least", note=note)
 
@@ -190,7 +192,8 @@ class BoundChecks:
         t.given("n_failed", float(sum(self._suite.failed)), note="runs that failed")
         allowed = self.rules.unacceptable_allowed if self._suite.statistic == "mean" else 0
         t.given("n_allowed", float(allowed))
-        clause, judge = self._clause(self.rules.statistic_clause), CheckBuilder(t, self.bound)
+        clause = self._clause(self.rules.statistic_clause)
+        judge = CheckBuilder(t, self.bound, MEMORY)
         said = (self._suite.reason, self._small_gaps, self._audit)
         note = "; ".join(part for part in said if part)
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
@@ -205,7 +208,8 @@ class BoundChecks:
         t.given("n_allowed", 0.0)
         audit = audit_notes(named_by_way(self.moved))
         note = "; ".join(part for part in (self._suite.moved_failed, audit) if part)
-        clause, judge = self._clause(self.rules.eccentricity_clause), CheckBuilder(t, self.bound)
+        clause = self._clause(self.rules.eccentricity_clause)
+        judge = CheckBuilder(t, self.bound, self._known("moved masses", "accidental_eccentricity"))
         title = "runs with moved masses that failed"
         return [judge(clause, title, "n_failed", "<=", "n_allowed", note=note)]
 
@@ -236,7 +240,8 @@ class BoundChecks:
             t.given("t_up", longest, "s", note=f"longest of a bearing in a run, gap above {gap}")
             t.given("t_allowed", 0.0, "s")
             stopped = bool((every["status"].to_numpy() != "ok").any())
-            judge = CheckBuilder(t, self.bound, void=self._suite.void if stopped else "")
+            void = self._suite.void if stopped else ""
+            judge = CheckBuilder(t, self.bound, self._known("uplift", "uplift_allowed"), void=void)
             clause, title = self._clause(self.rules.force_clause), f"uplift duration above {gap}"
             said = "; ".join(
                 part for part in (self._suite.void if stopped else "", self._small_gaps) if part
@@ -267,39 +272,21 @@ class BoundChecks:
             t = Trace()
             self._suite.enter(t, "V", values, "N", of="base_shear")
             if least > 0.0:
-                t.given("V_least", least, "N", note=_LEAST)
+                t.given("V_least", least, "N", note=LEAST)
                 self._suite.form(t, "V_d", "max(V, V_least)", "N", of="V")
             return t
 
         symbol = "V_d" if least > 0.0 else "V"
         return self._worst("", "base shear", "base_shear", symbol, "N", limit, fill=fill)
 
-    def _storey_shear(self) -> list[Check]:
-        # On the storey over the lowest level: less is not a failure of the run, but of the demand.
-        if self.equivalent is None or not self._least("V_s_dyn") or len(self.frame.levels) < 2:
+    @cached_property
+    def _least_shears(self) -> list[Check]:
+        # Less than the least is not a failure of the run: forces are raised to it.
+        if self.equivalent is None or not self._least("V_s_dyn"):
             return []
-        if "reached_storey_shear" not in self.data:
-            msg = "runs have no storey shears (reached_storey_shear): compute them anew"
-            raise CheckError(msg)
-        known, t = self.equivalent.bounds[self.bound].trace, Trace()
-        self._suite.enter(t, "V_st", peaks_of_runs(self.data, "storey_shear")[:, 0], "N")
-        t.given("R_I", known.value("R_I"), source=known["R_I"].source)
-        self._suite.form(t, "V_run", "V_st / R_I", "N", of="V_st")
-        t.given("V_s", known.value("V_s"), "N", note="of the equivalent-linear analysis")
-        t.given("a_dyn", known.value("a_dyn"), source=known["a_dyn"].source)
-        t("V_least", "a_dyn * V_s", "N")
-        more = "where it fails, forces above the isolation count times the ratio"
-        return [
-            CheckBuilder(t, self.bound, void=self._suite.void).worst(
-                self._clause(self.rules.force_clause),
-                "storey shear of time histories",
-                "V_run",
-                ">=",
-                "V_least",
-                subjects=(self.frame.levels[1].name,),
-                note="; ".join(part for part in (self._note, more) if part),
-            )
-        ]
+        storey = self.frame.levels[1].name if len(self.frame.levels) > 1 else ""
+        known = self.equivalent.bounds[self.bound]
+        return shear_checks(self.data, self._suite, known, self.rules, storey, self._note)
 
     def _drift(self) -> list[Check]:
         # That of the code, and that of the project beside it.
@@ -307,12 +294,26 @@ class BoundChecks:
         if len(self.frame.levels) < 2:
             return found
         if self.rules.drift is not None:
-            found += self._drift_within(self.rules.drift, self.rules.drift_clause)
+            for check in self._drift_within(self.rules.drift, self.rules.drift_clause):
+                note = "; ".join(part for part in (check.note, self._gravity(check)) if part)
+                found.append(replace(check, note=note))
         if own is not None:
             for check in self._drift_within(own, ""):
                 note = "; ".join(part for part in (check.note, self._beside()) if part)
                 found.append(replace(check, note=note))
         return found
+
+    def _gravity(self, check: Check) -> str:
+        # Whether the drift asks for P-Delta in the analysis, and whether it is there.
+        known = None if self.equivalent is None else self.equivalent.bounds.get(self.bound)
+        if self.rules.second_order is None or known is None or "R_I" not in known.trace:
+            return ""
+        least = self.rules.second_order / known.trace.value("R_I")
+        if not check.demand > least:
+            return ""
+        clause = self._clause(self.rules.drift_clause)
+        there = "the members have it" if self.frame.members else "springs do not have it"
+        return f"above {100.0 * least:.3g} % P-Delta must be in the analysis ({clause}): {there}"
 
     def _beside(self) -> str:
         # How the project's limit of drifts is to that of the code.
@@ -324,18 +325,18 @@ class BoundChecks:
         return f"{word} than {100.0 * code:g} % of {clause}, which is checked beside it"
 
     def _drift_within(self, limit: float, clause: str) -> list[Check]:
-        shear, least = peaks_of_runs(self.data, "base_shear"), self._least("V_b_dyn")
+        least = self._least_shears
 
         def fill(values: FloatArray, of: str) -> Trace:
             t = Trace()
             self._suite.enter(t, "theta", values, "-", "%", of=of)
-            if least > 0.0:
-                self._suite.enter(t, "V", shear, "N")
-                t.given("V_least", least, "N", note=_LEAST)
-                self._suite.form(t, "theta_d", "theta * max(V_least / V, 1)", "-", "%", of="theta")
+            if least:
+                more = "least shear over that of the runs, as its own check has it; 1 at least"
+                t.given("f_V", raise_of(least).above, note=more)
+                self._suite.form(t, "theta_d", "f_V * theta", "-", "%", of="theta")
             return t
 
-        symbol, title = "theta_d" if least > 0.0 else "theta", "storey drift ratio"
+        symbol, title = "theta_d" if least else "theta", "storey drift ratio"
         found: list[Check] = []
         for name, of in _DRIFTS.items():
             if f"reached_{name}" in self.data:
@@ -377,7 +378,7 @@ class BoundChecks:
             t.given(f"{symbol}_lim", limit, unit, shown=shown)
             each[label] = Calculation(t, symbol, f"{symbol}_lim")
         where = self._clause(clause) if clause else PROJECT_LIMIT
-        standing = TO_BE_CONFIRMED if clause else CONFIRMED
+        standing = self._known("history drift", "drift") if clause else OWN
         return Governing(self.bound, standing, note, self._suite.void)(where, title, each)
 
     def _least(self, symbol: str) -> float:
@@ -392,6 +393,12 @@ class BoundChecks:
             )
             raise CheckError(msg)
         return trace.value(symbol)
+
+    def _known(self, value: str, field: str) -> Standing:
+        # How well a value of the code is known; of one that the project changed nothing is.
+        own = HISTORY_RULES.get(self.rules.code)
+        same = own is not None and getattr(self.rules, field) == getattr(own, field)
+        return standing_in(self.rules.code, value) if same else MEMORY
 
     def _clause(self, clause: str) -> str:
         return f"{self.rules.cited} {clause}".strip()

@@ -28,7 +28,7 @@ COUNTED = {
 }
 """Rows of uplift, of which codes without uplift leave small gaps aside."""
 
-_TABLE = (
+DEMANDS = (
     ("isolator displacement", "displacement", "m", 1.0),
     ("residual displacement", "displacement_left", "m", 1.0),
     ("interface slip", "slip", "m", 1.0),
@@ -45,6 +45,8 @@ _TABLE = (
     ("storey drift ratio, maximum at any column line", "line_drift", "-", 1.0),
     ("floor acceleration in plan", "floor_plan", "m/s2", 1.0),
 )
+"""Rows of the table: title, quantity, unit, and the sign with which its extreme is the largest."""
+
 _NOTES = {
     "storey drift ratio": "mean of the storey, in plan",
     "storey drift ratio, maximum at any column line": "in plan",
@@ -81,7 +83,7 @@ def demand_table(
     every = {bound: with_moved(data, beside.get(bound)) for bound, data in runs.items()}
     void = "; ".join(f"{b}: {s.void}" if b else s.void for b, s in suites.items() if s.void)
     rows = []
-    for title, name, unit, sign in _TABLE:
+    for title, name, unit, sign in DEMANDS:
         there = {b: data for b, data in runs.items() if f"reached_{name}" in data}
         if there:
             row: dict[str, Any] = {"quantity": title, "unit": unit}
@@ -107,15 +109,12 @@ def _numbers(
     cells: dict[str, Any] = {}
     envelope, where, worst, run = -math.inf, "", -math.inf, ""
     for bound, data in runs.items():
-        columns = _reached(data, name)
-        each = [suites[bound].value(column, name) for column in columns.T]
-        if suites[bound].void and name.endswith("_left") and np.isnan(columns).any():
-            each = [math.nan] * len(each)  # runs that stopped left nothing that counts
-        k = int(np.argmax(np.nan_to_num(each, nan=-math.inf)))  # what is not known is not worst
+        each = values_for_design(data, suites[bound], name)
+        k = worst_place(each)
         cells[bound or "value"] = sign * each[k] + 0.0  # no -0
         if each[k] > envelope:
             envelope, where = each[k], names_of(data, name)[k]
-        largest = np.nanmax(_reached(every[bound], name), axis=1, initial=-math.inf)
+        largest = np.nanmax(reached_by(every[bound], name), axis=1, initial=-math.inf)
         if largest.max() > worst:
             worst, one = float(largest.max()), int(largest.argmax())
             run = ", ".join(part for part in (motion_of(every[bound], one), bound) if part)
@@ -156,12 +155,53 @@ def bearing_values(
     rows = []
     for bound, data in runs.items():
         suite = raised_suite(data, (moved or {}).get(bound), rules)
-        rows.append([suite.value(column, name) for column in _reached(data, name).T])
+        rows.append([suite.value(column, name) for column in reached_by(data, name).T])
     return np.asarray(np.fmax.reduce(rows, axis=0), dtype=np.float64)
 
 
-def _reached(data: xr.Dataset, name: str) -> FloatArray:
-    # Values (n_runs, m); of what is left, none of runs that stopped before their end.
+def values_for_design(data: xr.Dataset, suite: Suite, name: str) -> FloatArray:
+    """Return what the runs of a bound give for design of a quantity at each of its places.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs.
+    suite : Suite
+        How they are taken together.
+    name : str
+        A quantity, such as "slip" or "drift".
+
+    Returns
+    -------
+    ndarray, (m,)
+        Of bearings, storeys or levels; NaN of what runs that stopped did not leave.
+    """
+    columns = reached_by(data, name)
+    if suite.void and name.endswith("_left") and np.isnan(columns).any():
+        return np.full(columns.shape[1], math.nan)
+    return np.array([suite.value(column, name) for column in columns.T])
+
+
+def worst_place(each: FloatArray) -> int:
+    """Return the place of the largest of `values_for_design`; what is not known is not worst."""
+    return int(np.argmax(np.nan_to_num(each, nan=-math.inf)))
+
+
+def reached_by(data: xr.Dataset, name: str) -> FloatArray:
+    """Return what runs reached at each place of a quantity.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs.
+    name : str
+        A quantity.
+
+    Returns
+    -------
+    ndarray, (n_runs, m)
+        What is left is NaN of runs that stopped before their end.
+    """
     values = peaks_of_runs(data, name)
     values = values.reshape(len(values), -1).copy()
     if name.endswith("_left"):

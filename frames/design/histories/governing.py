@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from frames.design.calculation.check import TO_BE_CONFIRMED, Bound, Check
+from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.standing import Standing
 from frames.design.codes.secant import CheckBuilder
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ class Governing:
     ----------
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings that it is for.
-    standing : str
+    standing : Standing
         Of its checks.
     note : str
         Goes with its checks.
@@ -39,7 +40,7 @@ class Governing:
     """
 
     bound: Bound
-    standing: str = TO_BE_CONFIRMED
+    standing: Standing
     note: str = ""
     void: str = ""
 

@@ -6,9 +6,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check, Checks
+from frames.design.calculation.check import Bound, Check, Checks
+from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
+from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
@@ -91,7 +93,7 @@ def impact_checks(
     bearings = BearingDemands(data, suite, devices_of(data, frame), limits, bound, reason)
     found = [_complete(data, bound)]
     found += left_out_checks(data, ["; ".join(doubts_of(data))], bound)
-    found += bearings.displacement(f"{NO_CODE}, section 2")
+    found += bearings.displacement(f"{NO_CODE}, section 2", OWN)
     found += [*bearings.slips(), *bearings.forces()]
     found += [*_structure(data, limits, bound), *_uplift(data, limits, bound)]
     lifted = Uplift(data, devices_of(data, frame), limits, bound, reason=reason)
@@ -166,7 +168,7 @@ def event_checks(
                 if not devices[name].is_dcfp
             }
             title = f"{what}, event {event}"
-            found += Governing(bound, CONFIRMED)(f"{NO_CODE} (2.7)", title, each)
+            found += Governing(bound, OWN)(f"{NO_CODE} (2.7)", title, each)
     return Checks(replace(check, void=void) for check in found)
 
 
@@ -176,7 +178,7 @@ def _complete(data: xr.Dataset, bound: Bound) -> Check:
     t.given("n_allowed", 0.0)
     said = (f"assumption check: {doubt}" for doubt in doubts_of(data))
     note = "; ".join((str(data.attrs["message"]), *said))
-    judge = CheckBuilder(t, bound, CONFIRMED)
+    judge = CheckBuilder(t, bound, OWN)
     return judge("no code", "run is complete", "n_failed", "<=", "n_allowed", note=note)
 
 
@@ -196,7 +198,7 @@ def _structure(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Che
                 label.partition(" of ")[2]: _felt(row, symbol, unit, shown, limit)
                 for label, row in rows.iterrows()
             }
-            found += Governing(bound, CONFIRMED)(PROJECT_LIMIT, f"{kind} at an impact", each)
+            found += Governing(bound, OWN)(PROJECT_LIMIT, f"{kind} at an impact", each)
     return found
 
 
@@ -227,7 +229,7 @@ def _uplift(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]
         t.given(symbol, float(row[column]), unit, shown=shown, note=when)
         t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
         each = {str(row["bearing"]): Calculation(t, symbol, f"{symbol}_lim")}
-        found += Governing(bound, CONFIRMED, note)(PROJECT_LIMIT, title, each)
+        found += Governing(bound, OWN, note)(PROJECT_LIMIT, title, each)
     return found
 
 
@@ -242,7 +244,7 @@ def _engagement(data: xr.Dataset, whole: float, least: float, bound: Bound) -> l
         t.given("eta_least", least)
         t("eta", "U_rim / D_TM")
         found.append(
-            CheckBuilder(t, bound, TO_BE_CONFIRMED).worst(
+            CheckBuilder(t, bound, standing_in("ASCE 7-22", "rims")).worst(
                 "ASCE 7-22 17.2.4.5",
                 "displacement where a rim engages, over D_TM",
                 "eta",

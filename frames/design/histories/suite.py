@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from frames.design.calculation.check import CONFIRMED
+from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.results.peak_response import largest, left, storeys_of_lines, total
@@ -406,7 +406,7 @@ def left_out_checks(data: xr.Dataset, doubts: list[str], bound: Bound) -> list[C
     )
     t.given("n_allowed", 0.0)
     judge, title = (
-        CheckBuilder(t, bound, CONFIRMED),
+        CheckBuilder(t, bound, OWN),
         "runs whose modelling assumptions are violated",
     )
     return [judge("no code: assumption check", title, "n_spoilt", "<=", "n_allowed", note=features)]

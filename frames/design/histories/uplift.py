@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Bound, Check
+from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import enter_geometry
 from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
@@ -85,8 +86,8 @@ class Uplift:
                 t = Trace()
                 t.given("h_rim", own, "m", shown="mm", note="height of the rims, as given")
             each[name] = self._with_gap(t, k, "h_rim")
-        clause = self.clause or PROPOSED_LIMIT
-        return self._worst(clause, "maximum uplift over the rim height", each)
+        asked = (self.clause, MEMORY) if self.clause else (PROPOSED_LIMIT, OWN)
+        return self._worst(asked, "maximum uplift over the rim height", each)
 
     def gaps(self) -> list[Check]:
         """Return the check of the gap over `uplift_gap`; none where it is not given."""
@@ -95,7 +96,7 @@ class Uplift:
             t = Trace()
             t.given("g_lim", limit or 0.0, "m", shown="mm", note="as given")
             each[name] = self._with_gap(t, k, "g_lim")
-        return self._worst(PROJECT_LIMIT, "maximum uplift", each)
+        return self._worst((PROJECT_LIMIT, OWN), "maximum uplift", each)
 
     def landings(self) -> list[Check]:
         """Return the check of the landing's force or pressure; none where nothing lifted off."""
@@ -106,10 +107,10 @@ class Uplift:
             if runs:
                 each[name] = self._landing(k, self.bearings[name], runs)
         if limits.axial_force is not None:
-            return self._worst(PROJECT_LIMIT, "axial force with a landing", each)
+            return self._worst((PROJECT_LIMIT, OWN), "axial force with a landing", each)
         given = limits.interface_pressure is not None
         clause = PROJECT_LIMIT if given else PROPOSED_LIMIT
-        return self._worst(clause, "pressure of a landing on the sliders", each)
+        return self._worst((clause, OWN), "pressure of a landing on the sliders", each)
 
     def _landing(self, k: int, bearing: LIRBearing, runs: Sequence[int]) -> Calculation:
         # Of the runs in which the bearing lifts off, the one that presses it most.
@@ -151,8 +152,11 @@ class Uplift:
         suite.enter(t, "g", known, "m", "mm")
         return Calculation(t, "g", limit)
 
-    def _worst(self, clause: str, title: str, each: Mapping[str, Calculation]) -> list[Check]:
-        standing = TO_BE_CONFIRMED if clause == self.clause else CONFIRMED
+    def _worst(
+        self, asked: tuple[str, Standing], title: str, each: Mapping[str, Calculation]
+    ) -> list[Check]:
+        # `asked`: clause and its standing.
+        clause, standing = asked
         words = "; ".join(part for part in (self._void, self._told, self.note) if part)
         return Governing(self.bound, standing, words, self._void)(clause, title, each)
 

@@ -322,5 +322,5 @@ def _programme(
     table = prototype_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
     if asked.void:
         of_runs = table["what"].str.contains("(?:largest|least) load|interface|impact", regex=True)
-        table.loc[of_runs, "standing"] += f"; no values for design: {asked.void}"
+        table.loc[of_runs, "note"] = f"no values for design: {asked.void}"
     return table

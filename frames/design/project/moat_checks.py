@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from frames.design.calculation.check import CONFIRMED, Check
+from frames.design.calculation.check import Check
+from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT
@@ -48,7 +49,7 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
         t = _with_gap(gap)
         t.given("D_T", each.allowed_displacement, "m", shown="mm", note="that bearings must allow")
         title = "clearance to the moat wall, equivalent-linear"
-        judge = CheckBuilder(t, each.bound, CONFIRMED)
+        judge = CheckBuilder(t, each.bound, OWN)
         found.append(judge(PROJECT_LIMIT, title, "D_T", "<=", "g_moat", note=_AT_BEARINGS))
     level = run.rules.bearing_level
     for bound, data in run.runs[level].items():
@@ -67,7 +68,7 @@ def _of_histories(
     t.given("D", float(reached.max()), "m", shown="mm", note="of the histories, as the code counts")
     t.given("gamma_x", run.rules.displacement_factor)
     t("D_d", "gamma_x * D", "m", shown="mm")
-    judge = CheckBuilder(t, bound, CONFIRMED, void=void)
+    judge = CheckBuilder(t, bound, OWN, void=void)
     title = "clearance to the moat wall"
     first = judge(PROJECT_LIMIT, title, "D_d", "<=", "g_moat", note=_AT_BEARINGS)
     every = with_moved(data, moved)
@@ -75,7 +76,7 @@ def _of_histories(
     k = int(largest.argmax())
     t = _with_gap(gap)
     t.given("D_max", float(largest[k]), "m", shown="mm", note=motion_of(every, k))
-    judge = CheckBuilder(t, bound, CONFIRMED)
+    judge = CheckBuilder(t, bound, OWN)
     title = "moat wall is not met in any run"
     note = "the wall is not modelled: where it is met, its force is in no result"
     return [first, judge(PROJECT_LIMIT, title, "D_max", "<=", "g_moat", note=note)]

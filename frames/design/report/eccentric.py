@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from frames.design.calculation.standing import MEMORY
 from frames.design.codes.registry import code_named
 from frames.design.report.columns import in_parts
 from frames.design.report.page import Table, page_table
@@ -36,7 +37,7 @@ def _factor(value: float) -> str:
 def eccentricity_said(run: ProjectRun) -> str:
     """Return what of accidental eccentricity is in the demands, in words."""
     asked = code_named(run.equivalent.code).histories
-    clause = f"{asked.cited} {asked.eccentricity_clause} *".strip()
+    clause = MEMORY.cited(f"{asked.cited} {asked.eccentricity_clause}".strip())
     asked_for = asked.accidental_eccentricity > 0.0
     share = 100.0 * run.rules.accidental_eccentricity
     if not run.moved:

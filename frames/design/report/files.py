@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, cast
 from frames.design._errors import ProjectError
 from frames.design.histories.demand_table import headed
 from frames.design.project.design_run import Histories
+from frames.design.report.by_motion import BY_MOTION
 from frames.design.report.numbers import ECCENTRICITY, TABLES_OF_FORCES, run_tables
 from frames.design.report.writing import report_html
 from frames.results.storage import load, save
@@ -58,10 +59,13 @@ def write_run(
         histories, ``runs-<level>-<bound>.nc`` where a code has several levels of the seismic
         action, and ``moved-...nc`` in the same way, those with the masses moved, whose table is
         ``eccentricity.csv``; ``equivalent-linear.csv``, ``demands.csv``, ``checks.csv``,
+        ``demands-by-motion.csv``,
         ``bearings.csv``, ``friction.csv``, ``modes.csv``, ``programme.csv``, ``storeys.csv``,
         ``reactions.csv`` in SI units, and ``members.csv``, ``member-groups.csv`` of a structure
-        with members; ``checks.txt`` with each calculation; ``governing.nc``, the histories of one
-        run; ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
+        with members, ``members-without-forces.csv`` of one with shells or springs,
+        ``links.csv`` of one with moat walls or dampers;
+        ``checks.txt`` with each calculation; ``governing.nc``, the histories of one run;
+        ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
         removed.
     """
     folder.mkdir(parents=True, exist_ok=True)
@@ -100,9 +104,13 @@ def write_judgement(
         if not len(tables.get(name, ())):  # those of an earlier run, of another structure
             (folder / f"{name}.csv").unlink(missing_ok=True)
             tables.pop(name, None)
+    indexed = {
+        name: table for name, table in tables.items() if name not in {ECCENTRICITY, BY_MOTION}
+    }
     texts = {
         "project.toml": source,
-        **{f"{name}.csv": table.to_csv() for name, table in tables.items() if name != ECCENTRICITY},
+        **{f"{name}.csv": table.to_csv() for name, table in indexed.items()},
+        f"{BY_MOTION}.csv": tables[BY_MOTION].to_csv(index=False),
         "equivalent-linear.csv": run.equivalent.to_dataframe().to_csv(),
         "demands.csv": headed(run.demands).assign(void=run.demands["void"]).to_csv(),
         "checks.csv": run.checks.to_dataframe().to_csv(index=False),
@@ -162,7 +170,8 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
     except OSError as cause:
         msg = f"{folder}: {cause}: `lir run` writes all files anew"
         raise ProjectError(msg) from cause
-    every = (data for each in runs.values() for data in each.values())
+    both = (*runs.values(), *moved.values())
+    every = (data for each in both for data in each.values())
     if any("reached_reaction_force" not in data for data in every):
         version = kept["lir_dcfp_version"]
         msg = (

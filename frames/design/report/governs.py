@@ -69,11 +69,11 @@ def what_governs(checks: Iterable[Check]) -> Governing:
     -------
     Governing
         The first `MOST`, those without a value for design first; counts and the scaling of motions
-        aside while they pass.
+        aside while they pass, and least values, to which demands are raised.
     """
     highest: dict[tuple[str, str], Check] = {}
     for check in checks:
-        if check.passed and check.symbol in COUNTS:
+        if (check.passed and check.symbol in COUNTS) or check.verdict == "raised":
             continue
         key = (check.title, check.level)
         if key not in highest or check.ratio > highest[key].ratio:

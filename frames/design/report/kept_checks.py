@@ -8,6 +8,7 @@ import pandas as pd
 
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.standing import standing_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -60,8 +61,13 @@ def read_checks(folder: Path) -> Checks:
 
 def _check(row: dict[Any, Any]) -> Check:
     texts = {name: row[name] for name in _TEXTS}
-    beyond = {"does not apply": "procedure", "needs agreement": "agreement"}
+    beyond = {
+        "does not apply": "procedure",
+        "needs agreement": "agreement",
+        "raised": "minimum",
+    }
     scope = beyond.get(row["verdict"], "any")
     shown = _SHOWN.get(row["unit"], "")
     numbers = {name: float(row[name]) for name in ("demand", "limit")}
+    texts["standing"] = standing_of(row["standing"])
     return Check(**texts, **numbers, scope=scope, shown=shown)  # type: ignore[arg-type]  # Check judges them

@@ -61,12 +61,37 @@ def member_groups(run: ProjectRun, forces: pd.DataFrame | None) -> pd.DataFrame:
     return table[size > _ROUND_OFF * size.groupby(table["unit"]).transform("max")]
 
 
+def without_forces(frame: Frame) -> pd.DataFrame:
+    """Return the elements of superelements that the tables of member forces leave out.
+
+    Parameters
+    ----------
+    frame : Frame
+        The structure.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row a kind and reason: how many, which, why. Empty where all are told.
+    """
+    rows = [
+        {"kind": one.kind, "elements": one.number, "which": one.which, "why": one.why}
+        for part in frame.superelements.values()
+        for one in part.elements.without
+    ]
+    return pd.DataFrame(rows).set_index("kind") if rows else pd.DataFrame()
+
+
 def group_names(frame: Frame) -> dict[str, str]:
-    """Return the group of each member: its kind of name, and the heights between which it is."""
+    """Return the group of each member and line element: its kind of name, and its heights."""
+    ends = {name: (member.i, member.j) for name, member in frame.members.items()}
+    for part in frame.superelements.values():
+        ends |= dict(zip(part.elements.names, part.elements.nodes, strict=True))
     found = {}
-    for name, member in frame.members.items():
-        ends = (frame.nodes[member.i].z, frame.nodes[member.j].z)
-        heights = " to ".join(f"{height:g}" for height in sorted(set(ends)))
+    for name, nodes in ends.items():
+        heights = " to ".join(
+            f"{height:g}" for height in sorted({round(frame.nodes[node].z, 6) for node in nodes})
+        )
         kind = re.sub(r"[-_ ]*\d+", "", name)
         found[name] = f"{kind} at {heights} m"
     return found

@@ -10,8 +10,12 @@ import pandas as pd
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands
+from frames.design.histories.least_shears import raises_of_runs
+from frames.design.histories.link_demands import link_demands
+from frames.design.histories.motion_table import demands_by_motion
 from frames.design.histories.suite import peaks_of_runs
-from frames.design.report.member_groups import member_groups
+from frames.design.report.by_motion import BY_MOTION
+from frames.design.report.member_groups import member_groups, without_forces
 from frames.statics.modes import modes
 
 if TYPE_CHECKING:
@@ -39,7 +43,13 @@ _FRICTIONS = (
     "interface",
 )
 _COUNT = 6
-TABLES_OF_FORCES = ("member-groups", "members", "storeys", "reactions")
+WITHOUT_FORCES = "members-without-forces"
+"""Name of the table of elements that the tables of member forces leave out."""
+
+LINKS = "links"
+"""Name of the table of moat walls and dampers."""
+
+TABLES_OF_FORCES = ("member-groups", "members", WITHOUT_FORCES, LINKS, "storeys", "reactions")
 """Tables that a structure has as far as it has members and levels."""
 
 
@@ -162,16 +172,20 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     -------
     dict of str to pandas.DataFrame
         "bearings", "friction", "modes", "programme" of tests, "eccentricity" of masses,
-        "member-groups"; "members", "storeys" and "reactions" as far as the structure has them
-        (`force_demands`).
+        "demands-by-motion", "member-groups", "members-without-forces"; "members", "storeys" and
+        "reactions" as far as the structure has them (`force_demands`).
     """
-    forces = force_demands(run.runs, run.rules)
+    raises = raises_of_runs(run.runs, run.rules, run.equivalent)
+    forces = force_demands(run.runs, run.rules, raises, run.moved)
     return {
         "bearings": bearing_table(run),
         "friction": friction_table(run),
         "modes": mode_table(run),
         "member-groups": member_groups(run, forces.get("members")),
+        WITHOUT_FORCES: without_forces(run.frame),
+        LINKS: link_demands(run.runs, run.rules, run.moved),
         "programme": run.programme,
+        BY_MOTION: demands_by_motion(run.runs, run.rules, run.moved),
         **forces,
         ECCENTRICITY: eccentricity_table(run.runs, run.moved, run.rules),
     }

@@ -6,15 +6,17 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from frames.design.calculation.check import TO_BE_CONFIRMED
+from frames.design.calculation.standing import LEGEND, standing_of
 from frames.design.histories.demand_table import envelope_said, headed, void_said
+from frames.design.histories.link_demands import largest_of_links
+from frames.design.report.by_motion import BY_MOTION, motion_tables
 from frames.design.report.columns import in_parts
 from frames.design.report.cover import cover_of, css_string
 from frames.design.report.eccentric import eccentricity_said, raised_tables
 from frames.design.report.figures import pictures
 from frames.design.report.governs import what_governs
 from frames.design.report.judged import factor_steps, judged
-from frames.design.report.numbers import ECCENTRICITY, devices_by_type
+from frames.design.report.numbers import ECCENTRICITY, LINKS, WITHOUT_FORCES, devices_by_type
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from frames.design.report.terms import device_table, loads_table, model_table
@@ -96,9 +98,11 @@ def report_in(
         sections=SECTIONS,
         case=run.governing_case,
         failed=[judged(check) for check in run.checks.failed],
+        least=[judged(check) for check in run.checks.raised],
         governing=what_governs(run.checks),
         judged=judged,
         doubts=run.doubts,
+        legend=LEGEND,
         checks=[judged(check) for check in run.checks],
         limits=[judged(check) for check in run.equivalent.checks if check not in run.checks],
         structure=words.table(
@@ -114,6 +118,8 @@ def report_in(
         schedule=fit(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
         friction=words.table(_friction(tables["friction"])),
         modes=fit(page_table(tables["modes"], "mode")),
+        links=fit(_links(tables.get(LINKS, pd.DataFrame()))),
+        untold=words.table(page_table(tables.get(WITHOUT_FORCES, pd.DataFrame()), "kind")),
         members=fit(page_table(tables.get("member-groups", pd.DataFrame()), "members"), keep=3),
         programme=fit(_programme(tables["programme"])),
         motions=fit(page_table(run.motions.table().rename(columns=_named), "motion")),
@@ -122,6 +128,7 @@ def report_in(
         void=void_said(run.demands),
         raised=[words.table(part) for part in raised_tables(tables[ECCENTRICITY])],
         eccentricity=eccentricity_said(run),
+        by_motion=[words.table(part) for part in motion_tables(tables[BY_MOTION])],
         levels=_levels(run),
         level=run.rules.levels[0].name,
         audit=attrs["audit"].splitlines(),
@@ -133,6 +140,7 @@ def report_in(
 
 def _words(run: ProjectRun, language: str) -> Words:
     names = {run.frame.name, *run.frame.bearings, *run.frame.nodes, *run.frame.members}
+    names |= {name for part in run.frame.superelements.values() for name in part.elements.names}
     names |= {*run.motions, *(level.name for level in run.frame.levels)}
     return Words(language or run.about.language, run.about.decimal, names)
 
@@ -186,13 +194,24 @@ def _friction(friction: pd.DataFrame) -> Table:
     return Table(made.head, rows, made.left)
 
 
+def _links(links: pd.DataFrame) -> Table:
+    # Each link where its force is largest of all bounds.
+    if links.empty:
+        return page_table(links, "link")
+    shown = largest_of_links(links).set_index("link")
+    shown = shown.drop(columns=["void"] + ["level"] * (shown["level"].nunique() == 1))
+    return page_table(in_mm_and_kn(shown), "link")
+
+
 def _programme(tests: pd.DataFrame) -> Table:
-    # Clauses with a star where they are to be confirmed; kinds of bearings where there are several.
-    starred = tests["clause"].where(tests["standing"] != TO_BE_CONFIRMED, tests["clause"] + " *")
+    # Clauses with a star where they are from memory; kinds of bearings where there are several.
+    cited = [
+        standing_of(said).cited(clause)
+        for clause, said in zip(tests["clause"], tests["standing"], strict=True)
+    ]
     named = pd.Index([f"{k} {name}" for k, name in tests["what"].items()])
-    shown = (
-        tests.assign(clause=starred).drop(columns=["standing", "what", "shows"]).set_index(named)
-    )
+    left_out = ["standing", "note", "what", "shows"]
+    shown = tests.assign(clause=cited).drop(columns=left_out).set_index(named)
     if shown["bearings"].nunique() == 1:
         shown = shown.drop(columns="bearings")
     return page_table(in_mm_and_kn(shown), "test")

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import CONFIRMED, TO_BE_CONFIRMED, Check, Checks
+from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.pendulum import FrictionPendulum
 from frames.design.codes.registry import code_named
@@ -185,7 +186,7 @@ class _Set:
     def of_bearing(self) -> list[Check]:
         own = FrictionPendulum.of(self.bearing)
         reached = max(max(c.highest, -c.lowest) for c in self._cycles)
-        t, judge = self._begin(TO_BE_CONFIRMED)
+        t, judge = self._begin(MEMORY)
         found = [self._each(judge, "E", "energy dissipated per cycle (EDC)", "spread")]
         if reached <= own.capacity:
             t.given_each(
@@ -214,7 +215,7 @@ class _Set:
         if not isinstance(self.bearing, LIRBearing) or self.bearing.is_dcfp:
             msg = f"test {self.name!r} is of the interface: the bearing has none"
             raise CheckError(msg)
-        _, judge = self._begin(CONFIRMED)
+        _, judge = self._begin(OWN)
         factors = self.bounds.interface_factors
         mu, said = self.bearing.interface_friction, "friction of the interface"
         range_ = factors.lower, factors.upper
@@ -224,7 +225,7 @@ class _Set:
             *self._drops(judge, ("E",)),
         ]
 
-    def _begin(self, standing: str) -> tuple[Trace, CheckBuilder]:
+    def _begin(self, standing: Standing) -> tuple[Trace, CheckBuilder]:
         t = Trace()
         cycles = self._cycles
         t.given_each("E", [c.energy for c in cycles], "J", note="of each cycle")
@@ -321,7 +322,7 @@ class _Set:
         return found
 
     def _cited(self, judge: CheckBuilder) -> str:
-        return PROPOSAL if judge.standing == CONFIRMED else self.clause
+        return PROPOSAL if judge.standing.kind == "own" else self.clause
 
 
 def _range(low: str, high: str) -> tuple[tuple[Literal[">=", "<="], str], ...]:

@@ -6,9 +6,10 @@ import math
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import TO_BE_CONFIRMED
+from frames.design.calculation.standing import OWN, Standing
 from frames.design.calculation.unevaluated import NOT_EVALUATED
 from frames.design.codes.bounds import ENDS, with_property_bounds
+from frames.design.codes.code_values import weakest
 from frames.design.codes.pendulum import FrictionPendulum
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, ProgrammeDemands
 from frames.design.codes.registry import code_named
@@ -60,10 +61,10 @@ def prototype_tests(
         A row a test, numbered from 1: kind of bearing, test, displacement [m], vertical load [N],
         fully reversed cycles, period [s] and peak speed [m/s] of harmonic motion, least and
         largest lateral force to expect with friction of high speed at its bounds [N], what the
-        test shows, clause and its standing. NaN: not given, or without meaning. Of an LIR-DCFP
-        there are tests besides that no code has: the interface alone, and impacts. Where the
-        system's loads are not known (`IsolationSystem.unknown_loads`) and `demands` gives none,
-        tests at the largest and the least load have NaN for it, and say why in their standing.
+        test shows, clause, its standing, a note. NaN: not given, or without meaning. Of an
+        LIR-DCFP there are tests besides that no code has: the interface alone, and impacts. Where
+        the system's loads are not known (`IsolationSystem.unknown_loads`), `demands` giving none,
+        tests at the largest and the least load have NaN for it, and a note that says why.
 
     Raises
     ------
@@ -90,15 +91,16 @@ def prototype_tests(
     import pandas as pd
 
     asked = ProgrammeDemands() if demands is None else demands
-    planned = code_named(equivalent.code).tests
+    code = code_named(equivalent.code)
+    known = weakest((code.standing("tests"), code.standing("cycles")))
     result = _governing(equivalent)
     ends = [system if bounds is None else with_property_bounds(system, end, bounds) for end in ENDS]
     rows = []
     for title, bearing, places in _kinds(system):
         at_ends = [end.bearings[places[0]] for end in ends]
         design = DesignToTest(result, bearing, at_ends, *_loads(system, places, asked), asked)
-        own = planned(design)
-        rows += [_row(title, test, design) for test in (*own, *_of_interface(design))]
+        rows += [_row(title, test, design, known) for test in code.tests(design)]
+        rows += [_row(title, test, design, OWN) for test in _of_interface(design)]
     table = pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
     return _without_loads(table, "" if asked.loads is not None else system.unknown_loads)
 
@@ -116,7 +118,7 @@ def _without_loads(table: pd.DataFrame, why: str) -> pd.DataFrame:
     if why:
         of_load = table["what"].str.contains("(?:largest|least) load", regex=True)
         table.loc[of_load, ["vertical load [N]", "least force [N]", "largest force [N]"]] = math.nan
-        table.loc[of_load, "standing"] = f"{NOT_EVALUATED}: {why}"
+        table.loc[of_load, "note"] = f"{NOT_EVALUATED}: {why}"
     return table
 
 
@@ -199,7 +201,9 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
     )
 
 
-def _row(kind: str, test: PlannedTest, design: DesignToTest) -> dict[str, object]:
+def _row(
+    kind: str, test: PlannedTest, design: DesignToTest, standing: Standing
+) -> dict[str, object]:
     least, most = (_force(test, bearing) for bearing in design.ends)
     period = 2.0 * math.pi * test.displacement / test.speed if test.speed > 0.0 else math.nan
     return {
@@ -214,7 +218,8 @@ def _row(kind: str, test: PlannedTest, design: DesignToTest) -> dict[str, object
         "largest force [N]": most,
         "shows": test.shows,
         "clause": test.clause,
-        "standing": "a proposal" if test.clause == PROPOSAL else TO_BE_CONFIRMED,
+        "standing": str(standing),
+        "note": "",
     }
 
 

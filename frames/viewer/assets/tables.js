@@ -52,7 +52,7 @@ const Tables = (() => {
     table.replaceChildren(head, ...rows);
   }
 
-  const order = { FAILS: 0, "needs agreement": 1, "does not apply": 2, ok: 3 };
+  const order = { FAILS: 0, "needs agreement": 1, "does not apply": 2, raised: 3, ok: 4 };
 
   function checks(panel, list, choose) {
     panel.hidden = list.length === 0;

@@ -1,0 +1,167 @@
+"""Least shears of time histories: where runs give less, forces for design are raised to them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from frames.design._errors import CheckError
+from frames.design.calculation.trace import Trace
+from frames.design.codes.registry import standing_in
+from frames.design.codes.secant import CheckBuilder
+from frames.design.histories.suite import peaks_of_runs, suite_of
+from frames.results.recorded import REACHED
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import xarray as xr
+
+    from frames.design.calculation.check import Bound, Check
+    from frames.design.codes.history_rules import HistoryRules
+    from frames.design.codes.outcome import BoundResult, EquivalentLinear
+    from frames.design.histories.suite import Suite
+
+BASE = "base shear of time histories"
+STOREY = "storey shear of time histories"
+LEAST = "least one, of the equivalent-linear analysis"
+
+
+class Raise(NamedTuple):
+    """Factors on the earthquake's part of forces and drifts, 1 at least.
+
+    Attributes
+    ----------
+    above : float
+        Above the isolation: the larger ratio of least shear to that of the runs, of the lowest
+        storey and at the base.
+    isolation : float
+        Of what bearings exert, and below: that at the base.
+    """
+
+    above: float = 1.0
+    isolation: float = 1.0
+
+
+def shear_checks(
+    data: xr.Dataset,
+    suite: Suite,
+    known: BoundResult,
+    rules: HistoryRules,
+    storey: str = "",
+    note: str = "",
+) -> list[Check]:
+    """Return the shears of runs against their least values, at the base and over it.
+
+    Less is no failure: it is the shear to design for, and the ratio the factor on the forces.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Runs at one bound.
+    suite : Suite
+        How they are taken together; accidental eccentricity does not enter.
+    known : BoundResult
+        Equivalent-linear analysis at that bound, with least values.
+    rules : HistoryRules
+        The code's.
+    storey : str
+        Name of the storey over the lowest level; empty where there is none.
+    note : str
+        Goes with each check.
+
+    Returns
+    -------
+    list of Check
+        Of the scope "minimum": at the base, and of the storey if there is one.
+
+    Raises
+    ------
+    CheckError
+        If the runs kept no storey shears.
+    """
+    clause = f"{rules.cited} {rules.force_clause}".strip()
+
+    def judged(t: Trace, title: str, symbol: str, subject: str, what: str) -> Check:
+        demand, least = t.value(symbol), t.value("V_least")
+        more = ""
+        if not suite.void and 0.0 < demand < least:
+            more = f"{what} are raised by {least / demand:.4g}"
+        said = "; ".join(part for part in (more, note) if part)
+        standing = standing_in(rules.code, "history minima")
+        judge = CheckBuilder(t, known.bound, standing, void=suite.void).of("minimum")
+        return judge.worst(clause, title, symbol, ">=", "V_least", subjects=(subject,), note=said)
+
+    t = Trace()
+    suite.enter(t, "V", peaks_of_runs(data, "base_shear"), "N")
+    t.given("V_least", known.trace.value("V_b_dyn"), "N", note=LEAST)
+    found = [judged(t, BASE, "V", "", "forces and drifts")]
+    if not storey:
+        return found
+    if f"{REACHED}storey_shear" not in data:
+        msg = "runs have no storey shears (reached_storey_shear): compute them anew"
+        raise CheckError(msg)
+    t = Trace()
+    suite.enter(t, "V_st", peaks_of_runs(data, "storey_shear")[:, 0], "N")
+    t.given("R_I", known.trace.value("R_I"), source=known.trace["R_I"].source)
+    suite.form(t, "V_run", "V_st / R_I", "N", of="V_st")
+    t.given("V_s", known.trace.value("V_s"), "N", note="of the equivalent-linear analysis")
+    t.given("a_dyn", known.trace.value("a_dyn"), source=known.trace["a_dyn"].source)
+    t("V_least", "a_dyn * V_s", "N")
+    what = "forces and drifts above the isolation"
+    return [*found, judged(t, STOREY, "V_run", storey, what)]
+
+
+def raise_of(checks: list[Check]) -> Raise:
+    """Return by what the least shears raise forces.
+
+    Parameters
+    ----------
+    checks : list of Check
+        Of `shear_checks`.
+
+    Returns
+    -------
+    Raise
+        Its factors; 1 where runs failed, which give no forces for design.
+    """
+    factors = {BASE: 1.0, STOREY: 1.0}
+    for check in checks:
+        if not check.void and check.demand > 0.0:
+            factors[check.title] = max(check.limit / check.demand, 1.0)
+    return Raise(above=max(factors.values()), isolation=factors[BASE])
+
+
+def raises_of_runs(
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+    rules: HistoryRules,
+    equivalent: EquivalentLinear | None,
+) -> dict[tuple[str, str], Raise]:
+    """Return by what the least shears raise the forces of runs.
+
+    Parameters
+    ----------
+    runs : mapping of str to mapping of str to xarray.Dataset
+        Time histories by level of the seismic action, then by bound.
+    rules : HistoryRules
+        The code's.
+    equivalent : EquivalentLinear, optional
+        Analysis that has least values.
+
+    Returns
+    -------
+    dict
+        By level and bound, where there are least values.
+    """
+    found: dict[tuple[str, str], Raise] = {}
+    if equivalent is None or not rules.has_minima:
+        return found
+    for level, each in runs.items():
+        for bound, data in each.items():
+            known = equivalent.bounds.get(bound)
+            if known is None or "V_b_dyn" not in known.trace:
+                continue
+            storeys = list(map(str, data["storey"].to_numpy())) if "storey" in data.coords else []
+            storey = storeys[0] if storeys else ""
+            checks = shear_checks(data, suite_of(data, rules), known, rules, storey)
+            found[level, bound] = raise_of(checks)
+    return found

@@ -1,0 +1,109 @@
+"""Table of what each motion gives: the values that means and largest values are taken of."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.design.histories.demand_table import (
+    DEMANDS,
+    reached_by,
+    values_for_design,
+    worst_place,
+)
+from frames.design.histories.eccentricity import WAY, raised_suite
+from frames.design.histories.suite import names_of, suite_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    import pandas as pd
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.design.calculation.check import Bound
+    from frames.design.codes.history_rules import HistoryRules
+
+QUANTITIES = (
+    *DEMANDS,
+    ("lateral force of a bearing", "force", "N", 1.0),
+    ("normalised eccentricity e/a", "eccentricity", "-", 1.0),
+)
+"""Columns: title, quantity, unit and sign; those of the demands, and what checks take besides."""
+
+KEYS = ("level", "bound", "masses moved", "motion", "scale", "status", "failed")
+"""Columns that say of which run a row is."""
+
+
+def demands_by_motion(
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+    rules: HistoryRules,
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
+) -> pd.DataFrame:
+    """Return what each motion gave of each quantity that means or largest values are taken of.
+
+    Parameters
+    ----------
+    runs : mapping of str to mapping of str to xarray.Dataset
+        Runs by level of the seismic action, then by bound.
+    rules : HistoryRules
+        The code's.
+    moved : mapping of str to mapping of str to xarray.Dataset, optional
+        Runs with moved masses in the same way.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row a run, none of means: level, bound, which way the masses were moved, motion, scale,
+        status, whether it failed by the code. Of each quantity (SI, the unit in the head) three
+        columns: the value at the bearing, storey or level where the value for design of the bound
+        is the largest, so that the mean of a column is the mean of the demands; "at", which that
+        is; and "farthest", the largest of all places in the run, of minimum axial forces the least.
+        A quantity without places has the first alone. Empty: not known, as what runs that stopped
+        would have left.
+    """
+    import pandas as pd
+
+    parts = []
+    for level, each in runs.items():
+        for bound, data in each.items():
+            beside = (moved or {}).get(level, {}).get(bound)
+            there = [(data, ""), *([(beside, WAY)] if beside is not None else [])]
+            suite = raised_suite(data, beside, rules)
+            cells: dict[str, Sequence[object] | FloatArray] = {
+                key: [value for one, _ in there for value in _key(one, key, rules)]
+                for key in KEYS[2:]
+            }
+            for title, name, unit, sign in QUANTITIES:
+                if f"reached_{name}" not in data:
+                    continue
+                k = worst_place(values_for_design(data, suite, name))
+                values = np.concatenate([reached_by(one, name) for one, _ in there])
+                cells[f"{title} [{unit}]"] = sign * values[:, k] + 0.0  # no -0
+                where = names_of(data, name)
+                if where != ("",):
+                    cells[f"{title}, at"] = [where[k]] * len(values)
+                    cells[f"{title}, farthest [{unit}]"] = sign * _farthest(values) + 0.0
+            part = pd.DataFrame(cells)
+            part.insert(0, "level", level)
+            part.insert(1, "bound", bound)
+            parts.append(part)
+    return pd.concat(parts, ignore_index=True)
+
+
+def _farthest(values: FloatArray) -> FloatArray:
+    # Of each run; NaN where nothing is known.
+    known = np.where(np.isnan(values), -math.inf, values).max(axis=1)
+    return np.where(np.isfinite(known), known, math.nan)
+
+
+def _key(data: xr.Dataset, key: str, rules: HistoryRules) -> Sequence[object]:
+    # A column that says of which run a row is.
+    if key == "masses moved":
+        own = data[WAY].to_numpy() if WAY in data.coords else [""] * data.sizes["run"]
+        return [str(way) for way in own]
+    if key == "failed":
+        return ["yes" if failed else "no" for failed in suite_of(data, rules).failed]
+    return list(data[key].to_numpy()) if key == "scale" else list(map(str, data[key].to_numpy()))
