@@ -90,6 +90,7 @@ def check(file: File = FILE) -> None:
     with told():
         parts = _parts(file)
         ground = preliminary(parts)
+        say(parts.code().cited)
         say(text_table(structure_rows(parts.file, ground.frame), left=2))
         for kind, columns in columns_by_type(ground.types).items():
             say(f"type {kind}: {', '.join(columns)}")
@@ -117,6 +118,7 @@ def run(
     with told():
         try:
             parts = _parts(file)
+            say(parts.code().cited)
             say(said_of_runs(parts, parts.motions()))
             found = run_project(parts, progress=True, resume=results / UNFINISHED)
         except AnalysisInterrupted as stop:

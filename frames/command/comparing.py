@@ -36,8 +36,10 @@ def compare(
         table = found.table()
         out.print("\n[bold]Envelope over bounds[/]")
         say(text_table(rows_of(table), ("", *map(str, table.columns))))
-        for one in verdicts(found):
-            say(f"\n{one.head}")
+        said = verdicts(found)
+        for one in said:
+            say(f"\n{f'{one.level}: ' if len(said) > 1 else ''}{one.head}")
             for text in one.details:
                 say(f"  {text}")
+        say(f"\n{found.eccentricity}")
         say(f"\n{', '.join(path.name for path in written)} in {results}")

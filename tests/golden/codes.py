@@ -38,6 +38,7 @@ SOIL = {  # A/g, T_a, T_b, T_c, T_d [s], alpha_A [cm/s2], alpha_V [cm/s], alpha_
     "II": (0.41, 0.03, 0.200, 0.54, 2.00, 1100, 94, 30),
     "III": (0.45, 0.03, 0.375, 0.68, 1.58, 1212, 131, 33),
 }
+SOIL_433 = {"I": (0.9, 0.20, 1.0), "II": (1.0, 0.35, 1.33), "III": (1.2, 0.85, 1.8)}  # S, T', n
 C_D = {"I": 0.200, "II": 0.300, "III": 0.330}  # m, times Z
 ZONE = {1: 0.75, 2: 1.0, 3: 1.25}
 M_M = 1.2
@@ -203,7 +204,11 @@ def asce(s, given, above):
     v_st = found["V_b"] * (above["W_s"] / s.W) ** (1.0 - 3.5 * beta)
     r_i = min(max(0.375 * above["R"], 1.0), 2.0)
     ds, d1, i_e = 2.0 / 3.0 * given["s_ms"], 2.0 / 3.0 * given["s_m1"], above["importance"]
-    fixed = max(min(ds, d1 / period) * i_e / above["R"], 0.044 * ds * i_e, 0.01) * above["W_s"]
+    fixed = max(min(ds, d1 / period) * i_e / above["R"], 0.044 * ds * i_e, 0.01)
+    s_1 = given.get("s_1", given["s_m1"])
+    if s_1 >= 0.6:
+        fixed = max(fixed, 0.5 * s_1 * i_e / above["R"])
+    fixed *= above["W_s"]
     sliding = max(s.mu_upper, 1.5 * s.mu_nominal) * s.P.sum()
     prime = moved / math.sqrt(1.0 + (above["T_fb"] / period) ** 2)
     return found | {
@@ -241,6 +246,7 @@ def en(s, given, above):
         "k": k,
         "V_b": k * moved,
         "k_02": s.force(0.2 * moved).sum() / (0.2 * moved),
+        "a_tot": max(ex / s.b, ey / s.d),
     }
     if above is not None:
         found["V_s"] = above["W_s"] / G * spectrum("EN 1998", given, period, xi) / 1.5
@@ -271,12 +277,17 @@ def nch(s, given, above):
         "k": k,
         "V_b": shear,
         "T_D": s.secant(design)[2],
+        "beta_D": s.secant(design)[1],
         "D_TD": torsion(s, design, 1.1).max(),
     }
     if above is not None:
         r_1 = max(min(above["R"], 2.0), 1.0)
         sliding = max(s.mu_upper, 1.5 * s.mu_nominal) * s.P.sum()
-        found["V_s"] = max(shear / r_1, above["wind"], sliding)
+        s_433, t_433, n_433 = SOIL_433[given["soil"]]
+        a_0 = {1: 0.2, 2: 0.3, 3: 0.4}[given["zone"]]
+        falling = 2.75 * s_433 * a_0 / above["R"] * (t_433 / found["T_D"]) ** n_433
+        fixed = max(falling, s_433 * a_0 / 6.0) * above["W_s"]
+        found["V_s"] = max(shear / r_1, fixed, above["wind"], sliding)
     return found
 
 

@@ -434,13 +434,24 @@ def _of_en(d, project):
 def _of_nch(d, project):
     design, period = d.own["design"], d.own["T_D"]
     yield "wind", math.nan, d.average, 20, math.nan, False
-    steps = [("0.2 D_D", 0.2 * design, period), ("0.5 D_D", 0.5 * design, period)]
+    steps = [("0.25 D_D", 0.25 * design, period), ("0.5 D_D", 0.5 * design, period)]
     steps += [("D_D", design, period), ("D_M", d.moved, d.own["period"])]
     yield from _steps(d, steps)
     speed = _harmonic(d, d.total)
     yield "maximum displacement, D_TM", d.total, d.average, 3, speed, False
     many = d.own["D_TD"]
-    yield "many cycles, D_TD", many, d.average, 10, 2.0 * math.pi * many / period, False
+    given = project.file["spectrum"]
+    sa = [codes.spectrum("NCh2745", given, t) for t in (1.0, codes.SOIL[given["soil"]][3] - 1e-9)]
+    factor = codes.damping_factor("NCh2745", d.own["beta_D"])
+    count = max(10.0, 15.0 * 2.5 * sa[0] / sa[1] / factor)
+    yield (
+        "many cycles, D_TD",
+        many,
+        d.average,
+        math.ceil(count),
+        2.0 * math.pi * many / period,
+        False,
+    )
     yield "static, largest load, D_TM", d.total, d.loads[1], 1, d.slow, False
     yield "static, least load, D_TM", d.total, d.loads[0], 1, d.slow, False
 

@@ -364,13 +364,12 @@ def _limits(project, head, rows, tally):
             continue
         demand, limit = own
         if row[0].startswith("no uplift"):  # loads of combinations: nearly multiples
-            value = 1e3 * float(plain(row[4]).split(" ")[0])
-            size = max(abs(demand), project.linear[row[2]]["system"].P.max())
-            tally.words(name, label, abs(value - demand) < 2e-3 * size, True)
-            demand = value  # its sign may be decided by what is nearly a multiple
+            value = 1e3 * float(plain(row[6]).split(" ")[0])
+            tally.words(name, label, abs(value - limit) < 2e-3 * limit, True)
+            limit = value  # the verdict may be decided by what is nearly a multiple
         else:
-            _said(tally, f"{label} demand", row[4], demand, name)
             _said(tally, f"{label} limit", row[6], limit, name)
+        _said(tally, f"{label} demand", row[4], demand, name)
         relation = "<=" if row[5] == "≤" or row[6] == "none allowed" else ">="
         ratio = checks.ratio_of(demand, limit, relation)
         word = "ok" if ratio <= 1.0 + 1e-9 else "does not apply"
@@ -385,6 +384,9 @@ def _limit(project, row):
     if e is None:
         return None
     s = e["system"]
+    if title == "capacity with accumulated displacement":
+        left = 0.5 * s.mu.max() * project.bearing.L
+        return 1.2 * e["each"].max() + left, project.bearing.capacity
     if title.startswith("no restrainer contact at "):
         return e["each"].max() * (
             1.2 if project.code == "EN 1998" else 1.0
@@ -396,12 +398,14 @@ def _limit(project, row):
     if title.startswith("no uplift") and "not evaluated" not in title:
         most, least = codes.dead_shares(project)
         share = most if title.endswith("maximum") else least
-        return (share * s.P - overturning(e, above))[s.names.index(subject)], 0.0
+        k = s.names.index(subject)
+        return overturning(e, above)[k], share * s.P[k]
     held = above["T_fb"] if above and above["T_fb"] else 0.0
     simple = {
         "effective period": (e["period"], 5.0),
         "effective damping": (e["damping"], 0.30),
         "restoring force": e["restoring"],
+        "total eccentricity over the side of the plan": (e.get("a_tot", 0.0), 0.075),
         "period ratio T_M / T_fb": (e["period"], 3.0 * held),
         "storeys": (len(above["w"]) if above else 0, 4.0),
         "height": (above["h"][-1] if above else 0.0, 19.8),

@@ -21,9 +21,11 @@ from frames import AnalysisInterrupted, load
 from frames.command.app import app
 from frames.design import CheckError, ProjectError, history_checks, history_demands
 from frames.design.project import level_runs
+from frames.design.project.comparison import OURS, PLAIN, compare_project
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
+from frames.design.project.result_names import RESULT_FILES
 
 PROJECT = """
 [project]
@@ -67,7 +69,12 @@ FACTORED = {
     "drift": "storey drift ratio",
     "floor_plan": "floor acceleration in plan",
 }
-ADDED = {"slip": "interface slip", "rim_force": "rim force"}
+ADDED = {
+    "slip": "interface slip",
+    "rim_force": "rim force",
+    "displacement_left": "residual displacement",
+    "slip_left": "residual interface slip",
+}
 run = CliRunner().invoke
 
 
@@ -122,6 +129,43 @@ def test_factors_and_demands_are_those_of_the_runs(ran: Path) -> None:
     assert "masses moved by 5 % of the plan each way raise the demands" in text
     page = (out / "report.html").read_text(encoding="utf-8")
     assert "moved by 5 % of the plan&#39;s sides each way, 4 time histories more" in page
+
+
+def test_forces_for_design_have_what_moved_masses_add(ran: Path) -> None:
+    """Shears of storeys and reactions of a run's files, from the extremes that its runs kept."""
+    out = ran / "out"
+    runs, moved = load(out / "runs-lower.nc"), load(out / "moved-lower.nc")
+    worst = int(np.argmax(runs["reached_displacement"].max("bearing").to_numpy()))
+    for kind, places in (
+        ("storey", ("section", "storey_component")),
+        ("reaction", ("bearing", "side", "reaction")),
+    ):
+        table = pd.read_csv(out / f"{'storeys' if kind == 'storey' else 'reactions'}.csv")
+        table = table[table["force"].isin(["Vx", "Vy", "N"])]
+        assert kind == "storey" or (table["moved masses add"].abs() > 1.0).any()
+        for row in table.to_dict("records"):
+            labels = {places[0]: row["storey" if kind == "storey" else "bearing"]}
+            labels |= {"side": row["side"]} if kind == "reaction" else {}
+            labels |= {places[-1]: row["force"], f"{places[-1]}_at_once": row["force"]}
+            labels |= {"extreme": {"max": "largest", "min": "smallest"}[row["extreme"]]}
+            own = runs[f"reached_{kind}_force"].sel(labels).to_numpy()
+            each = moved[f"reached_{kind}_force"].sel(labels).to_numpy()
+            sign = 1.0 if row["extreme"] == "max" else -1.0
+            added = max(float((sign * (each - own[worst])).max()), 0.0)
+            assert row["moved masses add"] == pytest.approx(sign * added, abs=2e-3)
+            value = max(sign * own) + added  # two motions: the larger
+            rest = sign * row["permanent"]
+            value = rest + row["raised by"] * (value - rest)
+            assert sign * row["value"] == pytest.approx(value, rel=1e-9, abs=1e-2)
+
+
+def test_names_of_results_are_known(ran: Path) -> None:
+    """A table of members by such a name would be written over: the project is refused before."""
+    written = {path.name for path in (ran / "out").iterdir() if path.is_file()}
+    histories = {name for name in written if name.startswith(("runs-", "moved-"))}
+    assert len(histories) == 2
+    assert written - histories <= RESULT_FILES
+    assert len(written - histories) > 12
 
 
 def test_the_report_reads_moved_runs_again(ran: Path) -> None:
@@ -231,3 +275,26 @@ def test_shares_out_of_bounds_are_refused(ran: Path, value: str, words: str) -> 
     file.write_text(f"{PROJECT}accidental_eccentricity = {value}\n")
     with pytest.raises(ProjectError, match=words):
         read_project(file)
+
+
+def test_both_devices_of_a_comparison_have_their_own_moved_masses(ran: Path) -> None:
+    """Demands by hand from the runs: of each device its own governing motion and factor."""
+    parts = ProjectInputs(read_project(ran / "project.toml"), ran)
+    found = compare_project(parts)
+    assert "8 with the masses of all floors moved" in found.eccentricity
+    table = found.table()
+    for column, device in enumerate((OURS, PLAIN), start=1):
+        runs, moved = found.runs[device]["MCE_R"]["lower"], found.moved[device]["MCE_R"]["lower"]
+        worst = int(np.argmax(runs["reached_displacement"].max("bearing").to_numpy()))
+        assert set(moved["motion"].values) == {runs["motion"].values[worst]}
+        for name, title in FACTORED.items():
+            own = runs[f"reached_{name}"].to_numpy().reshape(2, -1)
+            factor = moved[f"reached_{name}"].to_numpy().max() / own[worst].max()
+            expected = own.max() * max(factor, 1.0)
+            assert table.iloc[:, column][title] == pytest.approx(expected, rel=1e-12)
+    reached = found.runs[PLAIN]["MCE_R"]["lower"]["reached_slip"]
+    assert float(reached.max()) == 0.0
+    whole = pd.read_csv(ran / "out" / "demands.csv", index_col=0)
+    assert table.iloc[:, 1]["isolator displacement"] == pytest.approx(
+        whole.loc["isolator displacement", "envelope of these"], rel=1e-9
+    )

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +12,8 @@ from frames import Frame, MotionError, shear_building
 from frames.design import (
     ASCE7,
     EN1998,
+    HISTORY_RULES,
+    Check,
     CheckError,
     EquivalentLinear,
     FrictionPendulum,
@@ -23,6 +26,7 @@ from frames.design import (
     equivalent_linear,
     with_property_bounds,
 )
+from frames.design.histories.bound_checks import BoundChecks
 from lir_element import CoulombFriction, LIRBearing
 
 G = 9.81
@@ -279,7 +283,7 @@ def test_design_shear_is_the_largest_of_its_minima() -> None:
         t = each.trace
         # R_I = 3/8 * 5; 12.8 at T_M with S_DS = 1, S_D1 = 0.6
         reduced = t.value("V_b") * (5.8 / 9.0) ** (1.0 - 3.5 * t.value("beta_M")) / 1.875
-        fixed = max(0.6 / t.value("T_M") / 5.0, 0.044) * 5.8e6
+        fixed = max(0.6 / t.value("T_M") / 5.0, 0.044, 0.5 * 0.9 / 5.0) * 5.8e6  # S_1 as S_M1
         slides = max(1.6 * mu, 1.5 * mu) * 9.0e6
         assert each.superstructure_shear == pytest.approx(max(reduced, fixed, slides))
         assert sum(each.storey_forces[1:]) == pytest.approx(each.superstructure_shear)
@@ -312,7 +316,8 @@ def test_drifts_and_overturning_by_hand() -> None:
     load = max(x + 0.3 * y, 0.3 * x + y)
     assert t.values("N_E")[0] == pytest.approx(load)
     uplift = next(c for c in found.checks if c.title == "no uplift, minimum")
-    assert uplift.demand == pytest.approx(0.9e6 - load)
+    assert (uplift.demand, uplift.limit) == (pytest.approx(load), 0.9e6)
+    assert uplift.ratio == pytest.approx(load / 0.9e6)
     pressure = next(c for c in found.checks if c.title == "pressure on the slider, maximum")
     assert pressure.demand == pytest.approx((2.8e6 + load) / (math.pi * 0.2**2))
 
@@ -518,9 +523,36 @@ def test_drifts_of_en1998_at_damage_limitation() -> None:
 def test_least_shear_of_a_fixed_base_goes_by_two_thirds_of_s_m1() -> None:
     """ASCE 7-22 12.8.1.1 at T_M with R = 1: C_s = S_D1 / T_M, S_D1 = 2/3 0.9, above its floors."""
     stiff = replace(ABOVE, R=1.0)
-    found = nominal(SYSTEM, Asce(0.9), superstructure=stiff)["nominal"]
+    target = Spectrum.asce7(s_ms=1.5, s_m1=0.9, s_1=0.59)
+    found = equivalent_linear(SYSTEM, target, bounds=None, superstructure=stiff)["nominal"]
     assert found.trace.value("C_s") == pytest.approx(0.6 / found.period, rel=1e-12)
     assert found.trace.value("V_fixed") == pytest.approx(5.8e6 * 0.6 / found.period, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("s_1", "least"), [(0.60, 0.5 * 0.60 / 8.0), (0.59, 0.044 * 0.8), (None, 0.5 * 0.7 / 8.0)]
+)
+def test_least_shear_near_a_fault(s_1: float | None, least: float) -> None:
+    """ASCE 7-22 (12.8-6): 0.5 S_1 I_e / R from S_1 = 0.6 g on; S_M1 stands for an unknown S_1."""
+    target = Spectrum.asce7(s_ms=1.2, s_m1=0.7, s_1=s_1)
+    above = replace(ABOVE, R=8.0)
+    found = equivalent_linear(SYSTEM, target, bounds=None, superstructure=above)["nominal"]
+    assert 0.7 / 1.5 / found.period / 8.0 < least  # the falling branch is below
+    assert found.trace.value("C_s") == pytest.approx(least, rel=1e-12)
+    assert target.scaled(2.0).parameters.get("S_1") == (None if s_1 is None else 2.0 * s_1)
+
+
+def test_importance_of_an_isolated_structure_is_said() -> None:
+    notes = {
+        factor: analysed(
+            SYSTEM, Asce(0.9), bounds=None, superstructure=replace(ABOVE, importance=factor)
+        )["nominal"]
+        .trace["I_e"]
+        .note
+        for factor in (1.0, 1.5)
+    }
+    assert notes[1.0] == "of isolated structures by 17.2.1"
+    assert notes[1.5] == "as given; 17.2.1 has 1.0 for isolated structures"
 
 
 @pytest.mark.parametrize(("mu", "radius"), [(0.12, 2.5), (0.05, 4.0)])
@@ -564,7 +596,32 @@ def test_limits_of_the_simplified_analysis_need_all_their_numbers() -> None:
     assert {"distance to the fault", "variation of properties"} <= {c.title for c in beyond}
     assert {c.verdict for c in beyond} == {"does not apply"}
     assert not {c.title for c in beyond} & {c.title for c in found.checks.failed}
-    assert len(found.checks.of("10.9.3")) == 5
+    assert len(found.checks.of("10.9.3")) == 7
+    stiff = next(c for c in found.checks if c.title == "vertical over effective stiffness")
+    vertical = 9.0e6 / SYSTEM.gravity * (2.0 * math.pi / 0.05) ** 2  # T_v = 0.05 s
+    assert stiff.demand == pytest.approx(vertical / found["nominal"].stiffness, rel=1e-12)
+    assert stiff.limit == 150.0
+    assert stiff.passed
+
+
+def test_total_eccentricity_by_en1998() -> None:
+    """The accidental 5 % along each side, and the actual one: 0.42 m of 14 m are 3 %."""
+    for actual, passed in (((0.0, 0.0), True), ((0.42, 0.0), False)):
+        system = replace(SYSTEM, eccentricity=actual)
+        found = nominal(system, En(8.0))
+        check = next(c for c in found.checks if c.title.startswith("total eccentricity"))
+        assert check.demand == pytest.approx(0.05 + actual[0] / 14.0, rel=1e-12)
+        assert (check.limit, check.passed, check.scope) == (0.075, passed, "procedure")
+
+
+def test_what_earlier_events_leave_by_ntc() -> None:
+    """Half of mu L of the bearing beside gamma_x times its displacement."""
+    found = nominal(SYSTEM, En(8.0))["nominal"]
+    check = next(c for c in found.checks if c.title == "capacity with accumulated displacement")
+    left = 0.5 * BEARING.effective_friction * BEARING.effective_radius
+    assert check.demand == pytest.approx(1.2 * max(found.displacements) + left, rel=1e-12)
+    assert check.limit == pytest.approx(BEARING.capacity)
+    assert check.clause == "NTC 2018 7.10.6.2.2"
 
 
 # ---------------------------------------------------------------------------------- NCh2745
@@ -590,6 +647,25 @@ def test_displacement_by_nch2745(plateau: float, design: float) -> None:
 
     assert found.displacement == pytest.approx(brentq(off, 0.05, 1.0, xtol=1e-14), rel=1e-9)
     assert found.total_displacement == pytest.approx(1.1 * found.displacement)
+
+
+@pytest.mark.parametrize(
+    ("plateau", "factor"), [(0.30, (1.00, 0.35, 1.33)), (0.20, (0.90, 0.20, 1.00))]
+)
+def test_least_shear_of_nch433(plateau: float, factor: tuple[float, float, float]) -> None:
+    """A_0 = 0.4 g in zone 3: 2.75 S A_0 / R (T' / T_D)^n, at least S A_0 / 6, of the floors."""
+    heavy = replace(ABOVE, R=1.0)
+    for above in (ABOVE, heavy):
+        t = analysed(SYSTEM, NCh(plateau), bounds=None, superstructure=above)["nominal"].trace
+        s, corner, n = factor
+        falling = 2.75 * s * 0.4 / above.R * (corner / t.value("T_D")) ** n
+        assert t.value("C_433") == pytest.approx(max(falling, s * 0.4 / 6.0), rel=1e-12)
+        assert t.value("V_fixed") == pytest.approx(t.value("C_433") * 5.8e6, rel=1e-12)
+        assert t.value("V_s") >= t.value("V_fixed")
+    given = Spectrum.given([0.0, 1.0, 4.0], [4.0, 6.0, 1.5], code="NCh2745")
+    t = equivalent_linear(SYSTEM, given, bounds=None, superstructure=ABOVE, code=NCh2745())
+    assert t["nominal"].trace.value("V_fixed") == 0.0
+    assert t["nominal"].trace["V_fixed"].note.startswith("not known")
 
 
 def test_forces_by_nch2745() -> None:
@@ -699,3 +775,24 @@ def test_axial_loads_of_nch2745_are_those_of_the_maximum_level() -> None:
     assert levels["pressure on the slider, maximum"] == levels["no uplift, minimum"] == "maximum"
     assert levels["no restrainer contact at the total displacement"] == "maximum"
     assert levels["storey drift"] == levels["restoring force"] == "design"
+
+
+def test_drifts_that_ask_for_p_delta_say_so() -> None:
+    """ASCE 7-22 17.6.4.4: from 0.010 / R_I on, R_I = 3/8 of 5 here."""
+    known = analysed(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
+    least = 0.010 / 1.875
+    for drift, members, said in ((0.99, {}, ""), (1.01, {}, "springs do not"), (2, {1: 1}, "have")):
+        made = BoundChecks(
+            data=None,
+            frame=SimpleNamespace(members=members),
+            rules=HISTORY_RULES["ASCE 7-22"],
+            bound="lower",
+            limits=None,
+            equivalent=known,
+            level=None,
+        )
+        check = Check(clause="ASCE 7-22 17.6.4.4", title="drift", demand=drift * least, limit=0.02)
+        note = made._gravity(check)
+        assert said in note
+        assert bool(note) == bool(said)
+        assert not note or note.startswith("above 0.533 % P-Delta must be in the analysis")

@@ -315,3 +315,15 @@ accidental_eccentricity = 0.0
     again = CliRunner().invoke(app, ["report", *options])
     assert again.exit_code == 2
     assert "tables of members" in again.output
+
+
+@pytest.mark.parametrize("name", ["Members.csv", "bearings.csv", "bench.csv"])
+def test_a_table_named_as_a_result_is_refused(tmp_path: Path, name: str) -> None:
+    with pytest.raises(ProjectError, match=f'"{name}" has the name of a file of the results'):
+        project(tmp_path, structure=STRUCTURE.replace("columns.csv", name))
+
+
+def test_two_tables_of_one_name_are_refused(tmp_path: Path) -> None:
+    text = STRUCTURE.replace('"columns.csv"', '"a/table.csv"').replace('"beams.csv"', '"table.csv"')
+    with pytest.raises(ProjectError, match=r"are both named table\.csv"):
+        project(tmp_path, structure=text)

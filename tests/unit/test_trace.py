@@ -169,6 +169,24 @@ def test_a_ratio_of_one_at_most_is_a_check_that_passes(
     assert check.passed == (demand <= limit if relation == "<=" else demand >= limit)
 
 
+@pytest.mark.parametrize(
+    ("demand", "relation", "limit", "words"),
+    [
+        (7.0, "<=", 0.0, "7 <= 0, none allowed"),
+        (1.0, "<=", -2.0, "1 <= -2, no ratio to a limit below 0"),
+        (0.0, ">=", 1.0, "0 >= 1, no ratio of a demand that is not above 0"),
+        (math.inf, "<=", 1.0, "no ratio without a demand"),
+    ],
+)
+def test_without_a_ratio_a_check_says_why(
+    demand: float, relation: str, limit: float, words: str
+) -> None:
+    check = Check(clause="", title="t", demand=demand, limit=limit, relation=relation)
+    assert check.said[2] == "-"
+    assert words in str(check)
+    assert str(check).endswith("FAILED []")
+
+
 def test_what_cannot_be_judged_is_refused() -> None:
     for demand, limit in ((math.nan, 1.0), (1.0, math.nan), (math.inf, math.inf)):
         with pytest.raises(CheckError):

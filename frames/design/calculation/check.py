@@ -176,12 +176,12 @@ class Check:
 
     @property
     def said(self) -> tuple[str, str, str]:
-        """Demand, limit and ratio as tables show them."""
+        """Demand, limit and ratio as tables show them: "-" where there is no ratio."""
         demand = quantity(self.demand, self.unit, self.shown)
         limit = quantity(self.limit, self.unit, self.shown)
         if self.void:
             return (demand if math.isinf(self.demand) else f"{demand} reached", limit, "-")
-        return demand, limit, f"{self.ratio:.3f}"
+        return demand, limit, f"{self.ratio:.3f}" if math.isfinite(self.ratio) else "-"
 
     @property
     def statement(self) -> str:
@@ -191,7 +191,17 @@ class Check:
         title = f"{self.title}{f' ({where})' if where else ''}"
         if self.void:
             return f"{title}: {demand}, limit {limit}, no value for design: {self.void}"
-        return f"{title}: {demand} {self.relation} {limit}, ratio {self.ratio:.3g}"
+        return f"{title}: {demand} {self.relation} {limit}, {self._ratio_in_words}"
+
+    @property
+    def _ratio_in_words(self) -> str:
+        if math.isfinite(self.ratio):
+            return f"ratio {self.ratio:.3g}"
+        if math.isinf(self.demand):
+            return "no ratio without a demand"
+        if self.relation == "<=":
+            return "none allowed" if not self.limit else "no ratio to a limit below 0"
+        return "no ratio of a demand that is not above 0"
 
     def __str__(self) -> str:
         """Return the check on one line."""

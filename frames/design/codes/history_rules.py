@@ -34,6 +34,9 @@ class HistoryRules:
         largest.
     drift : float, optional
         Limit of the storey drift ratio [-]; None where the code has none for this level of motion.
+    second_order : float, optional
+        Storey drift ratio times R_I above which the effects of gravity on the displaced structure
+        (P-Delta) must be in the analysis [-]; None where the code has none.
     displacement_factor : float
         On the isolators' displacement [-].
     uplift_allowed : bool
@@ -77,6 +80,7 @@ class HistoryRules:
     least: int
     mean_from: int
     drift: float | None = None
+    second_order: float | None = None
     displacement_factor: float = 1.0
     uplift_allowed: bool = False
     least_gap: float = 1e-3
@@ -116,7 +120,7 @@ class HistoryRules:
         )
         require_non_negative("least_gap", self.least_gap, "m", error=CheckError)
         require_non_negative("unacceptable_allowed", self.unacceptable_allowed, error=CheckError)
-        for name in ("drift", "engagement"):
+        for name in ("drift", "second_order", "engagement"):
             if getattr(self, name) is not None:
                 require_positive(name, getattr(self, name), "-", error=CheckError)
         if not self.levels:

@@ -57,7 +57,15 @@ class Spectrum(ElasticSpectrum):
     """
 
     @classmethod
-    def asce7(cls, s_ms: float, s_m1: float, t_l: float = 8.0, *, name: str = "") -> Spectrum:
+    def asce7(
+        cls,
+        s_ms: float,
+        s_m1: float,
+        t_l: float = 8.0,
+        *,
+        s_1: float | None = None,
+        name: str = "",
+    ) -> Spectrum:
         """Return the two-parameter MCE_R spectrum of ASCE/SEI 7-22, 11.4.
 
         Parameters
@@ -66,6 +74,9 @@ class Spectrum(ElasticSpectrum):
             Spectral accelerations at short periods and at 1 s, site effects included [g].
         t_l : float
             Long-period transition period [s].
+        s_1 : float, optional
+            Mapped acceleration at 1 s, without the site [g]; least shears of a fixed base ask for
+            it, and take s_m1 if it is left out.
         name : str
             Name; made of the parameters if left out.
 
@@ -101,6 +112,7 @@ class Spectrum(ElasticSpectrum):
             )
             warnings.warn(msg, MotionWarning, stacklevel=2)
         constants = {"S_MS": short, "S_M1": long, "T_0": 0.2 * corner, "T_S": corner, "T_L": late}
+        constants |= _mapped(s_1)
         label = name or f"ASCE 7 MCE_R, S_MS = {short:g} g, S_M1 = {long:g} g"
         return cls("ASCE 7-22", label, "asce7", "ASCE 7-22", tuple(constants.items()))
 
@@ -112,6 +124,7 @@ class Spectrum(ElasticSpectrum):
         *,
         s_ms: float | None = None,
         s_m1: float | None = None,
+        s_1: float | None = None,
         t_l: float = 8.0,
         v_s30: float | None = None,
         name: str = "",
@@ -131,6 +144,8 @@ class Spectrum(ElasticSpectrum):
             Parameters [g]. Left out: 90 % of the largest acceleration between 0.2 s and 5 s; 90 %
             of the largest T x acceleration from 1 s to 2 s (to 5 s where `v_s30` is at most
             442 m/s or unknown), at least the acceleration at 1 s (21.4, to be confirmed).
+        s_1 : float, optional
+            As for `asce7`.
         t_l : float
             Long-period transition period [s].
         v_s30 : float, optional
@@ -161,6 +176,7 @@ class Spectrum(ElasticSpectrum):
         long = found[1] if s_m1 is None else _in_g("s_m1", s_m1)
         late = require_positive("t_l", t_l, "s", error=MotionError)
         constants = {"S_MS": short, "S_M1": long, "T_S": long / short, "T_L": late}
+        constants |= _mapped(s_1)
         label = name or f"ASCE 7 multi-period MCE_R, S_MS = {short:.3g} g, S_M1 = {long:.3g} g"
         in_si = tuple((period, level * STANDARD_GRAVITY) for period, level in points)
         kept = tuple(constants.items())
@@ -340,6 +356,11 @@ def _in_g(name: str, value: float) -> float:
         remedy=f"give it in g ({value:g} m/s2 are {value / STANDARD_GRAVITY:.3g} g)",
         error=MotionError,
     )
+
+
+def _mapped(s_1: float | None) -> dict[str, float]:
+    """Return S_1 among the parameters, where it is given."""
+    return {} if s_1 is None else {"S_1": _in_g("s_1", s_1)}
 
 
 def _checked_points(

@@ -100,19 +100,17 @@ class BearingDemands:
     note: str = ""
     factor: float = 1.0
 
-    def displacement(
-        self, clause: str, least: float = 0.0, standing: Standing = OWN
-    ) -> list[Check]:
+    def displacement(self, clause: str, standing: Standing, least: float = 0.0) -> list[Check]:
         """Return the check of the displacement against what rims and overlap allow.
 
         Parameters
         ----------
         clause : str
             Clause.
-        least : float
-            Displacement that is taken at least [m].
         standing : Standing
             Of the check.
+        least : float
+            Displacement that is taken at least [m].
 
         Returns
         -------
@@ -156,7 +154,7 @@ class BearingDemands:
                 if symbol == "s":
                     self._enter_slip(t, k)
                 else:
-                    self.suite.enter(t, symbol, values[:, k], "m", "mm")
+                    self.suite.enter(t, symbol, values[:, k], "m", "mm", of="slip_left")
                 if limit not in t and self.limits.slip_left is not None:
                     t.given(limit, self.limits.slip_left, "m", shown="mm", note="as given")
                 return Calculation(t, symbol, limit)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -15,7 +15,11 @@ from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.demand_table import envelope_said, void_said
 from frames.design.histories.suite import peaks_of_runs
 from frames.design.project.governing_run import most_displaced
-from frames.design.project.level_runs import demands_at_levels, histories_at_levels
+from frames.design.project.level_runs import (
+    demands_at_levels,
+    histories_at_levels,
+    moved_at_levels,
+)
 from frames.design.project.preliminary import preliminary
 from frames.solve.time_history import time_history
 from lir_element.errors import AnalysisWarning
@@ -69,12 +73,17 @@ class Comparison:
     runs : mapping of str to mapping
         By device, "LIR-DCFP" and "DCFP": runs by level of the seismic action, then by bound.
     demands : mapping of str to pandas.DataFrame
-        By device: what the runs give for design (see `frames.design.history_demands`).
+        By device: what the runs give for design (see `frames.design.history_demands`), raised by
+        what moved masses do to that device.
+    moved : mapping of str to mapping
+        Runs with the floors' masses moved, in the way of `runs`; empty without accidental
+        eccentricity.
     """
 
     known: Preliminary
     runs: Mapping[str, LevelRuns]
     demands: Mapping[str, pd.DataFrame]
+    moved: Mapping[str, LevelRuns] = field(default_factory=dict)
 
     def table(self) -> pd.DataFrame:
         """Return the envelopes over the bounds side by side, in SI units.
@@ -127,6 +136,23 @@ class Comparison:
             doubtful=sum(int((data["doubts"].to_numpy() != "").sum()) for data in every),
         )
 
+    @property
+    def eccentricity(self) -> str:
+        """What of accidental eccentricity is in the demands, in words."""
+        count = sum(
+            data.sizes["run"]
+            for levels in self.moved.values()
+            for bounds in levels.values()
+            for data in bounds.values()
+        )
+        if not count:
+            return "Accidental eccentricity is not in the demands."
+        return (
+            f"Accidental eccentricity is in the demands, of each device by its own runs: {count} "
+            "with the masses of all floors moved, in both. Counts of runs and what each motion "
+            "reached are of masses where they are."
+        )
+
     def void(self, device: str, level: str) -> str:
         """Return why a device has no values for design at a level; empty where it has."""
         table = self.demands[device]
@@ -168,10 +194,16 @@ def compare_project(
         raise ProjectError(msg)
     runs = {
         device: histories_at_levels(parts, frame, known.motions, progress)
-        for device, frame in _frames(known).items()
+        for device, frame in _frames_of(known.frame).items()
     }
-    demands = {device: demands_at_levels(each, parts.rules()) for device, each in runs.items()}
-    return Comparison(known=known, runs=runs, demands=demands)
+    moved = {}
+    for device, own in runs.items():
+        ways = {way: _frames_of(frame)[device] for way, frame in known.moved.items()}
+        moved[device] = moved_at_levels(parts, ways, known.motions, own, progress)
+    demands = {
+        device: demands_at_levels(own, parts.rules(), moved[device]) for device, own in runs.items()
+    }
+    return Comparison(known=known, runs=runs, demands=demands, moved=moved)
 
 
 def compared_histories(
@@ -198,16 +230,16 @@ def compared_histories(
     data = {}
     with warnings.catch_warnings():  # as told of the same run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
-        for device, frame in _frames(found.known).items():
+        for device, frame in _frames_of(found.known.frame).items():
             model = frame if bound == "" else with_property_bounds(frame, bound, parts.bounds())
             data[device] = time_history(model, motion, level=given.level, dt=given.dt)
     where = list(found.known.frame.bearings)[int(np.argmax(reached))]
     return data, f"{name}, {bound} bound, {level} level", where
 
 
-def _frames(known: Preliminary) -> dict[str, Frame]:
-    plain = {name: link.bearing.as_dcfp() for name, link in known.frame.bearings.items()}
-    return {OURS: known.frame, PLAIN: known.frame.with_bearings(plain)}
+def _frames_of(frame: Frame) -> dict[str, Frame]:
+    plain = {name: link.bearing.as_dcfp() for name, link in frame.bearings.items()}
+    return {OURS: frame, PLAIN: frame.with_bearings(plain)}
 
 
 def _peaks(data: xr.Dataset, name: str) -> np.ndarray:

@@ -161,7 +161,7 @@ class ProjectInputs:
         given = self.file.spectrum
         if isinstance(given, PointsTable):
             return in_section("spectrum", lambda: self._by_points(given))
-        keys = given.model_dump(exclude={"code"})
+        keys = given.model_dump(exclude={"code"}, exclude_none=True)
         return in_section("spectrum", lambda: self.code().spectrum(**keys))
 
     def _by_points(self, given: PointsTable) -> Spectrum:

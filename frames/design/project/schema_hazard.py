@@ -29,6 +29,8 @@ def spectrum_table(code: DesignCode) -> type[SpectrumTable]:
         default: Any = ... if key.default is None else key.default
         plain = key.kind is float and not key.unit
         rule = Field(default, gt=0.0, le=key.most) if plain else Field(default)
+        if key.optional:
+            kind, rule = Annotated[kind, Field(gt=0.0, le=key.most)] | None, Field(None)
         keys[name] = (kind, rule)
     said = f"``[spectrum]`` of {code.name}."
     return create_model(f"Spectrum, {code.name}", __base__=SpectrumTable, __doc__=said, **keys)

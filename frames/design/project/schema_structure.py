@@ -20,6 +20,7 @@ from frames.design.project.quantities import (
     Ratio,
     Stiffness,
 )
+from frames.design.project.result_names import is_result
 from frames.design.project.schema_sections import (
     BaseBeams,
     Beams,
@@ -88,7 +89,10 @@ class MomentFrame(BuildingTable):
 
 
 class IrregularFrame(BuildingTable):
-    """``[structure]`` of kind "irregular frame": columns and beams from tables."""
+    """``[structure]`` of kind "irregular frame": columns and beams from tables.
+
+    The results keep both tables under their names, beside the files of a run.
+    """
 
     kind: Literal["irregular frame"]
     storey_height: tuple[Size, ...] = Field(min_length=1)
@@ -100,6 +104,28 @@ class IrregularFrame(BuildingTable):
     def heights(self) -> tuple[float, ...]:
         """Height of each storey [m]."""
         return self.storey_height
+
+    @field_validator("columns_table", "beams_table")
+    @classmethod
+    def _is_no_result(cls, given: Path) -> Path:
+        if is_result(given.name):
+            msg = (
+                "has the name of a file of the results, among which the table is kept: give it "
+                "another name"
+            )
+            raise ValueError(msg)
+        return given
+
+    @model_validator(mode="after")
+    def _two_names(self) -> Self:
+        one, other = self.columns_table, self.beams_table
+        if one != other and one.name.lower() == other.name.lower():
+            msg = (
+                f"columns_table and beams_table are both named {one.name}, and the results keep "
+                "them in one folder: give one of them another name"
+            )
+            raise ValueError(msg)
+        return self
 
 
 class ShearBuilding(Table):

@@ -81,6 +81,7 @@ def _page(
         demands=page_table(_differences(found), "quantity"),
         statistics={device: _statistic(found, device) for device in (OURS, PLAIN)},
         motions=page_table(_numbered(motions), "motion"),
+        eccentricity=found.eccentricity,
         case="" if histories is None else histories[1],
         pictures=pictures,
         doubts=found.known.doubts,

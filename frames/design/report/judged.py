@@ -61,8 +61,6 @@ def judged(check: Check) -> Judged:
         demand, sign, ratio = NOT_EVALUATED if not check.void else "not known", "", ""
     if math.isinf(check.limit):
         limit, sign, ratio = "no limit", "", ""
-    if ratio == "inf":
-        ratio = ""
     return Judged(
         check=check,
         demand=demand,
