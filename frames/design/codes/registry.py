@@ -155,7 +155,7 @@ def example_bearing(
         f'slider_radius = "{slider} mm"          # as wide as keeps the resultant on it (e/a)\n'
         f'capacity = "{capacity} mm"               # displacement at which rims are met: {why}\n'
         f"friction = {friction:g}\n"
-        f"interface_friction = {interface:g}         # holds until a rim is met, and a slip of the whole overlap\n"
+        f"interface_friction = {interface:g}        # holds until a rim is met\n"
     )
 
 
