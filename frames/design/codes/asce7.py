@@ -15,6 +15,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.factor_sources import factors_of_asce7
@@ -211,6 +212,7 @@ class ASCE7:
             self._shears(t, superstructure, spectrum, extremes)
             checks += self._structure_checks(t, superstructure, judge)
             overturning(t, "M_o", "o")
+            checks += overturning_check(t, judge, "ASCE 7-22 17.2.4.7")
             clause = "ASCE 7-22 17.2.4.6, 17.2.4.7"
             checks += vertical_checks(t, system, judge, clause, self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
@@ -440,6 +442,8 @@ CODE = DesignCode(
         "v_s30": SpectrumKey(unit="m/s"),
     },
     rims=RimRule("ASCE 7-22 17.2.4.5", "D_TM", 0.60, "needs time histories with the rims"),
+    wind="ASCE 7-22 17.2.4.2",
+    separation="ASCE 7-22 17.2.5.2",
     tests=_tests,
     acceptance="ASCE 7-22 17.8.4",
     example=ExampleProject({"s_ms": 1.2, "s_m1": 0.7}, {}),

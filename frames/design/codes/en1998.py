@@ -15,6 +15,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.factor_sources import factors_of_en1998
@@ -185,6 +186,7 @@ class EN1998:
             limit = self.drift
             checks += drift_checks(t, superstructure, judge, clause, limit=limit, factor="nu * q")
             overturning(t, "M_o", "o")
+            checks += overturning_check(t, judge, "EN 1998-1 4.4.2.4")
             clause = "EN 15129 8.3, EN 1998-1 10.10"
             checks += vertical_checks(t, system, judge, clause, self.pressure_limit)
             if self.simplified:
@@ -408,6 +410,7 @@ CODE = DesignCode(
         "implements them, wants end stops that leave this displacement free. Needs the agreement "
         "of the authority, time histories with the rims, and tests of impact and return",
     ),
+    separation="EN 1998-1 10.5.4",
     tests=_tests,
     acceptance=f"{NO_LIMITS}, not of EN 15129 8.3.4",
     example=ExampleProject(

@@ -16,6 +16,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.history_rules import HistoryRules
@@ -175,6 +176,7 @@ class NCh2745:
             checks += drift_checks(t, superstructure, judge, clause, limit=limit, factor="R_1")
             overturning(t, "M_o", "o")
             at = judge.at(MAXIMUM)
+            checks += overturning_check(t, at, "NCh2745 6.2")
             checks += vertical_checks(t, system, at, "NCh2745 6.2", self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _MAXIMUM, rounds, t.values("D_TM_i"), forces, checks)

@@ -180,6 +180,9 @@ class DesignCode(HazardRules):
         Keys of ``[spectrum]`` beside ``points``; none must be given.
     rims : RimRule
         What it asks of the displacement at which rims are met.
+    wind, separation : str
+        Clauses of what wind may do to the bearings, and of the room for their displacement; empty
+        where none is known.
     tests : callable
         Its tests of bearings, made of a `DesignToTest`.
     acceptance : str
@@ -211,6 +214,8 @@ class DesignCode(HazardRules):
     spectrum_keys: Mapping[str, SpectrumKey]
     rims: RimRule
     tests: Callable[[DesignToTest], Iterable[PlannedTest]] = field(default=no_tests)
+    wind: str = ""
+    separation: str = ""
     acceptance: str = NO_LIMITS
     loads: LoadRule = LOADS_OF_ASCE
     example: ExampleProject | None = None

@@ -1,0 +1,40 @@
+"""What is not checked for want of a number, and what of a code is from memory: both are said."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+from frames.design import Check, Standing, code_named
+from frames.design.project.unchecked import from_memory, unchecked
+
+
+def said(wind: float = 0.0, service: float = 0.0, gap: float | None = None) -> str:
+    above = SimpleNamespace(wind_shear=wind, service_displacement=service)
+    file = SimpleNamespace(superstructure=above, limits=SimpleNamespace(moat_gap=gap))
+    return "; ".join(unchecked(file))
+
+
+def test_what_is_not_checked_names_the_key_that_is_missing() -> None:
+    for key in ("wind_shear", "service_displacement", "moat_gap"):
+        assert key in said()
+    assert "sliding under wind: not checked, since no wind shear is given" in said()
+    assert "wind" not in said(wind=1e5)
+    assert "service" not in said(service=0.01)
+    assert "moat_gap" not in said(gap=0.5)
+    assert said(wind=1e5, service=0.01, gap=0.5) == ""
+    bare = unchecked(SimpleNamespace(superstructure=None, limits=SimpleNamespace(moat_gap=0.5)))
+    assert "overturning" in bare[0]
+
+
+def test_clauses_from_memory_are_named_once_with_what_they_check() -> None:
+    code = code_named("ASCE 7-22")
+    made = Check(clause="A 1", title="one", demand=1.0, limit=2.0)
+    checks = [
+        made,
+        replace(made, title="two, again"),
+        made,
+        replace(made, clause="B 2", title="three", standing=Standing("agrees", "C 3")),
+    ]
+    (sentence,) = from_memory(checks, code)
+    assert "A 1 (one, two)" in sentence
+    assert "B 2" not in sentence
+    assert sentence.startswith("from memory, not read in the standard: ")
