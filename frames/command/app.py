@@ -92,6 +92,7 @@ def check(file: File = FILE) -> None:
     with told():
         parts = _parts(file)
         ground = preliminary(parts)
+        say(parts.code().cited)
         say(text_table(structure_rows(parts.file, ground.frame), left=2))
         for kind, columns in columns_by_type(ground.types).items():
             say(f"type {kind}: {', '.join(columns)}")
@@ -100,7 +101,7 @@ def check(file: File = FILE) -> None:
         say(repr(ground.equivalent))
         _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
         _say_each(unchecked(parts.file))
-        _say_each(from_memory(ground.equivalent.checks, parts.code()))
+        _say_each(from_memory(parts.code()))
         say(f"the file can be run: lir run {file} ({said_of_runs(parts, ground.motions)})")
         if not ground.equivalent.checks.passed:
             raise typer.Exit(FAILED_CHECKS)
@@ -121,6 +122,7 @@ def run(
     with told():
         try:
             parts = _parts(file)
+            say(parts.code().cited)
             say(said_of_runs(parts, parts.motions()))
             found = run_project(parts, progress=True, resume=results / UNFINISHED)
         except AnalysisInterrupted as stop:

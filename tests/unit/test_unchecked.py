@@ -3,7 +3,8 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
-from frames.design import Check, Standing, code_named
+from frames.design import Standing, code_named
+from frames.design.codes.code_values import CodeValue
 from frames.design.project.unchecked import from_memory, unchecked
 
 
@@ -25,16 +26,13 @@ def test_what_is_not_checked_names_the_key_that_is_missing() -> None:
     assert "overturning" in bare[0]
 
 
-def test_clauses_from_memory_are_named_once_with_what_they_check() -> None:
-    code = code_named("ASCE 7-22")
-    made = Check(clause="A 1", title="one", demand=1.0, limit=2.0)
-    checks = [
-        made,
-        replace(made, title="two, again"),
-        made,
-        replace(made, clause="B 2", title="three", standing=Standing("agrees", "C 3")),
-    ]
-    (sentence,) = from_memory(checks, code)
-    assert "A 1 (one, two)" in sentence
-    assert "B 2" not in sentence
-    assert sentence.startswith("from memory, not read in the standard: ")
+def test_values_from_memory_are_named_with_their_clause() -> None:
+    known = CodeValue("A 1", "one", Standing("agrees", "C 3"))
+    code = replace(
+        code_named("ASCE 7-22"), values={"one": known, "two": CodeValue("B 2", "two, of three")}
+    )
+    (sentence,) = from_memory(code)
+    assert sentence == "from memory, not read in the standard: B 2 (two, of three)"
+    assert from_memory(replace(code, values={"one": known})) == ()
+    for name in ("ASCE 7-22", "EN 1998", "NCh2745"):
+        assert "(of the whole structure, safety 1.0)" in from_memory(code_named(name))[0]

@@ -100,8 +100,8 @@ def equivalent_linear(
     }
     general = Checks() if bounds is None else slip_threshold(system, bounds)
     if bounds is not None and superstructure is not None:
-        clause = code_named(chosen.name).wind
-        general += service_checks(system, bounds, superstructure, clause)
+        wind = code_named(chosen.name).values.get("sliding under wind")
+        general += service_checks(system, bounds, superstructure, wind)
     return EquivalentLinear(chosen.name, results, general)
 
 

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 import numpy as np
 
 from frames.design.calculation.check import Bound, Checks
+from frames.design.calculation.standing import MEMORY
+from frames.design.codes.code_values import standing_by
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -48,6 +50,7 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
+from frames.design.codes.values_of_nch2745 import VALUES
 from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
 from frames.design.hazard.spectral_shapes import (
     NCH433_SHEAR,
@@ -74,7 +77,7 @@ _LONG = 4.0  # s, beyond all T_d
 
 @dataclass(frozen=True, kw_only=True)
 class NCh2745:
-    """Factors of NCh2745; clause numbers and factors to be confirmed against the standard.
+    """Factors of NCh2745; `CODE.values` tells how well each is known.
 
     Parameters
     ----------
@@ -168,15 +171,17 @@ class NCh2745:
         t("k_Dmax", "sum(P * (D_D / L + mu_up)) / D_D", "N/m", source="NCh2745 7.4")
         t("V_b", "k_Dmax * D_D", "N", source="NCh2745 7.4")
         t("k_Mmax", "sum(P * (D_M / L + mu_up)) / D_M", "N/m", note="largest at D_M")
-        judge = CheckBuilder(t, bound, level=DESIGN)
+        judge = CheckBuilder(t, bound, MEMORY, level=DESIGN)
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure, spectrum, extremes)
             clause, limit = "NCh2745 7.6", self.drift
-            checks += drift_checks(t, superstructure, judge, clause, limit=limit, factor="R_1")
+            known = self._known(judge, "drift", "R_1", "F_x")
+            checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="R_1")
             overturning(t, "M_o", "o")
-            at = judge.at(MAXIMUM)
-            checks += overturning_check(t, at, "NCh2745 6.2")
+            known = self._known(judge, "overturning").at(MAXIMUM)
+            checks += overturning_check(t, known, "NCh2745 6.2")
+            at = self._known(judge, "vertical loads").at(MAXIMUM)
             checks += vertical_checks(t, system, at, "NCh2745 6.2", self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _MAXIMUM, rounds, t.values("D_TM_i"), forces, checks)
@@ -197,6 +202,10 @@ class NCh2745:
         t("D_D", "C_D / B_D", "m", source="NCh2745 7.3", shown="mm")
         return t
 
+    def _known(self, judge: CheckBuilder, *names: str) -> CheckBuilder:
+        # Of checks that rest on these values of the code.
+        return judge.known(standing_by(VALUES, *names, analysis=self))
+
     def _totals(self, t: Trace, system: IsolationSystem) -> None:
         t.given("a_e", self.accidental_eccentricity, source="NCh2745 7.3")
         t.given("a_T", self.least_torsion, source="NCh2745 7.3")
@@ -211,10 +220,11 @@ class NCh2745:
     def _device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
         enter_restoring(t, "D_D", self.restoring)
         note = "else bearings must allow 3 times the total design displacement, 3 D_TD"
+        rims, back = self._known(judge, "capacity"), self._known(judge, "restoring")
         return Checks(
             [
-                capacity_check(t, system, judge.at(MAXIMUM), "NCh2745 7.3", "D_TM_i"),
-                judge("NCh2745 10.2", "restoring force", "Delta_F", ">=", "Delta_F_lim", note=note),
+                capacity_check(t, system, rims.at(MAXIMUM), "NCh2745 7.3", "D_TM_i"),
+                back("NCh2745 10.2", "restoring force", "Delta_F", ">=", "Delta_F_lim", note=note),
             ]
         )
 
@@ -321,11 +331,13 @@ _LOADS = LoadRule(
 
 CODE = DesignCode(
     name=NCh2745.name,
-    aliases=("NCh 2745", "NCh2745:2013"),
+    aliases=("NCh 2745", "NCh2745:2003"),
     title="Earthquake-resistant design of base-isolated buildings (Chile)",
+    edition="tables of NCh2745 Of.2003; that those of 2013 are the same is not confirmed",
+    values=VALUES,
     analysis=NCh2745,
     damping=DampingRule(
-        "NCh2745:2013, table of B_D and B_M",
+        VALUES["damping factor"].clause,
         LINEAR,
         table=(
             (0.02, 0.65),
@@ -337,9 +349,21 @@ CODE = DesignCode(
             (0.30, 2.38),
             (0.50, 3.02),
         ),
+        standing=VALUES["damping factor"].standing,
     ),
     # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
-    scaling=(ScalingRule("NCh2745", "SRSS", 1.17, 0.0, 7, "NCh2745 8.4", (0.5, 1.25)),),
+    scaling=(
+        ScalingRule(
+            "NCh2745",
+            "SRSS",
+            1.17,
+            0.0,
+            7,
+            "NCh2745 8.4",
+            (0.5, 1.25),
+            standing=VALUES["scaling"].standing,
+        ),
+    ),
     loads=_LOADS,
     histories=HistoryRules(
         code=NCh2745.name,
@@ -370,6 +394,7 @@ CODE = DesignCode(
         "rims met by intent: no clause that allows it was read in NCh2745 (UBC-97, from which it "
         "descends, wants none below 0.75 D_TD, and the maximum level analysed with them). Needs "
         "the reviewer's agreement (13), time histories with the rims, tests of impact and return",
+        VALUES["rims"].standing,
     ),
     tests=_tests,
     acceptance=f"{NO_LIMITS}, not of NCh2745 14",

@@ -7,17 +7,25 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast, runtime_checkable
 
 from frames.design._errors import CheckError
+from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.codes.factor_sources import factors_by_source
 from frames.design.codes.history_rules import HistoryRules
 from frames.design.codes.load_rules import LOADS_OF_ASCE, LoadRule
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, no_tests
-from frames.design.hazard.code_rules import HazardRules, add_rules, known_rules, rules_named
+from frames.design.hazard.code_rules import (
+    HazardRules,
+    add_rules,
+    canonical,
+    known_rules,
+    rules_named,
+)
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Bound
     from frames.design.codes.bounds import PropertyModificationFactors
+    from frames.design.codes.code_values import CodeValue
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.outcome import BoundResult
     from frames.design.codes.superstructure import Superstructure
@@ -55,6 +63,8 @@ class RimRule(NamedTuple):
         Share of it below which rims must not be met [-].
     note : str
         What rims that are met below it mean under the code.
+    standing : Standing
+        How well clause and share are known.
 
     Examples
     --------
@@ -67,6 +77,7 @@ class RimRule(NamedTuple):
     symbol: str
     least: float
     note: str
+    standing: Standing = MEMORY
 
 
 class SpectrumKey(NamedTuple):
@@ -163,6 +174,10 @@ class DesignCode(HazardRules):
         As in `frames.design.hazard.code_rules.HazardRules`.
     title : str
         What it is.
+    edition : str
+        Edition that its clauses, formulas and tables are of, as report and console name it.
+    values : mapping of str to CodeValue
+        What it gives, value by value, and how well each is known; all else is from memory.
     analysis : callable
         Returns the equivalent-linear analysis with all defaults; a class such as `ASCE7`.
     histories : HistoryRules
@@ -180,9 +195,6 @@ class DesignCode(HazardRules):
         Keys of ``[spectrum]`` beside ``points``; none must be given.
     rims : RimRule
         What it asks of the displacement at which rims are met.
-    wind, separation : str
-        Clauses of what wind may do to the bearings, and of the room for their displacement; empty
-        where none is known.
     tests : callable
         Its tests of bearings, made of a `DesignToTest`.
     acceptance : str
@@ -208,14 +220,14 @@ class DesignCode(HazardRules):
     """
 
     title: str
+    edition: str = ""
+    values: Mapping[str, CodeValue] = field(default_factory=dict)
     analysis: Callable[[], AnalysisMethod]
     histories: HistoryRules
     spectrum: Callable[..., Spectrum]
     spectrum_keys: Mapping[str, SpectrumKey]
     rims: RimRule
     tests: Callable[[DesignToTest], Iterable[PlannedTest]] = field(default=no_tests)
-    wind: str = ""
-    separation: str = ""
     acceptance: str = NO_LIMITS
     loads: LoadRule = LOADS_OF_ASCE
     example: ExampleProject | None = None
@@ -232,6 +244,15 @@ class DesignCode(HazardRules):
                 f"histories, from {least} by scaling: give both the same"
             )
             raise CheckError(msg)
+
+    @property
+    def cited(self) -> str:
+        """Name and title, with the edition if it is told."""
+        return f"{self.name}: {self.title}{f' ({self.edition})' if self.edition else ''}"
+
+    def standing(self, name: str) -> Standing:
+        """Return how well one of its `values` is known; from memory of what it does not list."""
+        return self.values[name].standing if name in self.values else MEMORY
 
     def by_points(
         self, periods: Sequence[float], accelerations: Sequence[float], **keys: float
@@ -333,6 +354,26 @@ def code_named(name: str, error: type[ValueError] = CheckError) -> DesignCode:
     1.2
     """
     return cast("DesignCode", rules_named(name, error))
+
+
+def standing_in(code: str, name: str) -> Standing:
+    """Return how well a value of a code is known.
+
+    Parameters
+    ----------
+    code : str
+        Name of the code.
+    name : str
+        Of one of its `DesignCode.values`.
+
+    Returns
+    -------
+    Standing
+        From memory where the code, or its value, is not known.
+    """
+    spelled = canonical(code)
+    found = [one for one in known_codes() if one.name == spelled]
+    return found[0].standing(name) if found else MEMORY
 
 
 class _HistoryRulesByCode(Mapping[str, HistoryRules]):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames.design.calculation.check import Checks
-from frames.design.calculation.standing import MEMORY, OWN
+from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from lir_element.device.bearing import LIRBearing
@@ -13,6 +13,7 @@ from lir_element.device.bearing import LIRBearing
 if TYPE_CHECKING:
     from frames.design.calculation.check import Check
     from frames.design.codes.bounds import PropertyBounds
+    from frames.design.codes.code_values import CodeValue
     from frames.design.codes.isolation import IsolationSystem
     from frames.design.codes.pendulum import FrictionPendulum
     from frames.design.codes.superstructure import Superstructure
@@ -22,7 +23,10 @@ NO_CLAUSE = "no code: serviceability"
 
 
 def service_checks(
-    system: IsolationSystem, bounds: PropertyBounds, above: Superstructure, clause: str = ""
+    system: IsolationSystem,
+    bounds: PropertyBounds,
+    above: Superstructure,
+    wind: CodeValue | None = None,
 ) -> Checks:
     """Return whether wind leaves the bearings in place, and service leaves the rims alone.
 
@@ -37,8 +41,8 @@ def service_checks(
         Factors on friction.
     above : Superstructure
         With its wind shear, and the displacement of the bearings in service.
-    clause : str
-        Of wind, in the code; empty if none is known.
+    wind : CodeValue, optional
+        What the code has of wind; None if nothing is known.
 
     Returns
     -------
@@ -54,9 +58,10 @@ def service_checks(
         t.given("lambda_min", bounds.friction.lower, note="lower bound of the surfaces")
         t("Q_min", "lambda_min * sum(P * mu_s)", "N", note="starts sliding")
         t.given("V_wind", above.wind_shear, "N")
-        judge = CheckBuilder(t, "lower", MEMORY if clause else OWN)
+        judge = CheckBuilder(t, "lower", OWN if wind is None else wind.standing)
+        clause = NO_CLAUSE if wind is None else wind.clause
         title, note = "sliding under wind", "where it slides: more friction, or a wind restraint"
-        found.append(judge(clause or NO_CLAUSE, title, "V_wind", "<=", "Q_min", note=note))
+        found.append(judge(clause, title, "V_wind", "<=", "Q_min", note=note))
     if above.service_displacement > 0.0:
         t = Trace()
         t.given("d_ser", above.service_displacement, "m", shown="mm", note="as given")

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from frames.design.calculation.check import Check
-from frames.design.calculation.standing import MEMORY, OWN
+from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT
@@ -49,8 +49,9 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
         t = _with_gap(gap)
         t.given("D_T", each.allowed_displacement, "m", shown="mm", note="that bearings must allow")
         title = "clearance to the moat wall, equivalent-linear"
-        judge = CheckBuilder(t, each.bound, MEMORY if run.code.separation else OWN)
-        clause = run.code.separation or PROJECT_LIMIT
+        room = run.code.values.get("separation")
+        judge = CheckBuilder(t, each.bound, OWN if room is None else room.standing)
+        clause = PROJECT_LIMIT if room is None else room.clause
         found.append(judge(clause, title, "D_T", "<=", "g_moat", note=_AT_BEARINGS))
     level = run.rules.bearing_level
     for bound, data in run.runs[level].items():

@@ -5,9 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from frames.design.calculation.check import Check
     from frames.design.codes.registry import DesignCode
     from frames.design.project.schema import ProjectFile
 
@@ -50,30 +47,19 @@ def unchecked(file: ProjectFile) -> tuple[str, ...]:
     return tuple(found)
 
 
-def from_memory(checks: Iterable[Check], code: DesignCode) -> tuple[str, ...]:
-    """Return which clauses and values of a code are from memory alone.
+def from_memory(code: DesignCode) -> tuple[str, ...]:
+    """Return which values of a code are from memory alone.
 
     Parameters
     ----------
-    checks : iterable of Check
-        Checks of a project.
     code : DesignCode
-        Its code.
+        The code.
 
     Returns
     -------
     tuple of str
-        One sentence, with each clause once and what is checked by it; none where nothing is.
+        One sentence, with clause and value of each; none where all were read, or agree with a
+        public text.
     """
-    clauses: dict[str, list[str]] = {}
-    for check in checks:
-        if check.standing.starred:
-            titles = clauses.setdefault(check.clause, [])
-            title = check.title.partition(",")[0]
-            if title not in titles:
-                titles.append(title)
-    said = [f"{clause} ({', '.join(titles)})" for clause, titles in sorted(clauses.items())]
-    if code.damping.standing.starred:
-        said.append(f"{code.damping.source} (damping factors)")
-    said += [f"{rule.clause} (scaling of motions)" for rule in code.scaling[:1]]
+    said = [f"{v.clause} ({v.what})" for v in code.values.values() if v.standing.starred]
     return (f"from memory, not read in the standard: {'; '.join(said)}",) if said else ()
