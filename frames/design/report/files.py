@@ -169,7 +169,8 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
     except OSError as cause:
         msg = f"{folder}: {cause}: `lir run` writes all files anew"
         raise ProjectError(msg) from cause
-    every = (data for each in runs.values() for data in each.values())
+    both = (*runs.values(), *moved.values())
+    every = (data for each in both for data in each.values())
     if any("reached_reaction_force" not in data for data in every):
         version = kept["lir_dcfp_version"]
         msg = (

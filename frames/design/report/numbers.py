@@ -172,7 +172,7 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "reactions" as far as the structure has them (`force_demands`).
     """
     raises = raises_of_runs(run.runs, run.rules, run.equivalent)
-    forces = force_demands(run.runs, run.rules, raises)
+    forces = force_demands(run.runs, run.rules, raises, run.moved)
     return {
         "bearings": bearing_table(run),
         "friction": friction_table(run),
