@@ -62,7 +62,8 @@ def write_run(
         ``demands-by-motion.csv``,
         ``bearings.csv``, ``friction.csv``, ``modes.csv``, ``programme.csv``, ``storeys.csv``,
         ``reactions.csv`` in SI units, and ``members.csv``, ``member-groups.csv`` of a structure
-        with members, ``members-without-forces.csv`` of one with shells or springs;
+        with members, ``members-without-forces.csv`` of one with shells or springs,
+        ``links.csv`` of one with moat walls or dampers;
         ``checks.txt`` with each calculation; ``governing.nc``, the histories of one run;
         ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
         removed.
