@@ -8,9 +8,12 @@ from frames.design.codes.code_values import CodeValue
 from frames.design.project.unchecked import from_memory, unchecked
 
 
-def said(wind: float = 0.0, service: float = 0.0, gap: float | None = None) -> str:
+def said(
+    wind: float = 0.0, service: float = 0.0, gap: float | None = None, moat: object = None
+) -> str:
     above = SimpleNamespace(wind_shear=wind, service_displacement=service)
-    file = SimpleNamespace(superstructure=above, limits=SimpleNamespace(moat_gap=gap))
+    limits = SimpleNamespace(moat_gap=gap)
+    file = SimpleNamespace(superstructure=above, limits=limits, moat=moat)
     return "; ".join(unchecked(file))
 
 
@@ -21,8 +24,10 @@ def test_what_is_not_checked_names_the_key_that_is_missing() -> None:
     assert "wind" not in said(wind=1e5)
     assert "service" not in said(service=0.01)
     assert "moat_gap" not in said(gap=0.5)
+    assert "moat_gap" not in said(moat=SimpleNamespace(gap=0.5))  # the runs have its walls
     assert said(wind=1e5, service=0.01, gap=0.5) == ""
-    bare = unchecked(SimpleNamespace(superstructure=None, limits=SimpleNamespace(moat_gap=0.5)))
+    limits = SimpleNamespace(moat_gap=0.5)
+    bare = unchecked(SimpleNamespace(superstructure=None, limits=limits, moat=None))
     assert "overturning" in bare[0]
 
 

@@ -39,7 +39,7 @@ def unchecked(file: ProjectFile) -> tuple[str, ...]:
             "movements in service: not checked, since no displacement is given ([superstructure] "
             "service_displacement)"
         )
-    if file.limits.moat_gap is None:
+    if file.limits.moat_gap is None and file.moat is None:
         found.append(
             "separation to walls and neighbours: not checked, since no clear distance is given "
             "([limits] moat_gap)"
