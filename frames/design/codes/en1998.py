@@ -368,8 +368,7 @@ def _factor(damping: float) -> float:
 
 
 _LOADS = LoadRule(
-    "EN 1990:2002, 6.4.3.4 and table A1.1*, EN 1998-1:2004, 3.2.4*: psi_2 = 0.3 of dwellings and "
-    "offices, phi = 1; no vertical earthquake in the combinations",
+    VALUES["loads"].clause,
     {"D": 1.0, "L": 0.3, "S": 0.0},
     fixed_combinations(
         {
@@ -378,6 +377,8 @@ _LOADS = LoadRule(
             "minimum": {"D": 1.0, "L": 0.0, "S": 0.0},
         }
     ),
+    VALUES["loads"].standing,
+    "psi_2 = 0.3 of dwellings and offices, phi = 1; no vertical earthquake in the combinations",
 )
 
 CODE = DesignCode(

@@ -317,8 +317,7 @@ def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
 
 
 _LOADS = LoadRule(
-    "NCh433 5.5.1* and NCh2745 8.4* (UBC-97 1661): 25 % of the live load of dwellings and offices "
-    "is mass; no vertical earthquake in the combinations",
+    VALUES["loads"].clause,
     {"D": 1.0, "L": 0.25, "S": 0.0},
     fixed_combinations(
         {
@@ -327,6 +326,9 @@ _LOADS = LoadRule(
             "minimum": {"D": 0.8, "L": 0.0, "S": 0.0},
         }
     ),
+    VALUES["loads"].standing,
+    "as UBC-97 1661, 25 % of the live load of dwellings and offices is mass; no vertical "
+    "earthquake in the combinations",
 )
 
 CODE = DesignCode(

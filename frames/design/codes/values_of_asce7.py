@@ -59,7 +59,7 @@ VALUES = {
         "ASCE 7-22 (17.2-1), (17.2-2)", "75 % of ageing and environment", E031_FACTORS
     ),
     "ends of factors": CodeValue("ASCE 7-22 17.2.8.4", "1.8 and 0.60 without full-scale tests"),
-    "loads": CodeValue("ASCE/SEI 7-22 12.7.2, 17.2.7.1", "seismic mass and combinations"),
+    "loads": CodeValue("ASCE/SEI 7-22, 12.7.2 and 17.2.7.1", "seismic mass and combinations"),
     "number of motions": CodeValue("ASCE 7-22 17.3.3", "7 motions at least"),
     "mean": CodeValue("ASCE 7-22 17.3.3", "the mean counts from 7 motions on", UFC_BNBC),
     "scaling": CodeValue("ASCE 7-22 17.3.3", "RotD100, 0.75 T to 1.25 T"),

@@ -49,7 +49,10 @@ VALUES = {
     "overturning": CodeValue("EN 1998-1 4.4.2.4", "of the whole structure, safety 1.0"),
     "separation": CodeValue("EN 1998-1 10.5.4", "room for gamma_x d_bd around the structure"),
     "factors": CodeValue("EN 1998-2 annexes J and JJ", "factors on friction and psi_f"),
-    "loads": CodeValue("EN 1990 6.4.3.4, EN 1998-1 3.2.4", "seismic mass and combinations"),
+    "loads": CodeValue(
+        "EN 1990:2002, 6.4.3.4 and table A1.1, EN 1998-1:2004, 3.2.4",
+        "seismic mass and combinations",
+    ),
     "number of motions": CodeValue("EN 1998-1 3.2.3.1.2", "3 motions at least"),
     "mean": CodeValue("EN 1998-1 4.3.3.4.3(3)", "the mean counts from 7 motions on"),
     "scaling": CodeValue("EN 1998-1 3.2.3.1.2", "0.9 of the target from 0.2 T to 2 T, 1 at zero"),

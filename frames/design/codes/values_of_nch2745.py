@@ -27,7 +27,7 @@ VALUES = {
     "vertical loads": CodeValue("NCh2745 6.2", "no uplift, pressure of sliders"),
     "overturning": CodeValue("NCh2745 6.2", "of the whole structure, safety 1.0"),
     "orthogonal": CodeValue("NCh2745 6.2", "30 % of the other direction", field="orthogonal"),
-    "loads": CodeValue("NCh433 5.5.1, NCh2745 8.4", "seismic mass and combinations"),
+    "loads": CodeValue("NCh433 5.5.1 and NCh2745 8.4", "seismic mass and combinations"),
     "number of motions": CodeValue("NCh2745 8.4", "3 motions at least"),
     "mean": CodeValue("NCh2745 8.4", "the mean counts from 7 motions on"),
     "scaling": CodeValue("NCh2745 8.4", "SRSS, 1.17 of the target, 0.5 T_D to 1.25 T_M"),

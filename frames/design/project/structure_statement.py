@@ -133,7 +133,7 @@ def _loads(file: ProjectFile, given: LoadsTable) -> Rows:
         rows.append(("facade, along the outer edges", f"{1e-3 * given.facade:.4g} kN/m"))
     found = loads_of(given, rule)
     mass = {} if found is None else found.mass
-    source = rule.clause if given.mass is None else "as the file says"
+    source = rule.cited if given.mass is None else "as the file says"
     rows.append(("seismic mass", f"members, {_sum(mass)} ({source})"))
     for name, factors in rule.combinations(getattr(file.spectrum, "s_ms", None)).items():
         rows.append((f"{name} combination, no horizontal earthquake", _sum(factors)))
