@@ -17,6 +17,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.factor_sources import factors_of_en1998
@@ -188,6 +189,8 @@ class EN1998:
             known = self._known(judge, "drift", "reduction", "behaviour")
             checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="nu * q")
             overturning(t, "M_o", "o")
+            known = self._known(judge, "overturning")
+            checks += overturning_check(t, known, "EN 1998-1 4.4.2.4")
             clause = "EN 15129 8.3, EN 1998-1 10.10"
             known = self._known(judge, "vertical loads")
             checks += vertical_checks(t, system, known, clause, self.pressure_limit)

@@ -18,6 +18,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.history_rules import HistoryRules
@@ -177,6 +178,8 @@ class NCh2745:
             known = self._known(judge, "drift", "R_1", "F_x")
             checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="R_1")
             overturning(t, "M_o", "o")
+            known = self._known(judge, "overturning").at(MAXIMUM)
+            checks += overturning_check(t, known, "NCh2745 6.2")
             at = self._known(judge, "vertical loads").at(MAXIMUM)
             checks += vertical_checks(t, system, at, "NCh2745 6.2", self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
