@@ -20,6 +20,8 @@ from frames.command.designing import propose
 from frames.command.viewing import view
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import pandas as pd
 
     from frames.design.calculation.check import Checks
@@ -89,6 +91,7 @@ def check(file: File = FILE) -> None:
     from frames.design.project.level_runs import said_of_runs
     from frames.design.project.preliminary import preliminary
     from frames.design.project.structure_statement import structure_rows
+    from frames.design.project.unchecked import from_memory, unchecked
     from lir_element.tables import text_table
 
     with told():
@@ -102,6 +105,8 @@ def check(file: File = FILE) -> None:
         _frame_table("Motions", ground.motions.table())
         say(repr(ground.equivalent))
         _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
+        _say_each(unchecked(parts.file))
+        _say_each(from_memory(parts.code()))
         say(f"the file can be run: lir run {file} ({said_of_runs(parts, ground.motions)})")
         if not ground.equivalent.checks.passed:
             raise typer.Exit(FAILED_CHECKS)
@@ -192,6 +197,7 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
         count = sum(data.sizes["run"] for data in every)
         say(f"demands are raised by {count} time histories with moved masses, {seconds:.3g} s")
     _checks("Checks", found.checks)
+    _say_each(found.unchecked)
     say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:
         raise typer.Exit(FAILED_CHECKS)
@@ -292,6 +298,11 @@ def _checks(title: str, checks: Checks) -> None:
         say(f"{each.statement} [{each.clause}]{star}")
     if any(each.standing.starred for each in checks):
         say(LEGEND)
+
+
+def _say_each(sentences: Iterable[str]) -> None:
+    for sentence in sentences:
+        say(sentence)
 
 
 def _frame_table(title: str, frame: pd.DataFrame) -> None:

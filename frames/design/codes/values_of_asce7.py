@@ -49,6 +49,9 @@ VALUES = {
     "regularity": CodeValue("ASCE 7-22 17.4.1", "the structure is regular"),
     "drift": CodeValue("ASCE 7-22 17.5.6", "storey drift at most 0.015", UFC_BNBC, "drift"),
     "vertical loads": CodeValue("ASCE 7-22 17.2.4.6, 17.2.4.7", "no uplift, pressure of sliders"),
+    "overturning": CodeValue("ASCE 7-22 17.2.4.7", "of the whole structure, safety 1.0"),
+    "sliding under wind": CodeValue("ASCE 7-22 17.2.4.2", "wind does not slide the bearings"),
+    "separation": CodeValue("ASCE 7-22 17.2.5.2", "room for D_TM around the structure"),
     "orthogonal": CodeValue(
         "ASCE 7-22 17.2.4.6, 17.2.4.7", "30 % of the other direction", field="orthogonal"
     ),

@@ -46,6 +46,8 @@ VALUES = {
     "reduction": CodeValue("EN 1998-1 4.4.3.2", "nu = 0.5", field="reduction"),
     "orthogonal": CodeValue("EN 1998-1 4.3.3.5", "30 % of the other direction", field="orthogonal"),
     "vertical loads": CodeValue("EN 15129 8.3, EN 1998-1 10.10", "no uplift, pressure of sliders"),
+    "overturning": CodeValue("EN 1998-1 4.4.2.4", "of the whole structure, safety 1.0"),
+    "separation": CodeValue("EN 1998-1 10.5.4", "room for gamma_x d_bd around the structure"),
     "factors": CodeValue("EN 1998-2 annexes J and JJ", "factors on friction and psi_f"),
     "loads": CodeValue(
         "EN 1990:2002, 6.4.3.4 and table A1.1, EN 1998-1:2004, 3.2.4",

@@ -25,6 +25,7 @@ VALUES = {
     "F_x": CodeValue("NCh2745 7.5", "forces over the height by w h"),
     "drift": CodeValue("NCh2745 7.6", "storey drift at most 0.0025", field="drift"),
     "vertical loads": CodeValue("NCh2745 6.2", "no uplift, pressure of sliders"),
+    "overturning": CodeValue("NCh2745 6.2", "of the whole structure, safety 1.0"),
     "orthogonal": CodeValue("NCh2745 6.2", "30 % of the other direction", field="orthogonal"),
     "loads": CodeValue("NCh433 5.5.1 and NCh2745 8.4", "seismic mass and combinations"),
     "number of motions": CodeValue("NCh2745 8.4", "3 motions at least"),

@@ -104,6 +104,7 @@ def report_in(
         doubts=run.doubts,
         legend=LEGEND,
         checks=[judged(check) for check in run.checks],
+        unchecked=run.unchecked,
         limits=[judged(check) for check in run.equivalent.checks if check not in run.checks],
         structure=words.table(
             Table(("of the structure", "as described"), run.structure, frozenset({0, 1}))
