@@ -104,6 +104,7 @@ def test_checks_of_every_code_are_translated(code: str, tmp_path: Path, put_exam
         ("margin; a proposal", "margen; una propuesta"),
         ("1.257e+07", "1,257e+07"),
         ("-0.5", "-0,5"),
+        ("The bearing, type wall, to scale", "El aislador, tipo wall, a escala"),
         ("3 increments, least load, 0.25 D_M", "3 incrementos, carga mínima, 0,25 D_M"),
     ],
 )
