@@ -17,6 +17,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.factor_sources import factors_of_asce7
@@ -214,6 +215,8 @@ class ASCE7:
             self._shears(t, superstructure, spectrum, extremes)
             checks += self._structure_checks(t, superstructure, judge)
             overturning(t, "M_o", "o")
+            known = self._known(judge, "overturning")
+            checks += overturning_check(t, known, "ASCE 7-22 17.2.4.7")
             clause = "ASCE 7-22 17.2.4.6, 17.2.4.7"
             vertical = self._known(judge, "vertical loads")
             checks += vertical_checks(t, system, vertical, clause, self.pressure_limit)

@@ -17,6 +17,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.factor_sources import factors_of_en1998
@@ -26,7 +27,6 @@ from frames.design.codes.load_rules import LoadRule, fixed_combinations
 from frames.design.codes.outcome import BoundResult, Symbols
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest
 from frames.design.codes.registry import (
-    EXAMPLE_UPLIFT,
     MOST_IMPORTANT,
     NO_LIMITS,
     DesignCode,
@@ -189,6 +189,8 @@ class EN1998:
             known = self._known(judge, "drift", "reduction", "behaviour")
             checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="nu * q")
             overturning(t, "M_o", "o")
+            known = self._known(judge, "overturning")
+            checks += overturning_check(t, known, "EN 1998-1 4.4.2.4")
             clause = "EN 15129 8.3, EN 1998-1 10.10"
             known = self._known(judge, "vertical loads")
             checks += vertical_checks(t, system, known, clause, self.pressure_limit)
@@ -365,8 +367,7 @@ def _factor(damping: float) -> float:
 
 
 _LOADS = LoadRule(
-    "EN 1990:2002, 6.4.3.4 and table A1.1*, EN 1998-1:2004, 3.2.4*: psi_2 = 0.3 of dwellings and "
-    "offices, phi = 1; no vertical earthquake in the combinations",
+    VALUES["loads"].clause,
     {"D": 1.0, "L": 0.3, "S": 0.0},
     fixed_combinations(
         {
@@ -375,6 +376,8 @@ _LOADS = LoadRule(
             "minimum": {"D": 1.0, "L": 0.0, "S": 0.0},
         }
     ),
+    VALUES["loads"].standing,
+    "psi_2 = 0.3 of dwellings and offices, phi = 1; no vertical earthquake in the combinations",
 )
 
 CODE = DesignCode(
@@ -441,8 +444,7 @@ CODE = DesignCode(
         {
             "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
             "kind = 1\n",
-            "bearing": example_bearing("2.5 m", 185, 150, 0.04, 0.075),
-            "analysis": EXAMPLE_UPLIFT,
+            "bearing": example_bearing("2 m", 200, 270, 0.04, 0.098, "beyond gamma_x d_bd"),
         },
     ),
 )

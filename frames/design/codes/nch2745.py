@@ -18,6 +18,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.history_rules import HistoryRules
@@ -34,7 +35,6 @@ from frames.design.codes.prototype_programme import (
     wind_test,
 )
 from frames.design.codes.registry import (
-    EXAMPLE_UPLIFT,
     NO_LIMITS,
     DesignCode,
     ExampleProject,
@@ -178,6 +178,8 @@ class NCh2745:
             known = self._known(judge, "drift", "R_1", "F_x")
             checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="R_1")
             overturning(t, "M_o", "o")
+            known = self._known(judge, "overturning").at(MAXIMUM)
+            checks += overturning_check(t, known, "NCh2745 6.2")
             at = self._known(judge, "vertical loads").at(MAXIMUM)
             checks += vertical_checks(t, system, at, "NCh2745 6.2", self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
@@ -314,8 +316,7 @@ def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
 
 
 _LOADS = LoadRule(
-    "NCh433 5.5.1* and NCh2745 8.4* (UBC-97 1661): 25 % of the live load of dwellings and offices "
-    "is mass; no vertical earthquake in the combinations",
+    VALUES["loads"].clause,
     {"D": 1.0, "L": 0.25, "S": 0.0},
     fixed_combinations(
         {
@@ -324,6 +325,9 @@ _LOADS = LoadRule(
             "minimum": {"D": 0.8, "L": 0.0, "S": 0.0},
         }
     ),
+    VALUES["loads"].standing,
+    "as UBC-97 1661, 25 % of the live load of dwellings and offices is mass; no vertical "
+    "earthquake in the combinations",
 )
 
 CODE = DesignCode(
@@ -399,8 +403,7 @@ CODE = DesignCode(
         {"soil": "II", "zone": 3},
         {
             "spectrum": 'soil = "II"\nzone = 3\n',
-            "bearing": example_bearing("1.5 m", 185, 227, 0.04, 0.095),
-            "analysis": EXAMPLE_UPLIFT,
+            "bearing": example_bearing("1.7 m", 200, 420, 0.03, 0.1, "beyond D_TM"),
         },
     ),
 )

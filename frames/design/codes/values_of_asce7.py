@@ -49,6 +49,9 @@ VALUES = {
     "regularity": CodeValue("ASCE 7-22 17.4.1", "the structure is regular"),
     "drift": CodeValue("ASCE 7-22 17.5.6", "storey drift at most 0.015", UFC_BNBC, "drift"),
     "vertical loads": CodeValue("ASCE 7-22 17.2.4.6, 17.2.4.7", "no uplift, pressure of sliders"),
+    "overturning": CodeValue("ASCE 7-22 17.2.4.7", "of the whole structure, safety 1.0"),
+    "sliding under wind": CodeValue("ASCE 7-22 17.2.4.2", "wind does not slide the bearings"),
+    "separation": CodeValue("ASCE 7-22 17.2.5.2", "room for D_TM around the structure"),
     "orthogonal": CodeValue(
         "ASCE 7-22 17.2.4.6, 17.2.4.7", "30 % of the other direction", field="orthogonal"
     ),
@@ -56,7 +59,7 @@ VALUES = {
         "ASCE 7-22 (17.2-1), (17.2-2)", "75 % of ageing and environment", E031_FACTORS
     ),
     "ends of factors": CodeValue("ASCE 7-22 17.2.8.4", "1.8 and 0.60 without full-scale tests"),
-    "loads": CodeValue("ASCE/SEI 7-22 12.7.2, 17.2.7.1", "seismic mass and combinations"),
+    "loads": CodeValue("ASCE/SEI 7-22, 12.7.2 and 17.2.7.1", "seismic mass and combinations"),
     "number of motions": CodeValue("ASCE 7-22 17.3.3", "7 motions at least"),
     "mean": CodeValue("ASCE 7-22 17.3.3", "the mean counts from 7 motions on", UFC_BNBC),
     "scaling": CodeValue("ASCE 7-22 17.3.3", "RotD100, 0.75 T to 1.25 T"),

@@ -24,14 +24,12 @@ from frames.design.histories.eccentricity import named_by_way, raised_suite, wit
 from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.least_shears import LEAST, raise_of, shear_checks
 from frames.design.histories.suite import (
-    audit_notes,
-    contact_notes,
-    left_out_checks,
     names_of,
     parted,
     peaks_of_runs,
     suite_of,
 )
+from frames.design.histories.suite_notes import audit_notes, contact_notes, left_out_checks
 from frames.design.histories.uplift import Uplift
 from frames.statics.overturning import unknown_axial_forces
 

@@ -22,7 +22,8 @@ from frames.design.histories.impacts import (
     slips_of_events,
     uplift_events,
 )
-from frames.design.histories.suite import Suite, left_out_checks
+from frames.design.histories.suite import Suite
+from frames.design.histories.suite_notes import left_out_checks
 from frames.design.histories.uplift import Uplift
 from frames.results.assumption_checks import doubts_of
 from frames.statics.overturning import unknown_axial_forces
