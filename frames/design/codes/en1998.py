@@ -27,7 +27,6 @@ from frames.design.codes.load_rules import LoadRule, fixed_combinations
 from frames.design.codes.outcome import BoundResult, Symbols
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest
 from frames.design.codes.registry import (
-    EXAMPLE_UPLIFT,
     MOST_IMPORTANT,
     NO_LIMITS,
     DesignCode,
@@ -445,8 +444,7 @@ CODE = DesignCode(
         {
             "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
             "kind = 1\n",
-            "bearing": example_bearing("2.5 m", 185, 150, 0.04, 0.075),
-            "analysis": EXAMPLE_UPLIFT,
+            "bearing": example_bearing("2 m", 200, 270, 0.04, 0.098, "beyond gamma_x d_bd"),
         },
     ),
 )

@@ -35,7 +35,6 @@ from frames.design.codes.prototype_programme import (
     wind_test,
 )
 from frames.design.codes.registry import (
-    EXAMPLE_UPLIFT,
     NO_LIMITS,
     DesignCode,
     ExampleProject,
@@ -404,8 +403,7 @@ CODE = DesignCode(
         {"soil": "II", "zone": 3},
         {
             "spectrum": 'soil = "II"\nzone = 3\n',
-            "bearing": example_bearing("1.5 m", 185, 227, 0.04, 0.095),
-            "analysis": EXAMPLE_UPLIFT,
+            "bearing": example_bearing("1.7 m", 200, 420, 0.03, 0.1, "beyond D_TM"),
         },
     ),
 )

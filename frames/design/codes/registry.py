@@ -128,16 +128,11 @@ class ExampleProject(NamedTuple):
 MOST_IMPORTANT = 3.0
 """Largest importance factor [-]; codes have 0.6 to 1.5."""
 
-EXAMPLE_UPLIFT = """level = "pendulum"
-uplift_allowed = true             # corners lift for a moment; without it such runs count as failed
-"""
-"""Section ``[analysis]`` of examples whose code counts runs with uplift as failed."""
-
 
 def example_bearing(
-    radius: str, slider: int, capacity: int, friction: float, interface: float
+    radius: str, slider: int, capacity: int, friction: float, interface: float, why: str
 ) -> str:
-    """Return the section ``[bearing]`` of an example, as ``lir design`` proposes it.
+    """Return the section ``[bearing]`` of an example.
 
     Parameters
     ----------
@@ -147,6 +142,8 @@ def example_bearing(
         Height and radius of the slider, and capacity [mm].
     friction, interface : float
         Of surfaces and interface [-].
+    why : str
+        What the capacity goes by.
 
     Returns
     -------
@@ -154,9 +151,11 @@ def example_bearing(
         The section's lines.
     """
     return (
-        f'radius = "{radius}"\nslider_height = "{slider} mm"\nslider_radius = "{slider} mm"\n'
-        f'capacity = "{capacity} mm"               # displacement at which rims are met\n'
-        f"friction = {friction:g}\ninterface_friction = {interface:g}\n"
+        f'radius = "{radius}"\nslider_height = "{slider} mm"\n'
+        f'slider_radius = "{slider} mm"          # as wide as keeps the resultant on it (e/a)\n'
+        f'capacity = "{capacity} mm"               # displacement at which rims are met: {why}\n'
+        f"friction = {friction:g}\n"
+        f"interface_friction = {interface:g}        # holds until a rim is met\n"
     )
 
 
