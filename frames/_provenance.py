@@ -57,6 +57,7 @@ def numerical_sources() -> dict[str, str]:
     }
 
 
+@cache
 def sources_hash() -> str:
     """Return one digest of all sources that results depend on, 8 hexadecimal digits."""
     return _digest("".join(f"{k} {v}\n" for k, v in numerical_sources().items()).encode())

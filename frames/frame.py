@@ -278,6 +278,10 @@ class Frame(FrameEditor):
 
         frame = cls(building.name if name is None else name)
         fill(frame, building, options)
+        building.account.groups = {
+            name: tuple(label for kind, label in members if kind in {"joint", "link"})
+            for name, members in building.groups.items()
+        }
         frame._imported = building.account
         return frame
 
@@ -315,7 +319,11 @@ class Frame(FrameEditor):
         Path(path).write_text(text, encoding="utf-8", newline="")
 
     def program_tables(
-        self, data: xr.Dataset | Mapping[str, xr.Dataset], *, units: str = "KN, m"
+        self,
+        data: xr.Dataset | Mapping[str, xr.Dataset],
+        *,
+        units: str = "KN, m",
+        stations: int = 3,
     ) -> dict[str, pd.DataFrame]:
         """Return largest and smallest results in the columns of SAP2000's and ETABS' tables.
 
@@ -325,6 +333,8 @@ class Frame(FrameEditor):
             Of `time_history` with this frame; or several by name of the output case.
         units : str
             Units of force and length: "KN, m", "N, m", "N, mm", "Kip, in" or "Kip, ft".
+        stations : int
+            Stations of each member at equal distances, both ends among them.
 
         Returns
         -------
@@ -332,8 +342,8 @@ class Frame(FrameEditor):
             "Joint Displacements", "Joint Reactions", "Base Reactions", "Element Forces - Frames"
             and "Story Drifts", as far as the model has them; `write_tables` writes them as a
             workbook or CSV. A row "Max" and a row "Min" over the recorded steps of each case,
-            whose values are not of one instant; stations at the ends of members, signs by axes
-            1, 2 and 3 (docs/exchange.md).
+            whose values are not of one instant; stations along members, signs by axes 1, 2 and 3
+            (docs/exchange.md).
 
         Raises
         ------
@@ -354,7 +364,7 @@ class Frame(FrameEditor):
         """
         from frames.recording.program_tables import program_tables
 
-        return program_tables(self, data, units=units)
+        return program_tables(self, data, units=units, stations=stations)
 
     @property
     def imported(self) -> Account | None:

@@ -25,11 +25,14 @@ class NonlinearElements(NamedTuple):
     """Nonlinear parts with `m` deformations in all, and how the frame gives way to them.
 
     The force of a deformation is ``k0 d + g``: k0 belongs to the linear structure, and g is what
-    the time loop adds. Committed (old) and trial; changed in place.
+    the time loop adds. What the parts do in a step are their flows: of a link the change of g, of
+    a hinged member the change of the plastic parts of its five deformations, whose forces are
+    ``g = -k0 plastic``. Committed (old) and trial; changed in place.
     """
 
     kind: Array  # (n,) law by number
     first: Array  # (n + 1,) first deformation of each part
+    owner: Array  # (m,) part of each deformation
     par: Array  # (n, constants)
     elastic: Array  # (m,) k0 of parts of one deformation, 0 where it is not of the structure
     stiff: Array  # (m,) elastic stiffness, of hinged members too; 0 of what is put in later
@@ -42,28 +45,37 @@ class NonlinearElements(NamedTuple):
     v: Array
     a_old: Array
     g_old: Array
-    g: Array
     g_before: Array  # one step before the committed one
     change: Array  # (m,) g - g_old
-    guess: Array  # (m,) the same as guessed, from which the deformations of loose parts are
-    slope: Array  # (m, WIDEST) derivatives of g within the part
+    flow: Array  # (m,) flows, of the last step, and as guessed: from these are the deformations
+    flow_old: Array
+    guess: Array
+    give: Array  # (m, WIDEST) derivatives of the flows by the part's deformations
     loose: Array  # (n,) 1 where the force of the step is not linear
     active: Array  # (m,) deformations of loose parts
-    number: Array  # (2,) number of those; number of flexibilities in the pool
+    live: Array  # (m,) those of them that a step of Newton's method changes the flow of
+    place: Array  # (m,) places in the pool
+    number: Array  # (3,) number of active ones; of flexibilities in the pool; of live ones
     known: Array  # (m,) deformation if b rests
     linear: Array  # (m,) deformation if nothing is loose
+    framed: Array  # (m,) deformation that the frame has under the flows
+    way: Array  # (m,) step of Newton's method
     to_b: Array  # (m, n_b) deformations of b and of the modes
     to_e: Array  # (m, n_e)
-    still: Array  # (m, m) static flexibility of what has no mass
+    of_e: Array  # (n_e, m) the same, transposed
+    push_e: Array  # (m, n_e) loads of a flow of 1 on the modes
+    still: Array  # (m, m) deformations by a flow of 1, of what has no mass
     follow: Array  # (halvings, m, n_b) deformations of b with the modes that follow
+    lead: Array  # (halvings, n_b, m) the same, transposed
     slot: Array  # (halvings, m) place in the pool plus one, 0 where there is none
-    pool: Array  # (size, m) rows of the flexibility at a step
+    pool: Array  # (size, m) deformations by a flow of 1, at a step
     load_b: Array  # (n_b,) committed forces g in frame coordinates
     load_e: Array
-    matrix: Array  # (m, m) scratch
+    matrix: Array  # (m * m,) scratch
+    order: Array  # (m,) scratch
     right: Array  # (m, max(n_b, 1)) scratch
-    small: Array  # SCRATCH, of of a hinged member
-    vector: Array  # (2, m) scratch
+    small: Array  # SCRATCH, of a hinged member
+    vector: Array  # (m,) scratch
     modes: Array  # (2, n_e) scratch
     scheme: Array  # (5,) speed over deformation, what is known of it, share of the end, tolerance
     work: Array  # (4,) of yielding, of dampers, of stops; all work on the linear structure [J]
@@ -84,9 +96,14 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Non
     def each() -> Array:
         return np.zeros(m)
 
+    to_b = np.ascontiguousarray(rows @ basis.expand_b)
+    to_e = np.ascontiguousarray(rows @ basis.expand_e)
+    still = np.ascontiguousarray(rows @ basis.shift(rows.T.toarray()))
+
     return NonlinearElements(
         kind=found.kind.copy(),
         first=found.first.copy(),
+        owner=np.repeat(np.arange(n), np.diff(found.first)),
         par=found.par.copy(),
         elastic=found.elastic.copy(),
         stiff=found.own_stiffness(),
@@ -99,29 +116,47 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Non
         v=each(),
         a_old=each(),
         g_old=each(),
-        g=each(),
         g_before=each(),
         change=each(),
+        flow=each(),
+        flow_old=each(),
         guess=each(),
-        slope=np.zeros((m, WIDEST)),
+        give=np.zeros((m, WIDEST)),
         loose=np.zeros(n, np.int64),
         active=np.zeros(m, np.int64),
-        number=np.zeros(2, np.int64),
+        live=np.zeros(m, np.int64),
+        place=np.zeros(m, np.int64),
+        number=np.zeros(3, np.int64),
         known=each(),
         linear=each(),
-        to_b=np.ascontiguousarray(rows @ basis.expand_b),
-        to_e=np.ascontiguousarray(rows @ basis.expand_e),
-        still=np.ascontiguousarray(rows @ basis.shift(rows.T.toarray())),
+        framed=each(),
+        way=each(),
+        to_b=to_b,
+        to_e=to_e,
+        of_e=np.ascontiguousarray(to_e.T),
+        push_e=_pushed(found, to_e),
+        still=_pushed(found, still),
         follow=np.zeros((sizes, m, n_b)),
+        lead=np.zeros((sizes, n_b, m)),
         slot=np.zeros((sizes, m), np.int64),
         pool=np.zeros((pool, m)),
         load_b=np.zeros(n_b),
         load_e=np.zeros(n_e),
-        matrix=np.zeros((m, m)),
+        matrix=np.zeros(m * m),
+        order=np.zeros(m, np.int64),
         right=np.zeros((m, max(n_b, 1))),
         small=np.zeros(SCRATCH),
-        vector=np.zeros((2, m)),
+        vector=each(),
         modes=np.zeros((2, n_e)),
         scheme=np.zeros(5),
         work=np.zeros(4),
     )
+
+
+def _pushed(found: NonlinearParts, rows: Array) -> Array:
+    # Rows of deformations as rows of flows: a plastic deformation p of a member is a force -k0 p.
+    out = rows.copy()
+    for k in range(len(found.links), len(found.kind)):
+        own = slice(found.first[k], found.first[k + 1])
+        out[own] = -found.par[k, :25].reshape(5, 5).T @ rows[own]
+    return out

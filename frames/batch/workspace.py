@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from frames.batch.batch_dataset import Layout, layout_of
-from frames.kernel_data import Ground, IntegrationState, output_arrays, run_arrays
+from frames.kernel_data import Ground, output_arrays
 from frames.kernels.integration import record
-from frames.nonlinear_data import NonlinearElements, part_sizes
+from frames.nonlinear_data import part_sizes
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.force_rows import force_maps
 from frames.recording.force_tracking import ForceTracker
@@ -20,10 +19,10 @@ from frames.recording.recording import require_known
 from frames.recording.reduction import Findings, judgeable_of, reduced, with_other_findings
 from frames.recording.size import bytes_of_step, bytes_over_time
 from frames.results.peak_response import Extreme
+from frames.statics.fresh_runs import restart, with_own_arrays
 from frames.statics.gravity import gravity
 from frames.statics.model_traits import plane_coupling
 from frames.statics.resultants import Plausibility
-from lir_element.bundles.contact_data import Contacts, detached
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -42,8 +41,6 @@ ROWS_BYTES = 6e6
 """Memory of the steps between two emptyings [bytes]: they shall be found in the processor's own."""
 
 FEWEST_ROWS, MOST_ROWS = 16, 1024
-_REMADE = frozenset({"reduced", "inverse_e", "follow_e", "lead_e", "follow", "pool"})
-# of step sizes: the loop makes them again, as `has_reduced` says
 
 
 class Structure(NamedTuple):
@@ -132,28 +129,12 @@ class Workspace:
     """
 
     def __init__(self, structure: Structure) -> None:
-        state = structure.state
-        own: dict[str, Any] = {"run": run_arrays(state.model)}
-        if state.contacts is not None:
-            own["contacts"] = detached(state.contacts)
-        if state.parts is not None:
-            own["parts"] = NonlinearElements(*(array.copy() for array in state.parts))
         self.structure = structure
-        self.state = replace(state, **own)
+        self.state = with_own_arrays(structure.state, structure.state.seconds)
 
     def reset(self) -> GravityState:
         """Return the state under gravity, in this workspace's arrays."""
-        shared = self.structure.state
-        pairs: list[tuple[IntegrationState | Contacts | NonlinearElements | None, Any]] = [
-            (self.state.run, shared.run),
-            (self.state.contacts, shared.contacts),
-            (self.state.parts, shared.parts),
-        ]
-        spared = frozenset() if shared.run.has_reduced.any() else _REMADE
-        for mine, theirs in pairs:
-            for name in () if mine is None else mine._fields:
-                if name not in spared:
-                    getattr(mine, name)[...] = getattr(theirs, name)
+        restart(self.state, self.structure.state)
         return self.state
 
 

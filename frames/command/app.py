@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -29,6 +30,7 @@ from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way, recommended, ways_to_run
 from frames.design.project.structure_statement import structure_rows
+from frames.design.project.unchecked import from_memory, unchecked
 from frames.design.report.tables import rows_of
 from lir_element.errors import AnalysisInterrupted
 from lir_element.results.dataset import package_version
@@ -90,6 +92,7 @@ def check(file: File = FILE) -> None:
     with told():
         parts = _parts(file)
         ground = preliminary(parts)
+        say(parts.code().cited)
         say(text_table(structure_rows(parts.file, ground.frame), left=2))
         for kind, columns in columns_by_type(ground.types).items():
             say(f"type {kind}: {', '.join(columns)}")
@@ -97,6 +100,8 @@ def check(file: File = FILE) -> None:
         _frame_table("Motions", ground.motions.table())
         say(repr(ground.equivalent))
         _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
+        _say_each(unchecked(parts.file))
+        _say_each(from_memory(parts.code()))
         say(f"the file can be run: lir run {file} ({said_of_runs(parts, ground.motions)})")
         if not ground.equivalent.checks.passed:
             raise typer.Exit(FAILED_CHECKS)
@@ -117,6 +122,7 @@ def run(
     with told():
         try:
             parts = _parts(file)
+            say(parts.code().cited)
             say(said_of_runs(parts, parts.motions()))
             found = run_project(parts, progress=True, resume=results / UNFINISHED)
         except AnalysisInterrupted as stop:
@@ -179,6 +185,7 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
         count = sum(data.sizes["run"] for data in every)
         say(f"demands are raised by {count} time histories with moved masses, {seconds:.3g} s")
     _checks("Checks", found.checks)
+    _say_each(found.unchecked)
     say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:
         raise typer.Exit(FAILED_CHECKS)
@@ -267,6 +274,11 @@ def _checks(title: str, checks: Checks) -> None:
         say(f"{each.statement} [{each.clause}]{star}")
     if any(each.standing.starred for each in checks):
         say(LEGEND)
+
+
+def _say_each(sentences: Iterable[str]) -> None:
+    for sentence in sentences:
+        say(sentence)
 
 
 def _frame_table(title: str, frame: pd.DataFrame) -> None:

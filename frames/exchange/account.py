@@ -61,6 +61,7 @@ class Account:
             raise TypeError(message)
         self.file, self.allow = file, frozenset(allow)
         self.entries: list[Entry] = []
+        self.groups: dict[str, tuple[str, ...]] = {}  # joints and links by group
         self._used: set[str] = set()
 
     def __str__(self) -> str:

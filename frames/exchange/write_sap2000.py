@@ -9,27 +9,22 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.exchange.geometry import frame_axes
-from frames.exchange.pendulum_link import pendulum_link
 from frames.exchange.units import units_of
+from frames.exchange.write_links import LinkWriter
+from frames.exchange.write_loads import LoadWriter
+from frames.exchange.write_s2k_text import text_of as text_of
 from frames.model.axes import default_up
 from frames.model.components import DOFS
-from frames.model.floors import members_at, panel_loads
-from frames.statics.gravity import gravity
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
-    from frames.model.components import BearingLink, Member
+    from frames.exchange.write_s2k_text import Tables, Value
+    from frames.model.components import Member
     from frames.model.frame_data import FrameData
     from frames.model.sections import Section
 
-Value = str | float | int | bool
-Tables = dict[str, list[dict[str, Value]]]
-
 _HELD = ("U1", "U2", "U3", "R1", "R2", "R3")
 _WORDS = {"T": "T", "My": "M3", "Mz": "M2"}
-_FORCES = ("F1", "F2", "F3", "M1", "M2", "M3")
-_KINDS = {"D": "Dead", "L": "Live", "S": "Snow"}
-_DEAD = "D"
 
 
 class Writer:
@@ -89,7 +84,9 @@ class Writer:
                 {"ProgramName": "SAP2000", "Version": "20.0.0", "CurrUnits": self.words}
             ],
         }
-        for part in (self._joints(), self._members(), self._loads(), self._links()):
+        loads = LoadWriter(self.frame, self.units, self._true)
+        links = LinkWriter(self.frame, self.displacement, self.units)
+        for part in (self._joints(), self._members(), loads.tables(), links.tables()):
             for name, rows in part.items():
                 found.setdefault(name, []).extend(rows)
         return {name: rows for name, rows in found.items() if rows}
@@ -256,245 +253,3 @@ class Writer:
         second = up - (up @ axes[0]) * axes[0]
         turned = math.degrees(math.atan2(float(second @ axes[2]), float(second @ axes[1])))
         return turned if abs(turned) > 1e-9 else 0.0
-
-    def _loads(self) -> Tables:
-        frame, units = self.frame, self.units
-        names = sorted({_DEAD, *frame.load_cases, *frame.mass_source})
-        patterns: list[dict[str, Value]] = [
-            {
-                "LoadPat": name,
-                "DesignType": _KINDS.get(name, "Other"),
-                "SelfWtMult": 0,
-            }
-            for name in names
-        ]
-        head: dict[str, Value] = {"MassSource": "MSSSRC1", "Elements": True, "Masses": True}
-        head["IsDefault"] = True
-        shares = {k: v for k, v in frame.mass_source.items() if v}
-        source: list[dict[str, Value]] = [
-            head | {"Loads": True, "LoadPat": name, "Multiplier": share}
-            for name, share in shares.items()
-        ] or [head | {"Loads": False}]
-        at = self._weights()
-        if shares.get(_DEAD) and at:
-            message = (
-                "masses and members that weigh cannot be written where dead loads are masses as "
-                "well: give add_mass(..., weighs=False), sections of density 0, and their weights "
-                "as loads"
-            )
-            raise ModelError(message)
-        for node, cases in frame.loads_by_case.items():
-            for case, forces in cases.items():
-                at[node, case] = at.get((node, case), np.zeros(6)) + forces
-        lines = self._lines(at)
-        scale = np.array([units.force] * 3 + [units.moment] * 3)
-        joints: list[dict[str, Value]] = [
-            {"Joint": node, "LoadPat": case, "CoordSys": "GLOBAL"}
-            | {word: float(v) for word, v in zip(_FORCES, forces / scale, strict=True)}
-            for (node, case), forces in at.items()
-        ]
-        return {
-            "LOAD PATTERN DEFINITIONS": patterns,
-            "MASS SOURCE": source,
-            "JOINT LOADS - FORCE": joints,
-            "FRAME LOADS - DISTRIBUTED": lines,
-        }
-
-    def _weights(self) -> dict[tuple[str, str], FloatArray]:
-        # What masses and members weigh, at the nodes where their mass is.
-        frame = self.frame
-        weight: dict[str, float] = {}
-        for node, values in frame.masses.items():
-            none = frame.weightless_masses.get(node, np.zeros(6))
-            weight[node] = float(values[2] - none[2])
-        for member in frame.members.values():
-            half = 0.5 * member.section.density * member.section.area * self._true(member)
-            for node in (member.i, member.j):
-                weight[node] = weight.get(node, 0.0) + half
-        scale = frame.gravity * frame.weight_factor
-        return {
-            (node, _DEAD): np.array([0.0, 0.0, -scale * mass, 0.0, 0.0, 0.0])
-            for node, mass in weight.items()
-            if mass
-        }
-
-    def _lines(self, at: dict[tuple[str, str], FloatArray]) -> list[dict[str, Value]]:
-        frame = self.frame
-        found: list[dict[str, Value]] = []
-        for name, cases in frame.uniform_loads_by_case.items():
-            for case, load in cases.items():
-                found += self._line(name, case, (0.0, 1.0), load, load)
-        spans = [(name, x) for name, loads in frame.tapered_loads.items() for x in loads]
-        around = members_at(frame.members) if frame.floor_loads else {}
-        for panel in frame.floor_loads.values():
-            parts = panel_loads(frame.nodes, around, panel)
-            spans += parts.members
-            for node, forces in parts.nodes:
-                key = (node, panel.case)
-                at[key] = at.get(key, np.zeros(6)) + forces
-        for name, part in spans:
-            length = self._true(frame.members[name])
-            where = (part.a / length, part.b / length)
-            start, end = np.array(part.start), np.array(part.end)
-            found += self._line(name, part.case, where, start, end)
-        return found
-
-    def _line(
-        self,
-        name: str,
-        case: str,
-        where: tuple[float, float],
-        start: FloatArray,
-        end: FloatArray,
-    ) -> list[dict[str, Value]]:
-        # A row for each direction; per length between the joints, as SAP2000 counts it.
-        member = self.frame.members[name]
-        whole = math.dist(*(self.frame.nodes[n].position for n in (member.i, member.j)))
-        scale = self._true(member) / whole / self.units.line
-        return [
-            {
-                "Frame": name,
-                "LoadPat": case,
-                "CoordSys": "GLOBAL",
-                "Type": "Force",
-                "Dir": word,
-                "DistType": "RelDist",
-                "RelDistA": where[0],
-                "RelDistB": where[1],
-                "FOverLA": float(start[axis]) * scale,
-                "FOverLB": float(end[axis]) * scale,
-            }
-            for axis, word in enumerate("XYZ")
-            if start[axis] or end[axis]
-        ]
-
-    def _links(self) -> Tables:
-        found: Tables = {
-            name: []
-            for name in (
-                "LINK PROPERTY DEFINITIONS 01 - GENERAL",
-                "LINK PROPERTY DEFINITIONS 02 - LINEAR",
-                "LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR",
-                "CONNECTIVITY - LINK",
-                "LINK PROPERTY ASSIGNMENTS",
-            )
-        }
-        for spring in self.frame.springs.values():
-            kind, prop = "Linear", f"K-{spring.name}"
-            self._connect(found, spring.name, (spring.i, spring.j), kind, prop)
-            self._spring(found, prop, spring.i, spring.j, spring.stiffness)
-        if self.frame.bearings:
-            state = gravity(self.frame)
-            loads = dict(
-                zip((b.name for b in state.system.bearings), state.axial_forces, strict=True)
-            )
-            for part in self.frame.bearings.values():
-                self._bearing(found, part, float(loads[part.name]))
-        return found
-
-    def _connect(
-        self, found: Tables, name: str, ends: tuple[str, str], kind: str, prop: str
-    ) -> None:
-        found["LINK PROPERTY DEFINITIONS 01 - GENERAL"].append(
-            {"Link": prop, "LinkType": kind, "Mass": 0, "Weight": 0}
-        )
-        found["CONNECTIVITY - LINK"].append({"Link": name, "JointI": ends[0], "JointJ": ends[1]})
-        row: dict[str, Value] = {"Link": name, "LinkType": kind, "LinkJoints": "TwoJoint"}
-        found["LINK PROPERTY ASSIGNMENTS"].append(row | {"LinkProp": prop})
-
-    def _spring(
-        self, found: Tables, prop: str, i: str, j: str, stiffness: tuple[float, ...]
-    ) -> None:
-        ends = [np.array(self.frame.nodes[n].position) for n in (i, j)]
-        upright = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-        apart = float(np.linalg.norm(ends[1] - ends[0])) > 1e-6
-        axes = frame_axes(ends[0], ends[1]) if apart else upright
-        if float(np.abs(axes).max(axis=1).min()) < 1.0 - 1e-9:
-            message = (
-                f'spring "{prop.removeprefix("K-")}" joins nodes that are apart across global '
-                "axes, which a link in its own axes cannot be: join nodes along X, Y or Z"
-            )
-            raise ModelError(message)
-        for k in range(6):
-            axis = int(np.abs(axes[k % 3]).argmax())
-            value = stiffness[axis + (3 if k >= 3 else 0)]
-            word, unit = ("Trans", self.units.line) if k < 3 else ("Rot", self.units.moment)
-            if value:
-                row: dict[str, Value] = {"Link": prop, "DOF": _HELD[k], "Fixed": False}
-                row |= {f"{word}KE": value / unit, f"{word}CE": 0}
-                found["LINK PROPERTY DEFINITIONS 02 - LINEAR"].append(row)
-
-    def _bearing(self, found: Tables, part: BearingLink, load: float) -> None:
-        assert self.displacement is not None  # noqa: S101  # refused before
-        if load <= 0.0:
-            message = (
-                f'bearing "{part.name}" carries {load:g} N under the permanent loads: a link has '
-                "no effective stiffness without a compression"
-            )
-            raise ModelError(message)
-        link, units = pendulum_link(part.bearing, load, self.displacement), self.units
-        prop = f"FP-{part.name}"
-        self._connect(found, part.name, (part.i, part.j), "Friction Isolator", prop)
-        rows = found["LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR"]
-        rows.append(
-            {
-                "Link": prop,
-                "DOF": "U1",
-                "Fixed": False,
-                "NonLinear": True,
-                "TransKE": link.vertical / units.line,
-                "TransCE": 0,
-                "TransK": link.vertical / units.line,
-                "TransC": 0,
-            }
-        )
-        rows += [
-            {
-                "Link": prop,
-                "DOF": dof,
-                "Fixed": False,
-                "NonLinear": True,
-                "TransKE": link.effective / units.line,
-                "TransCE": link.damping / units.line,
-                "DJ": 0,
-                "TransK": link.elastic / units.line,
-                "Slow": link.slow,
-                "Fast": link.fast,
-                "Rate": link.rate * units.length,
-                "Radius": link.radius / units.length,
-            }
-            for dof in ("U2", "U3")
-        ]
-
-
-def text_of(tables: Tables) -> str:
-    """Return tables as the text that SAP2000 imports.
-
-    Parameters
-    ----------
-    tables : dict of str to list of dict
-        Rows by table.
-
-    Returns
-    -------
-    str
-        The text.
-    """
-    lines = ["File written by lir-dcfp", " "]
-    for name, rows in tables.items():
-        lines.append(f'TABLE:  "{name}"')
-        lines += ["   " + "   ".join(f"{k}={_text(v)}" for k, v in row.items()) for row in rows]
-        lines.append(" ")
-    return "\r\n".join([*lines, "END TABLE DATA", ""])
-
-
-def _text(value: Value) -> str:
-    if isinstance(value, bool):
-        return "Yes" if value else "No"
-    if isinstance(value, float):
-        return repr(float(value))
-    words = str(value)
-    if '"' in words:
-        message = f"the name {words!r} has a quotation mark, which SAP2000's text cannot hold"
-        raise ModelError(message)
-    return f'"{words}"' if not words or " " in words or "=" in words else words

@@ -38,28 +38,32 @@ def surface(par: Floats, at: int, sigma: Floats, first: Floats, second: Floats) 
     Sets its gradient `first` (3,) and its second derivatives `second` (3, 3).
     """
     c = _CORNER
-    a = (sigma[0] - par[at + 3]) * par[at]
     x, y = sigma[1] * par[at + 1], sigma[2] * par[at + 2]
     size = math.sqrt(x * x + y * y + c * c)
     scale = 1.0 / (math.sqrt(1.0 + c * c) - c)
-    half = 0.5 * par[at + 4]
-    square = a * a + c * c
-    power = square ** (half - 1.0)
-    axial = 1.0 / ((1.0 + c * c) ** half - c ** (2.0 * half))
-    value = scale * (size - c) + axial * (power * square - c ** (2.0 * half)) - 1.0
-    first[0] = axial * 2.0 * half * a * power * par[at]
-    first[1] = scale * x / size * par[at + 1]
-    first[2] = scale * y / size * par[at + 2]
+    value = scale * (size - c) - 1.0
     for p in range(3):
         for q in range(3):
             second[p, q] = 0.0
-    bend = 2.0 * half * axial * power * (1.0 + 2.0 * (half - 1.0) * a * a / square)
-    second[0, 0] = bend * par[at] * par[at]
+    first[0] = 0.0
+    first[1] = scale * x / size * par[at + 1]
+    first[2] = scale * y / size * par[at + 2]
     cube = scale / (size * size * size)
     second[1, 1] = cube * (y * y + c * c) * par[at + 1] * par[at + 1]
     second[2, 2] = cube * (x * x + c * c) * par[at + 2] * par[at + 2]
     second[1, 2] = -cube * x * y * par[at + 1] * par[at + 2]
     second[2, 1] = second[1, 2]
+    if par[at] > 0.0:  # the axial force is limited, too
+        a = (sigma[0] - par[at + 3]) * par[at]
+        half = 0.5 * par[at + 4]
+        square = a * a + c * c
+        power = square ** (half - 1.0)
+        least = c ** (2.0 * half)
+        axial = 1.0 / ((1.0 + c * c) ** half - least)
+        value += axial * (power * square - least)
+        first[0] = axial * 2.0 * half * a * power * par[at]
+        bend = 2.0 * half * axial * power * (1.0 + 2.0 * (half - 1.0) * a * a / square)
+        second[0, 0] = bend * par[at] * par[at]
     return value
 
 
@@ -81,16 +85,17 @@ def is_outside(par: Floats, at: int, sigma: Floats, w: Floats) -> bool:
 @kernel
 def set_forces(par: Floats, p: Floats, d: Floats, s: Floats) -> None:
     """Set the member's five forces from its deformations and the plastic parts of its hinges."""
+    e_0, e_1, e_2 = d[0] - p[0] - p[3], d[1] - p[2], d[2] - p[5]  # places of `place`
+    e_3, e_4 = d[3] - p[1], d[4] - p[4]
     for a in range(5):
-        s[a] = par[25 + a]
-    for c in range(5):
-        elastic = d[c]
-        for hinge in range(2):
-            for part in range(3):
-                if place(hinge, part) == c:
-                    elastic -= p[3 * hinge + part]
-        for a in range(5):
-            s[a] += par[5 * a + c] * elastic
+        at = 5 * a
+        s[a] = par[25 + a] + (
+            par[at] * e_0
+            + par[at + 1] * e_1
+            + par[at + 2] * e_2
+            + par[at + 3] * e_3
+            + par[at + 4] * e_4
+        )
 
 
 @kernel
@@ -111,44 +116,100 @@ def stress_slope(par: Floats, h: int, i: int, g: int, j: int) -> float:
 
 
 @kernel
+def count_unknowns(par: Floats, on: Floats) -> int:
+    """Return how many unknowns the hinges that are on have: parts of limited force, multipliers."""
+    count = 0
+    for h in range(2):
+        if on[h] > 0.0:
+            count += 1
+            for i in range(3):
+                if par[HINGE + STRIDE * h + i] > 0.0:
+                    count += 1
+    return count
+
+
+@kernel
+def set_row(
+    par: Floats, on: Floats, h: int, push: Floats, i: int, own: float, mixed: float, row: Floats
+) -> None:
+    """Set a row of the Jacobian: 1 on part `i` of hinge h (none below 0), ``push`` on all stresses.
+
+    `own` stands for the multiplier of hinge h, `mixed` times `push` for each stress of it.
+    """
+    at, c = HINGE + STRIDE * h, 0
+    for g in range(2):
+        if on[g] == 0.0:
+            continue
+        for j in range(3):
+            if par[HINGE + STRIDE * g + j] == 0.0:
+                continue
+            total = 1.0 if g == h and j == i else 0.0
+            for q in range(3):
+                if par[at + q] > 0.0:
+                    total += mixed * push[q] * stress_slope(par, h, q, g, j)
+            row[c] = total
+            c += 1
+        row[c] = own if g == h else 0.0
+        c += 1
+
+
+@kernel
 def set_system(
     par: Floats, old: Floats, p: Floats, lam: Floats, on: Floats, d: Floats, w: Floats
 ) -> float:
-    """Set Jacobian ``w[:8, :8]`` and residual ``w[:8, 8]`` of both hinges; returns the error.
+    """Set Jacobian ``w[:n, :n]`` and residual ``w[:n, 8]`` of the hinges; returns the error.
 
-    Unknowns are the six plastic increments and both multipliers; what is off rests.
+    Unknowns of a hinge that is on are the plastic parts whose forces are limited, then its
+    multiplier; n is `count_unknowns`.
     """
     s, sigma, first, second = w[9, :5], w[10, :3], w[11:13, :3], w[13:16, :3]
     set_forces(par, p, d, s)
-    error = 0.0
-    for a in range(8):
-        for c in range(9):
-            w[a, c] = 0.0
-        w[a, a] = 1.0
+    error, row = 0.0, 0
     for h in range(2):
         if on[h] == 0.0:
             continue
         at = HINGE + STRIDE * h
         set_stress(par, h, p, s, sigma)
         value = surface(par, at, sigma, first[h], second)
-        w[6 + h, 6 + h] = 0.0
-        w[6 + h, 8] = value
         error = max(error, abs(value))
         for i in range(3):
-            row = 3 * h + i
-            w[row, 8] = p[row] - old[row] - lam[h] * first[h, i]
-            w[row, 6 + h] = -first[h, i]
-            error = max(error, abs(w[row, 8]) * stress_slope(par, h, i, h, i) * par[at + i])
-            for g in range(2):
-                if on[g] == 0.0:
-                    continue
-                for j in range(3):
-                    for q in range(3):
-                        slope = stress_slope(par, h, q, g, j)
-                        w[row, 3 * g + j] += lam[h] * second[i, q] * slope
-                        if i == 0:
-                            w[6 + h, 3 * g + j] -= first[h, q] * slope
+            if par[at + i] == 0.0:
+                continue
+            lack = p[3 * h + i] - old[3 * h + i] - lam[h] * first[h, i]
+            error = max(error, abs(lack) * stress_slope(par, h, i, h, i) * par[at + i])
+            set_row(par, on, h, second[i], i, -first[h, i], lam[h], w[row])
+            w[row, 8] = lack
+            row += 1
+        set_row(par, on, h, first[h], -1, 0.0, -1.0, w[row])
+        w[row, 8] = value
+        row += 1
     return error
+
+
+@kernel
+def go_on(
+    par: Floats,
+    on: Floats,
+    back: Floats,
+    step: Floats,
+    factor: float,
+    new: Floats,
+    lam: Floats,
+) -> None:
+    """Set plastic parts and multipliers of the hinges that are on to ``back + factor * step``.
+
+    `back` (8,) are those of all parts and multipliers, `step` (n,) is that of the unknowns.
+    """
+    row = 0
+    for h in range(2):
+        if on[h] == 0.0:
+            continue
+        for i in range(3):
+            if par[HINGE + STRIDE * h + i] > 0.0:
+                new[3 * h + i] = back[3 * h + i] + factor * step[row]
+                row += 1
+        lam[h] = back[N_PLASTIC + h] + factor * step[row]
+        row += 1
 
 
 @kernel
@@ -157,6 +218,7 @@ def return_map(
 ) -> bool:
     """Find the plastic parts of the hinges that are on; returns whether that succeeded."""
     step, back = w[16, :8], w[17, :8]
+    count = count_unknowns(par, on)
     for a in range(N_PLASTIC):
         new[a] = old[a]
     lam[0], lam[1] = 0.0, 0.0
@@ -164,17 +226,16 @@ def return_map(
     for _ in range(_MOST):
         if error <= _TOLERANCE:
             return True
-        for a in range(8):
+        for a in range(count):
             step[a] = -w[a, 8]
-            back[a] = new[a] if a < N_PLASTIC else lam[a - N_PLASTIC]
-        if not solve_many(w, step.reshape((8, 1)), 8, 1):
+        for a in range(N_PLASTIC):
+            back[a] = new[a]
+        back[N_PLASTIC], back[N_PLASTIC + 1] = lam[0], lam[1]
+        if not solve_many(w, step.reshape((8, 1)), count, 1):
             return False
         factor, found = 1.0, math.inf
         for _ in range(_TRIES):
-            for a in range(N_PLASTIC):
-                new[a] = back[a] + factor * step[a]
-            for h in range(2):
-                lam[h] = back[N_PLASTIC + h] + factor * step[N_PLASTIC + h]
+            go_on(par, on, back, step, factor, new, lam)
             found = set_system(par, old, new, lam, on, d, w)
             if found < error:
                 break
@@ -186,13 +247,13 @@ def return_map(
 
 
 @kernel
-def hinged_member(
-    par: Floats, old: Floats, new: Floats, d: Floats, g: Floats, slope: Floats, w: Floats
+def turn_hinges(
+    par: Floats, old: Floats, new: Floats, d: Floats, flow: Floats, give: Floats, w: Floats
 ) -> int:
-    """Set the forces `g` beyond the elastic ones and their derivatives `slope` (5, 5).
+    """Set the changes `flow` of the plastic parts of the five deformations, and derivatives `give`.
 
-    Returns 0 where nothing yields, 1 where a hinge does, -1 where no state was found. `w` (18, 16)
-    is scratch.
+    Returns 0 where nothing yields, and neither is set; 1 where a hinge does, -1 where no state was
+    found. `w` (18, 16) is scratch.
     """
     s, sigma, on, lam = w[9, :5], w[10, :3], w[17, 8:10], w[17, 10:12]
     for k in range(old.shape[0]):
@@ -200,25 +261,52 @@ def hinged_member(
     yields = 0
     set_forces(par, old, d, s)
     for h in range(2):
-        set_stress(par, h, old, s, sigma)
         on[h] = 0.0
         at = HINGE + STRIDE * h
-        if par[at + 8] > 0.0 and is_outside(par, at, sigma, w):
-            on[h], yields = 1.0, 1
-    if yields and not settle_hinges(par, old, new, lam, on, d, w):
+        if par[at + 8] > 0.0:
+            set_stress(par, h, old, s, sigma)
+            if is_outside(par, at, sigma, w):
+                on[h], yields = 1.0, 1
+    if yields == 0:
+        return 0
+    if not settle_hinges(par, old, new, lam, on, d, w):
         return -1
+    set_give(par, old, new, lam, on, d, give, w)
+    for c in range(5):
+        flow[c] = 0.0
+    for h in range(2):
+        for part in range(3):
+            flow[place(h, part)] += new[3 * h + part] - old[3 * h + part]
+        turn = math.hypot(new[3 * h + 1] - old[3 * h + 1], new[3 * h + 2] - old[3 * h + 2])
+        new[N_PLASTIC + h] = old[N_PLASTIC + h] + turn
+    return 1
+
+
+@kernel
+def hinged_member(
+    par: Floats, old: Floats, new: Floats, d: Floats, g: Floats, slope: Floats, w: Floats
+) -> int:
+    """Set the forces `g` beyond the elastic ones and their derivatives `slope` (5, 5).
+
+    Returns what `turn_hinges` does.
+    """
+    flow, column = w[8, :5], w[8, 5:10]
     for a in range(5):
-        g[a] = 0.0
         for c in range(5):
             slope[a, c] = 0.0
+    yields = turn_hinges(par, old, new, d, flow, slope, w)
+    for a in range(5):
+        g[a] = 0.0
         for h in range(2):
             for part in range(3):
                 g[a] -= par[5 * a + place(h, part)] * new[3 * h + part]
-    if yields:
-        set_slope(par, old, new, lam, on, d, slope, w)
-        for h in range(2):
-            turn = math.hypot(new[3 * h + 1] - old[3 * h + 1], new[3 * h + 2] - old[3 * h + 2])
-            new[N_PLASTIC + h] = old[N_PLASTIC + h] + turn
+    for c in range(5):
+        for a in range(5):
+            column[a] = slope[a, c]
+        for a in range(5):
+            slope[a, c] = 0.0
+            for q in range(5):
+                slope[a, c] -= par[5 * a + q] * column[q]
     return yields
 
 
@@ -248,39 +336,50 @@ def settle_hinges(
 
 
 @kernel
-def set_slope(
+def set_give(
     par: Floats,
     old: Floats,
     p: Floats,
     lam: Floats,
     on: Floats,
     d: Floats,
-    slope: Floats,
+    give: Floats,
     w: Floats,
 ) -> None:
-    """Set the derivatives of the forces beyond the elastic ones by the five deformations."""
+    """Set the derivatives of the plastic parts of the five deformations by these."""
     set_system(par, old, p, lam, on, d, w)
-    right = w[:8, 9:14]
+    right, count = w[:8, 9:14], count_unknowns(par, on)
     first, second = w[11:13, :3], w[13:16, :3]
     sigma, s = w[16, :3], w[17, :5]
     set_forces(par, p, d, s)
-    for a in range(8):
-        for c in range(5):
-            right[a, c] = 0.0
+    row = 0
     for h in range(2):
         if on[h] == 0.0:
             continue
+        at = HINGE + STRIDE * h
         set_stress(par, h, p, s, sigma)
-        surface(par, HINGE + STRIDE * h, sigma, first[h], second)
-        for c in range(5):
-            for q in range(3):
-                stiff = par[5 * place(h, q) + c]
-                right[6 + h, c] -= first[h, q] * stiff
-                for i in range(3):
-                    right[3 * h + i, c] += lam[h] * second[i, q] * stiff
-    solve_many(w, right, 8, 5)
+        surface(par, at, sigma, first[h], second)
+        for i in range(4):
+            if i < 3 and par[at + i] == 0.0:
+                continue
+            for c in range(5):
+                total = 0.0
+                for q in range(3):
+                    push = lam[h] * second[i, q] if i < 3 else -first[h, q]
+                    total += push * par[5 * place(h, q) + c]
+                right[row, c] = total
+            row += 1
+    solve_many(w, right, count, 5)
+    row = 0
     for a in range(5):
         for c in range(5):
-            for h in range(2):
-                for part in range(3):
-                    slope[a, c] -= par[5 * a + place(h, part)] * right[3 * h + part, c]
+            give[a, c] = 0.0
+    for h in range(2):
+        if on[h] == 0.0:
+            continue
+        for i in range(3):
+            if par[HINGE + STRIDE * h + i] > 0.0:
+                for c in range(5):
+                    give[place(h, i), c] += right[row, c]
+                row += 1
+        row += 1

@@ -13,9 +13,10 @@ from frames.kernels.coupling import coupled_load, eliminate_modes
 from frames.kernels.effective import effective, rates_after
 from frames.kernels.energy_balance import add_bearing_energy, add_energy, add_part_energy
 from frames.kernels.nonlinear_works import commit_parts
+from frames.kernels.part_states import set_part_follow
 from frames.kernels.step_error import is_rough, keep_motion
 from frames.kernels.stepping import commit_bearings, newton, predict
-from frames.kernels.yielding import begin_parts, part_load_on_modes, set_part_follow
+from frames.kernels.yielding import begin_parts, part_load_on_modes
 from lir_element.errors import RunStatus
 from lir_element.kernels.linear import add_product, set_product
 from lir_element.kernels.pendulum.trial import copy_words

@@ -82,6 +82,8 @@ def commit_parts(parts: NonlinearElements, beta: float, gamma: float, dt: float)
         parts.g_before[i] = parts.g_old[i]
         parts.g_old[i] += parts.change[i]
     for k in range(parts.kind.shape[0]):
+        for i in range(parts.first[k], parts.first[k + 1]):
+            parts.flow_old[i] = parts.flow[i] if parts.loose[k] == 1 else 0.0
         for n in range(parts.old.shape[1]):
             parts.old[k, n] = parts.new[k, n]
 

@@ -13,6 +13,7 @@ from frames.kernel_data import ENERGY_TERMS, device_records
 from frames.model.components import DOFS
 from frames.recording.nonlinear_results import part_variables
 from frames.recording.section_cuts import storey_rows
+from frames.statics.fresh_runs import once
 from frames.statics.gravity import expand
 from frames.statics.resultants import moving_mass
 from lir_element.results.dataset import (
@@ -27,7 +28,7 @@ from lir_element.results.deferred import deferred
 from lir_element.results.eccentricity import interface_eccentricity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from frames._types import FloatArray
     from frames.assembly.assemble import System
@@ -88,7 +89,7 @@ def build_dataset(
         variables |= some_bodies("time", state.contacts.row, states[:count], bodies[:count])
     variables |= temperature_variables("time", states[:count], state.model.props)
     node = ("time", "node", "dof")
-    variables |= _device_variables(system)
+    variables |= _own(once(state, "devices", lambda: _device_variables(system)))
     more, names = part_variables(system.parts, frame, out, count)
     variables |= more
     variables |= {
@@ -134,7 +135,8 @@ def build_dataset(
             "J",
             "energy since gravity",
         ),
-    } | _permanent(frame, state)
+    }
+    variables |= _own(once(state, "permanent", lambda: _permanent(frame, state)))
     storeys = [lv.name for lv in frame.levels[1:]]
     if storeys:
         names["storey"] = storeys
@@ -144,17 +146,40 @@ def build_dataset(
             "N",
             "resisting force of what is below a storey: its members, and bearings through it",
         )
-    coordinates = {
-        "time": labelled(("time",), out.time[:count].copy(), "s", "time"),
-        "node": list(system.node_names),
-        "dof": list(DOFS),
-        "term": list(ENERGY_TERMS),
-        "resultant": list(state.resultants.names),
-        "level": [lv.name for lv in frame.levels],
-        **names,
-        **bearing_coordinates([placed.name for placed in system.bearings]),
+
+    variables["time"] = labelled(("time",), out.time[:count].copy(), "s", "time")
+    return xr.Dataset(variables, _coordinates(frame, state, names))
+
+
+def _coordinates(
+    frame: FrameData, state: GravityState, names: Mapping[str, list[str]]
+) -> xr.Coordinates:
+    # All but the time, `names` among them.
+    return once(
+        state,
+        "coordinates",
+        lambda: (
+            xr.Dataset(
+                coords={
+                    "node": list(state.system.node_names),
+                    "dof": list(DOFS),
+                    "term": list(ENERGY_TERMS),
+                    "resultant": list(state.resultants.names),
+                    "level": [lv.name for lv in frame.levels],
+                    **names,
+                    **bearing_coordinates([placed.name for placed in state.system.bearings]),
+                }
+            ).coords
+        ),
+    )
+
+
+def _own(variables: Mapping[str, xr.Variable]) -> dict[str, xr.Variable]:
+    # With arrays and attributes of their own.
+    return {
+        name: xr.Variable(each.dims, each.values.copy(), dict(each.attrs))
+        for name, each in variables.items()
     }
-    return xr.Dataset(variables, coordinates)
 
 
 def _permanent(frame: FrameData, state: GravityState) -> dict[str, xr.Variable]:
@@ -171,7 +196,7 @@ def _permanent(frame: FrameData, state: GravityState) -> dict[str, xr.Variable]:
             (), float(-system.node_load[2::6].sum()), "N", "permanent vertical load"
         ),
         "static_axial_force": labelled(
-            ("bearing",), state.axial_forces, "N", "axial force under permanent loads"
+            ("bearing",), state.axial_forces.copy(), "N", "axial force under permanent loads"
         ),
         "level_height": labelled(
             ("level",), np.array([lv.z for lv in frame.levels]), "m", "elevation of the level"

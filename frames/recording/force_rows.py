@@ -242,7 +242,7 @@ def _member_rows(model: FrameData, system: System, axial: FloatArray) -> _Rows:
         share = to_sections[m] @ turned[m] @ nodal
         over_beyond[3 * _SIX * m : 3 * _SIX * (m + 1), at] = share
     rest = np.einsum("nab,nb->na", to_sections, table.fixed_end)
-    rest[:, _SIX : 2 * _SIX] += _between_ends(model, table)
+    rest[:, _SIX : 2 * _SIX] += between_ends(model, table)
     return _Rows(
         q=sparse.csr_array(over_u @ system.transform),
         beyond=sparse.csr_array(over_beyond),
@@ -251,9 +251,24 @@ def _member_rows(model: FrameData, system: System, axial: FloatArray) -> _Rows:
     )
 
 
-def _between_ends(model: FrameData, table: MemberTable) -> FloatArray:
-    # What loads along members add in the middle to the mean of both ends, (n, 6): of a uniform load
-    # q L^2 / 8.
+def between_ends(model: FrameData, table: MemberTable, share: float = 0.5) -> FloatArray:
+    """Return what loads along members add between their ends.
+
+    Parameters
+    ----------
+    model : Frame
+        The structure.
+    table : MemberTable
+        Its members.
+    share : float
+        Where, over the length between the ends [-]: 0 at end i, 1 at end j.
+
+    Returns
+    -------
+    ndarray, (n, 6)
+        Forces of the section less those interpolated between the sections at both ends [N, N m]:
+        of a uniform load q L^2 / 8 in the middle.
+    """
     place = {name: k for k, name in enumerate(table.names)}
     spans = [
         SpanLoad(name, _uniform(load, float(table.arrays.length[place[name]])), 0.0)
@@ -264,17 +279,17 @@ def _between_ends(model: FrameData, table: MemberTable) -> FloatArray:
         k = place[member]
         axes, length = table.arrays.axes[k], float(table.arrays.length[k])
         start, end = axes @ np.asarray(load.start), axes @ np.asarray(load.end)
-        middle = 0.5 * length
+        middle = share * length
         pieces = [load.a, *([middle] if load.a < middle < load.b else []), load.b]
         for first, last in pairwise(pieces):
             at = first + 0.5 * (1.0 + _POINTS) * (last - first)
-            share = (at - load.a) / (load.b - load.a)
+            along = (at - load.a) / (load.b - load.a)
             force = (0.5 * _WEIGHTS * (last - first))[:, None] * (
-                start + share[:, None] * (end - start)
+                start + along[:, None] * (end - start)
             )
-            beyond = np.where(at > middle, 0.5, -0.5)[:, None]
+            beyond = np.where(at > middle, share, share - 1.0)[:, None]
             found[k, :3] += (beyond * force).sum(axis=0)
-            lever = 0.25 * length - 0.5 * np.abs(at - middle)
+            lever = np.where(at > middle, share * (length - at), (1.0 - share) * at)
             found[k, 4] += lever @ force[:, 2]
             found[k, 5] -= lever @ force[:, 1]
     return found

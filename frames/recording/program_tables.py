@@ -9,7 +9,9 @@ import pandas as pd
 import xarray as xr
 
 from frames._errors import ModelError
+from frames.assembly.assemble import assemble
 from frames.model.geometry_checks import member_ends
+from frames.recording.force_rows import between_ends
 from frames.recording.recovery import member_forces, support_reactions
 from frames.results.measures import storey_drift
 from frames.results.recorded import require_recorded, require_steps
@@ -30,7 +32,11 @@ _STEPS = ("Max", "Min")
 
 
 def program_tables(
-    model: FrameData, data: xr.Dataset | Mapping[str, xr.Dataset], *, units: str = "KN, m"
+    model: FrameData,
+    data: xr.Dataset | Mapping[str, xr.Dataset],
+    *,
+    units: str = "KN, m",
+    stations: int = 3,
 ) -> dict[str, pd.DataFrame]:
     """Return largest and smallest results in the columns of SAP2000's and ETABS' tables.
 
@@ -42,6 +48,8 @@ def program_tables(
         Of `time_history`; or several by name of the output case.
     units : str
         Units of force and length: "KN, m", "N, m", "N, mm", "Kip, in" or "Kip, ft".
+    stations : int
+        Stations of each member at equal distances, both ends among them, 2 at least.
 
     Returns
     -------
@@ -54,20 +62,25 @@ def program_tables(
     Raises
     ------
     ModelError
-        If the model is not the one that was analysed, or the units are not known.
+        If the model is not the one that was analysed, the units are not known, or there are less
+        than two stations.
     ValueError
         If the recording does not have what is needed.
 
     Notes
     -----
-    It is `Frame.program_tables`. Stations are the two ends of each member, measured from its joint
-    i. P is tension positive; axis 2 is local z and 3 is -y, so that V2 = Vz, V3 = -Vy, M2 = -Mz and
-    M3 = -My of the section: M3 > 0 where the side of -2 is pulled. Base reactions are about the
-    origin. Drifts are those of the middle of a storey.
+    It is `Frame.program_tables`. Stations are measured from joint i of each member; between the
+    ends forces follow from those at both and from the loads along it. P is tension positive; axis
+    2 is local z and 3 is -y, so that V2 = Vz, V3 = -Vy, M2 = -Mz and M3 = -My of the section:
+    M3 > 0 where the side of -2 is pulled. Base reactions are about the origin. Drifts are those of
+    the middle of a storey.
     """
     known = UNITS | _MORE
     if units not in known:
         message = f'units = "{units}" must be one of {", ".join(known)}'
+        raise ModelError(message)
+    if stations != int(stations) or stations < 2:
+        message = f"stations = {stations} must be a whole number, at least 2: both ends of a member"
         raise ModelError(message)
     force, length = known[units]
     cases = {"TH": data} if isinstance(data, xr.Dataset) else dict(data)
@@ -75,14 +88,15 @@ def program_tables(
     for case, history in cases.items():
         require_steps(history, "program_tables")
         require_recorded(history, "program_tables", "node_displacement")
-        for name, table in _tables(model, history, str(case), force, length):
+        for name, table in _tables(model, history, str(case), (force, length), stations):
             found.setdefault(name, []).append(table)
     return {name: pd.concat(parts, ignore_index=True) for name, parts in found.items()}
 
 
 def _tables(
-    model: FrameData, data: xr.Dataset, case: str, force: float, length: float
+    model: FrameData, data: xr.Dataset, case: str, units: tuple[float, float], stations: int
 ) -> Iterable[tuple[str, pd.DataFrame]]:
+    force, length = units
     moves = np.array([length] * 3 + [1.0] * 3)
     nodes = data["node_displacement"].transpose("time", "node", "dof")
     words = ("U1", "U2", "U3", "R1", "R2", "R3")
@@ -102,7 +116,7 @@ def _tables(
     words = ("GlobalFX", "GlobalFY", "GlobalFZ", "GlobalMX", "GlobalMY", "GlobalMZ")
     yield "Base Reactions", _table("", [""], whole[:, None] / loads, case, words)
     if model.members:
-        yield "Element Forces - Frames", _frames(model, data, case, force, length)
+        yield "Element Forces - Frames", _frames(model, data, case, units, stations)
     if len(model.levels) > 1:
         drift = storey_drift(data).transpose("time", "storey", "axis")
         yield "Story Drifts", _drifts(drift, case)
@@ -123,9 +137,12 @@ def _table(
 
 
 def _frames(
-    model: FrameData, data: xr.Dataset, case: str, force: float, length: float
+    model: FrameData, data: xr.Dataset, case: str, units: tuple[float, float], stations: int
 ) -> pd.DataFrame:
-    names = list(model.members)
+    names, (force, length) = list(model.members), units
+    shares = np.linspace(0.0, 1.0, stations)
+    table = assemble(model).members
+    more = [between_ends(model, table, float(share)) for share in shares]
     scale = np.array([force] * 3 + [force * length] * 3)
     words = ("P", "V2", "V3", "T", "M2", "M3")
     parts = []
@@ -134,24 +151,25 @@ def _frames(
         given = member_forces(model, data, some).transpose("time", "member", "end", "component")
         ends = given.to_numpy() * np.array([-1.0, 1.0])[:, None]  # of a section, from i to j
         order, sign = [0, 2, 1, 3, 5, 4], np.array([1.0, 1.0, -1.0, 1.0, -1.0, -1.0])
-        values = ends[..., order] * sign / scale
-        for end in range(2):
-            table = _table("Frame", some, values[:, :, end], case, words)
-            table.insert(1, "Station", np.repeat([_station(model, n, end) for n in some], 2))
-            table["Station"] /= length
-            parts.append(table)
+        for share, loads in zip(shares, more, strict=True):
+            here = (1.0 - share) * ends[:, :, 0] + share * ends[:, :, 1]
+            here = here + loads[first : first + len(some)]
+            rows = _table("Frame", some, here[..., order] * sign / scale, case, words)
+            rows.insert(1, "Station", np.repeat([_station(model, n, share) for n in some], 2))
+            rows["Station"] /= length
+            parts.append(rows)
     found = pd.concat(parts, ignore_index=True)
     place = {name: k for k, name in enumerate(names)}
     order_of = found["Frame"].map(place)
     return found.iloc[np.lexsort((found["Station"], order_of))].reset_index(drop=True)
 
 
-def _station(model: FrameData, name: str, end: int) -> float:
+def _station(model: FrameData, name: str, share: float) -> float:
     member = model.members[name]
     start = np.array(model.nodes[member.i].position)
     way = np.array(model.nodes[member.j].position) - start
-    place = member_ends(model.nodes, member)[end] - start
-    return float(place @ way / np.linalg.norm(way))
+    near, far = ((end - start) @ way for end in member_ends(model.nodes, member))
+    return float(((1.0 - share) * near + share * far) / np.linalg.norm(way))
 
 
 def _drifts(drift: xr.DataArray, case: str) -> pd.DataFrame:

@@ -19,6 +19,7 @@ from frames.recording.reduction import (
     Reduction,
     present_quantities,
     with_findings,
+    with_other_findings,
 )
 from frames.recording.size import (
     bytes_of_step,
@@ -28,6 +29,7 @@ from frames.recording.size import (
     require_room,
 )
 from frames.results.peak_response import largest, with_exceeded
+from frames.statics.fresh_runs import once
 from frames.statics.resultants import Plausibility
 
 if TYPE_CHECKING:
@@ -193,7 +195,8 @@ class Recorder:
         count = data.sizes["time"]
         reached, totals = self._gauged(count)
         found = Findings(reached, totals, {}, float(self.out.time[count - 1]))
-        return with_findings(data.drop_dims("time"), found)
+        judged = once(self._state, "judged", lambda: with_findings(data.drop_dims("time"), found))
+        return with_other_findings(judged, found, data.variables["peak_ground_velocity"].values)
 
     def reached(self, data: xr.Dataset) -> dict[str, Extreme]:
         """Return the largest values of all quantities of a result that `data` gave, by name.
@@ -216,7 +219,8 @@ class Recorder:
         self, count: int, shape: Shape | None = None
     ) -> tuple[dict[str, Extreme], dict[str, FloatArray]]:
         # What the first rows reached, and their totals; with a shape, the structure's too.
-        gauge = PeakTracker(devices_of(self._state), shape)
+        devices = once(self._state, "gauged devices", lambda: devices_of(self._state))
+        gauge = PeakTracker(devices, shape)
         parts = PartGauge(self._state, self._model)
         gauge.take(self._states, self.out, self._ground, 0, count)
         parts.take(self.out, 0, count)
@@ -247,4 +251,5 @@ class Recorder:
             kept=kept,
         )
         left_out = self._state.system.features.left_out
-        return data.assign_attrs(features_left_out=", ".join(left_out) or "none")
+        data.attrs["features_left_out"] = ", ".join(left_out) or "none"
+        return data

@@ -26,7 +26,7 @@ from frames.solve.rigid import LARGEST_STEP, rigid_time_history
 from frames.statics.basis_refinement import refined
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.equilibrium import force_tolerance
-from frames.statics.gravity import gravity
+from frames.statics.kept_equilibria import kept_gravity
 from frames.statics.model_traits import exact_features, plane_coupling
 from frames.statics.sanity_checks import check_analysis
 from lir_element.device.features import Features
@@ -262,7 +262,7 @@ def _run(
         **provenance(dated=False),
     }
     if options.method == "direct":
-        return _run_from(gravity(model, features, level), model, motion, options, attrs)
+        return _run_from(kept_gravity(model, features, level), model, motion, options, attrs)
     runs: list[tuple[xr.Dataset, Outcome, Recorder]] = []
 
     def run(state: GravityState) -> tuple[dict[str, Extreme], bool]:
@@ -315,7 +315,8 @@ def _run_from(
         "seconds_gravity": state.seconds,
         "seconds_loop": seconds,
     }
-    seen = recorder.judgeable(data).assign_attrs(data.attrs)
+    seen = recorder.judgeable(data)
+    seen.attrs = data.attrs
     outcome = concluded(seen, state, end)
     data.attrs = seen.attrs
     return data, outcome, recorder

@@ -94,6 +94,8 @@ class Resultants:
         self._over_a = np.asarray(system.mass @ motions).T @ state.accelerating
         self._over_ground = motions.T @ system.inertia_load
         self._over_force = np.asarray(bearing_rows(system) @ motions).T
+        self.nodes = _Nodes(state)
+        """Those with mass."""
 
     def of(
         self, out: Output, states: Records, ground: FloatArray, first: int, last: int
@@ -167,6 +169,17 @@ def _parts(state: AtRestMoving) -> IntArray:
     return np.asarray(csgraph.connected_components(pattern, directed=False)[1], dtype=np.int64)
 
 
+class _Nodes:
+    # Nodes with mass that can move, the smallest of these masses, their translations over the free
+    # displacements.
+
+    def __init__(self, state: AtRestMoving) -> None:
+        mass, transform = moving_mass(state), sparse.csr_array(state.system.transform)
+        self.places = np.flatnonzero(mass.max(axis=1) > 0.0)
+        self.least = float(mass.max(axis=1)[self.places].min())
+        self.rows = sparse.csr_array(transform[(6 * self.places[:, None] + np.arange(3)).ravel()])
+
+
 class Plausibility:
     """Keeps how far the forces of a run were from equilibrium, and how violently nodes moved.
 
@@ -179,14 +192,7 @@ class Plausibility:
     """
 
     def __init__(self, state: AtRestMoving, resultants: Resultants) -> None:
-        system = state.system
-        self._state, self._resultants = state, resultants
-        mass = moving_mass(state)
-        self._nodes = np.flatnonzero(mass.max(axis=1) > 0.0)
-        self._least = float(mass.max(axis=1)[self._nodes].min())
-        places = (6 * self._nodes[:, None] + np.arange(3)).ravel()
-        self._rows = sparse.csr_array(sparse.csr_array(system.transform)[places])
-        self._count = len(system.node_names)
+        self._state, self._resultants, self._nodes = state, resultants, resultants.nodes
         self._reached: dict[str, Extreme] = {}
 
     def take(self, out: Output, states: Records, ground: FloatArray, first: int, last: int) -> None:
@@ -212,20 +218,21 @@ class Plausibility:
         a_b, a_e = out.a_b[rows], out.a_e[rows]
         inertia = a_b @ basis.mass_b + 2.0 * (a_e @ basis.mass_be.T)
         square = (a_b * inertia).sum(axis=1) + (basis.mass_e * a_e**2).sum(axis=1)
-        bound = np.sqrt(np.maximum(square, 0.0) / self._least)
+        bound = np.sqrt(np.maximum(square, 0.0) / self._nodes.least)
         bound += np.linalg.norm(ground, axis=1)
-        found = Extreme(np.zeros(self._count), np.full(self._count, float(out.time[first])))
+        nodes, count = self._nodes.places, len(self._state.system.node_names)
+        found = Extreme(np.zeros(count), np.full(count, float(out.time[first])))
         doubtful = np.flatnonzero(~(bound < VIOLENT) | self._state.has_light_nodes)
         for begin in range(0, len(doubtful), _AT_ONCE):
             some = doubtful[begin : begin + _AT_ONCE]
             moves = np.hstack([a_b[some], a_e[some]]) @ self._state.accelerating.T
-            moves = np.asarray(self._rows @ moves.T).T.reshape(len(some), -1, 3)
+            moves = np.asarray(self._nodes.rows @ moves.T).T.reshape(len(some), -1, 3)
             sizes = np.linalg.norm(moves + ground[some][:, None], axis=-1)
             sizes = np.where(sizes > VIOLENT, sizes, 0.0)
             now = extreme_of(sizes, out.time[rows][some])
-            more = now.values > found.values[self._nodes]
-            found.values[self._nodes[more]] = now.values[more]
-            found.at[self._nodes[more]] = now.at[more]
+            more = now.values > found.values[nodes]
+            found.values[nodes[more]] = now.values[more]
+            found.at[nodes[more]] = now.at[more]
         return found
 
 

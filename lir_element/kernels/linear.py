@@ -153,6 +153,29 @@ def substitute(factors: Floats, order: Words, x: Floats) -> None:
 
 
 @kernel
+def substitute_many(factors: Floats, order: Words, x: Floats) -> None:
+    """Solve for the right-hand sides in the columns of `x` (n, m) in place, as `substitute`."""
+    n, m = x.shape
+    for c in range(n):
+        inv = factors[c, c]
+        for k in range(m):
+            x[c, k] *= inv
+        for a in range(c + 1, n):
+            factor = factors[c, a]
+            for k in range(m):
+                x[a, k] -= factor * x[c, k]
+    for c in range(n - 1, 0, -1):
+        for a in range(c):
+            factor = factors[c, a]
+            for k in range(m):
+                x[a, k] -= factor * x[c, k]
+    for c in range(n - 1, -1, -1):
+        if order[c] != c:
+            for k in range(m):
+                x[c, k], x[order[c], k] = x[order[c], k], x[c, k]
+
+
+@kernel
 def solve_many(a: Floats, x: Floats, n: int, m: int) -> bool:
     """Solve ``a x = rhs`` for the first `n` rows and `m` right-hand sides held by `x` (n, m).
 

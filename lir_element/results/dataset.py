@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
@@ -85,17 +86,19 @@ def bearing_variables(
     def own(field: Floats) -> Floats:
         return field if kept else field.copy()
 
-    def moments() -> Floats:
-        return np.stack([f[..., 3:6], f[..., 9:12]], axis=-2)
+    def of(form: Callable[[], Floats], *shape: int) -> Any:
+        return deferred((*states.shape, *shape), form) if kept else form()
 
     u, f = states["displacement"], states["force"]
     each = (step, "bearing")
     vector, surface = (*each, "axis"), (*each, "surface")
     slip, passed = states["slip_total"], states["interface_force"]
-    slip_size = on_arrays(in_space)(slip[..., 0], slip[..., 1], slip[..., 2])
     return {
         "bearing_displacement": labelled(
-            vector, u[..., 6:9] - u[..., 0:3], "m", "displacement of node j relative to node i"
+            vector,
+            of(lambda: u[..., 6:9] - u[..., 0:3], 3),
+            "m",
+            "displacement of node j relative to node i",
         ),
         "bearing_velocity": labelled(vector, velocity, "m/s", "velocity of node j relative to i"),
         "bearing_force": labelled(
@@ -106,7 +109,7 @@ def bearing_variables(
         ),
         "bearing_moment": labelled(
             (*each, "end", "axis"),
-            deferred((*states.shape, 2, 3), moments) if kept else moments(),
+            of(lambda: np.stack([f[..., 3:6], f[..., 9:12]], axis=-2), 2, 3),
             "N m",
             "resisting moment on node i and on node j",
         ),
@@ -120,13 +123,18 @@ def bearing_variables(
             "sliding on each concave surface",
         ),
         "interface_slip": labelled(vector, own(slip), "m", "top slider relative to bottom slider"),
-        "interface_slip_size": labelled(each, slip_size, "m", "size of the interface slip"),
+        "interface_slip_size": labelled(
+            each,
+            of(lambda: on_arrays(in_space)(slip[..., 0], slip[..., 1], slip[..., 2])),
+            "m",
+            "size of the interface slip",
+        ),
         "slider_spin": labelled(
             each, own(states["spin"]), "rad", "spin of the sliders about their axis, mean of both"
         ),
         "interface_force": labelled(
             each,
-            on_arrays(in_plan)(passed[..., 0], passed[..., 1]),
+            of(lambda: on_arrays(in_plan)(passed[..., 0], passed[..., 1])),
             "N",
             "force that the interface passes in its plane",
         ),
@@ -296,6 +304,7 @@ def bearing_coordinates(names: Sequence[str]) -> dict[str, Any]:
     }
 
 
+@cache
 def package_version() -> str:
     """Return the installed version, or 'unknown' outside an installation."""
     try:

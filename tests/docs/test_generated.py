@@ -40,11 +40,16 @@ def test_results_page_is_up_to_date(build: ModuleType) -> None:
     assert build.rebuilt(page, build.generated()) == page, "run: python docs/build.py"
 
 
+def test_standings_page_is_up_to_date(build: ModuleType) -> None:
+    page = build.STANDINGS.read_text(encoding="utf-8")
+    assert build.rebuilt(page, build.standings()) == page, "run: python docs/build.py"
+
+
 def test_the_build_says_what_the_demo_needs(
     build: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Without the record the other page is written, the demo's stays, and the build ends with 1."""
-    pages = {name: tmp_path / f"{name.lower()}.md" for name in ("RESULTS", "DEMO")}
+    """Without the record the other pages are written, the demo's stays, the build ends with 1."""
+    pages = {name: tmp_path / f"{name.lower()}.md" for name in ("RESULTS", "STANDINGS", "DEMO")}
     for name, path in pages.items():
         path.write_text(f"before\n{build.BEGIN}\nold\n{build.END}\nafter\n", encoding="utf-8")
         monkeypatch.setattr(build, name, path)
@@ -55,6 +60,7 @@ def test_the_build_says_what_the_demo_needs(
     ):
         build.main()
     assert "new" in pages["RESULTS"].read_text(encoding="utf-8")
+    assert "ASCE 7-22" in pages["STANDINGS"].read_text(encoding="utf-8")
     assert "old" in pages["DEMO"].read_text(encoding="utf-8")
 
 

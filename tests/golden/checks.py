@@ -258,7 +258,28 @@ def recentring(f):
     return f.linear["centre"], 0.5 * s.mu * s.L
 
 
+def overturning(f):
+    """Moment of unreduced forces, and of the weight about the nearest outer bearings."""
+    import codes
+
+    s = f.linear["system"]
+    moment = codes.overturning_moment(f.p, f.linear, codes.above_of(f.p))
+    x = min(s.centre[0] - s.x.min(), s.x.max() - s.centre[0])
+    y = min(s.centre[1] - s.y.min(), s.y.max() - s.centre[1])
+    return moment, s.W * min(x, y)
+
+
+def wind(f):
+    """Wind against the friction of low speed at its lower bound."""
+    s = next(iter(f.p.linear.values()))["system"]
+    b = f.p.bearing
+    given = f.p.file["superstructure"]["wind_shear"]
+    return given, f.p.outer["lower"] * b.share(b.slow) * s.P.sum()
+
+
 RULES = {
+    "overturning of the whole structure": overturning,
+    "sliding under wind": wind,
     "restoring force": restoring,
     "interface holds before the rim": interface,
     "pairs of motions": motions.pairs,
@@ -298,6 +319,8 @@ RULES = {
     "recentring, displacement": recentring,
 }
 SUITE = {
+    "overturning of the whole structure",
+    "sliding under wind",
     "restoring force",
     "interface holds before the rim",
     "number of motions",

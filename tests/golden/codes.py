@@ -313,6 +313,18 @@ def above_of(project):
     }
 
 
+def overturning_moment(project, e, above):
+    """Return the moment of unreduced forces: V_st by C_vx, S_e, or the largest k D_M."""
+    s, w, h = e["system"], above["w"], above["h"]
+    if project.code == "ASCE 7-22":
+        share = w * h ** (14.0 * e["damping"] * above["T_fb"])
+        return e["V_st"] * (share @ h) / share.sum()
+    if project.code == "EN 1998":
+        given = project.file["spectrum"]
+        return (w @ h) / G * spectrum("EN 1998", given, e["period"], e["damping"])
+    return (w @ h**2) / (w @ h) * s.force(e["moved"], s.mu_upper).sum()
+
+
 COLUMNS = {
     "total_displacement [m]": "total",
     "period [s]": "period",

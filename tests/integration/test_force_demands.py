@@ -12,10 +12,13 @@ from frames.design import (
     PropertyBounds,
     PropertyModificationFactors,
     bounded_histories,
+    with_property_bounds,
 )
+from frames.design._errors import CheckError
 from frames.design.histories.force_demands import force_demands
 from frames.design.histories.least_shears import Raise
 from frames.design.histories.suite import Suite
+from frames.library.moved_masses import with_moved_masses
 from frames.model.axes import default_up, local_axes
 from lir_element import CoulombFriction, LIRBearing
 
@@ -208,6 +211,87 @@ def test_least_shears_raise_the_earthquakes_part(runs, tables):
         expected = rest + by * (own["value"].to_numpy() - rest)
         assert found["value"].to_numpy() == pytest.approx(expected, rel=1e-9, abs=2e-3)
         assert np.array_equal(found["single"], own["single"], equal_nan=True)
+
+
+@pytest.fixture(scope="module")
+def moved(frame):
+    """Return runs of one motion with the masses moved two ways, forces kept."""
+    ways = {"+x": (0.1, 0.0), "-y": (0.0, -0.1)}
+    models = {way: with_moved_masses(frame, shares, way) for way, shares in ways.items()}
+    with_bounds = {way: with_property_bounds(m, "lower", BOUNDS) for way, m in models.items()}
+    data = time_histories(
+        with_bounds,
+        {"pulse-4": MOTIONS["pulse-4"]},
+        cases=[(way, "pulse-4", 1.0) for way in ways],
+        dt=0.01,
+        record=Recording(every=None, forces=True),
+    )
+    return data.assign_coords(masses_moved=("run", list(ways)))
+
+
+def test_moved_masses_add_section_by_section(runs, tables, moved):
+    """The larger difference of two ways by hand, on the side to which the extreme goes."""
+    raises = {("MCE_R", "lower"): Raise(above=1.3)}
+    given = {"MCE_R": runs}, RULES
+    found = force_demands(*given, raises, {"MCE_R": {"lower": moved}})
+    for kind, places in (
+        ("members", ("member", "station", "component")),
+        ("storeys", ("section", "storey_component")),
+        ("reactions", ("bearing", "side", "reaction")),
+    ):
+        six, variable = places[-1], f"reached_{kind.removesuffix('s')}_force"
+        table = found[kind].reset_index()
+        own = tables[kind].reset_index()
+        lower = (table["bound"] == "lower").to_numpy()
+        assert set(table.loc[~lower, "moved masses add"]) == {0.0}
+        assert set(table.loc[~lower, "masses"]) == {""}
+        changed = 0
+        for k in np.flatnonzero(lower)[:: 7 if kind == "members" else 1]:
+            row = table.iloc[k]
+            if row["force"] == "drift":
+                continue
+            labels = {
+                p: row[p if p in row else {"section": "storey"}.get(p, "force")] for p in places
+            }
+            labels |= {
+                "extreme": {"max": "largest", "min": "smallest"}[row["extreme"]],
+                f"{six}_at_once": row["force"],
+            }
+            centred = float(runs["lower"][variable].isel(run=4).sel(labels))
+            each = moved[variable].sel(labels).to_numpy()
+            sign = 1.0 if row["extreme"] == "max" else -1.0
+            more = sign * (each - centred)
+            added = max(float(more.max()), 0.0)
+            assert row["moved masses add"] == pytest.approx(sign * added, abs=2e-3)
+            if added > 1.0:
+                changed += 1
+                assert row["masses"] == ("+x", "-y")[int(more.argmax())]
+            before, rest = own.iloc[k]["value"], row["permanent"]
+            factor = 1.3 if kind == "members" or (kind == "storeys" and row["raised by"] > 1) else 1
+            expected = rest + factor * (before + sign * added - rest)
+            assert row["value"] == pytest.approx(expected, rel=1e-9, abs=5e-3)
+            farthest = max(sign * own.iloc[k]["single"], *(sign * each))
+            assert row["single"] == pytest.approx(sign * farthest, abs=2e-3)
+            beyond = farthest - sign * own.iloc[k]["single"]
+            assert beyond <= 2e-3 or "masses" in row["motion"]
+        assert changed > 5
+    drift = found["storeys"].query("force == 'drift' and bound == 'lower'").set_index("storey")
+    more = moved["reached_drift"] - runs["lower"]["reached_drift"].isel(run=4)
+    added = np.maximum(more.max("run").to_numpy(), 0.0)
+    mean = runs["lower"]["reached_drift"].mean("run").to_numpy()
+    assert drift["value"].to_numpy() == pytest.approx(1.3 * (mean + added), rel=1e-12)
+
+
+def test_moved_runs_that_fail_or_kept_no_forces(runs, moved):
+    failed = moved.copy()
+    failed["status"] = failed["status"].copy(data=["ok", "no_convergence"])
+    table = force_demands({"MCE_R": runs}, RULES, None, {"MCE_R": {"lower": failed}})["members"]
+    of_lower = table[table["bound"] == "lower"]
+    assert set(of_lower["void"]) == {"runs with moved masses failed"}
+    assert set(of_lower["moved masses add"]) == {0.0}
+    bare = moved.drop_vars([n for n in moved.data_vars if str(n).endswith("_force")])
+    with pytest.raises(CheckError, match="kept no forces of the structure"):
+        force_demands({"MCE_R": runs}, RULES, None, {"MCE_R": {"lower": bare}})
 
 
 def test_fewer_motions_count_with_the_largest(frame):

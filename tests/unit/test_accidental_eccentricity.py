@@ -131,6 +131,34 @@ def test_factors_and_demands_are_those_of_the_runs(ran: Path) -> None:
     assert "moved by 5 % of the plan&#39;s sides each way, 4 time histories more" in page
 
 
+def test_forces_for_design_have_what_moved_masses_add(ran: Path) -> None:
+    """Shears of storeys and reactions of a run's files, from the extremes that its runs kept."""
+    out = ran / "out"
+    runs, moved = load(out / "runs-lower.nc"), load(out / "moved-lower.nc")
+    worst = int(np.argmax(runs["reached_displacement"].max("bearing").to_numpy()))
+    for kind, places in (
+        ("storey", ("section", "storey_component")),
+        ("reaction", ("bearing", "side", "reaction")),
+    ):
+        table = pd.read_csv(out / f"{'storeys' if kind == 'storey' else 'reactions'}.csv")
+        table = table[table["force"].isin(["Vx", "Vy", "N"])]
+        assert kind == "storey" or (table["moved masses add"].abs() > 1.0).any()
+        for row in table.to_dict("records"):
+            labels = {places[0]: row["storey" if kind == "storey" else "bearing"]}
+            labels |= {"side": row["side"]} if kind == "reaction" else {}
+            labels |= {places[-1]: row["force"], f"{places[-1]}_at_once": row["force"]}
+            labels |= {"extreme": {"max": "largest", "min": "smallest"}[row["extreme"]]}
+            own = runs[f"reached_{kind}_force"].sel(labels).to_numpy()
+            each = moved[f"reached_{kind}_force"].sel(labels).to_numpy()
+            sign = 1.0 if row["extreme"] == "max" else -1.0
+            added = max(float((sign * (each - own[worst])).max()), 0.0)
+            assert row["moved masses add"] == pytest.approx(sign * added, abs=2e-3)
+            value = max(sign * own) + added  # two motions: the larger
+            rest = sign * row["permanent"]
+            value = rest + row["raised by"] * (value - rest)
+            assert sign * row["value"] == pytest.approx(value, rel=1e-9, abs=1e-2)
+
+
 def test_names_of_results_are_known(ran: Path) -> None:
     """A table of members by such a name would be written over: the project is refused before."""
     written = {path.name for path in (ran / "out").iterdir() if path.is_file()}

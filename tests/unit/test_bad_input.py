@@ -62,8 +62,7 @@ def test_examples_pass_without_a_word(
 ) -> None:
     put_example(tmp_path, code)
     output = CliRunner().invoke(app, ["check", str(tmp_path / "project.toml")]).output
-    told = [line for line in output.splitlines() if line.startswith("warning")]
-    assert all(line.startswith("warning: interface_friction") for line in told)  # of the bearing
+    assert "warning" not in output
     assert "can be run" in output
 
 
@@ -150,7 +149,9 @@ def test_wind_that_slides_the_bearings(example: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize(("mass", "words"), [("1 kg", "in t written"), ("9000000 kg", "in kg")])
 def test_masses_by_area(mass: str, words: str, example: Path, tmp_path: Path) -> None:
     given = mass.split()[0]
-    output = checked(example, tmp_path, '"1000 kg/m2"', f'"{given} kg/m2"')
+    text = (example / "project.toml").read_text(encoding="utf-8")
+    loads = text[text.index("\n[loads]") : text.index("\n[superstructure]")]
+    output = checked(example, tmp_path, loads, f'\nfloor_load = "{given} kg/m2"\n')
     assert words in output
 
 
@@ -179,7 +180,7 @@ def test_importance_that_changes_nothing(tmp_path: Path, put_example: Callable[.
         ("[0.05, 0.05]", "[3, 0.05]", "must be between -0.5 and 0.5, a part of the side"),
         ('storey_height = "3.5 m"', 'storey_height = "-3.5 m"', "must be greater than 0"),
         ('code = "ASCE 7-22"', 'code = "ASCE7"', 'project.code = "ASCE7" is not known: choose one'),
-        ('radius = "2.5 m"', "radius = 2.5", 'write "2.5 m" or "2500 mm" if that is meant'),
+        ('radius = "2.25 m"', "radius = 2.25", 'write "2.25 m" or "2250 mm" if that is meant'),
         ("R = 8.0", 'R = 8.0\nwind_shear = "-5 kN"', "must be at least 0"),
     ],
 )
@@ -273,8 +274,8 @@ def test_results_that_are_not_there(lazy: bool, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ('"7 m", "7 m"', '"7 m", "7 mm"', "bay_width = 0.007 m is less than the 0.806 m"),
-        ('"7 m", "7 m"', '"0.9 m", "0.9 m"', ""),
+        ('"7 m", "9 m"', '"7 m", "9 mm"', "bay_width = 0.009 m is less than the 0.82 m"),
+        ('"7 m", "9 m"', '"0.9 m", "0.9 m"', ""),
     ],
 )
 def test_bays_that_bearings_do_not_fit_into(

@@ -27,7 +27,7 @@ from frames.design import (
     with_property_bounds,
 )
 from frames.design.histories.bound_checks import BoundChecks
-from lir_element import CoulombFriction, LIRBearing
+from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
 G = 9.81
 BOUNDS = PropertyBounds(PropertyModificationFactors(0.7, 1.6))
@@ -354,7 +354,7 @@ def test_scope_of_checks_and_their_table() -> None:
     code = ASCE7(pressure_limit=60e6)
     asce = nominal(SYSTEM, Asce(0.6), superstructure=ABOVE, code=code)["nominal"].checks
     titles = {scope: {c.title for c in asce if c.scope == scope} for scope in ("any", "demand")}
-    assert titles["any"] == {"restoring force"}
+    assert titles["any"] == {"restoring force", "overturning of the whole structure"}
     load = "pressure on the slider"
     assert titles["demand"] == {"storey drift", f"{load}, maximum", f"{load}, minimum"}
     assert {c.title for c in asce if c.scope == "procedure"} == {
@@ -775,6 +775,57 @@ def test_axial_loads_of_nch2745_are_those_of_the_maximum_level() -> None:
     assert levels["pressure on the slider, maximum"] == levels["no uplift, minimum"] == "maximum"
     assert levels["no restrainer contact at the total displacement"] == "maximum"
     assert levels["storey drift"] == levels["restoring force"] == "design"
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "level"),
+    [(Asce(0.9), "MCE_R"), (En(8.0), "design"), (NCh(0.30), "maximum")],
+)
+def test_overturning_of_the_whole_structure(spectrum: object, level: str) -> None:
+    """The weight of 9 MN about bearings 4 m off along y, the centre of mass by the loads."""
+    found = analysed(SYSTEM, spectrum, bounds=BOUNDS, superstructure=ABOVE)
+    for each in found.bounds.values():
+        (check,) = (c for c in each.checks if c.title == "overturning of the whole structure")
+        centre = 4.0 * (1.2e6 - 1.0e6 + 2.4e6 - 2.0e6 + 1.4e6 - 1.0e6) / 9.0e6
+        assert check.limit == pytest.approx(9.0e6 * (4.0 - centre), rel=1e-12)
+        assert check.demand == each.trace.value("M_o")
+        assert (check.scope, check.level, check.passed) == ("any", level, True)
+
+
+def test_a_slender_structure_overturns_and_a_row_is_not_judged() -> None:
+    tall = replace(ABOVE, storey_heights=(60.0, 60.0, 60.0))
+    found = analysed(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=tall)
+    assert "overturning of the whole structure" in {c.title for c in found.checks.failed}
+    row = IsolationSystem(
+        bearings=(BEARING,) * 3,
+        positions=((-6.0, 0.0), (0.0, 0.0), (6.0, 0.0)),
+        loads=(3.0e6,) * 3,
+        plan=(14.0, 10.0),
+    )
+    found = analysed(row, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
+    assert not [c for c in found.checks if c.title.startswith("overturning")]
+
+
+def test_wind_that_slides_and_service_that_meets_rims() -> None:
+    """Friction of low speed, 0.02 on R = 1.5 m of L = 2.7 m, at 0.7 of it, under 9 MN."""
+    slow = replace(BEARING, friction=VelocityFriction(0.06, 0.02, 50.0))
+    system = replace(SYSTEM, bearings=(slow,) * 6)
+    holds = 0.7 * 0.02 * 3.0 / 2.7 * 9.0e6
+    for spectrum, clause in ((Asce(0.9), "ASCE 7-22 17.2.4.2"), (En(8.0), "no code")):
+        for share, passed in ((0.99, True), (1.01, False)):
+            above = replace(ABOVE, wind_shear=share * holds, service_displacement=0.46 * share)
+            found = analysed(system, spectrum, bounds=BOUNDS, superstructure=above)
+            by_title = {c.title: c for c in found.checks}
+            wind = by_title["sliding under wind"]
+            assert wind.limit == pytest.approx(holds, rel=1e-12)
+            assert (wind.passed, wind.bound, wind.scope) == (passed, "lower", "any")
+            assert wind.clause.startswith(clause)
+            rims = by_title["no restrainer contact in service"]
+            assert rims.demand == pytest.approx(0.46 * share)
+            assert rims.limit == pytest.approx(0.45)
+            assert not rims.passed
+    calm = analysed(system, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
+    assert not [c for c in calm.checks if "wind" in c.title or "service" in c.title]
 
 
 def test_drifts_that_ask_for_p_delta_say_so() -> None:

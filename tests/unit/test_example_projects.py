@@ -11,11 +11,19 @@ from frames.motion.spectra import response_spectrum
 
 pytest.importorskip("pydantic")
 
-from frames.design import ProjectError, code_named
+from frames.design import ProjectError, code_named, equivalent_linear
+from frames.design.codes.bounds import with_property_bounds
+from frames.design.codes.registry import known_codes
+from frames.design.devices.capacity import engagement_checks
+from frames.design.devices.device import device_checks
 from frames.design.project import artificial_motions
+from frames.design.project.design_run import run_project
 from frames.design.project.example import BUILDINGS, write_example
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
+from frames.design.project.sanity_checks import file_doubts
+
+CODES = tuple(code.name for code in known_codes() if code.example is not None)
 
 
 @pytest.fixture
@@ -43,6 +51,54 @@ def test_unknown_building_and_another_code(tmp_path: Path) -> None:
     with pytest.raises(ProjectError, match="is of NCh2745: leave --code out"):
         write_example(tmp_path, code="EN 1998", building="hospital")
     assert not any(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("code", CODES)
+@pytest.mark.usefixtures("one_motion")
+def test_plain_example_is_sound_before_any_run(code: str, tmp_path: Path) -> None:
+    """No check that fails or warns; rims as the code wants them, sliders as makers build them."""
+    write_example(tmp_path, code)
+    parts = ProjectInputs(read_project(tmp_path / "project.toml"), tmp_path)
+    assert file_doubts(parts.file) == ()
+    frame, bearing, spectrum = parts.frame(), parts.bearing(), parts.spectrum()
+    system = parts.system(parts.loaded_frame(), spectrum)
+    linear = equivalent_linear(
+        system,
+        spectrum,
+        bounds=parts.bounds(),
+        superstructure=parts.superstructure(frame),
+        code=parts.code().analysis(),
+    )
+    assert not linear.checks.failed, linear.checks.failed
+    allowed = {each.bound: each.allowed_displacement for each in linear.bounds.values()}
+    rims = engagement_checks(bearing, allowed, code=code)
+    assert rims
+    assert {check.verdict for check in rims} == {"ok"}, rims
+    loads = min(system.loads), max(system.loads)
+    slip = max(max(allowed.values()) - bearing.lateral_capacity, 0.02)
+    of_bearing = device_checks(bearing, loads, slip=slip, bounds=parts.bounds())
+    assert of_bearing.passed, of_bearing.failed
+    for bound in ("lower", "nominal", "upper"):
+        device = with_property_bounds(frame, bound, parts.bounds()).bearings["bearing-0-0"].bearing
+        assert device.slip_stability >= bearing.slider_radius  # a slip of the whole overlap holds
+    assert bearing.slider_radius >= 0.2
+    pressures = np.array(system.loads) / (np.pi * bearing.slider_radius**2)
+    assert 20e6 < pressures.max() < 60e6
+    assert pressures.mean() > 10e6
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("code", CODES)
+def test_plain_example_runs_to_the_end_and_is_sound(code: str, tmp_path: Path) -> None:
+    """As `lir new` writes it: all motions, bounds and ways of the masses at the level "contact"."""
+    write_example(tmp_path, code)
+    parts = ProjectInputs(read_project(tmp_path / "project.toml"), tmp_path)
+    assert parts.file.analysis.level == "contact"
+    run = run_project(parts)
+    assert run.checks.passed, run.checks.failed
+    assert not run.checks.to_agree, run.checks.to_agree
+    assert run.doubts == ()
+    assert run.moved
 
 
 @pytest.mark.usefixtures("one_motion")

@@ -47,3 +47,31 @@ def test_what_cannot_be_is_an_error_of_the_section(tmp_path: Path) -> None:
         project(tmp_path, 'kind = "etabs"\nfile = "model.e2k"\nbearings_at = ["CORE"]').frame()
     with pytest.raises(ProjectError, match=r"mesh"):
         project(tmp_path, 'kind = "etabs"\nfile = "model.e2k"\nmesh = "-1 m"')
+
+
+def test_types_of_bearings_by_groups_of_the_model(tmp_path: Path) -> None:
+    parts = project(tmp_path, 'kind = "sap2000"\nfile = "model.s2k"')
+    joints = [name.removeprefix("bearing-") for name in parts.frame().bearings]
+    tables = sap2000_models.building()
+    groups = {"CORE": joints[:2], "EMPTY": []}
+    tables["GROUPS 1 - DEFINITIONS"] = [{"GroupName": name} for name in groups]
+    tables["GROUPS 2 - ASSIGNMENTS"] = [
+        {"GroupName": name, "ObjectType": "Joint", "ObjectLabel": label}
+        for name, labels in groups.items()
+        for label in labels
+    ]
+    (tmp_path / "model.s2k").write_text(sap2000_models.text(tables), encoding="utf-8")
+    path = tmp_path / "project.toml"
+    plain = path.read_text(encoding="utf-8")
+
+    def typed(columns: str) -> ProjectInputs:
+        own = f'[bearings.inner]\ncolumns = ["{columns}"]\nfriction = 0.07\n\n[bounds]'
+        path.write_text(plain.replace("[bounds]", own, 1), encoding="utf-8")
+        return ProjectInputs(read_project(path), tmp_path)
+
+    parts = typed("CORE")
+    assert [kind for kind in parts.types().values()][:3] == ["inner", "inner", "standard"]
+    device = parts.frame().bearings[f"bearing-{joints[1]}"].bearing
+    assert device.frictions[0].f_max == 0.07
+    with pytest.raises(ProjectError, match="no column with a bearing"):
+        typed("RIM").types()

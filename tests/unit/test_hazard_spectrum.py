@@ -126,7 +126,7 @@ def test_spectra_are_continuous_and_damped(spectrum: Spectrum) -> None:
     np.testing.assert_allclose(twice.acceleration(periods), 2.0 * plain, rtol=1e-12)
     assert pickle.loads(pickle.dumps(spectrum)) == spectrum  # noqa: S301
     assert spectrum.name in repr(spectrum)
-    assert "from memory" in spectrum._repr_html_()
+    assert f"{spectrum.source}; {spectrum.standing}" in spectrum._repr_html_()
 
 
 def test_scaling_scales_the_parameters() -> None:

@@ -13,6 +13,7 @@ pytest.importorskip("pint")
 
 from frames import GroundMotion, shear_building, time_histories
 from frames.design import CheckError, DesignLimits, code_named
+from frames.design.devices.limits import PROJECT_LIMIT
 from frames.design.project.moat_checks import of_the_moat
 from lir_element import LIRBearing
 
@@ -36,6 +37,7 @@ def checked(gap: float | None, code: str) -> list:
     rules = code_named(code).histories
     bound = SimpleNamespace(bound="lower", allowed_displacement=0.25)
     run = SimpleNamespace(
+        code=code_named(code),
         limits=DesignLimits(moat_gap=gap),
         equivalent=SimpleNamespace(bounds={"lower": bound}),
         rules=rules,
@@ -49,6 +51,8 @@ def checked(gap: float | None, code: str) -> list:
 def test_displacements_are_held_against_the_gap() -> None:
     reached, linear, histories, single = checked(0.2, "EN 1998")
     assert (linear.demand, linear.passed) == (0.25, False)
+    assert linear.clause == "EN 1998-1 10.5.4"  # the code's displacement; gaps are the project's
+    assert histories.clause == single.clause == PROJECT_LIMIT
     assert histories.demand == pytest.approx(1.2 * reached.max(), rel=1e-12)  # two motions: largest
     assert single.demand == pytest.approx(reached.max(), rel=1e-12)
     assert single.trace["D_max"].note == "hard"

@@ -45,7 +45,7 @@ def test_signs_of_a_beam_that_carries(frame: Frame) -> None:
     still = time_history(frame, GroundMotion(x=np.zeros(6), dt=0.01))
     forces = program_tables(frame, still, units="N, m")["Element Forces - Frames"]
     beam = next(name for name in frame.members if name.startswith("beam"))
-    first, last = (of(forces, Frame=beam, StepType="Max").iloc[k] for k in (0, 1))
+    first, last = (of(forces, Frame=beam, StepType="Max").iloc[k] for k in (0, -1))
     assert first["Station"] == 0.0
     assert last["Station"] > 1.0
     # gravity: V2 rises from below zero at i to above zero at j, both ends hog: the top is pulled
@@ -91,3 +91,30 @@ def test_extremes_and_units(frame: Frame, data: xr.Dataset) -> None:
     assert_allclose(kip["Station"] * 0.0254, kn["Station"])
     with pytest.raises(ModelError, match=r'units = "stone" must be one of KN, m'):
         program_tables(frame, data, units="stone")
+
+
+def test_stations_along_a_beam_by_statics() -> None:
+    """A beam with a uniform and a partial load: shear and moment from those of end i alone."""
+    frame = moment_frame((1, 1), 1, bearing=bearing_for(400e3), floor_load=800.0)
+    beam = next(name for name in frame.members if name.startswith("beam"))
+    frame.add_uniform_load(beam, (0.0, 0.0, -9e3))
+    frame.add_tapered_load(beam, (0.0, 0.0, -4e3), (0.0, 0.0, -12e3), a=1.0, b=2.5)
+    still = time_history(frame, GroundMotion(x=np.zeros(6), dt=0.01))
+    table = frame.program_tables(still, units="N, m", stations=7)["Element Forces - Frames"]
+    rows = of(table, Frame=beam, StepType="Max")
+    assert len(rows) == 7
+    x = rows["Station"].to_numpy()
+    assert_allclose(np.diff(x), (x[-1] - x[0]) / 6.0)
+    fine = np.linspace(0.0, 1.0, 20001)
+    for station, row in zip(x, rows.to_dict("records"), strict=True):
+        s = fine * station
+        q = np.full_like(s, 9e3)  # members weigh at their nodes
+        inside = (s >= 1.0) & (s <= 2.5)
+        q[inside] += 4e3 + 8e3 * (s[inside] - 1.0) / 1.5
+        shear = rows["V2"].iloc[0] + np.trapezoid(q, s)
+        moment = rows["M3"].iloc[0] - rows["V2"].iloc[0] * station
+        moment -= np.trapezoid(q * (station - s), s)
+        assert_allclose(row["V2"], shear, atol=5.0)
+        assert_allclose(row["M3"], moment, atol=10.0)
+    with pytest.raises(ModelError, match="stations"):
+        frame.program_tables(still, stations=1)

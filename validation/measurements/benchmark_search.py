@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 ALLOWED = 0.005
 """Error of the peak displacement that a step may make [-]."""
 STEPS = (0.02, 0.01, 0.005, 0.0025)
-FINE = {"here": 5e-4, "there": 2.5e-3}
-"""Steps of the converged runs [s]."""
+FINE = {"here": 5e-4, "there": 2.5e-3, "yielding": 5e-4}
+"""Steps of the converged runs here and in OpenSees, and there of structures that yield [s]."""
 DURATION = 12.0
 """Of the runs that find the step [s]."""
 PLAIN = ("singleFPBearing", "TripleFrictionPendulum", "plain DCFP, in-process coupling")
@@ -102,7 +102,7 @@ def steps_there(
 
     runs = []
     if reference is None:
-        runs.append(run(FINE["there"]))
+        runs.append(run(FINE["yielding" if structure.yields else "there"]))
         reference = runs[0].peak
     usual = _largest(run, USUAL, reference, runs)
     start = usual["dt"] if math.isfinite(usual["dt"]) else STEPS[1]

@@ -12,6 +12,7 @@ from frames.design.codes.interface import slip_threshold
 from frames.design.codes.isolation import Extremes, IsolationSystem
 from frames.design.codes.outcome import BoundResult, EquivalentLinear
 from frames.design.codes.registry import AnalysisMethod, code_named
+from frames.design.codes.service import service_checks
 from frames.design.hazard.code_rules import canonical, known_names
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_type
@@ -98,6 +99,9 @@ def equivalent_linear(
         for name, each in at.items()
     }
     general = Checks() if bounds is None else slip_threshold(system, bounds)
+    if bounds is not None and superstructure is not None:
+        wind = code_named(chosen.name).values.get("sliding under wind")
+        general += service_checks(system, bounds, superstructure, wind)
     return EquivalentLinear(chosen.name, results, general)
 
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
+from frames.design.calculation.standing import MEMORY
+from frames.design.codes.code_values import standing_by
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -15,6 +17,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.factor_sources import factors_of_asce7
@@ -38,6 +41,7 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
+from frames.design.codes.values_of_asce7 import VALUES
 from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.units import STANDARD_GRAVITY
@@ -64,7 +68,7 @@ _SYMBOLS = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
 
 @dataclass(frozen=True, kw_only=True)
 class ASCE7:
-    """Factors of ASCE 7-22, chapter 17; clause numbers to be confirmed against the standard.
+    """Factors of ASCE 7-22, chapter 17; `CODE.values` tells how well each is known.
 
     Parameters
     ----------
@@ -205,16 +209,23 @@ class ASCE7:
             pendulum.require_sliding(t.value("D_M"))
         self._total(t, system)
         t("V_b", "k_M * D_M", "N", source="ASCE 7-22 (17.5-5)")
-        judge = CheckBuilder(t, bound, level=MCE_R)
+        judge = CheckBuilder(t, bound, MEMORY, level=MCE_R)
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure, spectrum, extremes)
             checks += self._structure_checks(t, superstructure, judge)
             overturning(t, "M_o", "o")
+            known = self._known(judge, "overturning")
+            checks += overturning_check(t, known, "ASCE 7-22 17.2.4.7")
             clause = "ASCE 7-22 17.2.4.6, 17.2.4.7"
-            checks += vertical_checks(t, system, judge, clause, self.pressure_limit)
+            vertical = self._known(judge, "vertical loads")
+            checks += vertical_checks(t, system, vertical, clause, self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _SYMBOLS, rounds, t.values("D_T"), forces, checks)
+
+    def _known(self, judge: CheckBuilder, *names: str) -> CheckBuilder:
+        # Of checks that rest on these values of the code.
+        return judge.known(standing_by(VALUES, *names, analysis=self))
 
     def _total(self, t: Trace, system: IsolationSystem) -> None:
         source = "ASCE 7-22 (17.5-3)"
@@ -245,14 +256,19 @@ class ASCE7:
         t("k_02", "sum(P * (0.2 * D_M / L + mu)) / (0.2 * D_M)", "N/m", note="at 0.2 D_M")
         t.given("a_k", self.stiffness_ratio)
         t("k_lim", "a_k * k_02", "N/m")
-        limits, limit = "ASCE 7-22 17.4.1", judge.of("procedure")
+        limits, stiffness = "ASCE 7-22 17.4.1", "effective stiffness ratio, D_M to 0.2 D_M"
+
+        def limit(name: str) -> CheckBuilder:
+            return self._known(judge, name, "effective").of("procedure")
+
+        rims, back = self._known(judge, "rims"), self._known(judge, "restoring")
         return Checks(
             [
-                capacity_check(t, system, judge, "ASCE 7-22 17.2.4.5, 17.4.1", "D_T"),
-                judge("ASCE 7-22 17.2.4.4", "restoring force", "Delta_F", ">=", "Delta_F_lim"),
-                limit(limits, "effective period", "T_M", "<=", "T_lim"),
-                limit(limits, "effective damping", "beta_M", "<=", "beta_lim"),
-                limit(limits, "effective stiffness ratio, D_M to 0.2 D_M", "k_M", ">=", "k_lim"),
+                capacity_check(t, system, rims, "ASCE 7-22 17.2.4.5, 17.4.1", "D_T"),
+                back("ASCE 7-22 17.2.4.4", "restoring force", "Delta_F", ">=", "Delta_F_lim"),
+                limit("longest period")(limits, "effective period", "T_M", "<=", "T_lim"),
+                limit("most damping")(limits, "effective damping", "beta_M", "<=", "beta_lim"),
+                limit("stiffness ratio")(limits, stiffness, "k_M", ">=", "k_lim"),
             ]
         )
 
@@ -325,23 +341,31 @@ class ASCE7:
         t("V_s_dyn", "a_dyn * V_s", "N", source=source, note=note)
 
     def _structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
-        limits, limit = "ASCE 7-22 17.4.1", judge.of("procedure")
+        limits = "ASCE 7-22 17.4.1"
+
+        def limit(name: str) -> CheckBuilder:
+            return self._known(judge, name).of("procedure")
+
         t.given("a_fb", self.period_ratio)
         t("T_least", "a_fb * T_fb", "s")
-        found: list[Check] = [limit(limits, "period ratio T_M / T_fb", "T_M", ">=", "T_least")]
+        ratio = self._known(judge, "period ratio", "effective").of("procedure")
+        found: list[Check] = [ratio(limits, "period ratio T_M / T_fb", "T_M", ">=", "T_least")]
         if self.irregular:
             t.given("n_irr", 1.0, note="irregular, as given")
             t.given("n_irr_lim", 0.0)
-            found.append(limit(limits, "irregular structure", "n_irr", "<=", "n_irr_lim"))
+            found.append(
+                limit("regularity")(limits, "irregular structure", "n_irr", "<=", "n_irr_lim")
+            )
         if not self.no_tension:
             t.given("n", float(len(above.storey_weights)))
             t.given("n_lim", self.storeys)
             t("h_n", "max(h_x)", "m")
             t.given("h_lim", self.height, "m")
-            found.append(limit(limits, "storeys", "n", "<=", "n_lim"))
-            found.append(limit(limits, "height", "h_n", "<=", "h_lim"))
+            found.append(limit("storeys")(limits, "storeys", "n", "<=", "n_lim"))
+            found.append(limit("height")(limits, "height", "h_n", "<=", "h_lim"))
         clause = "ASCE 7-22 17.5.6"
-        drift = drift_checks(t, above, judge, clause, limit=self.drift, factor="R_I")
+        known = self._known(judge, "drift", "V_st", "exponent", "R_I", "F_x")
+        drift = drift_checks(t, above, known, clause, limit=self.drift, factor="R_I")
         return Checks([*found, *drift])
 
 
@@ -384,6 +408,8 @@ CODE = DesignCode(
     name=ASCE7.name,
     aliases=("ASCE 7", "ASCE/SEI 7-22"),
     title="Minimum Design Loads and Associated Criteria for Buildings and Other Structures",
+    edition="ASCE/SEI 7-22, chapter 17; compared with public texts that follow 7-05 and 7-16",
+    values=VALUES,
     analysis=ASCE7,
     damping=DampingRule(
         "ASCE/SEI 7-22, table 17.5-1 (7-16 alike)",
@@ -397,10 +423,19 @@ CODE = DesignCode(
             (0.40, 1.9),
             (0.50, 2.0),
         ),
+        standing=VALUES["damping factor"].standing,
     ),
     scaling=(
         ScalingRule(
-            "ASCE 7-22", "RotD100", 1.0, 0.0, 7, "ASCE 7-22 17.3.3", (0.75, 1.25), fault_axes=True
+            "ASCE 7-22",
+            "RotD100",
+            1.0,
+            0.0,
+            7,
+            "ASCE 7-22 17.3.3",
+            (0.75, 1.25),
+            fault_axes=True,
+            standing=VALUES["scaling"].standing,
         ),
         ScalingRule(
             "ASCE 7-16", "SRSS", 1.0, 0.0, 7, "ASCE 7-16 17.3.3", (0.75, 1.25), fault_axes=True
@@ -439,7 +474,13 @@ CODE = DesignCode(
         "t_l": SpectrumKey(unit="s"),
         "v_s30": SpectrumKey(unit="m/s"),
     },
-    rims=RimRule("ASCE 7-22 17.2.4.5", "D_TM", 0.60, "needs time histories with the rims"),
+    rims=RimRule(
+        "ASCE 7-22 17.2.4.5",
+        "D_TM",
+        0.60,
+        "needs time histories with the rims",
+        VALUES["rims"].standing,
+    ),
     tests=_tests,
     acceptance="ASCE 7-22 17.8.4",
     example=ExampleProject({"s_ms": 1.2, "s_m1": 0.7}, {}),

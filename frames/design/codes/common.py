@@ -121,6 +121,34 @@ def overturning(t: Trace, moment: str, share: str) -> None:
     t.each("N_E", formula, "N", note="axial loads from overturning, rigid base")
 
 
+def overturning_check(t: Trace, judge: CheckBuilder, clause: str) -> Checks:
+    """Return the check that the structure as a whole does not overturn on its bearings.
+
+    Parameters
+    ----------
+    t : Trace
+        With the weight W, the moment M_o of unreduced forces, the bearings' places and the centre
+        of mass.
+    judge : CheckBuilder
+        Makes the check.
+    clause : str
+        Clause.
+
+    Returns
+    -------
+    Checks
+        The moment against that of the weight about the nearest row of outer bearings; none where
+        the bearings stand in one line, across which the model has no lever.
+    """
+    if not all(t.value(f"I_{axis}") > 0.0 for axis in "xy"):
+        return Checks()
+    for axis in "xy":
+        formula = f"min({axis}_M - min({axis}), max({axis}) - {axis}_M)"
+        t(f"a_{axis}", formula, "m", note="centre of mass to the outer bearings")
+    t("M_W", "W * min(a_x, a_y)", "N m", note="of the weight, safety 1.0")
+    return Checks([judge(clause, "overturning of the whole structure", "M_o", "<=", "M_W")])
+
+
 def vertical_checks(
     t: Trace,
     system: IsolationSystem,

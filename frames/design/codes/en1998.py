@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
+from frames.design.calculation.standing import MEMORY
+from frames.design.codes.code_values import standing_by
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -15,6 +17,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.factor_sources import factors_of_en1998
@@ -24,7 +27,6 @@ from frames.design.codes.load_rules import LoadRule, fixed_combinations
 from frames.design.codes.outcome import BoundResult, Symbols
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest
 from frames.design.codes.registry import (
-    EXAMPLE_UPLIFT,
     MOST_IMPORTANT,
     NO_LIMITS,
     DesignCode,
@@ -40,6 +42,7 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
+from frames.design.codes.values_of_en1998 import VALUES
 from frames.design.hazard.code_rules import DampingRule, ScalingRule
 from frames.design.hazard.spectrum import Spectrum
 
@@ -57,7 +60,7 @@ _SYMBOLS = Symbols("d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_
 
 @dataclass(frozen=True, kw_only=True)
 class EN1998:
-    """Factors of EN 1998-1 and -2 and EN 15129; clause numbers to be confirmed.
+    """Factors of EN 1998-1 and -2 and EN 15129; `CODE.values` tells how well each is known.
 
     Parameters
     ----------
@@ -176,21 +179,29 @@ class EN1998:
             pendulum.require_sliding(t.value("d_dc"))
         self._torsion(t, system)
         t("V_b", "K_eff * d_dc", "N", source="EN 1998-1 10.9.3")
-        judge = CheckBuilder(t, bound, level=DESIGN)
+        judge = CheckBuilder(t, bound, MEMORY, level=DESIGN)
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure)
             t.given("nu", self.reduction, source="EN 1998-1 4.4.3.2")
             clause = "EN 1998-1 4.4.3.2"
             limit = self.drift
-            checks += drift_checks(t, superstructure, judge, clause, limit=limit, factor="nu * q")
+            known = self._known(judge, "drift", "reduction", "behaviour")
+            checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="nu * q")
             overturning(t, "M_o", "o")
+            known = self._known(judge, "overturning")
+            checks += overturning_check(t, known, "EN 1998-1 4.4.2.4")
             clause = "EN 15129 8.3, EN 1998-1 10.10"
-            checks += vertical_checks(t, system, judge, clause, self.pressure_limit)
+            known = self._known(judge, "vertical loads")
+            checks += vertical_checks(t, system, known, clause, self.pressure_limit)
             if self.simplified:
                 checks += self._simplified_checks(t, superstructure, judge)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _SYMBOLS, rounds, t.values("d_bi"), forces, checks)
+
+    def _known(self, judge: CheckBuilder, *names: str) -> CheckBuilder:
+        # Of checks that rest on these values of the code.
+        return judge.known(standing_by(VALUES, *names, analysis=self))
 
     def _torsion(self, t: Trace, system: IsolationSystem) -> None:
         t.given("a_e", self.accidental_eccentricity, source="EN 1998-1 4.3.2")
@@ -225,13 +236,20 @@ class EN1998:
         t.each("d_r", "mu * L", "m", source="EN 1998-2 7.7.1", shown="mm", note="largest residual")
         t.each("d_least", "a_r * d_r", "m", shown="mm")
         limits, names = "EN 1998-1 10.9.2", system.labels
-        limit = judge.of("procedure")
+        title, stiffness = "recentring, energy", "effective stiffness ratio, d_dc to 0.2 d_dc"
+        capacity = self._known(judge, "capacity", "reliability")
+
+        def limit(name: str) -> CheckBuilder:
+            return self._known(judge, name).of("procedure")
+
         found = [
             capacity_check(
-                t, system, judge, "EN 1998-1 10.3, EN 15129 8.3", "d_Ed", "gamma_x d_bd"
+                t, system, capacity, "EN 1998-1 10.3, EN 15129 8.3", "d_Ed", "gamma_x d_bd"
             ),
-            judge.worst("EN 15129 4.3", "recentring, energy", "E_S", ">=", "E_lim", subjects=names),
-            judge.worst(
+            self._known(judge, "energy").worst(
+                "EN 15129 4.3", title, "E_S", ">=", "E_lim", subjects=names
+            ),
+            self._known(judge, "recentring").worst(
                 "EN 1998-2 7.7.1",
                 "recentring, displacement",
                 "d_dc",
@@ -240,22 +258,22 @@ class EN1998:
                 subjects=names,
                 note="else capacity must be d_o + gamma_du rho_d d_bi,d",
             ),
-            limit(limits, "effective stiffness ratio, d_dc to 0.2 d_dc", "K_eff", ">=", "K_lim"),
-            limit(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
-            limit(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
-            limit(
+            limit("stiffness ratio")(limits, stiffness, "K_eff", ">=", "K_lim"),
+            limit("most damping")(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
+            limit("restoring")(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
+            limit("total eccentricity")(
                 "EN 1998-1 10.9.3",
                 "total eccentricity over the side of the plan",
                 "a_tot",
                 "<=",
                 "a_e_lim",
             ),
-            self._accumulated(t, system, limit),
+            self._accumulated(t, system, limit("accumulated")),
         ]
         if self.property_variation is not None:
             t.given("v", self.property_variation, shown="%")
             t.given("v_lim", self.most_variation, shown="%")
-            found.append(limit(limits, "variation of properties", "v", "<=", "v_lim"))
+            found.append(limit("variation")(limits, "variation of properties", "v", "<=", "v_lim"))
         return Checks(found)
 
     def _accumulated(self, t: Trace, system: IsolationSystem, limit: CheckBuilder) -> Check:
@@ -307,15 +325,20 @@ class EN1998:
         t("K_V", "W / g * (2 * pi / T_v)**2", "N/m", note="by T_v of the mass above")
         t("r_V", "K_V / K_eff")
         t.given("r_V_lim", self.vertical_stiffness)
-        clause, limit = "EN 1998-1 10.9.3", judge.of("procedure")
+        clause, ratio = "EN 1998-1 10.9.3", "period ratio T_eff / T_fb"
+        upright = "vertical over effective stiffness"
+
+        def limit(name: str) -> CheckBuilder:
+            return self._known(judge, name).of("procedure")
+
         return Checks(
             [
-                limit(clause, "side of the plan", "B_plan", "<=", "B_lim"),
-                limit(clause, "effective period", "T_eff", "<=", "T_lim"),
-                limit(clause, "distance to the fault", "r_f", ">=", "r_lim"),
-                limit(clause, "period ratio T_eff / T_fb", "T_eff", ">=", "T_least"),
-                limit(clause, "vertical period", "T_v", "<=", "T_v_lim"),
-                limit(clause, "vertical over effective stiffness", "r_V", ">=", "r_V_lim"),
+                limit("largest side")(clause, "side of the plan", "B_plan", "<=", "B_lim"),
+                limit("longest period")(clause, "effective period", "T_eff", "<=", "T_lim"),
+                limit("fault")(clause, "distance to the fault", "r_f", ">=", "r_lim"),
+                limit("period ratio")(clause, ratio, "T_eff", ">=", "T_least"),
+                limit("vertical period")(clause, "vertical period", "T_v", "<=", "T_v_lim"),
+                limit("vertical stiffness")(clause, upright, "r_V", ">=", "r_V_lim"),
             ]
         )
 
@@ -344,8 +367,7 @@ def _factor(damping: float) -> float:
 
 
 _LOADS = LoadRule(
-    "EN 1990:2002, 6.4.3.4 and table A1.1*, EN 1998-1:2004, 3.2.4*: psi_2 = 0.3 of dwellings and "
-    "offices, phi = 1; no vertical earthquake in the combinations",
+    VALUES["loads"].clause,
     {"D": 1.0, "L": 0.3, "S": 0.0},
     fixed_combinations(
         {
@@ -354,17 +376,22 @@ _LOADS = LoadRule(
             "minimum": {"D": 1.0, "L": 0.0, "S": 0.0},
         }
     ),
+    VALUES["loads"].standing,
+    "psi_2 = 0.3 of dwellings and offices, phi = 1; no vertical earthquake in the combinations",
 )
 
 CODE = DesignCode(
     name=EN1998.name,
     aliases=("EN 1998-1", "EN 1998-1:2004", "Eurocode 8"),
     title="Design of structures for earthquake resistance, with EN 15129, Anti-seismic devices",
+    edition="EN 1998-1:2004, EN 1998-2:2005, EN 15129:2009; not the second generation",
+    values=VALUES,
     analysis=EN1998,
     damping=DampingRule(
         "EN 1998-1:2004, 3.2.2.2(3)",
         "B = 1 / eta, eta = sqrt(10 / (5 + damping in %)) >= 0.55",
         formula=_factor,
+        standing=VALUES["damping factor"].standing,
     ),
     scaling=(
         ScalingRule(
@@ -375,6 +402,7 @@ CODE = DesignCode(
             7,
             "EN 1998-1:2004 3.2.3.1.2 and 4.3.3.4.3",
             (0.2, 2.0),
+            standing=VALUES["scaling"].standing,
         ),
         ScalingRule("EN 1998-2", "SRSS", 1.3, 0.0, 7, "EN 1998-2:2005 3.2.3", (0.2, 1.5)),
     ),
@@ -407,6 +435,7 @@ CODE = DesignCode(
         "rims met by intent: these standards have no rule for it; NTC 2018 7.10.6.2.2, which "
         "implements them, wants end stops that leave this displacement free. Needs the agreement "
         "of the authority, time histories with the rims, and tests of impact and return",
+        VALUES["rims"].standing,
     ),
     tests=_tests,
     acceptance=f"{NO_LIMITS}, not of EN 15129 8.3.4",
@@ -415,8 +444,7 @@ CODE = DesignCode(
         {
             "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
             "kind = 1\n",
-            "bearing": example_bearing("2.5 m", 185, 150, 0.04, 0.075),
-            "analysis": EXAMPLE_UPLIFT,
+            "bearing": example_bearing("2 m", 200, 270, 0.04, 0.098, "beyond gamma_x d_bd"),
         },
     ),
 )

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
+from frames.design.calculation.standing import MEMORY, Standing
+from frames.design.codes.values_of_asce7 import VALUES
 from frames.model.load_combinations import isolator_combinations
 
 Combinations = dict[str, dict[str, float]]
@@ -20,13 +22,17 @@ class LoadRule(NamedTuple):
     Attributes
     ----------
     clause : str
-        Where the code says so; from memory if marked by a star.
+        Where the code says so.
     mass : mapping of str to float
         Share of each load case that is seismic mass [-], if a project does not say another.
     combinations : callable
         Returns the vertical load combinations of the bearings without the horizontal earthquake,
         "average" among them, which time histories carry; its argument is S_MS [g], or None where
         the code's spectrum has none.
+    standing : Standing
+        How well it is known.
+    note : str
+        What it makes of the loads, in words.
 
     Examples
     --------
@@ -39,6 +45,14 @@ class LoadRule(NamedTuple):
     clause: str
     mass: Mapping[str, float]
     combinations: Callable[[float | None], Combinations]
+    standing: Standing = MEMORY
+    note: str = ""
+
+    @property
+    def cited(self) -> str:
+        """Clause, with a star where it is from memory, and note."""
+        said = self.standing.cited(self.clause)
+        return f"{said}: {self.note}" if self.note else said
 
 
 def fixed_combinations(combinations: Combinations) -> Callable[[float | None], Combinations]:
@@ -58,8 +72,10 @@ def fixed_combinations(combinations: Combinations) -> Callable[[float | None], C
 
 
 LOADS_OF_ASCE = LoadRule(
-    "ASCE/SEI 7-22, 12.7.2 and 17.2.7.1*; of live load only that of storage counts as mass, 25 %",
+    VALUES["loads"].clause,
     {"D": 1.0, "L": 0.0, "S": 0.0},
     lambda s_ms: isolator_combinations(s_ms or 0.0),
+    VALUES["loads"].standing,
+    "of live load only that of storage counts as mass, 25 %",
 )
 """Seismic weight and combinations of ASCE 7, and of codes that give none of their own."""

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 import numpy as np
 
 from frames.design.calculation.check import Bound, Checks
+from frames.design.calculation.standing import MEMORY
+from frames.design.codes.code_values import standing_by
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -16,6 +18,7 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
     overturning,
+    overturning_check,
     vertical_checks,
 )
 from frames.design.codes.history_rules import HistoryRules
@@ -32,7 +35,6 @@ from frames.design.codes.prototype_programme import (
     wind_test,
 )
 from frames.design.codes.registry import (
-    EXAMPLE_UPLIFT,
     NO_LIMITS,
     DesignCode,
     ExampleProject,
@@ -47,6 +49,7 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
+from frames.design.codes.values_of_nch2745 import VALUES
 from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
 from frames.design.hazard.spectral_shapes import (
     NCH433_SHEAR,
@@ -73,7 +76,7 @@ _LONG = 4.0  # s, beyond all T_d
 
 @dataclass(frozen=True, kw_only=True)
 class NCh2745:
-    """Factors of NCh2745; clause numbers and factors to be confirmed against the standard.
+    """Factors of NCh2745; `CODE.values` tells how well each is known.
 
     Parameters
     ----------
@@ -167,14 +170,17 @@ class NCh2745:
         t("k_Dmax", "sum(P * (D_D / L + mu_up)) / D_D", "N/m", source="NCh2745 7.4")
         t("V_b", "k_Dmax * D_D", "N", source="NCh2745 7.4")
         t("k_Mmax", "sum(P * (D_M / L + mu_up)) / D_M", "N/m", note="largest at D_M")
-        judge = CheckBuilder(t, bound, level=DESIGN)
+        judge = CheckBuilder(t, bound, MEMORY, level=DESIGN)
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure, spectrum, extremes)
             clause, limit = "NCh2745 7.6", self.drift
-            checks += drift_checks(t, superstructure, judge, clause, limit=limit, factor="R_1")
+            known = self._known(judge, "drift", "R_1", "F_x")
+            checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="R_1")
             overturning(t, "M_o", "o")
-            at = judge.at(MAXIMUM)
+            known = self._known(judge, "overturning").at(MAXIMUM)
+            checks += overturning_check(t, known, "NCh2745 6.2")
+            at = self._known(judge, "vertical loads").at(MAXIMUM)
             checks += vertical_checks(t, system, at, "NCh2745 6.2", self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _MAXIMUM, rounds, t.values("D_TM_i"), forces, checks)
@@ -195,6 +201,10 @@ class NCh2745:
         t("D_D", "C_D / B_D", "m", source="NCh2745 7.3", shown="mm")
         return t
 
+    def _known(self, judge: CheckBuilder, *names: str) -> CheckBuilder:
+        # Of checks that rest on these values of the code.
+        return judge.known(standing_by(VALUES, *names, analysis=self))
+
     def _totals(self, t: Trace, system: IsolationSystem) -> None:
         t.given("a_e", self.accidental_eccentricity, source="NCh2745 7.3")
         t.given("a_T", self.least_torsion, source="NCh2745 7.3")
@@ -209,10 +219,11 @@ class NCh2745:
     def _device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
         enter_restoring(t, "D_D", self.restoring)
         note = "else bearings must allow 3 times the total design displacement, 3 D_TD"
+        rims, back = self._known(judge, "capacity"), self._known(judge, "restoring")
         return Checks(
             [
-                capacity_check(t, system, judge.at(MAXIMUM), "NCh2745 7.3", "D_TM_i"),
-                judge("NCh2745 10.2", "restoring force", "Delta_F", ">=", "Delta_F_lim", note=note),
+                capacity_check(t, system, rims.at(MAXIMUM), "NCh2745 7.3", "D_TM_i"),
+                back("NCh2745 10.2", "restoring force", "Delta_F", ">=", "Delta_F_lim", note=note),
             ]
         )
 
@@ -305,8 +316,7 @@ def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
 
 
 _LOADS = LoadRule(
-    "NCh433 5.5.1* and NCh2745 8.4* (UBC-97 1661): 25 % of the live load of dwellings and offices "
-    "is mass; no vertical earthquake in the combinations",
+    VALUES["loads"].clause,
     {"D": 1.0, "L": 0.25, "S": 0.0},
     fixed_combinations(
         {
@@ -315,15 +325,20 @@ _LOADS = LoadRule(
             "minimum": {"D": 0.8, "L": 0.0, "S": 0.0},
         }
     ),
+    VALUES["loads"].standing,
+    "as UBC-97 1661, 25 % of the live load of dwellings and offices is mass; no vertical "
+    "earthquake in the combinations",
 )
 
 CODE = DesignCode(
     name=NCh2745.name,
-    aliases=("NCh 2745", "NCh2745:2013"),
+    aliases=("NCh 2745", "NCh2745:2003"),
     title="Earthquake-resistant design of base-isolated buildings (Chile)",
+    edition="tables of NCh2745 Of.2003; that those of 2013 are the same is not confirmed",
+    values=VALUES,
     analysis=NCh2745,
     damping=DampingRule(
-        "NCh2745:2013, table of B_D and B_M",
+        VALUES["damping factor"].clause,
         LINEAR,
         table=(
             (0.02, 0.65),
@@ -335,9 +350,21 @@ CODE = DesignCode(
             (0.30, 2.38),
             (0.50, 3.02),
         ),
+        standing=VALUES["damping factor"].standing,
     ),
     # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
-    scaling=(ScalingRule("NCh2745", "SRSS", 1.17, 0.0, 7, "NCh2745 8.4", (0.5, 1.25)),),
+    scaling=(
+        ScalingRule(
+            "NCh2745",
+            "SRSS",
+            1.17,
+            0.0,
+            7,
+            "NCh2745 8.4",
+            (0.5, 1.25),
+            standing=VALUES["scaling"].standing,
+        ),
+    ),
     loads=_LOADS,
     histories=HistoryRules(
         code=NCh2745.name,
@@ -368,6 +395,7 @@ CODE = DesignCode(
         "rims met by intent: no clause that allows it was read in NCh2745 (UBC-97, from which it "
         "descends, wants none below 0.75 D_TD, and the maximum level analysed with them). Needs "
         "the reviewer's agreement (13), time histories with the rims, tests of impact and return",
+        VALUES["rims"].standing,
     ),
     tests=_tests,
     acceptance=f"{NO_LIMITS}, not of NCh2745 14",
@@ -375,8 +403,7 @@ CODE = DesignCode(
         {"soil": "II", "zone": 3},
         {
             "spectrum": 'soil = "II"\nzone = 3\n',
-            "bearing": example_bearing("1.5 m", 185, 227, 0.04, 0.095),
-            "analysis": EXAMPLE_UPLIFT,
+            "bearing": example_bearing("1.7 m", 200, 420, 0.03, 0.1, "beyond D_TM"),
         },
     ),
 )

@@ -7,17 +7,25 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast, runtime_checkable
 
 from frames.design._errors import CheckError
+from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.codes.factor_sources import factors_by_source
 from frames.design.codes.history_rules import HistoryRules
 from frames.design.codes.load_rules import LOADS_OF_ASCE, LoadRule
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, no_tests
-from frames.design.hazard.code_rules import HazardRules, add_rules, known_rules, rules_named
+from frames.design.hazard.code_rules import (
+    HazardRules,
+    add_rules,
+    canonical,
+    known_rules,
+    rules_named,
+)
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Bound
     from frames.design.codes.bounds import PropertyModificationFactors
+    from frames.design.codes.code_values import CodeValue
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.outcome import BoundResult
     from frames.design.codes.superstructure import Superstructure
@@ -55,6 +63,8 @@ class RimRule(NamedTuple):
         Share of it below which rims must not be met [-].
     note : str
         What rims that are met below it mean under the code.
+    standing : Standing
+        How well clause and share are known.
 
     Examples
     --------
@@ -67,6 +77,7 @@ class RimRule(NamedTuple):
     symbol: str
     least: float
     note: str
+    standing: Standing = MEMORY
 
 
 class SpectrumKey(NamedTuple):
@@ -117,16 +128,11 @@ class ExampleProject(NamedTuple):
 MOST_IMPORTANT = 3.0
 """Largest importance factor [-]; codes have 0.6 to 1.5."""
 
-EXAMPLE_UPLIFT = """level = "pendulum"
-uplift_allowed = true             # corners lift for a moment; without it such runs count as failed
-"""
-"""Section ``[analysis]`` of examples whose code counts runs with uplift as failed."""
-
 
 def example_bearing(
-    radius: str, slider: int, capacity: int, friction: float, interface: float
+    radius: str, slider: int, capacity: int, friction: float, interface: float, why: str
 ) -> str:
-    """Return the section ``[bearing]`` of an example, as ``lir design`` proposes it.
+    """Return the section ``[bearing]`` of an example.
 
     Parameters
     ----------
@@ -136,6 +142,8 @@ def example_bearing(
         Height and radius of the slider, and capacity [mm].
     friction, interface : float
         Of surfaces and interface [-].
+    why : str
+        What the capacity goes by.
 
     Returns
     -------
@@ -143,9 +151,11 @@ def example_bearing(
         The section's lines.
     """
     return (
-        f'radius = "{radius}"\nslider_height = "{slider} mm"\nslider_radius = "{slider} mm"\n'
-        f'capacity = "{capacity} mm"               # displacement at which rims are met\n'
-        f"friction = {friction:g}\ninterface_friction = {interface:g}\n"
+        f'radius = "{radius}"\nslider_height = "{slider} mm"\n'
+        f'slider_radius = "{slider} mm"          # as wide as keeps the resultant on it (e/a)\n'
+        f'capacity = "{capacity} mm"               # displacement at which rims are met: {why}\n'
+        f"friction = {friction:g}\n"
+        f"interface_friction = {interface:g}        # holds until a rim is met\n"
     )
 
 
@@ -163,6 +173,10 @@ class DesignCode(HazardRules):
         As in `frames.design.hazard.code_rules.HazardRules`.
     title : str
         What it is.
+    edition : str
+        Edition that its clauses, formulas and tables are of, as report and console name it.
+    values : mapping of str to CodeValue
+        What it gives, value by value, and how well each is known; all else is from memory.
     analysis : callable
         Returns the equivalent-linear analysis with all defaults; a class such as `ASCE7`.
     histories : HistoryRules
@@ -205,6 +219,8 @@ class DesignCode(HazardRules):
     """
 
     title: str
+    edition: str = ""
+    values: Mapping[str, CodeValue] = field(default_factory=dict)
     analysis: Callable[[], AnalysisMethod]
     histories: HistoryRules
     spectrum: Callable[..., Spectrum]
@@ -227,6 +243,15 @@ class DesignCode(HazardRules):
                 f"histories, from {least} by scaling: give both the same"
             )
             raise CheckError(msg)
+
+    @property
+    def cited(self) -> str:
+        """Name and title, with the edition if it is told."""
+        return f"{self.name}: {self.title}{f' ({self.edition})' if self.edition else ''}"
+
+    def standing(self, name: str) -> Standing:
+        """Return how well one of its `values` is known; from memory of what it does not list."""
+        return self.values[name].standing if name in self.values else MEMORY
 
     def by_points(
         self, periods: Sequence[float], accelerations: Sequence[float], **keys: float
@@ -328,6 +353,26 @@ def code_named(name: str, error: type[ValueError] = CheckError) -> DesignCode:
     1.2
     """
     return cast("DesignCode", rules_named(name, error))
+
+
+def standing_in(code: str, name: str) -> Standing:
+    """Return how well a value of a code is known.
+
+    Parameters
+    ----------
+    code : str
+        Name of the code.
+    name : str
+        Of one of its `DesignCode.values`.
+
+    Returns
+    -------
+    Standing
+        From memory where the code, or its value, is not known.
+    """
+    spelled = canonical(code)
+    found = [one for one in known_codes() if one.name == spelled]
+    return found[0].standing(name) if found else MEMORY
 
 
 class _HistoryRulesByCode(Mapping[str, HistoryRules]):

@@ -167,6 +167,10 @@ class CheckBuilder:
         """Return one that makes checks of this scope."""
         return replace(self, scope=scope)
 
+    def known(self, standing: Standing) -> CheckBuilder:
+        """Return one that makes checks of this standing."""
+        return replace(self, standing=standing)
+
     def at(self, level: str) -> CheckBuilder:
         """Return one that makes checks at this level of the seismic action."""
         return replace(self, level=level)

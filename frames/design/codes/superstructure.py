@@ -37,6 +37,8 @@ class Superstructure:
         Lateral stiffness of each storey [N/m], for drifts; without it they are not checked.
     wind_shear : float
         Factored wind shear of the superstructure [N], least V_s of ASCE 7 and NCh2745.
+    service_displacement : float
+        Displacement of the bearings without an earthquake, of temperature or shrinkage [m].
     vertical_period : float, optional
         Vertical period T_v of the structure on its bearings [s], for the simplified analysis of
         EN 1998.
@@ -61,6 +63,7 @@ class Superstructure:
     importance: float = 1.0
     storey_stiffness: tuple[float, ...] | None = None
     wind_shear: float = 0.0
+    service_displacement: float = 0.0
     vertical_period: float | None = None
 
     def __post_init__(self) -> None:
@@ -78,6 +81,8 @@ class Superstructure:
         for name in ("fixed_base_period", "R", "importance"):
             require_positive(name, getattr(self, name), error=CheckError)
         require_non_negative("wind_shear", self.wind_shear, "N", error=CheckError)
+        given = self.service_displacement
+        require_non_negative("service_displacement", given, "m", error=CheckError)
         if self.vertical_period is not None:
             require_positive("vertical_period", self.vertical_period, "s", error=CheckError)
 
@@ -90,6 +95,7 @@ class Superstructure:
         importance: float = 1.0,
         storey_stiffness: tuple[float, ...] | None = None,
         wind_shear: float = 0.0,
+        service_displacement: float = 0.0,
         vertical_period: float | None = None,
     ) -> Superstructure:
         """Return what stands on the bearings of a frame: weights, heights and period.
@@ -99,7 +105,7 @@ class Superstructure:
         frame : Frame
             The model, whose lowest level is the base above the bearings (`Frame.add_level`); each
             node's mass belongs to the level that is nearest in height.
-        R, importance, storey_stiffness, wind_shear, vertical_period
+        R, importance, storey_stiffness, wind_shear, service_displacement, vertical_period
             As in `Superstructure`.
 
         Returns
@@ -129,6 +135,7 @@ class Superstructure:
             importance=importance,
             storey_stiffness=storey_stiffness,
             wind_shear=wind_shear,
+            service_displacement=service_displacement,
             vertical_period=vertical_period,
         )
 

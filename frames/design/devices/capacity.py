@@ -145,7 +145,8 @@ def engagement_checks(
     require_rims(bearing)
     rule = code_named(code).rims
     share = rule.least if least is None else require_positive("least", least, "-", error=CheckError)
-    asked = [(rule.clause, MEMORY, share, rule.note)]
+    known = rule.standing if least is None else MEMORY
+    asked = [(rule.clause, known, share, rule.note)]
     if agreed is not None:
         require_positive("agreed", agreed, "-", error=CheckError)
         said = "as agreed; the code's own is checked beside it"

@@ -72,12 +72,13 @@ class ScalingRule(NamedTuple):
     least : int
         Number of pairs from which the mean response may be used.
     clause : str
-        Where the code says so; to be confirmed against the standard.
+        Where the code says so.
     periods : (float, float)
-        Range of periods over the shortest and the longest effective period of the bounds [-]; to
-        be confirmed.
+        Range of periods over the shortest and the longest effective period of the bounds [-].
     fault_axes : bool
         Whether near-fault pairs are to be turned to the axes of the fault.
+    standing : Standing
+        How well clause, part and range are known.
 
     Examples
     --------
@@ -95,6 +96,7 @@ class ScalingRule(NamedTuple):
     clause: str
     periods: tuple[float, float]
     fault_axes: bool = False
+    standing: Standing = MEMORY
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -141,6 +141,8 @@ def _given(period: FloatArray, b: float, p: Parameters, points: Points) -> Float
     return np.asarray(np.interp(period, *np.array(points).T) / b, dtype=np.float64)
 
 
+_DS61 = Standing("agrees", "decree 61 of 2011 of Chile (MINVU) and the consolidated NCh433")
+
 SHAPES = {
     "asce7": Shape(
         _asce7, ("S_MS", "S_M1", "S_1"), ("T_0", "T_S", "T_L"), "ASCE/SEI 7-22, 11.4.5.2"
@@ -149,8 +151,8 @@ SHAPES = {
         _asce7_points, ("S_MS", "S_M1", "S_1"), ("T_S", "T_L"), "ASCE/SEI 7-22, 11.4.5.1, 21.4"
     ),
     "en1998": Shape(_en1998, ("a_gR", "a_g"), ("T_B", "T_C", "T_D"), "EN 1998-1:2004, 3.2.2.2"),
-    "nch2745": Shape(_nch2745, ("Z",), ("T_a", "T_b", "T_c", "T_d"), "NCh2745:2013, clause 8.4"),
-    "nch433": Shape(_nch433, ("A_0",), ("T_0",), "NCh433 with decree 61 of 2011"),
+    "nch2745": Shape(_nch2745, ("Z",), ("T_a", "T_b", "T_c", "T_d"), "NCh2745 Of.2003"),
+    "nch433": Shape(_nch433, ("A_0",), ("T_0",), "NCh433 with decree 61 of 2011", _DS61),
     "given": Shape(_given, (), (), "as given", OWN),
 }
 """Families of spectra by name."""

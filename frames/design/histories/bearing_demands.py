@@ -100,19 +100,17 @@ class BearingDemands:
     note: str = ""
     factor: float = 1.0
 
-    def displacement(
-        self, clause: str, least: float = 0.0, standing: Standing = OWN
-    ) -> list[Check]:
+    def displacement(self, clause: str, standing: Standing, least: float = 0.0) -> list[Check]:
         """Return the check of the displacement against what rims and overlap allow.
 
         Parameters
         ----------
         clause : str
             Clause.
-        least : float
-            Displacement that is taken at least [m].
         standing : Standing
             Of the check.
+        least : float
+            Displacement that is taken at least [m].
 
         Returns
         -------

@@ -12,10 +12,10 @@ import numpy as np
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check
-from frames.design.calculation.standing import MEMORY, OWN
+from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
-from frames.design.codes.registry import HISTORY_RULES
+from frames.design.codes.registry import HISTORY_RULES, standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.limits import PROJECT_LIMIT
@@ -24,14 +24,12 @@ from frames.design.histories.eccentricity import named_by_way, raised_suite, wit
 from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.least_shears import LEAST, raise_of, shear_checks
 from frames.design.histories.suite import (
-    audit_notes,
-    contact_notes,
-    left_out_checks,
     names_of,
     parted,
     peaks_of_runs,
     suite_of,
 )
+from frames.design.histories.suite_notes import audit_notes, contact_notes, left_out_checks
 from frames.design.histories.uplift import Uplift
 from frames.statics.overturning import unknown_axial_forces
 
@@ -111,7 +109,7 @@ class BoundChecks:
     def _of_bearings(self) -> list[Check]:
         rules, bearings = self.rules, self._bearings
         clause = self._clause(rules.displacement_clause)
-        moved = bearings.displacement(clause, self._least("D_TM_dyn"), MEMORY)
+        moved = bearings.displacement(clause, MEMORY, self._least("D_TM_dyn"))
         found = [
             *moved,
             *self._engagement(moved),
@@ -168,7 +166,8 @@ class BoundChecks:
         t = Trace()
         t.given("n", float(self.data.sizes["run"]), note="motions")
         t.given("n_least", float(self.rules.least))
-        clause, judge = self._clause(self.rules.statistic_clause), CheckBuilder(t, self.bound)
+        clause = self._clause(self.rules.statistic_clause)
+        judge = CheckBuilder(t, self.bound, self._known("number of motions", "least"))
         note = f"{self._suite.statistic} of the motions counts; {self._eccentricity}"
         return judge(clause, "number of motions", "n", ">=", "n_least", note=note)
 
@@ -191,7 +190,8 @@ class BoundChecks:
         t.given("n_failed", float(sum(self._suite.failed)), note="runs that failed")
         allowed = self.rules.unacceptable_allowed if self._suite.statistic == "mean" else 0
         t.given("n_allowed", float(allowed))
-        clause, judge = self._clause(self.rules.statistic_clause), CheckBuilder(t, self.bound)
+        clause = self._clause(self.rules.statistic_clause)
+        judge = CheckBuilder(t, self.bound, MEMORY)
         said = (self._suite.reason, self._small_gaps, self._audit)
         note = "; ".join(part for part in said if part)
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
@@ -206,7 +206,8 @@ class BoundChecks:
         t.given("n_allowed", 0.0)
         audit = audit_notes(named_by_way(self.moved))
         note = "; ".join(part for part in (self._suite.moved_failed, audit) if part)
-        clause, judge = self._clause(self.rules.eccentricity_clause), CheckBuilder(t, self.bound)
+        clause = self._clause(self.rules.eccentricity_clause)
+        judge = CheckBuilder(t, self.bound, self._known("moved masses", "accidental_eccentricity"))
         title = "runs with moved masses that failed"
         return [judge(clause, title, "n_failed", "<=", "n_allowed", note=note)]
 
@@ -237,7 +238,8 @@ class BoundChecks:
             t.given("t_up", longest, "s", note=f"longest of a bearing in a run, gap above {gap}")
             t.given("t_allowed", 0.0, "s")
             stopped = bool((every["status"].to_numpy() != "ok").any())
-            judge = CheckBuilder(t, self.bound, void=self._suite.void if stopped else "")
+            void = self._suite.void if stopped else ""
+            judge = CheckBuilder(t, self.bound, self._known("uplift", "uplift_allowed"), void=void)
             clause, title = self._clause(self.rules.force_clause), f"uplift duration above {gap}"
             said = "; ".join(
                 part for part in (self._suite.void if stopped else "", self._small_gaps) if part
@@ -374,7 +376,7 @@ class BoundChecks:
             t.given(f"{symbol}_lim", limit, unit, shown=shown)
             each[label] = Calculation(t, symbol, f"{symbol}_lim")
         where = self._clause(clause) if clause else PROJECT_LIMIT
-        standing = MEMORY if clause else OWN
+        standing = self._known("history drift", "drift") if clause else OWN
         return Governing(self.bound, standing, note, self._suite.void)(where, title, each)
 
     def _least(self, symbol: str) -> float:
@@ -389,6 +391,12 @@ class BoundChecks:
             )
             raise CheckError(msg)
         return trace.value(symbol)
+
+    def _known(self, value: str, field: str) -> Standing:
+        # How well a value of the code is known; of one that the project changed nothing is.
+        own = HISTORY_RULES.get(self.rules.code)
+        same = own is not None and getattr(self.rules, field) == getattr(own, field)
+        return standing_in(self.rules.code, value) if same else MEMORY
 
     def _clause(self, clause: str) -> str:
         return f"{self.rules.cited} {clause}".strip()

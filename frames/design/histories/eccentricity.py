@@ -20,9 +20,13 @@ from frames.design.histories.suite import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
     import pandas as pd
     import xarray as xr
+    from numpy.typing import NDArray
 
+    from frames._types import FloatArray
     from frames.design.calculation.check import Bound
     from frames.design.codes.history_rules import HistoryRules
 
@@ -215,13 +219,55 @@ Pairs = dict[tuple[str, str], tuple[float, float, str]]
 way."""
 
 
-def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple[Pairs, str]:
-    # Of each way the same motions are compared, as the code counts them together.
+def pairs_by_way(
+    data: xr.Dataset, moved: xr.Dataset
+) -> Iterator[tuple[str, xr.Dataset, xr.Dataset]]:
+    """Yield each way with its runs where the masses are and moved, of the same motions."""
     ways = [str(way) for way in moved[WAY].to_numpy()]
-    found, failed = Pairs(), []
     for way in dict.fromkeys(ways):
         there = moved.isel(run=[k for k, each in enumerate(ways) if each == way])
-        here = data.isel(run=[_place(data, there, k) for k in range(there.sizes["run"])])
+        yield way, data.isel(run=[_place(data, there, k) for k in range(there.sizes["run"])]), there
+
+
+def added_by_moved(
+    data: xr.Dataset,
+    moved: xr.Dataset | None,
+    rules: HistoryRules,
+    values_of: Callable[[xr.Dataset], FloatArray],
+) -> tuple[FloatArray, NDArray[np.object_]]:
+    """Return what moved masses add to many values, each by the way that adds most to it.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Runs of one bound.
+    moved : xarray.Dataset, optional
+        Runs with the masses moved.
+    rules : HistoryRules
+        How the code counts runs.
+    values_of : callable
+        Of runs, what each of them reached, (n_runs, ...).
+
+    Returns
+    -------
+    tuple of ndarray, (...)
+        The values of the moved runs less those of the same motions where the masses are, 0 at
+        least; and the way, "+x", "" where none adds anything.
+    """
+    shape = values_of(data.isel(run=[0])).shape[1:]
+    most, way_of = np.zeros(shape), np.full(shape, "", dtype=object)
+    for way, here, there in () if moved is None else pairs_by_way(data, moved):
+        more = suite_of(there, rules).values(values_of(there))
+        more = more - suite_of(here, rules).values(values_of(here))
+        larger = more > most
+        most, way_of = np.where(larger, more, most), np.where(larger, way, way_of)
+    return most, way_of
+
+
+def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple[Pairs, str]:
+    # Of each way the same motions are compared, as the code counts them together.
+    found, failed = Pairs(), []
+    for way, here, there in pairs_by_way(data, moved):
         suites = suite_of(here, rules), suite_of(there, rules)
         if any(suites[1].failed):
             failed.append(f"masses moved {way}: {suites[1].reason}")

@@ -6,16 +6,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from frames.design._errors import CheckError
 from frames.design.histories.demand_table import said
+from frames.design.histories.eccentricity import added_by_moved, named_by_way, raised_suite
 from frames.design.histories.least_shears import Raise
-from frames.design.histories.suite import motion_of, peaks_of_runs, suite_of
+from frames.design.histories.suite import motion_of, peaks_of_runs
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     import pandas as pd
     import xarray as xr
+    from numpy.typing import NDArray
 
     from frames._types import BoolArray, FloatArray, IntArray
     from frames.design.calculation.check import Bound
@@ -45,7 +48,10 @@ _DIGITS = 3  # after the point, of forces: what is less than a millinewton is ro
 
 
 def force_demands(
-    runs: Runs, rules: HistoryRules, raises: Mapping[tuple[str, str], Raise] | None = None
+    runs: Runs,
+    rules: HistoryRules,
+    raises: Mapping[tuple[str, str], Raise] | None = None,
+    moved: Runs | None = None,
 ) -> dict[str, pd.DataFrame]:
     """Return what time histories ask of members, storeys and what bearings stand on and carry.
 
@@ -60,6 +66,9 @@ def force_demands(
         By level and bound what the code's least shears raise (`raises_of_runs`): the earthquake's
         part of forces of members, storeys and drifts, and that of reactions and of the whole
         structure's foot. Forces of members are taken as above the isolation.
+    moved : mapping of str to mapping of str to xarray.Dataset, optional
+        Runs of motions among those with the floors' masses moved, in the same way
+        (`history_checks`), which kept forces.
 
     Returns
     -------
@@ -67,15 +76,22 @@ def force_demands(
         "members", "storeys" and "reactions", as far as the structure has them: a row for each
         level, bound, section, force and extreme [N, N m], with the permanent loads of the model:
 
-        - value: the mean or the largest of the runs' extremes, as "statistic" says, with its rest
-          times "raised by"; permanent: its part of the permanent loads, the rest being the
-          earthquake's;
-        - motion: whose extreme is farthest out, single: that extreme, time [s]: when, and all six
-          forces of the section at that instant, not raised;
+        - value: the mean or the largest of the runs' extremes, as "statistic" says, and what moved
+          masses add, with its rest times "raised by"; permanent: its part of the permanent loads,
+          the rest being the earthquake's; moved masses add: the extreme of moved runs beyond that
+          of the same motions where the masses are, of the way "masses" that adds most, 0 where
+          none does;
+        - motion: whose extreme is farthest out of all runs, single: that extreme, time [s]: when,
+          and all six forces of the section at that instant, not raised;
         - governs: whether no other bound of that level is farther out;
         - void: that "value" is no value for design, for so many runs failed; empty where it is one.
 
         Of storeys drifts besides [-], which are no forces and have nothing at once.
+
+    Raises
+    ------
+    CheckError
+        If the moved runs kept no forces, or are of other motions.
     """
     import pandas as pd
 
@@ -88,10 +104,12 @@ def force_demands(
             for bound, data in each.items():
                 if REACHED + kind.variable not in data:
                     continue
-                suite, more = suite_of(data, rules), known.get((level, bound), Raise())
-                table = _of_bound(data, kind, suite, _factors(data, name, kind, more))
+                beside = (moved or {}).get(level, {}).get(bound)
+                case = _Case(data, beside, rules, raised_suite(data, beside, rules))
+                more = known.get((level, bound), Raise())
+                table = _of_bound(case, kind, _factors(data, name, kind, more))
                 if name == "storeys":
-                    table = pd.concat([table, _drifts(data, suite, more.above)])
+                    table = pd.concat([table, _drifts(case, more.above)])
                 tables.append(table.assign(level=level, bound=bound))
             parts += _with_governing(tables, [*kind.columns.values(), "force", "extreme"])
         if parts:
@@ -112,21 +130,61 @@ def _factors(data: xr.Dataset, name: str, kind: _Kind, more: Raise) -> FloatArra
     return factors.ravel()
 
 
-def _of_bound(data: xr.Dataset, kind: _Kind, suite: Suite, factors: FloatArray) -> pd.DataFrame:
+class _Case(NamedTuple):
+    # The runs of a bound, with and without moved masses, and how they count.
+    data: xr.Dataset
+    moved: xr.Dataset | None
+    rules: HistoryRules
+    suite: Suite
+
+    def all(self, values_of: Callable[[xr.Dataset], FloatArray]) -> FloatArray:
+        # Of the runs, then of those with moved masses.
+        own = values_of(self.data)
+        return own if self.moved is None else np.concatenate([own, values_of(self.moved)])
+
+    def added(
+        self, values_of: Callable[[xr.Dataset], FloatArray]
+    ) -> tuple[FloatArray, NDArray[np.object_]]:
+        # By moved masses; nothing where runs failed: then values are what runs reached.
+        moved = None if self.suite.void else self.moved
+        return added_by_moved(self.data, moved, self.rules, values_of)
+
+
+def _acting(data: xr.Dataset, kind: _Kind) -> FloatArray:
+    # All six forces of each section, (run, section, force, extreme, at once).
+    name, six = REACHED + kind.variable, kind.forces
+    if name not in data:
+        msg = (
+            "moved: its runs kept no forces of the structure: run them with Recording(forces=True)"
+        )
+        raise CheckError(msg)
+    order = ("run", *kind.columns, six, "extreme", f"{six}_at_once")
+    return data[name].transpose(*order).to_numpy().reshape(data.sizes["run"], -1, 6, 2, 6)
+
+
+def _of_bound(case: _Case, kind: _Kind, factors: FloatArray) -> pd.DataFrame:
     import pandas as pd
 
+    data, suite = case.data, case.suite
     dims, six = tuple(kind.columns), kind.forces
     order = ("run", *dims, six, "extreme")
-    together = data[REACHED + kind.variable].transpose(*order, f"{six}_at_once").to_numpy()
-    times = data[f"{REACHED}{kind.variable}_at"].transpose(*order).to_numpy()
+
+    def outward(runs: xr.Dataset) -> FloatArray:
+        return np.asarray(np.einsum("rscwc->rscw", _acting(runs, kind)) * _SIGN)
+
+    def at(runs: xr.Dataset) -> FloatArray:
+        times = runs[f"{REACHED}{kind.variable}_at"].transpose(*order).to_numpy()
+        return times.reshape(runs.sizes["run"], -1, 6, 2)
+
+    together, times = case.all(lambda runs: _acting(runs, kind)), case.all(at)
     rest = data[f"{REACHED}{kind.variable}_at_rest"].transpose(*order[:-1]).to_numpy()[0]
-    runs = len(together)
-    together, times = together.reshape(runs, -1, 6, 2, 6), times.reshape(runs, -1, 6, 2)
     own = np.einsum("rscwc->rscw", together)
-    value, which = _counted(own * _SIGN, suite)
+    value, which = _counted(own * _SIGN, case)
+    added, ways = case.added(outward)
+    value = (value + added) * _SIGN
     still = rest.reshape(-1, 6)[:, :, None]
     more = factors[:, None, None]
-    value = np.where(more > 1.0, still + more * (value * _SIGN - still), value * _SIGN)
+    value = np.where(more > 1.0, still + more * (value - still), value)
 
     def of_motion(values: FloatArray) -> FloatArray:
         index = which.reshape(1, *which.shape, *(1,) * (values.ndim - 4))
@@ -141,8 +199,10 @@ def _of_bound(data: xr.Dataset, kind: _Kind, suite: Suite, factors: FloatArray) 
     table["unit"] = ["N m" if force[0] in "MT" else "N" for force in table["force"]]
     table["value"] = _shown(value)
     table["permanent"] = _shown(np.repeat(rest.ravel(), 2))
+    table["moved masses add"] = _shown(added * _SIGN)
+    table["masses"] = ways.ravel()
     table["raised by"] = np.repeat(factors, 12)
-    table = _with_motions(table, data, suite, which.ravel())
+    table = _with_motions(table, case, which.ravel())
     table["single"] = _shown(of_motion(own))
     table["time [s]"] = of_motion(times).ravel()
     acting = of_motion(together).reshape(-1, 6)
@@ -158,21 +218,32 @@ def _shown(values: FloatArray) -> FloatArray:
 
 def _void(suite: Suite) -> str:
     # Which runs and why is in the table of demands.
-    return f"{sum(suite.failed)} of {len(suite.failed)} runs failed" if suite.void else ""
+    if not suite.void:
+        return ""
+    own = f"{sum(suite.failed)} of {len(suite.failed)} runs failed" if suite.reason else ""
+    moved = "runs with moved masses failed" if suite.moved_failed else ""
+    return "; ".join(part for part in (own, moved) if part)
 
 
-def _drifts(data: xr.Dataset, suite: Suite, factor: float) -> pd.DataFrame:
+def _drifts(case: _Case, factor: float) -> pd.DataFrame:
     # Of the means of the storeys' nodes.
     import pandas as pd
 
+    data, suite = case.data, case.suite
     if f"{REACHED}drift" not in data:
         return pd.DataFrame()
-    each, times = peaks_of_runs(data, "drift"), peaks_of_runs(data, "drift_at")
-    value, which = _counted(each, suite)
+    each, times = (
+        case.all(lambda runs, name=name: peaks_of_runs(runs, name))  # type: ignore[misc]
+        for name in ("drift", "drift_at")
+    )
+    value, which = _counted(each, case)
+    added, ways = case.added(lambda runs: peaks_of_runs(runs, "drift"))
     table = pd.DataFrame({"storey": list(map(str, data["level"].to_numpy()[1:]))})
-    table = table.assign(force="drift", extreme=EXTREMES[0], unit="1", value=factor * value)
-    table["raised by"] = factor
-    table = _with_motions(table, data, suite, which)
+    table = table.assign(
+        force="drift", extreme=EXTREMES[0], unit="1", value=factor * (value + added)
+    )
+    table = table.assign(**{"moved masses add": added, "masses": ways, "raised by": factor})
+    table = _with_motions(table, case, which)
     columns = np.arange(len(which))
     return table.assign(
         **{"single": each[which, columns], "time [s]": times[which, columns]},
@@ -180,19 +251,24 @@ def _drifts(data: xr.Dataset, suite: Suite, factor: float) -> pd.DataFrame:
     )
 
 
-def _counted(values: FloatArray, suite: Suite) -> tuple[FloatArray, IntArray]:
-    # The value for design of those of the runs, and the run that is farthest out of those that
-    # count.
-    counts: BoolArray = ~np.array(suite.failed) if suite.is_usable else np.full(len(values), True)
+def _counted(values: FloatArray, case: _Case) -> tuple[FloatArray, IntArray]:
+    # The value for design of those of the runs where the masses are, and the run that is farthest
+    # out of all that count.
+    suite, own = case.suite, case.data.sizes["run"]
+    counts: BoolArray = np.full(len(values), True)  # no moved run may fail
+    if suite.is_usable:
+        counts[:own] = ~np.array(suite.failed)
     known = np.where(counts.reshape(-1, *(1,) * (values.ndim - 1)), values, -np.inf)
-    return suite.values(values), np.asarray(np.nan_to_num(known, nan=-np.inf).argmax(axis=0))
+    which = np.asarray(np.nan_to_num(known, nan=-np.inf).argmax(axis=0))
+    return suite.values(values[:own]), which
 
 
-def _with_motions(
-    table: pd.DataFrame, data: xr.Dataset, suite: Suite, which: IntArray
-) -> pd.DataFrame:
-    motions = np.array([motion_of(data, k) for k in range(data.sizes["run"])], dtype=object)
-    return table.assign(statistic=said(suite), motion=motions[which])
+def _with_motions(table: pd.DataFrame, case: _Case, which: IntArray) -> pd.DataFrame:
+    motions = [motion_of(case.data, k) for k in range(case.data.sizes["run"])]
+    if case.moved is not None:
+        named = named_by_way(case.moved)
+        motions += [motion_of(named, k) for k in range(named.sizes["run"])]
+    return table.assign(statistic=said(case.suite), motion=np.array(motions, dtype=object)[which])
 
 
 def _with_governing(tables: list[pd.DataFrame], rows: list[str]) -> list[Any]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design.calculation.check import Bound, Check
-from frames.design.calculation.standing import MEMORY, Standing
+from frames.design.calculation.standing import Standing
 from frames.design.codes.secant import CheckBuilder
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class Governing:
     """
 
     bound: Bound
-    standing: Standing = MEMORY
+    standing: Standing
     note: str = ""
     void: str = ""
 

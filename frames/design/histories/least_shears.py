@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design._errors import CheckError
 from frames.design.calculation.trace import Trace
+from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.histories.suite import peaks_of_runs, suite_of
 from frames.results.recorded import REACHED
@@ -86,7 +87,8 @@ def shear_checks(
         if not suite.void and 0.0 < demand < least:
             more = f"{what} are raised by {least / demand:.4g}"
         said = "; ".join(part for part in (more, note) if part)
-        judge = CheckBuilder(t, known.bound, void=suite.void).of("minimum")
+        standing = standing_in(rules.code, "history minima")
+        judge = CheckBuilder(t, known.bound, standing, void=suite.void).of("minimum")
         return judge.worst(clause, title, symbol, ">=", "V_least", subjects=(subject,), note=said)
 
     t = Trace()

@@ -9,8 +9,9 @@ import numpy as np
 from frames._errors import MotionError
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.calculation.trace import Trace
-from frames.design.codes.registry import code_named
+from frames.design.codes.registry import code_named, standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.hazard.code_rules import ScalingRule, scaling_named
 from frames.design.hazard.fault_axes import angle_of
@@ -125,7 +126,8 @@ def motion_checks(
     grid = np.geomspace(low, high, POINTS)
     clause = asked.clause
     least = code_named(equivalent.code).histories.least
-    found = [_number(motions, least, clause), _mean(both, spectrum, grid, asked)]
+    known = standing_in(equivalent.code, "number of motions")
+    found = [_number(motions, least, clause, known), _mean(both, spectrum, grid, asked)]
     if asked.at_zero:
         found.append(_mean(both, spectrum, np.zeros(1), asked))
     return Checks([*found, *(_turned(motions, clause) if asked.fault_axes else [])])
@@ -140,14 +142,15 @@ def _pair(motion: GroundMotion) -> GroundMotion:
     return GroundMotion(x=x, y=y, dt=motion.dt, name=motion.name)
 
 
-def _number(motions: MotionSet, least: int, clause: str) -> Check:
+def _number(motions: MotionSet, least: int, clause: str, known: Standing) -> Check:
     t = Trace()
     pairs = sum(m.x is not None and m.y is not None for m in motions.values())
     t.given("n", float(pairs), note="with both horizontal components")
     t.given("n_least", float(least))
     up = sum(m.z is not None for m in motions.values())
     note = f"{up} of {len(motions)} have a vertical component"
-    return CheckBuilder(t, "")(clause, "pairs of motions", "n", ">=", "n_least", note=note)
+    judge = CheckBuilder(t, "", known)
+    return judge(clause, "pairs of motions", "n", ">=", "n_least", note=note)
 
 
 def _mean(
@@ -166,7 +169,8 @@ def _mean(
     t("S_least", "a_S * S_target", "m/s2")
     title = "mean spectrum of the motions" + (" at the period 0" if at_zero else "")
     note = "" if at_zero else f"least from {grid[0]:.4g} to {grid[-1]:.4g} s"
-    return CheckBuilder(t, "")(asked.clause, title, "S_mean", ">=", "S_least", note=note)
+    judge = CheckBuilder(t, "", asked.standing)
+    return judge(asked.clause, title, "S_mean", ">=", "S_least", note=note)
 
 
 def _turned(motions: MotionSet, clause: str) -> list[Check]:
@@ -183,7 +187,8 @@ def _turned(motions: MotionSet, clause: str) -> list[Check]:
         else ""
     )
     title = "near-fault pairs that are not turned to the fault"
-    return [CheckBuilder(t, "")(clause, title, "n_odd", "<=", "n_allowed", note=note)]
+    judge = CheckBuilder(t, "", MEMORY)
+    return [judge(clause, title, "n_odd", "<=", "n_allowed", note=note)]
 
 
 def _is_turned(name: str, motions: MotionSet) -> bool:

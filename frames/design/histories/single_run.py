@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
-from frames.design.calculation.standing import MEMORY, OWN
+from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
+from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
@@ -21,7 +22,8 @@ from frames.design.histories.impacts import (
     slips_of_events,
     uplift_events,
 )
-from frames.design.histories.suite import Suite, left_out_checks
+from frames.design.histories.suite import Suite
+from frames.design.histories.suite_notes import left_out_checks
 from frames.design.histories.uplift import Uplift
 from frames.results.assumption_checks import doubts_of
 from frames.statics.overturning import unknown_axial_forces
@@ -92,7 +94,7 @@ def impact_checks(
     bearings = BearingDemands(data, suite, devices_of(data, frame), limits, bound, reason)
     found = [_complete(data, bound)]
     found += left_out_checks(data, ["; ".join(doubts_of(data))], bound)
-    found += bearings.displacement(f"{NO_CODE}, section 2")
+    found += bearings.displacement(f"{NO_CODE}, section 2", OWN)
     found += [*bearings.slips(), *bearings.forces()]
     found += [*_structure(data, limits, bound), *_uplift(data, limits, bound)]
     lifted = Uplift(data, devices_of(data, frame), limits, bound, reason=reason)
@@ -243,7 +245,7 @@ def _engagement(data: xr.Dataset, whole: float, least: float, bound: Bound) -> l
         t.given("eta_least", least)
         t("eta", "U_rim / D_TM")
         found.append(
-            CheckBuilder(t, bound, MEMORY).worst(
+            CheckBuilder(t, bound, standing_in("ASCE 7-22", "rims")).worst(
                 "ASCE 7-22 17.2.4.5",
                 "displacement where a rim engages, over D_TM",
                 "eta",

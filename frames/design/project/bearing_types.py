@@ -64,14 +64,14 @@ def types_by_column(given: Mapping[str, BearingType], frame: Frame) -> dict[str,
     taken: dict[str, str] = {}
     for name, kind in given.items():
         for column in map(str, kind.columns):
-            bearing = _known(column, name, frame)
-            if bearing in taken:
-                msg = (
-                    f"[bearings.{name}] columns: {column} is of [bearings.{taken[bearing]}] "
-                    "already: name it once"
-                )
-                raise ProjectError(msg)
-            taken[bearing] = found[bearing] = name
+            for bearing in _named(column, name, frame):
+                if bearing in taken:
+                    msg = (
+                        f"[bearings.{name}] columns: {column} is of [bearings.{taken[bearing]}] "
+                        "already: name it once"
+                    )
+                    raise ProjectError(msg)
+                taken[bearing] = found[bearing] = name
     idle = [name for name in given if name not in found.values()]
     if idle:
         msg = (
@@ -119,6 +119,20 @@ def columns_by_type(chosen: Mapping[str, str]) -> dict[str, list[str]]:
     for name, kind in chosen.items():
         found.setdefault(kind, []).append(name)
     return found if len(found) > 1 else {}
+
+
+def _named(column: str, kind: str, frame: Frame) -> list[str]:
+    # The bearings of a column, or of a group of the SAP2000 model that the frame was read from.
+    groups = {} if frame.imported is None else frame.imported.groups
+    own = {column, f"bearing-{column}"} & set(frame.bearings)
+    if own or column not in groups:
+        return [_known(column, kind, frame)]
+    found = [f"bearing-{label}" for label in groups[column]]
+    standing = [name for name in found if name in frame.bearings]
+    if not standing:
+        msg = f"[bearings.{kind}] columns: no joint or link of the group {column} has a bearing"
+        raise ProjectError(msg)
+    return standing
 
 
 def _known(column: str, kind: str, frame: Frame) -> str:

@@ -25,6 +25,7 @@ from frames.design.project.level_runs import (
 )
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.structure_statement import structure_rows
+from frames.design.project.unchecked import unchecked
 from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
@@ -93,6 +94,8 @@ class ProjectRun:
         What of the input was warned of.
     structure : tuple of (str, str)
         What the structure is, in words.
+    unchecked : tuple of str
+        What is not checked, for the file has no number for it.
     tables : tuple of Path
         Tables that the file names, which are kept with the results.
     """
@@ -117,6 +120,7 @@ class ProjectRun:
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
     structure: tuple[tuple[str, str], ...] = ()
+    unchecked: tuple[str, ...] = ()
     tables: tuple[Path, ...] = ()
 
 
@@ -253,6 +257,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         types=known.types,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
         structure=tuple(structure_rows(parts.file, frame)),
+        unchecked=unchecked(parts.file),
         tables=parts.tables(),
     )
 
@@ -317,10 +322,13 @@ def _programme(
         loads=None if known.system.unknown_loads else asked.loads,
         slip=asked.slip,
         wind=wind or None,
+        service=None if above is None else above.service_displacement or None,
         impact_speed=float(speeds.max()) if len(speeds) else None,
     )
     table = prototype_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
     if asked.void:
         of_runs = table["what"].str.contains("(?:largest|least) load|interface|impact", regex=True)
-        table.loc[of_runs, "note"] = f"no values for design: {asked.void}"
+        why = f"no values for design: {asked.void}"
+        notes = table.loc[of_runs, "note"]
+        table.loc[of_runs, "note"] = [f"{note}; {why}" if note else why for note in notes]
     return table

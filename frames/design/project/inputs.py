@@ -18,6 +18,7 @@ from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
 from frames.design.project.bearing_types import STANDARD, on_types, types_by_column
+from frames.design.project.devices_beside import with_devices
 from frames.design.project.extensions import RunningScript
 from frames.design.project.schema import (
     ImportedModel,
@@ -107,7 +108,8 @@ class ProjectInputs:
             chosen = types_by_column(self.file.bearings, self._averaged(frame))
             return on_types(frame, chosen, devices), chosen
 
-        return in_section("structure", made)
+        frame, chosen = in_section("structure", made)
+        return with_devices(frame, self.file.moat, self.file.dampers), chosen
 
     def _averaged(self, frame: Frame) -> Frame:
         # Under the average combination of its loads.

@@ -154,7 +154,7 @@ def moved_at_levels(
         dt=given.dt,
         workers=given.workers,
         progress=progress,
-        record=Recording(every=None),
+        record=Recording(every=None, forces=True),
         resume=None if resume is None else resume / MOVED,
     )
     found: LevelRuns = {level.name: {} for level in rules.levels}

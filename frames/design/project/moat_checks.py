@@ -49,8 +49,10 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
         t = _with_gap(gap)
         t.given("D_T", each.allowed_displacement, "m", shown="mm", note="that bearings must allow")
         title = "clearance to the moat wall, equivalent-linear"
-        judge = CheckBuilder(t, each.bound, OWN)
-        found.append(judge(PROJECT_LIMIT, title, "D_T", "<=", "g_moat", note=_AT_BEARINGS))
+        room = run.code.values.get("separation")
+        judge = CheckBuilder(t, each.bound, OWN if room is None else room.standing)
+        clause = PROJECT_LIMIT if room is None else room.clause
+        found.append(judge(clause, title, "D_T", "<=", "g_moat", note=_AT_BEARINGS))
     level = run.rules.bearing_level
     for bound, data in run.runs[level].items():
         moved = run.moved.get(level, {}).get(bound)

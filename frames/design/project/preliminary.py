@@ -247,6 +247,10 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
             name: kind.model_dump(mode="json", exclude_none=True)
             for name, kind in file.bearings.items()
         }
+    if file.moat is not None:
+        said["moat"] = file.moat.model_dump(mode="json")
+    if file.dampers:
+        said["dampers"] = {name: one.model_dump(mode="json") for name, one in file.dampers.items()}
     if file.loads is not None:
         said["loads"] = file.loads.model_dump(mode="json")
     found = {name: _digest(json.dumps(value).encode()) for name, value in said.items()}

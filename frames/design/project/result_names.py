@@ -17,6 +17,7 @@ RESULT_FILES = frozenset(
                 "eccentricity",
                 "equivalent-linear",
                 "friction",
+                "links",
                 "member-groups",
                 "members",
                 "members-without-forces",

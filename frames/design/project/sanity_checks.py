@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames.design.codes.registry import code_named
+from frames.design.codes.service import slow_friction
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
 from frames.design.project.schema_structure import BuildingTable, IrregularFrame
@@ -76,7 +77,8 @@ def wind_doubts(
         At most one sentence.
     """
     wind = 0.0 if file.superstructure is None else file.superstructure.wind_shear
-    holds = bounds.friction.lower * system.strength
+    pairs = zip(system.bearings, system.loads, strict=True)
+    holds = bounds.friction.lower * sum(slow_friction(b) * load for b, load in pairs)
     if wind <= holds:
         return ()
     return (

@@ -17,6 +17,8 @@ from frames.design.project.schema_bearing import BearingType as BearingType
 from frames.design.project.schema_bearing import Bounds as Bounds
 from frames.design.project.schema_bearing import bearing_table as bearing_table
 from frames.design.project.schema_bearing import bearing_type_table, completed
+from frames.design.project.schema_devices import DamperTable as DamperTable
+from frames.design.project.schema_devices import MoatTable as MoatTable
 from frames.design.project.schema_hazard import BY_POINTS, points_table, spectrum_table
 from frames.design.project.schema_hazard import Motions as Motions
 from frames.design.project.schema_hazard import MotionSource as MotionSource
@@ -54,6 +56,8 @@ class ProjectFile(Table):
     project: ProjectTable
     structure: Structure
     loads: LoadsTable | None = None
+    moat: MoatTable | None = None
+    dampers: dict[str, DamperTable] = Field(default_factory=dict)
     superstructure: SuperstructureTable | None = None
     bearing: Bearing | None = None
     bearings: dict[str, BearingType] = Field(default_factory=dict)

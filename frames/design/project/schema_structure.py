@@ -14,6 +14,7 @@ from frames.design.project.quantities import (
     AreaMass,
     Eccentricity,
     Force,
+    Length,
     Mass,
     NotNegative,
     Positive,
@@ -178,3 +179,4 @@ class SuperstructureTable(Table):
     R: float = Field(gt=0.0)
     importance: float = Field(default=1.0, gt=0.0, le=MOST_IMPORTANT)
     wind_shear: Annotated[Force, NotNegative] = 0.0
+    service_displacement: Annotated[Length, NotNegative] = 0.0

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design.codes.registry import code_named
+from frames.design.project.devices_beside import device_rows
 from frames.design.project.materials import material_of
 from frames.design.project.member_sections import named_section
 from frames.design.project.schema_sections import CrackedTable
@@ -71,6 +72,7 @@ def structure_rows(file: ProjectFile, frame: Frame) -> Rows:
         rows.append(("mass of a floor besides its members", f"{given.floor_load:.4g} kg/m2"))
     if file.loads is not None:
         rows += _loads(file, file.loads)
+    rows += device_rows(file.moat, file.dampers)
     if frame.imported is not None:
         rows += _import(frame.imported)
     return rows
@@ -131,7 +133,7 @@ def _loads(file: ProjectFile, given: LoadsTable) -> Rows:
         rows.append(("facade, along the outer edges", f"{1e-3 * given.facade:.4g} kN/m"))
     found = loads_of(given, rule)
     mass = {} if found is None else found.mass
-    source = rule.clause if given.mass is None else "as the file says"
+    source = rule.cited if given.mass is None else "as the file says"
     rows.append(("seismic mass", f"members, {_sum(mass)} ({source})"))
     for name, factors in rule.combinations(getattr(file.spectrum, "s_ms", None)).items():
         rows.append((f"{name} combination, no horizontal earthquake", _sum(factors)))

@@ -29,7 +29,7 @@ class Cover(NamedTuple):
         Client, engineer, checker; empty where they are to sign.
     issue : list of (str, str)
         Revision and date; empty where they were left out.
-    codes : list of (str, str)
+    codes : list of (str, str, str)
         Code and title.
     programs : list of (str, str)
         Program and main libraries with their versions, Python, system.
@@ -43,7 +43,7 @@ class Cover(NamedTuple):
 
     people: list[tuple[str, str]]
     issue: list[tuple[str, str]]
-    codes: list[tuple[str, str]]
+    codes: list[tuple[str, str, str]]
     programs: list[tuple[str, str]]
     digest: str
     motions: str
@@ -79,7 +79,7 @@ def cover_of(run: ProjectRun, source: str) -> Cover:
             ("checker", about.checker),
         ],
         issue=[("revision", about.revision), ("date", str(about.date))],
-        codes=[(code.name, code.title)],
+        codes=[(code.name, code.title, code.edition)],
         programs=[
             ("lir-dcfp", package_version()),
             ("Python", platform.python_version()),

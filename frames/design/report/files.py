@@ -62,7 +62,8 @@ def write_run(
         ``demands-by-motion.csv``,
         ``bearings.csv``, ``friction.csv``, ``modes.csv``, ``programme.csv``, ``storeys.csv``,
         ``reactions.csv`` in SI units, and ``members.csv``, ``member-groups.csv`` of a structure
-        with members, ``members-without-forces.csv`` of one with shells or springs;
+        with members, ``members-without-forces.csv`` of one with shells or springs,
+        ``links.csv`` of one with moat walls or dampers;
         ``checks.txt`` with each calculation; ``governing.nc``, the histories of one run;
         ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
         removed.
@@ -169,7 +170,8 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
     except OSError as cause:
         msg = f"{folder}: {cause}: `lir run` writes all files anew"
         raise ProjectError(msg) from cause
-    every = (data for each in runs.values() for data in each.values())
+    both = (*runs.values(), *moved.values())
+    every = (data for each in both for data in each.values())
     if any("reached_reaction_force" not in data for data in every):
         version = kept["lir_dcfp_version"]
         msg = (

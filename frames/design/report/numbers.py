@@ -11,6 +11,7 @@ from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands
 from frames.design.histories.least_shears import raises_of_runs
+from frames.design.histories.link_demands import link_demands
 from frames.design.histories.motion_table import demands_by_motion
 from frames.design.histories.suite import peaks_of_runs
 from frames.design.report.by_motion import BY_MOTION
@@ -45,7 +46,10 @@ _COUNT = 6
 WITHOUT_FORCES = "members-without-forces"
 """Name of the table of elements that the tables of member forces leave out."""
 
-TABLES_OF_FORCES = ("member-groups", "members", WITHOUT_FORCES, "storeys", "reactions")
+LINKS = "links"
+"""Name of the table of moat walls and dampers."""
+
+TABLES_OF_FORCES = ("member-groups", "members", WITHOUT_FORCES, LINKS, "storeys", "reactions")
 """Tables that a structure has as far as it has members and levels."""
 
 
@@ -172,13 +176,14 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "reactions" as far as the structure has them (`force_demands`).
     """
     raises = raises_of_runs(run.runs, run.rules, run.equivalent)
-    forces = force_demands(run.runs, run.rules, raises)
+    forces = force_demands(run.runs, run.rules, raises, run.moved)
     return {
         "bearings": bearing_table(run),
         "friction": friction_table(run),
         "modes": mode_table(run),
         "member-groups": member_groups(run, forces.get("members")),
         WITHOUT_FORCES: without_forces(run.frame),
+        LINKS: link_demands(run.runs, run.rules, run.moved),
         "programme": run.programme,
         BY_MOTION: demands_by_motion(run.runs, run.rules, run.moved),
         **forces,

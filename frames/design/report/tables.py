@@ -1,9 +1,11 @@
-"""Tables for people: numbers of four digits, in mm and kN where a row or column has its unit."""
+"""Tables for people: numbers of four digits, or whole ones, in mm and kN by their unit."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING, NamedTuple
+
+from frames.design.calculation.rendering import number as written
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -57,7 +59,7 @@ def rows_of(frame: pd.DataFrame, text: Callable[[object], str] = str) -> list[tu
 
 
 def _number(value: float) -> str:
-    return "-" if math.isnan(value) else f"{value:.4g}"
+    return "-" if math.isnan(value) else written(value)
 
 
 def in_mm_and_kn(frame: pd.DataFrame) -> pd.DataFrame:

@@ -61,7 +61,6 @@ _SHOWN = {
     "kg/m3": ("kg/m³", 1.0),
     "kg m2": ("kg m²", 1.0),
 }
-_LONG = 1e5  # from here on with a power of ten
 _ONLY_WITH = {"bouc_wen_exponent": ("friction_law", "bouc-wen")}
 
 
@@ -158,7 +157,7 @@ def loads_table(model: ModelCheck) -> Table:
     rows = [
         (
             load.name,
-            f"{1e-3 * load.axial_force:.4g}",
+            written(1e-3 * load.axial_force),
             f"{1e-6 * load.pressure:.3g}",
             f"{1e3 * load.settlement:.2g}",
             f"{load.period:.3g}",
@@ -211,7 +210,7 @@ def _quantity(value: object, unit: str, endless: str) -> str:
     if not math.isfinite(number):
         return endless
     shown = _SHOWN.get(unit, (unit, 1.0))[1] * number
-    return f"{shown:.4g}" if abs(shown) < _LONG else written(shown)
+    return written(shown)
 
 
 def _friction(law: FrictionLaw) -> str:

@@ -8,6 +8,7 @@ import pandas as pd
 
 from frames.design.calculation.standing import LEGEND, standing_of
 from frames.design.histories.demand_table import envelope_said, headed, void_said
+from frames.design.histories.link_demands import largest_of_links
 from frames.design.report.by_motion import BY_MOTION, motion_tables
 from frames.design.report.columns import in_parts
 from frames.design.report.cover import cover_of, css_string
@@ -15,7 +16,7 @@ from frames.design.report.eccentric import eccentricity_said, raised_tables
 from frames.design.report.figures import pictures
 from frames.design.report.governs import what_governs
 from frames.design.report.judged import factor_steps, judged
-from frames.design.report.numbers import ECCENTRICITY, WITHOUT_FORCES, devices_by_type
+from frames.design.report.numbers import ECCENTRICITY, LINKS, WITHOUT_FORCES, devices_by_type
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from frames.design.report.terms import device_table, loads_table, model_table
@@ -103,6 +104,7 @@ def report_in(
         doubts=run.doubts,
         legend=LEGEND,
         checks=[judged(check) for check in run.checks],
+        unchecked=run.unchecked,
         limits=[judged(check) for check in run.equivalent.checks if check not in run.checks],
         structure=words.table(
             Table(("of the structure", "as described"), run.structure, frozenset({0, 1}))
@@ -117,6 +119,7 @@ def report_in(
         schedule=fit(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
         friction=words.table(_friction(tables["friction"])),
         modes=fit(page_table(tables["modes"], "mode")),
+        links=fit(_links(tables.get(LINKS, pd.DataFrame()))),
         untold=words.table(page_table(tables.get(WITHOUT_FORCES, pd.DataFrame()), "kind")),
         members=fit(page_table(tables.get("member-groups", pd.DataFrame()), "members"), keep=3),
         programme=fit(_programme(tables["programme"])),
@@ -190,6 +193,15 @@ def _friction(friction: pd.DataFrame) -> Table:
     made = page_table(friction, "friction coefficient")
     rows = [["rigid slider" if cell == "inf" else cell for cell in row] for row in made.rows]
     return Table(made.head, rows, made.left)
+
+
+def _links(links: pd.DataFrame) -> Table:
+    # Each link where its force is largest of all bounds.
+    if links.empty:
+        return page_table(links, "link")
+    shown = largest_of_links(links).set_index("link")
+    shown = shown.drop(columns=["void"] + ["level"] * (shown["level"].nunique() == 1))
+    return page_table(in_mm_and_kn(shown), "link")
 
 
 def _programme(tests: pd.DataFrame) -> Table:

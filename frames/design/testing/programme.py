@@ -6,9 +6,10 @@ import math
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
-from frames.design.calculation.standing import MEMORY, OWN
+from frames.design.calculation.standing import OWN, Standing
 from frames.design.calculation.unevaluated import NOT_EVALUATED
 from frames.design.codes.bounds import ENDS, with_property_bounds
+from frames.design.codes.code_values import weakest
 from frames.design.codes.pendulum import FrictionPendulum
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, ProgrammeDemands
 from frames.design.codes.registry import code_named
@@ -90,15 +91,16 @@ def prototype_tests(
     import pandas as pd
 
     asked = ProgrammeDemands() if demands is None else demands
-    planned = code_named(equivalent.code).tests
+    code = code_named(equivalent.code)
+    known = weakest((code.standing("tests"), code.standing("cycles")))
     result = _governing(equivalent)
     ends = [system if bounds is None else with_property_bounds(system, end, bounds) for end in ENDS]
     rows = []
     for title, bearing, places in _kinds(system):
         at_ends = [end.bearings[places[0]] for end in ends]
         design = DesignToTest(result, bearing, at_ends, *_loads(system, places, asked), asked)
-        own = planned(design)
-        rows += [_row(title, test, design) for test in (*own, *_of_interface(design))]
+        rows += [_row(title, test, design, known) for test in code.tests(design)]
+        rows += [_row(title, test, design, OWN) for test in _of_interface(design)]
     table = pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
     return _without_loads(table, "" if asked.loads is not None else system.unknown_loads)
 
@@ -199,7 +201,9 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
     )
 
 
-def _row(kind: str, test: PlannedTest, design: DesignToTest) -> dict[str, object]:
+def _row(
+    kind: str, test: PlannedTest, design: DesignToTest, standing: Standing
+) -> dict[str, object]:
     least, most = (_force(test, bearing) for bearing in design.ends)
     period = 2.0 * math.pi * test.displacement / test.speed if test.speed > 0.0 else math.nan
     return {
@@ -214,7 +218,7 @@ def _row(kind: str, test: PlannedTest, design: DesignToTest) -> dict[str, object
         "largest force [N]": most,
         "shows": test.shows,
         "clause": test.clause,
-        "standing": str(OWN if test.clause == PROPOSAL else MEMORY),
+        "standing": str(standing),
         "note": "",
     }
 

@@ -1,0 +1,78 @@
+"""What chapter 17 of ASCE 7-22 gives, value by value, and how well each is known."""
+
+from frames.design.codes.code_values import (
+    BNBC,
+    E031,
+    E031_FACTORS,
+    E031_ORDINATE,
+    UFC_BNBC,
+    USGS,
+    CodeValue,
+)
+
+VALUES = {
+    "damping factor": CodeValue("ASCE 7-22 table 17.5-1", "B_M by the damping", E031),
+    "effective": CodeValue("ASCE 7-22 17.2.8, (17.5-2)", "k_M, beta_M and T_M at D_M", E031),
+    "D_M": CodeValue("ASCE 7-22 (17.5-1)", "D_M by S_M1"),
+    "D_M, points": CodeValue("ASCE 7-22 (17.5-1)", "D_M by the ordinate at T_M", E031_ORDINATE),
+    "eccentricity": CodeValue(
+        "ASCE 7-22 17.5.3.3", "5 % of the longest side", E031, "accidental_eccentricity"
+    ),
+    "torsion": CodeValue("ASCE 7-22 17.5.3.3", "D_TM at least 1.15 D_M", E031, "least_torsion"),
+    "D_TM": CodeValue("ASCE 7-22 (17.5-3), (17.5-4)", "D_TM with P_T, at least 1", E031),
+    "rims": CodeValue("ASCE 7-22 17.2.4.5", "rims are not met below 0.6 D_TM"),
+    "restoring": CodeValue(
+        "ASCE 7-22 17.2.4.4", "0.025 W of the second half of D_M", field="restoring"
+    ),
+    "V_b": CodeValue("ASCE 7-22 (17.5-5)", "V_b = k_M D_M", E031),
+    "V_st": CodeValue("ASCE 7-22 (17.5-7)", "form of V_st", E031),
+    "exponent": CodeValue("ASCE 7-22 (17.5-7)", "3.5 of V_st, abrupt sliding", field="exponent"),
+    "R_I": CodeValue("ASCE 7-22 17.5.4.2", "R_I = 3/8 R, from 1 to 2", E031, "response_share"),
+    "most R_I": CodeValue("ASCE 7-22 17.5.4.2", "R_I at most 2", E031, "largest_reduction"),
+    "least V_s": CodeValue(
+        "ASCE 7-22 17.5.4.3", "fixed base at T_M; 1.5 nominal or the upper activation", E031
+    ),
+    "activation": CodeValue("ASCE 7-22 17.5.4.3", "1.5 times nominal", E031, "activation"),
+    "C_s": CodeValue("ASCE 7-22 12.8.1.1", "C_s at least 0.5 S_1 I_e / R from S_1 = 0.6 on"),
+    "importance": CodeValue("ASCE 7-22 17.2.1", "I_e = 1 of isolated structures"),
+    "wind": CodeValue("ASCE 7-22 17.5.4.3", "V_s at least the wind's shear"),
+    "F_1": CodeValue("ASCE 7-22 (17.5-8)", "force at the base level", E031),
+    "F_x": CodeValue("ASCE 7-22 (17.5-11)", "exponent 14 beta_M T_fb over the height", E031),
+    "longest period": CodeValue("ASCE 7-22 17.4.1", "T_M at most 5 s", E031, "longest_period"),
+    "most damping": CodeValue("ASCE 7-22 17.4.1", "beta_M at most 30 %", E031, "most_damping"),
+    "stiffness ratio": CodeValue(
+        "ASCE 7-22 17.4.1", "k_M at least a third of that at 0.2 D_M", E031, "stiffness_ratio"
+    ),
+    "period ratio": CodeValue("ASCE 7-22 17.4.1", "T_M at least 3 T_fb", E031, "period_ratio"),
+    "storeys": CodeValue("ASCE 7-22 17.4.1", "at most 4 storeys", E031, "storeys"),
+    "height": CodeValue("ASCE 7-22 17.4.1", "at most 19.8 m", E031, "height"),
+    "regularity": CodeValue("ASCE 7-22 17.4.1", "the structure is regular"),
+    "drift": CodeValue("ASCE 7-22 17.5.6", "storey drift at most 0.015", UFC_BNBC, "drift"),
+    "vertical loads": CodeValue("ASCE 7-22 17.2.4.6, 17.2.4.7", "no uplift, pressure of sliders"),
+    "overturning": CodeValue("ASCE 7-22 17.2.4.7", "of the whole structure, safety 1.0"),
+    "sliding under wind": CodeValue("ASCE 7-22 17.2.4.2", "wind does not slide the bearings"),
+    "separation": CodeValue("ASCE 7-22 17.2.5.2", "room for D_TM around the structure"),
+    "orthogonal": CodeValue(
+        "ASCE 7-22 17.2.4.6, 17.2.4.7", "30 % of the other direction", field="orthogonal"
+    ),
+    "factors": CodeValue(
+        "ASCE 7-22 (17.2-1), (17.2-2)", "75 % of ageing and environment", E031_FACTORS
+    ),
+    "ends of factors": CodeValue("ASCE 7-22 17.2.8.4", "1.8 and 0.60 without full-scale tests"),
+    "loads": CodeValue("ASCE/SEI 7-22, 12.7.2 and 17.2.7.1", "seismic mass and combinations"),
+    "number of motions": CodeValue("ASCE 7-22 17.3.3", "7 motions at least"),
+    "mean": CodeValue("ASCE 7-22 17.3.3", "the mean counts from 7 motions on", UFC_BNBC),
+    "scaling": CodeValue("ASCE 7-22 17.3.3", "RotD100, 0.75 T to 1.25 T"),
+    "S_MS, S_M1": CodeValue("ASCE 7-22 21.4", "S_MS and S_M1 of spectra by points", USGS),
+    "history drift": CodeValue("ASCE 7-22 17.6.4.4", "storey drift at most 0.020", UFC_BNBC),
+    "second order": CodeValue("ASCE 7-22 17.6.4.4", "P-Delta above a drift of 0.010 / R_I"),
+    "history minima": CodeValue(
+        "ASCE 7-22 17.6.4", "0.8 D_TM, 0.9 V_b, and V_s whole", field="history_share"
+    ),
+    "uplift": CodeValue("ASCE 7-22 17.2.4.7", "uplift that deformations allow"),
+    "moved masses": CodeValue("ASCE 7-22 17.6.2.1", "5 % of the sides in histories"),
+    "tests": CodeValue("ASCE 7-22 17.8.2.2", "which tests, in which order", BNBC),
+    "cycles": CodeValue("ASCE 7-22 17.8.2.2, 17.8.2.5, 17.8.5", "amplitudes and cycles of tests"),
+    "acceptance": CodeValue("ASCE 7-22 17.8.4", "what measured loops may deviate"),
+}
+"""By name; of what no text was compared it is from memory."""

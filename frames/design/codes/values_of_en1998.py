@@ -1,0 +1,63 @@
+"""What EN 1998 and EN 15129 give for isolation, value by value, and how well each is known."""
+
+from frames.design.codes.code_values import NTC, CodeValue
+
+VALUES = {
+    "spectrum": CodeValue("EN 1998-1 3.2.2.2, tables 3.2 and 3.3", "elastic spectra"),
+    "damping factor": CodeValue("EN 1998-1 (3.6)", "eta = sqrt(10 / (5 + xi)), at least 0.55"),
+    "d_dc": CodeValue("EN 1998-1 (10.4)", "d_dc with the least stiffness", NTC),
+    "reliability": CodeValue(
+        "EN 1998-1 10.3(2)", "gamma_x = 1.2 of buildings", field="reliability"
+    ),
+    "eccentricity": CodeValue(
+        "EN 1998-1 4.3.2", "5 % of the side", field="accidental_eccentricity"
+    ),
+    "torsion": CodeValue("EN 1998-1 (10.5)", "displacements of each bearing, torsion included"),
+    "capacity": CodeValue("EN 1998-1 10.3, EN 15129 8.3", "gamma_x d_bd below the rims"),
+    "energy": CodeValue("EN 15129 4.3", "E_S at least 0.25 E_H", field="energy_ratio"),
+    "recentring": CodeValue("EN 1998-2 7.7.1", "d_cd at least 0.5 d_r", field="recentring"),
+    "stiffness ratio": CodeValue(
+        "EN 1998-1 10.9.2", "K_eff at least 50 % of that at 0.2 d_dc", NTC, "stiffness_ratio"
+    ),
+    "most damping": CodeValue("EN 1998-1 10.9.2", "xi_eff at most 30 %", NTC, "most_damping"),
+    "restoring": CodeValue(
+        "EN 1998-1 10.9.2", "0.025 W of the second half of d_dc", NTC, "restoring"
+    ),
+    "variation": CodeValue(
+        "EN 1998-1 10.9.2", "properties vary by 10 % at most", NTC, "most_variation"
+    ),
+    "largest side": CodeValue("EN 1998-1 10.9.3", "side at most 50 m", NTC, "largest_side"),
+    "longest period": CodeValue("EN 1998-1 10.9.3", "T_eff at most 3 s", NTC, "longest_period"),
+    "period ratio": CodeValue("EN 1998-1 10.9.3", "T_eff at least 3 T_f", NTC, "period_ratio"),
+    "vertical period": CodeValue("EN 1998-1 10.9.3", "T_v below 0.1 s", NTC, "vertical_period"),
+    "fault": CodeValue("EN 1998-1 10.9.3", "15 km from the fault", field="least_distance"),
+    "vertical stiffness": CodeValue(
+        "EN 1998-1 10.9.3", "K_V at least 150 K_eff", field="vertical_stiffness"
+    ),
+    "total eccentricity": CodeValue(
+        "EN 1998-1 10.9.3", "7.5 % of the side, accidental with it", field="total_eccentricity"
+    ),
+    "accumulated": CodeValue(
+        "NTC 2018 7.10.6.2.2", "half of mu L of earlier events", field="accumulated"
+    ),
+    "behaviour": CodeValue("EN 1998-1 10.10", "q at most 1.5", NTC, "behaviour"),
+    "forces": CodeValue("EN 1998-1 (10.9)", "forces of the floors"),
+    "drift": CodeValue("EN 1998-1 4.4.3.2", "storey drift at most 0.005", field="drift"),
+    "reduction": CodeValue("EN 1998-1 4.4.3.2", "nu = 0.5", field="reduction"),
+    "orthogonal": CodeValue("EN 1998-1 4.3.3.5", "30 % of the other direction", field="orthogonal"),
+    "vertical loads": CodeValue("EN 15129 8.3, EN 1998-1 10.10", "no uplift, pressure of sliders"),
+    "overturning": CodeValue("EN 1998-1 4.4.2.4", "of the whole structure, safety 1.0"),
+    "separation": CodeValue("EN 1998-1 10.5.4", "room for gamma_x d_bd around the structure"),
+    "factors": CodeValue("EN 1998-2 annexes J and JJ", "factors on friction and psi_f"),
+    "loads": CodeValue(
+        "EN 1990:2002, 6.4.3.4 and table A1.1, EN 1998-1:2004, 3.2.4",
+        "seismic mass and combinations",
+    ),
+    "number of motions": CodeValue("EN 1998-1 3.2.3.1.2", "3 motions at least"),
+    "mean": CodeValue("EN 1998-1 4.3.3.4.3(3)", "the mean counts from 7 motions on"),
+    "scaling": CodeValue("EN 1998-1 3.2.3.1.2", "0.9 of the target from 0.2 T to 2 T, 1 at zero"),
+    "moved masses": CodeValue("EN 1998-1 4.3.2", "5 % of the sides in histories"),
+    "rims": CodeValue("EN 1998-1 10.3(2), EN 15129", "rims are not met below gamma_x d_bd"),
+    "tests": CodeValue("EN 15129 8.3.4", "which tests, amplitudes and cycles"),
+}
+"""By name; of what no text was compared it is from memory."""

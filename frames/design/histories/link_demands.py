@@ -1,0 +1,95 @@
+"""What time histories ask of links, moat walls and dampers, as a code counts them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.design.histories.demand_table import said
+from frames.design.histories.eccentricity import (
+    added_by_moved,
+    named_by_way,
+    raised_suite,
+)
+from frames.design.histories.suite import motion_of, peaks_of_runs
+from frames.results.recorded import REACHED
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import pandas as pd
+    import xarray as xr
+
+    from frames.design.calculation.check import Bound
+    from frames.design.codes.history_rules import HistoryRules
+
+    Runs = Mapping[str, Mapping[Bound, xr.Dataset]]
+
+_COLUMNS = {"deformation [m]": "link_deformation", "force [N]": "link_force"}
+
+
+def link_demands(runs: Runs, rules: HistoryRules, moved: Runs | None = None) -> pd.DataFrame:
+    """Return how far links are deformed and which forces they exert, for design.
+
+    Parameters
+    ----------
+    runs : mapping of str to mapping of str to xarray.Dataset
+        Time histories by level of the seismic action, then by bound; a row a motion.
+    rules : HistoryRules
+        How the code counts them.
+    moved : mapping, optional
+        Runs with the floors' masses moved, in the same way; what they add is in the values.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row a level, bound and link, with the statistic: sizes of deformation [m] and force [N],
+        of walls the way to either side and the force of the impact; the motion whose force is
+        largest of all runs, and that force; void: why the values are none for design. Empty
+        without links.
+    """
+    import pandas as pd
+
+    tables = []
+    for level, each in runs.items():
+        for bound, data in each.items():
+            if f"{REACHED}link_force" not in data:
+                continue
+            beside = (moved or {}).get(level, {}).get(bound)
+            suite = raised_suite(data, beside, rules)
+            table = pd.DataFrame({"link": list(map(str, data["link"].to_numpy()))})
+            table = table.assign(bound=bound, statistic=said(suite))
+            for title, name in _COLUMNS.items():
+                value = suite.values(peaks_of_runs(data, name))
+                if not suite.void:
+                    more, _ = added_by_moved(
+                        data,
+                        beside,
+                        rules,
+                        lambda one, name=name: peaks_of_runs(one, name),  # type: ignore[misc]
+                    )
+                    value = value + more
+                table[title] = value
+            motions, forces = _all_forces(data, beside)
+            which = np.nan_to_num(forces, nan=-np.inf).argmax(axis=0)
+            table["motion"] = np.array(motions, dtype=object)[which]
+            table["its force [N]"] = forces[which, np.arange(len(which))]
+            tables.append(table.assign(void=suite.void, level=level))
+    return pd.concat(tables).set_index("level") if tables else pd.DataFrame()
+
+
+def _all_forces(data: xr.Dataset, moved: xr.Dataset | None) -> tuple[list[str], np.ndarray]:
+    # Of all runs, those with moved masses last.
+    every = [data] if moved is None else [data, named_by_way(moved)]
+    motions = [motion_of(one, k) for one in every for k in range(one.sizes["run"])]
+    return motions, np.concatenate([peaks_of_runs(one, "link_force") for one in every])
+
+
+def largest_of_links(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the row of each link and level whose force is largest of all bounds."""
+    if table.empty:
+        return table
+    rows = table.reset_index()
+    force = rows["force [N]"].fillna(-np.inf)
+    return rows.loc[force.groupby([rows["level"], rows["link"]]).idxmax()].sort_index()

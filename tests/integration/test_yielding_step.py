@@ -1,0 +1,64 @@
+"""The step under hinges that turn: towards a fine run, and beside OpenSees at the same step."""
+
+import math
+
+import numpy as np
+import pytest
+
+from frames import GroundMotion, moment_frame, time_history
+from frames.laws import PlasticHinge
+from lir_element import CoulombFriction, LIRBearing
+
+HINGES = {
+    "beam": PlasticHinge(moment_y=1.3e5, hardening=0.02),
+    "column": PlasticHinge(moment_y=2e5, moment_z=2e5, axial=9e6, axial_exponent=1.5),
+}
+
+
+def histories(dt):
+    """Return bearing displacements and plastic rotations of a damped frame every 10 ms."""
+    on = LIRBearing(
+        radius=1.5,
+        slider_height=0.25,
+        slider_radius=0.3,
+        capacity=math.inf,
+        friction=CoulombFriction(0.1),
+        interface_friction=0.16,
+    )
+    frame = moment_frame((1, 1), 2, bearing=on, hinges=HINGES, floor_load=3000.0)
+    t = np.arange(0.0, 3.0, 0.01)
+    shape = 2.2 * np.exp(-(((t - 2.2) / 1.5) ** 2))
+    motion = GroundMotion(
+        x=shape * np.sin(np.pi * t), y=0.7 * shape * np.sin(1.6 * np.pi * t), dt=0.01
+    )
+    data = time_history(frame, motion, dt=dt, record_every=round(0.01 / dt))
+    assert data.attrs["status"] == "ok"
+    return data["bearing_displacement"].to_numpy()[..., :2], data["hinge_rotation"].to_numpy()
+
+
+def test_hinges_turn_as_in_a_fine_run():
+    """At a step that follows the modes: the forces of hinges are those of the end of the step."""
+    fine = histories(6.25e-4)
+    assert np.abs(fine[1]).max() > 3e-3
+    found = histories(5e-3)
+    off = [
+        np.abs(one - true).max() / np.abs(true).max() for one, true in zip(found, fine, strict=True)
+    ]
+    assert off[0] < 1e-3
+    assert off[1] < 0.01
+
+
+def test_a_step_errs_no_more_than_in_opensees():
+    """The same undamped frame, bearing and scheme: the errors of a step have the same size."""
+    pytest.importorskip("openseespy")
+    from validation.claims.opensees_yielding_runs import bearing, hinged, pulse, run_both
+
+    frame, motion = hinged(bearing(math.inf, 0.1)), pulse(1.0)
+    coarse, fine = (run_both(frame, motion, dt, 3.0) for dt in (0.01, 0.0025))
+    for name in ("moves", "deformation"):
+        here, there = (
+            np.abs(one - true[::4]).max() / np.abs(true).max()
+            for one, true in zip(getattr(coarse, name), getattr(fine, name), strict=True)
+        )
+        assert there > 1e-3
+        assert 0.5 * there < here < 1.3 * there, name

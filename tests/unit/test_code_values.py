@@ -1,0 +1,208 @@
+"""What codes give, value by value: each has a standing, and checks that of what they rest on."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from frames.design import (
+    ASCE7,
+    EN1998,
+    Check,
+    CheckError,
+    Checks,
+    IsolationSystem,
+    NCh2745,
+    Spectrum,
+    Superstructure,
+    code_named,
+    equivalent_linear,
+)
+from frames.design.calculation.standing import MEMORY, OWN, Standing
+from frames.design.codes.builtin import BUILT_IN
+from frames.design.codes.code_values import E031, NTC, UFC_BNBC, standing_by, weakest
+from frames.design.codes.registry import standing_in
+from frames.design.codes.values_of_asce7 import VALUES as ASCE_VALUES
+from lir_element import LIRBearing
+
+if TYPE_CHECKING:
+    from frames.design import DesignCode
+
+DESIGN = Path(__file__).parents[2] / "frames" / "design"
+INPUTS = {
+    "irregular",
+    "no_tension",
+    "pressure_limit",
+    "property_variation",
+    "simplified",
+    "fault_distance",
+}
+"""Fields of analyses that a project tells of itself."""
+
+BEARING = LIRBearing(
+    radius=1.5,
+    slider_height=0.3,
+    slider_radius=0.2,
+    capacity=0.45,
+    friction=0.06,
+    interface_friction=0.25,
+)
+SYSTEM = IsolationSystem(
+    bearings=(BEARING,) * 4,
+    loads=(1.5e6,) * 4,
+    plan=(9.0, 9.0),
+    positions=((-4, -4), (4, -4), (4, 4), (-4, 4)),
+    combinations={"most": (2e6,) * 4},
+)
+ABOVE = Superstructure(
+    fixed_base_period=0.3,
+    storey_weights=(2e6, 2e6),
+    storey_heights=(3.0, 3.0),
+    storey_stiffness=(4e8, 4e8),
+    R=2.0,
+    vertical_period=0.05,
+)
+
+
+def checks_of(code: ASCE7 | EN1998 | NCh2745) -> Checks:
+    spectrum = {
+        "ASCE 7-22": Spectrum.asce7(s_ms=1.2, s_m1=0.6),
+        "EN 1998": Spectrum.en1998(2.4, "C"),
+        "NCh2745": Spectrum.nch2745(soil="II", zone=3),
+    }[code.name]
+    found = equivalent_linear(SYSTEM, spectrum, bounds=None, superstructure=ABOVE, code=code)
+    return found["nominal"].checks
+
+
+@pytest.mark.parametrize("code", BUILT_IN, ids=lambda code: code.name)
+def test_every_factor_of_a_code_is_a_value_with_a_standing(code: DesignCode) -> None:
+    factors = {f.name for f in fields(code.analysis)} - INPUTS  # type: ignore[arg-type]
+    listed = [value.field for value in code.values.values() if value.field]
+    assert set(listed) == factors
+    assert len(listed) == len(set(listed))
+    for value in code.values.values():
+        assert value.clause
+        assert value.what
+        assert value.standing.kind in {"read", "agrees", "memory"}
+
+
+@pytest.mark.parametrize("code", BUILT_IN, ids=lambda code: code.name)
+def test_every_code_has_an_edition(code: DesignCode) -> None:
+    assert code.edition
+    assert code.cited == f"{code.name}: {code.title} ({code.edition})"
+    assert code.standing("no such value") == MEMORY
+
+
+def test_tables_of_2003_do_not_go_by_the_name_of_2013() -> None:
+    assert code_named("NCh2745:2003").name == "NCh2745"
+    assert "2003" in code_named("NCh2745").edition
+    with pytest.raises(CheckError, match="'NCh2745:2013'"):
+        code_named("NCh2745:2013")
+
+
+def test_every_check_of_the_package_is_made_with_a_standing() -> None:
+    """`CheckBuilder` and `Governing` are given one wherever they are called."""
+    calls, without = 0, []
+    for path in DESIGN.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            name = getattr(getattr(node, "func", None), "id", "")
+            if not isinstance(node, ast.Call) or path.parent.name in {"sizing", "report"}:
+                continue
+            place = {"CheckBuilder": 3, "Governing": 2}.get(name)
+            if place is None:
+                continue
+            calls += 1
+            said = len(node.args) >= place or any(k.arg == "standing" for k in node.keywords)
+            if not said:
+                without.append(f"{path.name}:{node.lineno}")
+    assert calls > 20
+    assert without == []
+
+
+@pytest.mark.parametrize(
+    ("code", "known"),
+    [
+        (
+            ASCE7(pressure_limit=60e6, irregular=True),
+            {
+                "effective period": E031,
+                "effective damping": E031,
+                "effective stiffness ratio, D_M to 0.2 D_M": E031,
+                "period ratio T_M / T_fb": E031,
+                "storeys": E031,
+                "height": E031,
+            },
+        ),
+        (
+            EN1998(simplified=True, fault_distance=20e3, property_variation=0.08),
+            {
+                "effective stiffness ratio, d_dc to 0.2 d_dc": NTC,
+                "effective damping": NTC,
+                "restoring force": NTC,
+                "variation of properties": NTC,
+                "side of the plan": NTC,
+                "effective period": NTC,
+                "period ratio T_eff / T_fb": NTC,
+                "vertical period": NTC,
+            },
+        ),
+        (NCh2745(pressure_limit=60e6), {}),
+    ],
+    ids=lambda each: getattr(each, "name", ""),
+)
+def test_checks_have_the_standing_of_what_they_rest_on(
+    code: ASCE7 | EN1998 | NCh2745, known: dict[str, Standing]
+) -> None:
+    found = checks_of(code)
+    agreeing = {check.title: check.standing for check in found if check.standing != MEMORY}
+    assert agreeing == known
+    assert len(found) > len(known)
+    table = found.to_dataframe()
+    assert table["standing"].str.startswith("from memory").sum() == str(found).count(" *\n") + str(
+        found
+    ).endswith(" *")
+
+
+def test_a_value_from_memory_has_its_star(monkeypatch: pytest.MonkeyPatch) -> None:
+    def damping() -> Check:
+        return next(c for c in checks_of(ASCE7()) if c.title == "effective damping")
+
+    assert damping().cited == "ASCE 7-22 17.4.1"
+    value = ASCE_VALUES["most damping"]
+    monkeypatch.setitem(ASCE_VALUES, "most damping", value._replace(standing=MEMORY))
+    assert damping().cited == "ASCE 7-22 17.4.1 *"
+    assert Checks([damping()]).to_dataframe()["standing"].tolist() == [str(MEMORY)]
+
+
+def test_of_a_factor_that_is_changed_nothing_is_known() -> None:
+    changed = {c.title: c.standing for c in checks_of(ASCE7(most_damping=0.25))}
+    assert changed["effective damping"] == MEMORY
+    assert changed["effective period"] == E031
+
+
+def test_the_weakest_counts() -> None:
+    read = Standing("read", "ASCE/SEI 7-22, 17.5.4")
+    assert weakest([read, E031]) == E031
+    assert weakest([E031, MEMORY, read]) == MEMORY
+    assert weakest([E031, UFC_BNBC, E031]).source == f"{E031.source}; {UFC_BNBC.source}"
+    for none in ([], [E031, OWN]):
+        with pytest.raises(CheckError, match="one at least"):
+            weakest(none)
+
+
+def test_values_are_named() -> None:
+    with pytest.raises(CheckError, match="value 'drifts' is none"):
+        standing_by(ASCE_VALUES, "drifts")
+    assert standing_in("ASCE 7", "history drift") == UFC_BNBC
+    assert standing_in("Atlantis 12", "history drift") == MEMORY
+
+
+def test_a_spectrum_has_the_standing_of_its_formula() -> None:
+    assert Spectrum.nch433("B", 2).standing.kind == "agrees"
+    assert Spectrum.asce7(s_ms=1.2, s_m1=0.6).standing == MEMORY
+    given = Spectrum.given([0.1, 1.0, 3.0], [5.0, 4.0, 1.0])
+    assert given.standing == OWN

@@ -1,0 +1,180 @@
+"""Equilibria kept from run to run: the same bits, forgotten with every change of the frame."""
+
+import copy
+import threading
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from frames import Frame, GroundMotion, ModalDamping, ModelWarning, moment_frame, time_history
+from frames.demo import bearing_for
+from frames.statics import kept_equilibria
+from frames.statics.kept_equilibria import kept_gravity
+from lir_element import Features
+
+MOTION = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.0, 41)), y=np.ones(41), dt=0.01)
+STRUCTURE = ("node_displacement", "bearing_force", "storey_shear", "energy", "static_axial_force")
+
+
+@pytest.fixture(autouse=True)
+def nothing_kept(monkeypatch) -> list[int]:
+    """Begin with nothing kept; return how often an equilibrium is found, an entry each."""
+    monkeypatch.setattr(kept_equilibria, "_KEPT", [])
+    found: list[int] = []
+
+    def counted(*given: Any) -> Any:
+        found.append(1)
+        return original(*given)
+
+    original = kept_equilibria.gravity
+    monkeypatch.setattr(kept_equilibria, "gravity", counted)
+    return found
+
+
+def building() -> Frame:
+    """Return a small building on four bearings."""
+    return moment_frame((1, 1), 1, bearing=bearing_for(400e3))
+
+
+def run(frame: Frame, **options: Any) -> xr.Dataset:
+    """Run the motion."""
+    return time_history(frame, MOTION, **options)
+
+
+def same(one: xr.Dataset, other: xr.Dataset) -> bool:
+    """Return whether all histories are the same to the bit."""
+    return all(one[name].equals(other[name]) for name in one.variables)
+
+
+@pytest.mark.parametrize("level", ["pendulum", "contact"])
+def test_a_second_run_is_the_first_to_the_bit(level: str, nothing_kept: list[int]) -> None:
+    frame = building()
+    first = run(frame, level=level)
+    again = run(frame, level=level)
+    assert len(nothing_kept) == 1
+    assert same(first, again)
+    assert same(first, run(building(), level=level))
+    assert again.attrs["audit"] == first.attrs["audit"]
+    assert again.attrs["seconds_gravity"] < first.attrs["seconds_gravity"]
+
+
+def test_a_case_of_its_own_has_its_own(nothing_kept: list[int]) -> None:
+    frame = building()
+    name = next(iter(frame.bearings))
+    cases: list[dict[str, Any]] = [
+        {},
+        {"features": Features.all().without("rims")},
+        {"level": {name: "contact"}},
+    ]
+    for _ in range(2):
+        runs = [run(frame, **case) for case in cases]
+        assert len({data.attrs["features_left_out"] + data.attrs["level"] for data in runs}) == 3
+    assert len(nothing_kept) == 3
+
+
+CHANGES: dict[str, Callable[[Frame, str, str], None]] = {
+    "mass": lambda frame, node, _: frame.add_mass(node, 5000.0),
+    "load": lambda frame, node, _: frame.add_load(node, (0.0, 0.0, -9e3, 0.0, 0.0, 0.0)),
+    "line load": lambda frame, _, member: frame.add_uniform_load(member, (0.0, 0.0, -2e3)),
+    "damping": lambda frame, _, __: frame.set_damping(ModalDamping(0.2)),
+    "support": lambda frame, node, _: frame.fix(node, "rz"),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_changed_frame_is_found_anew(change: str, nothing_kept: list[int]) -> None:
+    frame, fresh = building(), building()
+    node, member = list(frame.nodes)[-1], list(frame.members)[-1]
+    before = run(frame)
+    CHANGES[change](frame, node, member)
+    CHANGES[change](fresh, node, member)
+    after = run(frame)
+    assert len(nothing_kept) == 2
+    assert not same(before, after)
+    assert same(after, run(fresh))
+
+
+def test_copies_share_until_one_is_changed(nothing_kept: list[int]) -> None:
+    frame = building()
+    first, other = run(frame), copy.copy(frame)
+    assert same(first, run(other))
+    assert len(nothing_kept) == 1
+    other.add_mass(list(other.nodes)[-1], 9000.0)
+    assert not same(first, run(other))
+    assert same(first, run(frame))
+    assert len(nothing_kept) == 2
+    harder = frame.with_bearings(bearing_for(800e3))
+    assert not same(first, run(harder))
+    assert len(nothing_kept) == 3
+
+
+def test_matrices_of_a_superelement_count_by_their_numbers(nothing_kept: list[int]) -> None:
+    frame = building()
+    top = list(frame.nodes)[-1]
+    frame.add_superelement("tank", [top], np.zeros((6, 6)), np.diag([4e3] * 3 + [0.0] * 3))
+    first = run(frame)
+    frame.superelements["tank"].mass.data[:] *= 3.0
+    assert not same(first, run(frame))
+    assert len(nothing_kept) == 2
+
+
+def test_what_is_done_to_a_result_stays_there() -> None:
+    frame = building()
+    first, untouched = run(frame), run(frame)
+    for variable in first.data_vars.values():
+        if variable.dtype.kind == "f" and variable.ndim:
+            values = variable.values
+            values[...] = 7.0
+    assert same(untouched, run(frame))
+
+
+def test_doubts_are_told_each_time() -> None:
+    frame = Frame("on Mars", gravity=3.7)
+    frame.add_node("ground", 0.0, 0.0, 0.0)
+    frame.add_node("plate", 0.0, 0.0, 0.0)
+    frame.fix("ground", "all")
+    frame.fix("plate", "rx", "ry", "rz")
+    frame.add_mass("plate", 54e3)
+    frame.add_bearing("bearing", "ground", "plate", bearing_for(2000e3))
+    told = []
+    for _ in range(3):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            kept_gravity(frame, Features.all(), "pendulum")
+        told.append([str(one.message) for one in caught if one.category is ModelWarning])
+    assert "not the Earth" in told[0][0]
+    assert told[0] == told[1] == told[2]
+
+
+def test_memory_is_bounded(monkeypatch, nothing_kept: list[int]) -> None:
+    frames = [building() for _ in range(3)]
+    run(frames[0])
+    size = kept_equilibria._KEPT[0].bytes
+    monkeypatch.setattr(kept_equilibria, "MOST_BYTES", 2.5 * size)
+    for frame in (*frames[1:], frames[2], frames[1], frames[0]):
+        run(frame)
+    assert len(nothing_kept) == 4  # the first had to make room for the last
+    assert len(kept_equilibria._KEPT) == 2
+    monkeypatch.setattr(kept_equilibria, "MOST_BYTES", 0.5 * size)
+    run(building())
+    assert len(kept_equilibria._KEPT) == 2  # larger than all room: not kept, nothing given up
+
+
+def test_threads_run_the_same_frame(nothing_kept: list[int]) -> None:
+    frame, found = building(), {}
+    first = run(frame)
+
+    def some(k: int) -> None:
+        found[k] = [run(frame) for _ in range(3)]
+
+    threads = [threading.Thread(target=some, args=(k,)) for k in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(nothing_kept) == 1
+    assert all(same(first, data) for k in range(3) for data in found[k])
