@@ -19,7 +19,6 @@ import xarray as xr
 from typer.testing import CliRunner
 
 from frames import AnalysisInterrupted, load, time_history
-from frames.command import app as command
 from frames.command.app import app
 from frames.design import ProjectError, with_property_bounds
 from frames.design.project import governing_run
@@ -476,7 +475,7 @@ def test_steps_that_were_run_are_kept(folder: Path, monkeypatch: pytest.MonkeyPa
         yield Way(0.01, "pendulum", 100, 0.1, 0.01, 0.0, 0.0, 0.0, "ok")
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(command, "ways_to_run", few)
+    monkeypatch.setattr("frames.design.project.speed.ways_to_run", few)
     assert run(app, ["bench", "small.toml"]).exit_code == 130
     assert len(pd.read_csv("bench.csv")) == 1
 
@@ -532,7 +531,7 @@ def test_what_was_complete_is_kept(done: Path, monkeypatch: pytest.MonkeyPatch) 
         raise AnalysisInterrupted(1.0, data)
 
     folder = done
-    monkeypatch.setattr(command, "run_project", stopped)
+    monkeypatch.setattr("frames.design.project.design_run.run_project", stopped)
     found = ran(folder / "small.toml", folder / "out")
     assert found.exit_code == 130
     assert load(folder / "out" / "interrupted.nc").sizes["run"] == 3

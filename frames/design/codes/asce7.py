@@ -33,7 +33,13 @@ from frames.design.codes.prototype_programme import (
     static_tests,
     wind_test,
 )
-from frames.design.codes.registry import DesignCode, ExampleProject, RimRule, SpectrumKey
+from frames.design.codes.registry import (
+    NO_LIMITS,
+    DesignCode,
+    ExampleProject,
+    RimRule,
+    SpectrumKey,
+)
 from frames.design.codes.secant import (
     CheckBuilder,
     enter_system,
@@ -482,7 +488,7 @@ CODE = DesignCode(
         VALUES["rims"].standing,
     ),
     tests=_tests,
-    acceptance="ASCE 7-22 17.8.4",
+    acceptance=f"{NO_LIMITS}, not of ASCE 7-22 17.8.4",
     example=ExampleProject({"s_ms": 1.2, "s_m1": 0.7}, {}),
 )
 """ASCE 7-22, chapter 17."""

@@ -93,8 +93,8 @@ def acceptance_checks(
         The design, friction nominal.
     code : str
         Code of the design, "ASCE 7-22", "EN 1998" or "NCh2745". The limits are those of ASCE 7-10
-        unless others are given, to be confirmed for ASCE 7-22; of the other standards no clause is
-        cited, since their own limits were not read: give them.
+        unless others are given; no clause of the code is cited for them, since its own were not
+        read: give them.
     bounds : PropertyBounds
         Factors of friction that the design was made with.
     limits : AcceptanceLimits, optional
