@@ -19,15 +19,6 @@ import numpy as np
 
 from frames.library.moment_frames import moment_frame
 from frames.motion.ground_motion import GroundMotion
-from frames.plots import (
-    bearing_sections,
-    energy,
-    histories,
-    hysteresis,
-    orbits,
-    storey_profiles,
-    worst_bearing,
-)
 from frames.results.summary import status_of, table_of, write_results
 from frames.solve.time_history import time_history
 from frames.statics.gravity import gravity
@@ -157,6 +148,16 @@ def systems_of(bearings: Mapping[Place, LIRBearing]) -> dict[str, dict[Place, LI
 
 def figures_of(results: Mapping[str, xr.Dataset]) -> dict[str, Figure]:
     """Return the figures by file name without ending."""
+    from frames.plots import (  # matplotlib, which those who take models from here do without
+        bearing_sections,
+        energy,
+        histories,
+        hysteresis,
+        orbits,
+        storey_profiles,
+        worst_bearing,
+    )
+
     worst = worst_bearing(results[LIR])
     end = _strong_part(max(results.values(), key=lambda data: float(data["time"][-1])))
     return {

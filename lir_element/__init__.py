@@ -1,19 +1,28 @@
 """The LIR-DCFP bearing and its element; see docs/conventions.md for axes and signs."""
 
-from lir_element.device.bearing import LIRBearing as LIRBearing
-from lir_element.device.bearing_checks import DesignWarning as DesignWarning
-from lir_element.device.features import Features as Features
-from lir_element.device.friction import CoulombFriction as CoulombFriction
-from lir_element.device.friction import FrictionLaw as FrictionLaw
-from lir_element.device.friction import VelocityFriction as VelocityFriction
-from lir_element.device.heating import FrictionHeating as FrictionHeating
-from lir_element.device.heating import PressureDependence as PressureDependence
-from lir_element.element import Element as Element
-from lir_element.errors import AnalysisError as AnalysisError
-from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
-from lir_element.errors import AnalysisWarning as AnalysisWarning
-from lir_element.errors import RunStatus as RunStatus
-from lir_element.rig.cyclic_test import cyclic_test as cyclic_test
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from lir_element.device.bearing import LIRBearing as LIRBearing
+    from lir_element.device.bearing_checks import DesignWarning as DesignWarning
+    from lir_element.device.features import Features as Features
+    from lir_element.device.friction import CoulombFriction as CoulombFriction
+    from lir_element.device.friction import FrictionLaw as FrictionLaw
+    from lir_element.device.friction import VelocityFriction as VelocityFriction
+    from lir_element.device.heating import FrictionHeating as FrictionHeating
+    from lir_element.device.heating import PressureDependence as PressureDependence
+    from lir_element.element import Element as Element
+    from lir_element.errors import AnalysisError as AnalysisError
+    from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
+    from lir_element.errors import AnalysisWarning as AnalysisWarning
+    from lir_element.errors import RunStatus as RunStatus
+    from lir_element.rig.cyclic_test import cyclic_test as cyclic_test
+
+if not TYPE_CHECKING:  # noqa: RUF067  # a checker of types would take any name for one of these
+    from lir_element._lazy import lazily
+
+    __getattr__, __dir__ = lazily(__name__, __file__)
+
 
 __all__ = [
     "AnalysisError",

@@ -1,14 +1,15 @@
-"""The command ``lir``: new, check, design, run, report, view, compare, bench, campaign, schema."""
+"""The command ``lir``: new, check, design, run, report, view, compare, bench, campaign, schema.
+
+What a command needs is imported in it: ``lir --help`` and errors of the command line wait for none.
+"""
 
 from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
-import pandas as pd
 import typer
 from rich.markup import escape
 
@@ -17,24 +18,16 @@ from frames.command.comparing import compare
 from frames.command.console import FAILED_CHECKS, err, out, say, told
 from frames.command.designing import propose
 from frames.command.viewing import view
-from frames.design._errors import ProjectError
-from frames.design.calculation.check import Checks
-from frames.design.calculation.standing import LEGEND
-from frames.design.histories.demand_table import headed, void_said
-from frames.design.project.bearing_types import columns_by_type
-from frames.design.project.design_run import ProjectRun, evaluate_run, run_project
-from frames.design.project.example import BUILDINGS, write_example
-from frames.design.project.inputs import ProjectInputs
-from frames.design.project.level_runs import said_of_runs
-from frames.design.project.preliminary import inputs_of, preliminary
-from frames.design.project.reading import read_project, schema
-from frames.design.project.speed import Way, recommended, ways_to_run
-from frames.design.project.structure_statement import structure_rows
-from frames.design.project.unchecked import from_memory, unchecked
-from frames.design.report.tables import rows_of
-from lir_element.errors import AnalysisInterrupted
-from lir_element.results.dataset import package_version
-from lir_element.tables import text_table
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    import pandas as pd
+
+    from frames.design.calculation.check import Checks
+    from frames.design.project.design_run import ProjectRun
+    from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.speed import Way
 
 app = typer.Typer(
     name="lir",
@@ -53,6 +46,8 @@ File = Annotated[Path, typer.Argument(help="The project's file.")]
 
 def _version(asked: bool) -> None:
     if asked:
+        from lir_element.results.dataset import package_version
+
         say(f"lir-dcfp {package_version()}")
         raise typer.Exit
 
@@ -73,10 +68,13 @@ def new(
         str | None, typer.Option(help="ASCE 7-22 (if left out), EN 1998 or NCh2745.")
     ] = None,
     example: Annotated[
-        str | None, typer.Option(help=f"A whole building instead: {', '.join(BUILDINGS)}.")
+        str | None, typer.Option(help="A whole building instead: hospital, near-fault, office.")
     ] = None,
 ) -> None:
     """Write an example project: a commented file, and motions to try it with."""
+    from frames.design._errors import ProjectError
+    from frames.design.project.example import write_example
+
     with told():
         try:
             written = write_example(folder, code, example)
@@ -89,6 +87,13 @@ def new(
 @app.command()
 def check(file: File = FILE) -> None:
     """Check a project's file, its model and motions; analyse it equivalent-linearly."""
+    from frames.design.project.bearing_types import columns_by_type
+    from frames.design.project.level_runs import said_of_runs
+    from frames.design.project.preliminary import preliminary
+    from frames.design.project.structure_statement import structure_rows
+    from frames.design.project.unchecked import from_memory, unchecked
+    from lir_element.tables import text_table
+
     with told():
         parts = _parts(file)
         ground = preliminary(parts)
@@ -117,7 +122,10 @@ def run(
     figures: Annotated[bool, typer.Option(help="Draw the figures of the report.")] = True,
 ) -> None:
     """Run a project at each level and bound of friction, check it, and write the results."""
+    from frames.design.project.design_run import run_project
+    from frames.design.project.level_runs import said_of_runs
     from frames.design.report.files import UNFINISHED, write_interrupted, write_run  # with figures
+    from lir_element.errors import AnalysisInterrupted
 
     with told():
         try:
@@ -152,6 +160,8 @@ def report(
     ] = False,
 ) -> None:
     """Judge a run again and write its report anew, with the limits that the file has now."""
+    from frames.design.project.design_run import evaluate_run
+    from frames.design.project.preliminary import inputs_of, preliminary
     from frames.design.report.files import read_histories, write_judgement
     from frames.design.report.printing import print_report
 
@@ -176,6 +186,8 @@ app.command()(view)
 
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
+    from frames.design.histories.demand_table import headed, void_said
+
     _frame_table("Demands", headed(found.demands))
     if void := void_said(found.demands):
         say(f"no values for design, only what runs reached: {void}")
@@ -202,6 +214,11 @@ def bench(
     table: Annotated[Path, typer.Option(help="Where the table is kept.")] = BENCH,
 ) -> None:
     """Run the first motion with several steps: how fast this machine is, and with which error."""
+    import pandas as pd
+
+    from frames.design.project.preliminary import preliminary
+    from frames.design.project.speed import recommended, ways_to_run
+
     ways: list[Way] = []
     with told():
         ground = preliminary(_parts(file))
@@ -256,15 +273,22 @@ app.command()(campaign_status)
 @app.command(name="schema")
 def print_schema() -> None:
     """Print the JSON schema of a project's file, for editors."""
+    from frames.design.project.reading import schema
+
     sys.stdout.write(schema() + "\n")
 
 
 def _parts(file: Path) -> ProjectInputs:
+    from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.reading import read_project
+
     return ProjectInputs(read_project(file), file.resolve().parent)
 
 
 def _checks(title: str, checks: Checks) -> None:
     # A line each, those that fail in red, limits of a procedure that are exceeded in yellow.
+    from frames.design.calculation.standing import LEGEND
+
     out.print(f"\n[bold]{title}[/]: {checks.tally}", soft_wrap=True)
     width = max((len(each.verdict) for each in checks), default=0)
     for each in checks:
@@ -282,5 +306,8 @@ def _say_each(sentences: Iterable[str]) -> None:
 
 
 def _frame_table(title: str, frame: pd.DataFrame) -> None:
+    from frames.design.report.tables import rows_of
+    from lir_element.tables import text_table
+
     out.print(f"\n[bold]{title}[/]")
     say(text_table(rows_of(frame), ("", *map(str, frame.columns))))

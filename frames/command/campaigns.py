@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from frames.command.console import FAILED_ANALYSIS, INTERRUPTED, err, say, told
-from frames.design._errors import ProjectError
 
 if TYPE_CHECKING:
     from frames.risk.campaign.campaign import Campaign
@@ -82,6 +81,7 @@ def campaign_status(
 
 
 def _require_packages() -> None:
+    from frames.design._errors import ProjectError
     from frames.risk.campaign.packages import lacking_packages
 
     lacking = lacking_packages()

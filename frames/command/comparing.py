@@ -8,12 +8,6 @@ from typing import Annotated
 import typer
 
 from frames.command.console import out, say, told
-from frames.design.project.comparison import compare_project, compared_histories
-from frames.design.project.inputs import ProjectInputs
-from frames.design.project.reading import read_project
-from frames.design.report.comparison_words import verdicts
-from frames.design.report.tables import rows_of
-from lir_element.tables import text_table
 
 
 def compare(
@@ -25,7 +19,13 @@ def compare(
 
     Writes compare.html, compare.csv and compare-motions.csv.
     """
+    from frames.design.project.comparison import compare_project, compared_histories
+    from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.reading import read_project
     from frames.design.report.comparison_page import write_comparison
+    from frames.design.report.comparison_words import verdicts
+    from frames.design.report.tables import rows_of
+    from lir_element.tables import text_table
 
     with told():
         parts = ProjectInputs(read_project(file), file.resolve().parent)

@@ -1,4 +1,7 @@
-"""How the command speaks: lines as they are, errors with their exit code, each warning once."""
+"""How the command speaks: lines as they are, errors with their exit code, each warning once.
+
+The commands import what they need when they run: `lir --help` starts without the rest.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +11,6 @@ from contextlib import contextmanager
 
 import typer
 from rich.console import Console
-
-from frames._errors import ModelError, MotionError
-from frames.design._errors import CheckError, ProjectError
-from frames.risk._errors import CampaignError
-from lir_element.errors import AnalysisError, AnalysisInterrupted
 
 FAILED_CHECKS, BAD_INPUT, FAILED_ANALYSIS, INTERRUPTED = 1, 2, 3, 130
 
@@ -33,6 +31,11 @@ def told() -> Generator[None, None, None]:
     typer.Exit
         With the code of the error.
     """
+    from frames._errors import ModelError, MotionError
+    from frames.design._errors import CheckError, ProjectError
+    from frames.risk._errors import CampaignError
+    from lir_element.errors import AnalysisError, AnalysisInterrupted
+
     with warnings.catch_warnings():
         before: set[str] = set()
 

@@ -6,29 +6,20 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import pandas as pd
 import typer
 
 from frames.command.console import say, told
-from frames.design._errors import ProjectError
-from frames.design.project.inputs import ProjectInputs
-from frames.design.project.level_runs import said_of_runs
-from frames.design.project.reading import read_project
-from frames.design.project.verification import (
-    Verified,
-    section_of,
-    verification_table,
-    verified,
-)
-from frames.design.report.tables import in_mm_and_kn, rows_of
-from frames.design.sizing.proposal import Design, design
-from frames.design.sizing.selection import NoCandidateError, Objective, table_of
-from lir_element.tables import text_table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import pandas as pd
+
+    from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.verification import Verified
     from frames.design.sizing.candidate import Candidate
+    from frames.design.sizing.proposal import Design
+    from frames.design.sizing.selection import Objective
     from frames.design.sizing.target import DesignTarget
 
 OBJECTIVES: dict[str, Objective] = {
@@ -77,6 +68,10 @@ def propose(
     All candidates, with why each fell out, are in candidates.csv and candidates.png. With --verify
     the best are put to the time histories and checks of the project: verified.csv.
     """
+    from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.reading import read_project
+    from frames.design.project.verification import section_of
+
     with told():
         least = _objective(objective)
         _require_one_size(verify, sizes)
@@ -97,6 +92,9 @@ def _found(
     parts: ProjectInputs, target: DesignTarget, sizes: int, least: Objective, results: Path
 ) -> Design:
     # Where no candidate keeps what is asked, they are written before the error is told.
+    from frames.design.sizing.proposal import design
+    from frames.design.sizing.selection import NoCandidateError
+
     frame = parts.provisional_frame()
     try:
         return design(
@@ -119,6 +117,13 @@ def _verify(
     parts: ProjectInputs, candidates: Sequence[Candidate], folder: Path
 ) -> Candidate | None:
     # The first of which no check fails, told as they are done; None without.
+    import pandas as pd
+
+    from frames.design.project.level_runs import said_of_runs
+    from frames.design.project.verification import verification_table, verified
+    from frames.design.report.tables import in_mm_and_kn, rows_of
+    from lir_element.tables import text_table
+
     say(f"\nTime histories of the best {len(candidates)}: {said_of_runs(parts, parts.motions())}")
     done: list[Verified] = []
     for one in verified(parts, candidates, progress=True):
@@ -148,12 +153,16 @@ def _said(one: Verified) -> str:
 
 
 def _require_one_size(verify: bool, sizes: int) -> None:
+    from frames.design._errors import ProjectError
+
     if verify and sizes > 1:
         msg = f"--verify with --sizes {sizes}: [bearing] of a project has one size, leave one out"
         raise ProjectError(msg)
 
 
 def _objective(word: str) -> Objective:
+    from frames.design._errors import ProjectError
+
     named = OBJECTIVES | {name: name for name in OBJECTIVES.values()}  # as design() has them
     if word not in named:
         msg = f"--objective {word!r} is none of {', '.join(OBJECTIVES)}"
@@ -176,6 +185,10 @@ def _summary(found: Design, objective: str, top: int) -> None:
 
 
 def _listed(shown: Sequence[Candidate], chosen: Candidate) -> str:
+    from frames.design.report.tables import in_mm_and_kn, rows_of
+    from frames.design.sizing.selection import table_of
+    from lir_element.tables import text_table
+
     table = table_of(shown, chosen)[_SHOWN]
     table = table.rename(columns={"pressure, typical [Pa]": "pressure [MPa]"})
     table["pressure [MPa]"] *= 1e-6
@@ -195,6 +208,7 @@ def _written(
     candidates: Sequence[Candidate], found: Design | None, target: DesignTarget, folder: Path
 ) -> None:
     from frames.design.plots import design_candidates  # with matplotlib
+    from frames.design.sizing.selection import table_of
 
     folder.mkdir(parents=True, exist_ok=True)
     chosen = None if found is None else found.chosen

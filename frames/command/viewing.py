@@ -8,10 +8,6 @@ from typing import Annotated
 import typer
 
 from frames.command.console import say, told
-from frames.design._errors import ProjectError
-from frames.design.project.inputs import ProjectInputs
-from frames.design.project.preliminary import inputs_of, preliminary
-from frames.design.project.reading import read_project
 
 
 def view(
@@ -20,6 +16,10 @@ def view(
     size: Annotated[float, typer.Option(help="What the histories may take [MB].")] = 3.0,
 ) -> None:
     """Write view.html: model and bearings of the governing run in motion, on one page."""
+    from frames.design._errors import ProjectError
+    from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.preliminary import inputs_of, preliminary
+    from frames.design.project.reading import read_project
     from frames.design.report.files import read_histories
     from frames.design.report.kept_checks import read_checks
     from frames.viewer import write_view  # with figures

@@ -21,6 +21,7 @@ from lir_element.errors import (
 from lir_element.kernels.derived import in_plan, in_space
 from lir_element.layout import PROPS_BY_NAME
 from lir_element.results.deferred import deferred
+from lir_element.results.other_arrays import spare
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -30,6 +31,8 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats, Records
 
     IntArray = npt.NDArray[np.int64]
+
+spare()
 
 AXES = ("x", "y", "z")
 SURFACES = ("bottom", "top")

@@ -33,7 +33,7 @@ def test_a_star_gives_what_the_package_lists(package: str) -> None:
     assert set(found) == set(module.__all__)
     imported = {
         alias.asname
-        for node in ast.parse(Path(str(module.__file__)).read_text(encoding="utf-8")).body
+        for node in ast.walk(ast.parse(Path(str(module.__file__)).read_text(encoding="utf-8")))
         for alias in getattr(node, "names", [])
         if alias.asname and isinstance(node, ast.ImportFrom)
     }
@@ -44,11 +44,11 @@ def test_a_star_gives_what_the_package_lists(package: str) -> None:
 def test_errors_and_warnings_of_a_run_are_exported() -> None:
     """Whoever catches one by name finds it where the function that raises it came from."""
     frames, device = importlib.import_module("frames"), importlib.import_module("lir_element")
-    errors = {name: vars(frames)[name] for name in ("ModelError", "MotionError")}
+    errors = {name: getattr(frames, name) for name in ("ModelError", "MotionError")}
     errors["AnalysisError"] = device.AnalysisError
     assert all(issubclass(error, Exception) for error in errors.values())
     for name in ("ModelWarning", "MotionWarning"):
-        assert issubclass(vars(frames)[name], Warning)
+        assert issubclass(getattr(frames, name), Warning)
     with pytest.raises(frames.MotionError):
         frames.GroundMotion(x=[1.0], dt=0.1)
 
@@ -60,7 +60,7 @@ def test_names_that_moved_still_work_and_say_where_they_are(package: str) -> Non
         with pytest.warns(DeprecationWarning, match=rf"{package}.{name} is now {home}\.") as told:
             found = getattr(module, name)
         new = str(told[0].message).split(" is now ")[1].split(";")[0].rpartition(".")[2]
-        assert found is vars(importlib.import_module(home))[new]
+        assert found is getattr(importlib.import_module(home), new)
         assert told[0].filename == __file__  # the caller is told, not the package
 
 

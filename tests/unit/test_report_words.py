@@ -113,6 +113,11 @@ def test_texts_in_spanish_with_decimal_commas(text: str, said: str) -> None:
     assert words.missing == set()
 
 
+def test_captions_of_types_of_bearings_are_translated() -> None:
+    words = Words("es", ",", ["wall"])
+    assert words.say("The bearing, type wall, to scale") == "El aislador, tipo wall, a escala"
+
+
 def test_what_is_not_known_stays_and_is_told() -> None:
     words = Words("es", ",")
     assert words.say("a sentence of another package") == "a sentence of another package"

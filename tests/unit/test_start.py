@@ -10,8 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numba.core import event
+from typer.testing import CliRunner
 
 from frames import GroundMotion, lumped_mass, moment_frame, precompile, time_history
+from frames.command.app import app
+from frames.design.project.example import BUILDINGS
 from lir_element import LIRBearing, VelocityFriction
 from lir_element._compile import shipped
 
@@ -43,6 +46,54 @@ def test_imports_leave_out_what_most_runs_do_without() -> None:
     code = f"import frames, sys; print([name for name in {HEAVY} if name in sys.modules])"
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
     assert out.stdout.strip() == "[]"
+
+
+def told_by(code: str) -> str:
+    """Return what a new process prints."""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+    return done.stdout.strip()
+
+
+def test_the_help_of_the_command_waits_for_no_analysis() -> None:
+    slow = ("numba", "numpy", "pandas", "scipy", "xarray")
+    code = (
+        "import sys\nfrom typer.testing import CliRunner\nfrom frames.command.app import app\n"
+        "done = [CliRunner().invoke(app, [*of, '--help']) for of in ([], ['check'], ['design'])]\n"
+        f"print([one.exit_code for one in done], [name for name in {slow} if name in sys.modules])"
+    )
+    assert told_by(code) == "[0, 0, 0] []"
+
+
+def test_the_command_names_the_buildings_that_there_are() -> None:
+    help_of_new = CliRunner().invoke(app, ["new", "--help"], terminal_width=300).output
+    assert all(name in help_of_new for name in BUILDINGS)
+
+
+ARRAYS = """
+import sys
+import numpy as np
+from frames import GroundMotion, lumped_mass, time_history
+from frames.demo import bearing_for
+pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 21)), dt=0.05)
+data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse, duration=0.5)
+largest = float(abs(data["bearing_displacement"]).max())
+print([name for name in ("dask.array", "pint") if name in sys.modules])
+"""
+LATER = """
+import dask.array, xarray
+lazy = data["bearing_displacement"].chunk({"time": 10})
+assert isinstance(lazy.data, dask.array.Array)
+assert float(abs(lazy).max()) == largest
+assert xarray.Variable("x", dask.array.ones(3)).chunks is not None
+assert xarray.namedarray.pycompat.mod_version("dask").release > (0,)
+print("chunks")
+"""
+
+
+def test_arrays_of_other_packages_are_imported_when_they_are_used() -> None:
+    assert told_by(ARRAYS).splitlines() == ["[]"]
+    pytest.importorskip("dask.array")
+    assert told_by(ARRAYS + LATER).splitlines() == ["[]", "chunks"]
 
 
 @COMPILES

@@ -142,7 +142,7 @@ def report_in(
 def _words(run: ProjectRun, language: str) -> Words:
     names = {run.frame.name, *run.frame.bearings, *run.frame.nodes, *run.frame.members}
     names |= {name for part in run.frame.superelements.values() for name in part.elements.names}
-    names |= {*run.motions, *(level.name for level in run.frame.levels)}
+    names |= {*run.motions, *(level.name for level in run.frame.levels), *devices_by_type(run)}
     return Words(language or run.about.language, run.about.decimal, names)
 
 

@@ -1,0 +1,249 @@
+"""The three example buildings, run: writes the tables and figures of docs/example_buildings.md.
+
+    python -m validation.measurements.example_buildings FOLDER
+
+FOLDER holds the projects "office", "near-fault" and "hospital", written by ``lir new --example`` and
+run by ``lir run``. Numbers go to docs/validation/example_buildings.json; `--page` writes the tables
+anew from them. Needs the optional extra "cli", and OpenSeesPy.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pandas as pd
+
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.reading import read_project
+from frames.plots import model_view
+from validation.page import FOLDER
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+NAMES = ("office", "near-fault", "hospital")
+PAGE = FOLDER.parent / "example_buildings.md"
+KEPT = FOLDER / "example_buildings.json"
+FIGURES = FOLDER.parent / "figures"
+BEGIN, END = "<!-- tables: begin -->", "<!-- tables: end -->"
+DPI = 80
+MOST = 6  # ratios shown of each building
+ASKED = {  # quantity: shown as, factor, digits
+    "isolator displacement": ("displacement, mm", 1e3, 0),
+    "residual displacement": ("residual displacement, mm", 1e3, 0),
+    "interface slip": ("interface slip, mm", 1e3, 1),
+    "rim force": ("rim force, kN", 1e-3, 0),
+    "maximum axial force": ("largest axial force, MN", 1e-6, 1),
+    "maximum uplift": ("uplift, worst run, mm", 1e3, 1),
+    "base shear": ("base shear, MN", 1e-6, 1),
+    "storey drift ratio": ("storey drift, %", 1e2, 3),
+    "floor acceleration in plan": ("floor acceleration, m/s²", 1.0, 1),
+}
+"""Demands that the page shows: the envelope of the bounds, the worst run of uplift."""
+
+
+def main() -> None:
+    """Read the results of the buildings; write numbers, figures and the page's tables."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", nargs="?", type=Path)
+    parser.add_argument("--page", action="store_true", help="write the page from the kept numbers")
+    chosen = parser.parse_args()
+    if chosen.page == (chosen.folder is not None):
+        parser.error("give the folder of the three projects, or --page")
+    if chosen.page:
+        found = json.loads(KEPT.read_text(encoding="utf-8"))
+    else:
+        found = measured(chosen.folder)
+        KEPT.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    PAGE.write_text(rebuilt(PAGE.read_text(encoding="utf-8"), found), encoding="utf-8")
+
+
+def measured(folder: Path) -> dict[str, Any]:
+    """Return what the page says of each project that was run, and draw its figures."""
+    found = {}
+    for name in NAMES:
+        inputs = ProjectInputs(read_project(folder / name / "project.toml"), folder / name)
+        found[name] = of_building(folder / name / "results", inputs)
+        draw(name, inputs)
+    return found
+
+
+def of_building(results: Path, inputs: ProjectInputs) -> dict[str, Any]:
+    """Return numbers of one project, from its files of results alone but for the sliders."""
+    run = json.loads((results / "run.json").read_text(encoding="utf-8"))
+    demands = pd.read_csv(results / "demands.csv")
+    bearings = pd.read_csv(results / "bearings.csv")
+    checks = pd.read_csv(results / "checks.csv", keep_default_na=False)
+    worst = next(c for c in demands if c.startswith("worst of all"))
+    levels = sorted({str(level) for level in demands["level"]}, key=len)  # "design" first
+    asked: dict[str, dict[str, float]] = {}
+    for row in demands.to_dict("records"):
+        if row["quantity"] in ASKED:
+            column = worst if row["quantity"] == "maximum uplift" else "envelope of these"
+            asked.setdefault(row["level"], {})[row["quantity"]] = float(row[column])
+    return {
+        "code": inputs.code().name,
+        "device_level": inputs.file.analysis.level,
+        "weight": float(bearings["average load [N]"].sum()),
+        "fixed": float(pd.read_csv(results / "modes.csv")["period, held [s]"].max()),
+        "runs": {k: v["runs"] for k, v in run["runs"].items()},
+        "moved": {k: v["runs"] for k, v in run["moved"].items()},
+        "levels": levels,
+        "demands": asked,
+        "types": types_of(bearings, inputs),
+        "checks": len(checks),
+        "failed": list(run["failed"]),
+        "agree": [
+            row["title"] for row in checks.to_dict("records") if row["verdict"] == "needs agreement"
+        ],
+        "ratios": highest(checks),
+        "written": run["written"],
+    }
+
+
+def types_of(bearings: pd.DataFrame, inputs: ProjectInputs) -> dict[str, Any]:
+    """Return the loads of the bearings of each type, and the device it is."""
+    name = bearings["type"] if "type" in bearings else pd.Series("standard", bearings.index)
+    frame = inputs.frame()
+    found = {}
+    for kind, own in bearings.groupby(name, sort=False):
+        device = frame.bearings[own["bearing"].iloc[0]].bearing
+        area = math.pi * device.slider_radius**2
+        found[str(kind)] = {
+            "count": len(own),
+            "slider": device.slider_radius,
+            "capacity": device.capacity,
+            "loads": [float(own["average load [N]"].min()), float(own["average load [N]"].max())],
+            "most": float(own["largest load [N]"].max()),
+            "area": area,
+        }
+    return found
+
+
+def highest(checks: pd.DataFrame) -> list[list[Any]]:
+    """Return title, ratio and verdict of the checks with the highest ratios, each title once."""
+    told = checks[~checks["symbol"].isin(["n", "S_mean"])]
+    rows = told.assign(ratio=pd.to_numeric(told["ratio"])).sort_values("ratio", ascending=False)
+    first = rows.drop_duplicates("title").head(MOST)
+    return [
+        [row["title"], round(float(row["ratio"]), 3), row["verdict"]]
+        for row in first.to_dict("records")
+    ]
+
+
+def draw(name: str, inputs: ProjectInputs) -> None:
+    """Draw the model of a building."""
+    figure = model_view(inputs.frame())
+    figure.set_size_inches(5.6, 4.2)
+    figure.savefig(FIGURES / f"building-{name}.png", dpi=DPI, bbox_inches="tight")
+
+
+def rebuilt(page: str, found: Mapping[str, Any]) -> str:
+    """Return the page with the tables of these numbers."""
+    block = f"{BEGIN}\n\n{tables(found)}\n\n{END}"
+    pattern = re.escape(BEGIN) + ".*?" + re.escape(END)
+    return re.sub(pattern, lambda _: block, page, count=1, flags=re.DOTALL)
+
+
+def tables(found: Mapping[str, Any]) -> str:
+    """Return the tables of the page: what was run and reached, types, what governs."""
+    return "\n\n".join((reached(found), sliders(found), governing(found)))
+
+
+def reached(found: Mapping[str, Any]) -> str:
+    """Return the table of what was run, and of the demands at each level."""
+    heads = [(name, level) for name, own in found.items() for level in own["levels"]]
+    own = [found[name] for name, _ in heads]
+    rows = [
+        ["", *(f"{name}, {level} level" for name, level in heads)],
+        ["---"] * (len(heads) + 1),
+        ["code", *(each["code"] for each in own)],
+        ["weight, MN", *(f"{each['weight'] / 1e6:.1f}" for each in own)],
+        ["period on a held base, s", *(f"{each['fixed']:.2f}" for each in own)],
+        ["level of the sliders", *(each["device_level"] for each in own)],
+        [
+            "bounds of friction",
+            *(", ".join(_bounds(found[n]["runs"], level)) for n, level in heads),
+        ],
+        [
+            "runs, of them with moved masses",
+            *(f"{_runs(found[n], level)}, {_moved(found[n], level)}" for n, level in heads),
+        ],
+    ]
+    for quantity, (words, factor, digits) in ASKED.items():
+        values = [found[n]["demands"][level].get(quantity) for n, level in heads]
+        cells = ["" if v is None else f"{factor * v:.{digits}f}" for v in values]
+        rows.append([words, *cells])
+    return _table(rows)
+
+
+def _of_level(runs: Mapping[str, Any], level: str) -> dict[str, Any]:
+    own = {k: v for k, v in runs.items() if k.startswith(f"{level}-")}
+    return own or dict(runs)
+
+
+def _bounds(runs: Mapping[str, Any], level: str) -> list[str]:
+    return [key.rpartition("-")[2] for key in _of_level(runs, level)]
+
+
+def _moved(own: Mapping[str, Any], level: str) -> int:
+    return sum(int(n) for n in _of_level(own["moved"], level).values())
+
+
+def _runs(own: Mapping[str, Any], level: str) -> int:
+    return sum(int(n) for n in _of_level(own["runs"], level).values()) + _moved(own, level)
+
+
+def sliders(found: Mapping[str, Any]) -> str:
+    """Return the table of the types of bearings and their loads."""
+    rows = [
+        [
+            "building, type",
+            "bearings",
+            "slider, mm",
+            "rims at, mm",
+            "average load, MN",
+            "pressure under it, MPa",
+            "largest load, MN",
+        ],
+        ["---"] * 7,
+    ]
+    for name, own in found.items():
+        for kind, each in own["types"].items():
+            low, high = each["loads"]
+            area = 1e6 * each["area"]  # MPa from N
+            rows.append(
+                [
+                    f"{name}, {kind}",
+                    str(each["count"]),
+                    f"{2e3 * each['slider']:.0f}",
+                    f"{1e3 * each['capacity']:.0f}",
+                    f"{low / 1e6:.1f} to {high / 1e6:.1f}",
+                    f"{low / area:.0f} to {high / area:.0f}",
+                    f"{each['most'] / 1e6:.1f}",
+                ]
+            )
+    return _table(rows)
+
+
+def governing(found: Mapping[str, Any]) -> str:
+    """Return the highest ratios of each building and what fails."""
+    rows = [["building", "checks", "fail", "to be agreed", "highest ratios"], ["---"] * 5]
+    for name, own in found.items():
+        ratios = "; ".join(f"{title} {ratio:.2f}" for title, ratio, _ in own["ratios"])
+        failing, agree = len(own["failed"]), len(own["agree"])
+        rows.append([name, str(own["checks"]), str(failing), str(agree), ratios])
+    return _table(rows)
+
+
+def _table(rows: list[list[str]]) -> str:
+    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+
+
+if __name__ == "__main__":
+    main()
