@@ -87,15 +87,20 @@ def records() -> Path:
 
 @pytest.fixture(scope="session")
 def put_example(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
-    """Put the project of ``lir new`` into a folder: its motions are made once a code."""
+    """Put the project of ``lir new`` into a folder: made once a code, for all processes."""
     example = pytest.importorskip("frames.design.project.example")
-    made: dict[str, Path] = {}
+    filelock = pytest.importorskip("filelock")
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
 
     def put(folder: Path, code: str = "ASCE 7-22") -> Path:
-        if code not in made:
-            made[code] = tmp_path_factory.mktemp("example")
-            example.write_example(made[code], code)
-        shutil.copytree(made[code], folder, dirs_exist_ok=True)
+        made = shared / f"example {code}"
+        with filelock.FileLock(f"{made}.lock"):
+            if not made.is_dir():
+                part = tmp_path_factory.mktemp("example")
+                example.write_example(part, code)
+                part.rename(made)  # whole, or not there
+        shutil.copytree(made, folder, dirs_exist_ok=True)
         return folder
 
     return put
