@@ -23,6 +23,7 @@ BOLD = {
     "theta": "𝜽",
     "tau": "𝝉",
     "phi": "𝝓",
+    "varphi": "𝝋",
     "psi": "𝝍",
     "omega": "𝝎",
     "Phi": "𝜱",
