@@ -102,8 +102,8 @@ def test_vertical_earthquake_goes_by_s_ms_and_base_shear_by_s_ds() -> None:
     assert isolator_combinations(1.5)["minimum"]["D"] == pytest.approx(0.9 - 0.3)
     t = calculation()
     assert t.value("S_DS") == pytest.approx(1.0)
-    # 0.6 / T_M / 6 is below 0.044 S_DS
-    assert t.value("C_s") == pytest.approx(0.044)
+    # 0.6 / T_M / 6 is below 0.044 S_DS, and that below 0.5 S_1 / R with S_1 of at least 0.6 g
+    assert t.value("C_s") == pytest.approx(0.5 * 0.9 / 6.0)
 
 
 def test_stiffness_has_no_factor_of_units() -> None:

@@ -484,7 +484,7 @@ def test_bearings_are_proposed_as_a_section(folder: Path, monkeypatch: pytest.Mo
     monkeypatch.chdir(folder)
     done = run(app, ["design", str(folder / "project.toml"), "--top", "2"])
     assert done.exit_code == 0, done.output
-    assert "9 candidates tried" in done.stdout
+    assert "16 candidates tried" in done.stdout
     table = pd.read_csv("design/candidates.csv", keep_default_na=False)
     chosen = table[table["outcome"] == "proposed"].iloc[0]
     assert f'radius = "{chosen["radius [m]"]:g} m"' in done.stdout
@@ -516,9 +516,9 @@ def test_candidates_of_which_none_keeps_what_is_asked_are_written(folder: Path) 
     file.write_text(text.replace('max_displacement = "600 mm"', 'max_displacement = "100 mm"'))
     found = run(app, ["design", str(file), "--results", str(folder / "tried")])
     assert found.exit_code == 2
-    assert "none of 9 pairs" in found.output
+    assert "none of 16 pairs" in found.output
     table = pd.read_csv(folder / "tried" / "candidates.csv")
-    assert list(table["outcome"]) == ["falls out"] * 9
+    assert list(table["outcome"]) == ["falls out"] * 16
     assert set(table["limited by"]) == {"displacement"}
     wrong = run(app, ["design", str(file), "--objective", "weight"])
     assert wrong.exit_code == 2
