@@ -98,10 +98,7 @@ def bearing_variables(
     slip, passed = states["slip_total"], states["interface_force"]
     return {
         "bearing_displacement": labelled(
-            vector,
-            of(lambda: u[..., 6:9] - u[..., 0:3], 3),
-            "m",
-            "displacement of node j relative to node i",
+            vector, u[..., 6:9] - u[..., 0:3], "m", "displacement of node j relative to node i"
         ),
         "bearing_velocity": labelled(vector, velocity, "m/s", "velocity of node j relative to i"),
         "bearing_force": labelled(

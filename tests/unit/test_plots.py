@@ -482,7 +482,7 @@ def test_a_notebook_shows_a_picture(results: dict[str, xr.Dataset], tmp_path: Pa
 
 
 def test_sections_show_the_largest_displacement(results: dict[str, xr.Dataset]) -> None:
-    data = results["rims"].copy(deep=True).load()  # parts of variables are written below
+    data = results["rims"].copy(deep=True)
     assert "turn of the swing" not in impact_instants(data, NAME)
     u = data["bearing_displacement"].sel(bearing=NAME, axis=["x", "y"])
     assert impact_instants(data, NAME)["largest displacement"] == float(
