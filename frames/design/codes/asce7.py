@@ -319,16 +319,16 @@ class ASCE7:
 
     def _response_coefficient(self, t: Trace, spectrum: Spectrum) -> None:
         # C_s of the structure on a fixed base, with the least ones; S_1 where S_M1 is not above it.
-        formula = "max(min(S_DS, S_D1 / T_M) * I_e / R, 0.044 * S_DS * I_e, 0.01)"
-        source, note = "ASCE 7-22 12.8.1.1", "fixed base, at T_M"
+        least, note = "0.044 * S_DS * I_e, 0.01", "fixed base, at T_M"
         s_1, said = spectrum.parameters.get("S_1"), "in g"
         if s_1 is None:
             s_1, said = t.value("S_M1"), "in g; not given: S_M1, on the safe side on soil"
         t.given("S_1", s_1, note=said)
         if s_1 >= _NEAR_FAULT:
-            formula = formula.replace("0.01)", "0.01, 0.5 * S_1 * I_e / R)")
+            least += ", 0.5 * S_1 * I_e / R"
             note += "; the last one where S_1 >= 0.6"
-        t("C_s", formula, source=source, note=note)
+        formula = f"max(min(S_DS, S_D1 / T_M) * I_e / R, {least})"
+        t("C_s", formula, source="ASCE 7-22 12.8.1.1", note=note)
 
     def _dynamic_minima(self, t: Trace) -> None:
         source = "ASCE 7-22 17.6.4"

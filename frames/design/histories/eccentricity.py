@@ -212,6 +212,12 @@ def named_by_way(moved: xr.Dataset) -> xr.Dataset:
     return moved.assign_coords(motion=("run", named))
 
 
+def every_motion(data: xr.Dataset, moved: xr.Dataset | None) -> list[str]:
+    """Return the motions of all runs, those with moved masses last and with their way."""
+    every = [data] if moved is None else [data, named_by_way(moved)]
+    return [motion_of(one, k) for one in every for k in range(one.sizes["run"])]
+
+
 _KINDS = tuple((name, kind) for name, _, kind in _RAISED)
 
 Pairs = dict[tuple[str, str], tuple[float, float, str]]

@@ -8,9 +8,9 @@ import numpy as np
 
 from frames.design._errors import CheckError
 from frames.design.histories.demand_table import said
-from frames.design.histories.eccentricity import added_by_moved, named_by_way, raised_suite
+from frames.design.histories.eccentricity import added_by_moved, every_motion, raised_suite
 from frames.design.histories.least_shears import Raise
-from frames.design.histories.suite import motion_of, peaks_of_runs
+from frames.design.histories.suite import peaks_of_runs
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
@@ -264,11 +264,8 @@ def _counted(values: FloatArray, case: _Case) -> tuple[FloatArray, IntArray]:
 
 
 def _with_motions(table: pd.DataFrame, case: _Case, which: IntArray) -> pd.DataFrame:
-    motions = [motion_of(case.data, k) for k in range(case.data.sizes["run"])]
-    if case.moved is not None:
-        named = named_by_way(case.moved)
-        motions += [motion_of(named, k) for k in range(named.sizes["run"])]
-    return table.assign(statistic=said(case.suite), motion=np.array(motions, dtype=object)[which])
+    motions = np.array(every_motion(case.data, case.moved), dtype=object)
+    return table.assign(statistic=said(case.suite), motion=motions[which])
 
 
 def _with_governing(tables: list[pd.DataFrame], rows: list[str]) -> list[Any]:

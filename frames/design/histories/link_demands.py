@@ -9,10 +9,10 @@ import numpy as np
 from frames.design.histories.demand_table import said
 from frames.design.histories.eccentricity import (
     added_by_moved,
-    named_by_way,
+    every_motion,
     raised_suite,
 )
-from frames.design.histories.suite import motion_of, peaks_of_runs
+from frames.design.histories.suite import peaks_of_runs
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
@@ -71,19 +71,13 @@ def link_demands(runs: Runs, rules: HistoryRules, moved: Runs | None = None) -> 
                     )
                     value = value + more
                 table[title] = value
-            motions, forces = _all_forces(data, beside)
+            every = [data] if beside is None else [data, beside]
+            forces = np.concatenate([peaks_of_runs(one, "link_force") for one in every])
             which = np.nan_to_num(forces, nan=-np.inf).argmax(axis=0)
-            table["motion"] = np.array(motions, dtype=object)[which]
+            table["motion"] = np.array(every_motion(data, beside), dtype=object)[which]
             table["its force [N]"] = forces[which, np.arange(len(which))]
             tables.append(table.assign(void=suite.void, level=level))
     return pd.concat(tables).set_index("level") if tables else pd.DataFrame()
-
-
-def _all_forces(data: xr.Dataset, moved: xr.Dataset | None) -> tuple[list[str], np.ndarray]:
-    # Of all runs, those with moved masses last.
-    every = [data] if moved is None else [data, named_by_way(moved)]
-    motions = [motion_of(one, k) for one in every for k in range(one.sizes["run"])]
-    return motions, np.concatenate([peaks_of_runs(one, "link_force") for one in every])
 
 
 def largest_of_links(table: pd.DataFrame) -> pd.DataFrame:
