@@ -15,7 +15,6 @@ from frames.design import (
     Check,
     CheckError,
     Checks,
-    IsolationSystem,
     NCh2745,
     Spectrum,
     Superstructure,
@@ -27,7 +26,7 @@ from frames.design.codes.builtin import BUILT_IN
 from frames.design.codes.code_values import E031, NTC, UFC_BNBC, standing_by, weakest
 from frames.design.codes.registry import standing_in
 from frames.design.codes.values_of_asce7 import VALUES as ASCE_VALUES
-from lir_element import LIRBearing
+from tests.square_system import square_system
 
 if TYPE_CHECKING:
     from frames.design import DesignCode
@@ -43,21 +42,7 @@ INPUTS = {
 }
 """Fields of analyses that a project tells of itself."""
 
-BEARING = LIRBearing(
-    radius=1.5,
-    slider_height=0.3,
-    slider_radius=0.2,
-    capacity=0.45,
-    friction=0.06,
-    interface_friction=0.25,
-)
-SYSTEM = IsolationSystem(
-    bearings=(BEARING,) * 4,
-    loads=(1.5e6,) * 4,
-    plan=(9.0, 9.0),
-    positions=((-4, -4), (4, -4), (4, 4), (-4, 4)),
-    combinations={"most": (2e6,) * 4},
-)
+SYSTEM = square_system(combinations={"most": (2e6,) * 4})
 ABOVE = Superstructure(
     fixed_base_period=0.3,
     storey_weights=(2e6, 2e6),

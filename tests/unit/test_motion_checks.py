@@ -21,7 +21,7 @@ from frames.design import (
     pair_spectrum,
     period_range,
 )
-from lir_element import CoulombFriction, LIRBearing
+from tests.square_system import square_system
 
 TARGET = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
 BOUNDS = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
@@ -34,20 +34,7 @@ def linear(system: IsolationSystem) -> EquivalentLinear:
 
 @pytest.fixture(scope="module")
 def system() -> IsolationSystem:
-    bearing = LIRBearing(
-        radius=1.5,
-        slider_height=0.3,
-        slider_radius=0.2,
-        capacity=0.45,
-        friction=CoulombFriction(0.06),
-        interface_friction=0.25,
-    )
-    return IsolationSystem(
-        bearings=(bearing,) * 4,
-        loads=(1.5e6,) * 4,
-        plan=(9.0, 9.0),
-        positions=((-4, -4), (4, -4), (4, 4), (-4, 4)),
-    )
+    return square_system()
 
 
 def motions(count: int = 7, **facts: Any) -> MotionSet:

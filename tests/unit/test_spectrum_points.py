@@ -12,7 +12,6 @@ pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 
 from frames.design import (
-    IsolationSystem,
     ProjectError,
     PropertyBounds,
     PropertyModificationFactors,
@@ -22,23 +21,10 @@ from frames.design import (
 )
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
-from lir_element import LIRBearing
+from tests.square_system import square_system
 
 G = 9.80665
-BEARING = LIRBearing(
-    radius=1.5,
-    slider_height=0.3,
-    slider_radius=0.2,
-    capacity=0.45,
-    friction=0.06,
-    interface_friction=0.25,
-)
-SYSTEM = IsolationSystem(
-    bearings=(BEARING,) * 4,
-    loads=(1.5e6,) * 4,
-    plan=(9.0, 9.0),
-    positions=((-4, -4), (4, -4), (4, 4), (-4, 4)),
-)
+SYSTEM = square_system()
 BOUNDS = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
 GRID = np.concatenate([[0.0], np.geomspace(0.01, 10.0, 400)])
 PROJECT = """
