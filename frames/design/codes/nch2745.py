@@ -53,8 +53,6 @@ from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
 from frames.design.hazard.spectral_shapes import (
     NCH433_SHEAR,
     NCH433_ZONE,
-    NCH2745_SOIL,
-    NCH2745_ZONE,
 )
 from frames.design.hazard.spectrum import Spectrum
 
@@ -263,14 +261,12 @@ def _enter_given(t: Trace, spectrum: Spectrum, period: str, level: str, symbol: 
 
 def _enter_fixed_base(t: Trace, spectrum: Spectrum) -> None:
     # Base shear of the same structure on a fixed base, of the period T_D: NCh433, importance 1.
-    corner, z = (spectrum.parameters.get(name, math.nan) for name in ("T_c", "Z"))
-    soils = [name for name, known in NCH2745_SOIL.items() if math.isclose(known[3], corner)]
-    zones = [zone for zone, known in NCH2745_ZONE.items() if math.isclose(known, z)]
-    if not soils or not zones:
+    site = dict(spectrum.site)
+    if not site:
         why = "not known: the spectrum is not that of a soil and a zone"
         t.given("V_fixed", 0.0, "N", source="NCh433 6.2.3", note=why)
         return
-    soil, zone = soils[0], zones[0]
+    soil, zone = str(site["soil"]), int(site["zone"])
     t.given("A_0", NCH433_ZONE[zone], note=f"zone {zone}, in g")
     for symbol, value in zip(("S_433", "T_433", "n_433"), NCH433_SHEAR[soil], strict=True):
         t.given(symbol, value, note=f"soil {soil}; T in s" if symbol == "T_433" else f"soil {soil}")
