@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
 from frames.design._errors import ProjectError
+from frames.design.project.bearing_types import bearing_under
 from frames.design.project.member_sections import storeys_of
 from frames.laws import Gap, ViscousDamper
 
@@ -90,8 +91,8 @@ def law_of(given: DamperTable) -> ViscousDamper:
 
 
 def _add_at_base(frame: Frame, name: str, given: DamperTable) -> None:
-    for column in map(str, given.columns):
-        link = frame.bearings[_bearing(frame, column)]
+    for bearing in (bearing_under(str(column), frame) for column in given.columns):
+        link, column = frame.bearings[bearing], bearing.removeprefix("bearing-")
         for direction in given.directions:
             frame.add_link(
                 f"{name}-{column}-{direction}", link.i, link.j, law_of(given), f"u{direction}"
@@ -107,18 +108,9 @@ def _add_in_storeys(frame: Frame, name: str, given: DamperTable, between: tuple[
         frame.add_link(f"{name}-{storey}-{one}-{other}", foot, top, law_of(given))
 
 
-def _bearing(frame: Frame, column: str) -> str:
-    name = f"bearing-{column}"
-    if name not in frame.bearings:
-        known = ", ".join(f'"{each.removeprefix("bearing-")}"' for each in list(frame.bearings)[:6])
-        msg = f'there is no column "{column}": the first are {known}'
-        raise ProjectError(msg)
-    return name
-
-
 def _on_line(frame: Frame, level: int, column: str) -> str:
     # The node of a level over a bearing.
-    below = frame.nodes[frame.bearings[_bearing(frame, column)].j]
+    below = frame.nodes[frame.bearings[bearing_under(column, frame)].j]
     for node in frame.levels[level].nodes:
         place = frame.nodes[node]
         if abs(place.x - below.x) < _NEAR and abs(place.y - below.y) < _NEAR:

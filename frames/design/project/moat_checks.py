@@ -10,7 +10,7 @@ from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT
-from frames.design.histories.demand_table import bearing_values
+from frames.design.histories.demand_table import largest_of_bounds
 from frames.design.histories.eccentricity import raised_suite, with_moved
 from frames.design.histories.suite import motion_of, peaks_of_runs
 from frames.design.project.check_register import RunToCheck, register_check
@@ -64,7 +64,7 @@ def _of_histories(
     run: RunToCheck, bound: Bound, data: xr.Dataset, moved: xr.Dataset | None, gap: float
 ) -> list[Check]:
     beside = None if moved is None else {bound: moved}
-    reached = bearing_values({bound: data}, run.rules, "displacement", beside)
+    reached = largest_of_bounds({bound: data}, run.rules, "displacement", beside)
     void = raised_suite(data, moved, run.rules).void
     t = _with_gap(gap)
     t.given("D", float(reached.max()), "m", shown="mm", note="of the histories, as the code counts")

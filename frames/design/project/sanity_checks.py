@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames.design.codes.registry import code_named
-from frames.design.codes.service import slow_friction
+from frames.design.codes.service import least_strength
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
 from frames.design.project.schema_structure import BuildingTable, IrregularFrame
@@ -77,8 +77,7 @@ def wind_doubts(
         At most one sentence.
     """
     wind = 0.0 if file.superstructure is None else file.superstructure.wind_shear
-    pairs = zip(system.bearings, system.loads, strict=True)
-    holds = bounds.friction.lower * sum(slow_friction(b) * load for b, load in pairs)
+    holds = least_strength(system, bounds).value("Q_min")
     if wind <= holds:
         return ()
     return (
