@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from frames._errors import ModelError
 from frames.design._errors import ProjectError
 from frames.design.project.bearing_types import bearing_under
 from frames.design.project.member_sections import storeys_of
+from frames.design.project.schema_devices import SIDES
 from frames.laws import Gap, ViscousDamper
 
 if TYPE_CHECKING:
@@ -78,6 +79,49 @@ def _add_moat(frame: Frame, given: MoatTable) -> None:
             sides.setdefault(node, {})[side] = law
     for node, laws in sides.items():
         frame.add_moat(MOAT, [node], laws)
+
+
+class Walls(NamedTuple):
+    """Moat walls that a structure has.
+
+    Attributes
+    ----------
+    gap : float
+        Clear distance to them [m].
+    sides : tuple of str
+        Along which sides of the base they stand, "x+".
+    links : tuple of str
+        Names of the links that they are.
+    """
+
+    gap: float
+    sides: tuple[str, ...]
+    links: tuple[str, ...]
+
+
+def walls_of(frame: Frame) -> Walls | None:
+    """Return the moat walls that `with_devices` put into a structure; None without.
+
+    Parameters
+    ----------
+    frame : Frame
+        The structure.
+
+    Returns
+    -------
+    Walls or None
+        The walls.
+    """
+    found = {
+        name: link.law
+        for name, link in frame.links.items()
+        if name.startswith(f"{MOAT}-") and isinstance(link.law, Gap)
+    }
+    if not found:
+        return None
+    sides = {name[-2:] for name in found}
+    gap = min(law.gap for law in found.values())
+    return Walls(gap, tuple(side for side in SIDES if side in sides), tuple(found))
 
 
 def law_of(given: DamperTable) -> ViscousDamper:
