@@ -318,6 +318,40 @@ class Frame(FrameEditor):
         text = text_of(Writer(self, displacement, units).tables())
         Path(path).write_text(text, encoding="utf-8", newline="")
 
+    def to_etabs(
+        self, path: str | Path, *, displacement: float | None = None, units: str = "KN, m, C"
+    ) -> dict[str, str]:
+        """Write the frame as ETABS' text, to check one program by the other.
+
+        Parameters
+        ----------
+        path : str or Path
+            The .e2k file.
+        displacement, units
+            As in `to_sap2000`.
+
+        Returns
+        -------
+        dict of str to str
+            What nodes ("12-Story2") and members ("C1-Story2") are called in the file.
+
+        Raises
+        ------
+        ModelError
+            As in `to_sap2000`; and if two nodes stand at one place, which ETABS merges.
+
+        Notes
+        -----
+        Stories are the frame's levels or diaphragms, the lowest node the base; other nodes are
+        points below the next story. Springs to a held node at one place are springs of points.
+        docs/exchange.md says what of the file no file of ETABS confirms.
+        """
+        from frames.exchange.write_etabs import EtabsWriter
+
+        writer = EtabsWriter(self, displacement, units)
+        Path(path).write_text(writer.text(), encoding="utf-8", newline="")
+        return writer.names
+
     def program_tables(
         self,
         data: xr.Dataset | Mapping[str, xr.Dataset],

@@ -7,7 +7,7 @@ that the caller passes as `error`.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -46,6 +46,31 @@ def shown(value: object) -> str:
     size = f" of {len(value)}" if isinstance(value, (list, tuple, dict, str)) else ""
     kind = type(value).__name__
     return f"{'an' if kind[0] in 'AEIOUaeiou' else 'a'} {kind}{size}"
+
+
+def listed(names: Iterable[object], most: int = 8) -> str:
+    """Return names as a message lists them: the first of many, and how many more there are.
+
+    Parameters
+    ----------
+    names : iterable
+        Names, tags or texts.
+    most : int
+        How many are shown.
+
+    Returns
+    -------
+    str
+        In one line.
+
+    Examples
+    --------
+    >>> listed([3, 4]), listed(range(12), most=2)
+    ('3, 4', '0, 1 and 10 more')
+    """
+    every = list(names)
+    first = ", ".join(str(name) for name in every[:most])
+    return first if len(every) <= most else f"{first} and {len(every) - most} more"
 
 
 def as_number(name: str, value: object, unit: str = "") -> float:

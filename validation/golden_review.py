@@ -1,12 +1,12 @@
-"""Golden review: ten projects run by `lir run`, every number recomputed without the package.
+"""Golden review: eleven projects run by `lir run`, every number recomputed without the package.
 
     python -m validation.golden_review [FOLDER] [--only 01 05]
 
 Each project of tests/golden/projects is run in a folder of its own (kept where FOLDER names one),
 with artificial motions that tests/golden/ground.py writes. Then tests/golden/recompute.py, which
 imports nothing of the packages, reads the files and compares: peaks from histories, statistics,
-equivalent-linear analyses, checks, spectra and factors of the motions, and each table of the
-report. A table is printed; the exit code is 1 where something disagrees.
+equivalent-linear analyses, checks, spectra and factors of the motions, what moved masses add, the
+weight and mass of loads by area, and each table of the report. A table is printed; the exit code is 1 where something disagrees.
 """
 
 from __future__ import annotations

@@ -8,6 +8,8 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import csgraph
 
+from lir_element.argument_checks import listed
+
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix
     from frames.assembly.system import System
@@ -46,11 +48,10 @@ class LoadPath(NamedTuple):
         taken = [pair for pair in self.supports if abs(pair[1]) > UNSAID * self.weight]
         if not taken:
             return ""
-        names = ", ".join(f'"{node}" ({1e-3 * force:.4g} kN)' for node, force in taken[:NAMED])
-        rest = f" and {len(taken) - NAMED} more" if len(taken) > NAMED else ""
+        names = listed((f'"{node}" ({1e-3 * force:.4g} kN)' for node, force in taken), NAMED)
         return (
             f"the bearings carry {1e-3 * self.bearings:.4g} kN of the {1e-3 * self.weight:.4g} kN "
-            f"above them: vertical supports take the rest past them, at {names}{rest}. Free their "
+            f"above them: vertical supports take the rest past them, at {names}. Free their "
             '"uz" and put the masses where columns or bearings carry them (a diaphragm ties '
             "nothing vertically), unless these supports are meant"
         )

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.exchange.building import AreaLoad, LineLoad
+from frames.exchange.building import AreaLoad, JointLoad, LineLoad
 from frames.exchange.geometry import area_normal
 from frames.exchange.members import add_line_load
 from frames.exchange.sap2000_loads import area_weight, frame_weight
@@ -25,8 +25,9 @@ OWN_MASS = "own mass"
 """Name of the case that stands for the mass of elements."""
 
 
-def own_weights(building: Building, pattern: str) -> Iterator[LineLoad | AreaLoad]:
+def own_weights(building: Building, pattern: str) -> Iterator[LineLoad | AreaLoad | JointLoad]:
     """Yield the own weight of all elements as a load of a pattern."""
+    yield from _link_loads(building, pattern, 0.0)
     for name in building.frames:
         down = (0.0, 0.0, -frame_weight(building, name))
         yield LineLoad(name, pattern, 0.0, 1.0, down, down)
@@ -34,8 +35,9 @@ def own_weights(building: Building, pattern: str) -> Iterator[LineLoad | AreaLoa
         yield AreaLoad(name, pattern, (0.0, 0.0, -area_weight(building, name)))
 
 
-def own_masses(building: Building, gravity: float) -> Iterator[LineLoad | AreaLoad]:
+def own_masses(building: Building, gravity: float) -> Iterator[LineLoad | AreaLoad | JointLoad]:
     """Yield the own mass of all elements times gravity, as loads of the case `OWN_MASS`."""
+    yield from _link_loads(building, OWN_MASS, gravity)
     for name, given in building.frames.items():
         section = building.sections[given.section]
         matter = building.materials[given.material or section.material]
@@ -49,6 +51,17 @@ def own_masses(building: Building, gravity: float) -> Iterator[LineLoad | AreaLo
         matter = building.materials[found.material]
         own = gravity * matter.density * found.thickness + found.extra_weight
         yield AreaLoad(name, OWN_MASS, (0.0, 0.0, -own * found.mass * area.mass))
+
+
+def _link_loads(building: Building, pattern: str, gravity: float) -> Iterator[JointLoad]:
+    # Half of what a link weighs at each of its joints, the other half of one with a single joint
+    # in the ground. Source: CSI Analysis Reference Manual, "The Link/Support Element", mass.
+    for link in building.links.values():
+        prop = building.link_properties[link.property]
+        half = 0.5 * (gravity * prop.mass if gravity else prop.weight)
+        for joint in (link.i, link.j):
+            if half and joint is not None:
+                yield JointLoad(joint, pattern, (0.0, 0.0, -half, 0.0, 0.0, 0.0))
 
 
 class Loading:
@@ -88,7 +101,11 @@ class Loading:
             Whether the mass of elements is put on as well, as the case `OWN_MASS`.
         """
         building = self.building
-        loads: list[LineLoad | AreaLoad] = [*building.line_loads, *building.area_loads]
+        loads: list[LineLoad | AreaLoad | JointLoad] = [
+            *building.line_loads,
+            *building.area_loads,
+            *building.joint_loads,
+        ]
         chosen = dict(factors)
         for name, pattern in building.patterns.items():
             factor = pattern.self_weight
@@ -104,12 +121,11 @@ class Loading:
             if isinstance(load, LineLoad):
                 if any(load.start) or any(load.end):
                     add_line_load(frame, self.divided[load.frame], load, factor, case)
+            elif isinstance(load, JointLoad):
+                if any(load.forces):
+                    frame.add_load(load.joint, [factor * v for v in load.forces], case=case)
             elif any(load.load):
                 self._on_area(frame, slabs, load, factor, case)
-        for at in building.joint_loads:
-            factor, case = chosen.get(at.pattern, (0.0, ""))
-            if factor and any(at.forces):
-                frame.add_load(at.joint, [factor * value for value in at.forces], case=case)
 
     def _on_area(
         self, frame: FrameEditor, slabs: Slabs, load: AreaLoad, factor: float, case: str
@@ -125,11 +141,13 @@ class Loading:
                 frame.add_load(node, [*(share * size * vector).tolist(), 0.0, 0.0, 0.0], case=case)
 
 
-def _times(load: LineLoad | AreaLoad, factor: float) -> LineLoad | AreaLoad:
+def _times(load: LineLoad | AreaLoad | JointLoad, factor: float) -> LineLoad | AreaLoad | JointLoad:
     def scaled(vector: tuple[float, float, float]) -> tuple[float, float, float]:
         x, y, z = vector
         return (factor * x, factor * y, factor * z)
 
+    if isinstance(load, JointLoad):
+        return JointLoad(load.joint, load.pattern, tuple(factor * v for v in load.forces))
     if isinstance(load, AreaLoad):
         return AreaLoad(load.area, load.pattern, scaled(load.load))
     start, end = scaled(load.start), scaled(load.end)

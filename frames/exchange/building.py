@@ -182,13 +182,17 @@ class LinkDof:
 
 @dataclass(frozen=True)
 class LinkProperty:
-    """A link property: its kind as the program calls it, and its deformations by name."""
+    """A link property: its kind as the program calls it, and its deformations by name.
+
+    `unknown` has the words of the file that are not known here.
+    """
 
     name: str
     kind: str
     dofs: dict[str, LinkDof]
     mass: float = 0.0
     weight: float = 0.0
+    unknown: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,8 @@ from frames.exchange.tables import Decimal, Row, Tables, Value
 
 _TOKEN = re.compile(r'"([^"]*)"|([^\s"]+)')
 END = "$ END OF MODEL FILE"
+TEXT = "Text"
+"""Field of text in quotation marks that follows no word."""
 
 NAMES = {
     "STORY": ("Story",),
@@ -28,7 +30,7 @@ NAMES = {
     "POINTASSIGN": ("Point", "Story"),
     "LINEASSIGN": ("Line", "Story"),
     "AREAASSIGN": ("Area", "Story"),
-    "LINKASSIGN": ("Link", "Story"),
+    "LINKASSIGN": ("Link",),
     "POINTLOAD": ("Point", "Story"),
     "LINELOAD": ("Line", "Story"),
     "AREALOAD": ("Area", "Story"),
@@ -41,13 +43,13 @@ NAMES = {
     "UNITS": ("Force", "Length", "Temperature"),
     "POINT": ("Point", "X", "Y", "Below"),
     "LINE": ("Line", "Kind", "I", "J", "Stories"),
-    "LINK": ("Link", "Kind", "I", "J", "Stories"),
+    "SHELLUNIFORMLOADSET": ("Set",),
     "NAMEDFMODIFIER": ("Modifier",),
     "NAMEDSHMODIFIER": ("Modifier",),
 }
 """Positional values of a line by its first word; what follows are words with values."""
 
-_ALL_POSITIONAL = {"POINT", "LINE", "LINK", "UNITS", "MASSSOURCELOAD"}
+_ALL_POSITIONAL = {"POINT", "LINE", "UNITS", "MASSSOURCELOAD"}
 
 
 def read_e2k(path: Path, decimal: Decimal = ".") -> Tables:
@@ -118,6 +120,10 @@ def _row(file: str, section: str, line: int, text: str, decimal: Decimal) -> Row
     if word == "AREA":
         _corners(row, [token for token, _ in tokens[1:]])
         return row
+    if word == "LINK":
+        quoted = [token for token, is_quoted in tokens[1:] if is_quoted]
+        row.values |= {"Link": quoted[0] if quoted else "", "Ends": "\n".join(quoted[1:])}
+        return row
     names = NAMES.get(word, ("Name",))
     rest = tokens[1:]
     if word in _ALL_POSITIONAL or (rest and (rest[0][1] or word in NAMES)):
@@ -129,11 +135,16 @@ def _row(file: str, section: str, line: int, text: str, decimal: Decimal) -> Row
 
 
 def _words(row: Row, tokens: list[tuple[str, bool]]) -> None:
-    # A word without quotes, and the value after it; a word that comes again adds to a list.
+    # A word without quotes, and the value after it; a word that comes again adds to a list, and
+    # text where a word should be stands by itself.
     at = 0
     while at < len(tokens):
-        word = tokens[at][0].upper()
-        value = tokens[at + 1][0] if at + 1 < len(tokens) else ""
+        word, quoted = tokens[at]
+        if quoted:
+            word, value = TEXT, word
+            at -= 1
+        else:
+            word, value = word.upper(), tokens[at + 1][0] if at + 1 < len(tokens) else ""
         if word in row.values:
             row.values[word] = f"{row.values[word]}\n{value}"
         else:

@@ -8,6 +8,7 @@ from pathlib import Path
 from frames.exchange.account import Account
 from frames.exchange.building import Building
 from frames.exchange.e2k_text import read_e2k
+from frames.exchange.etabs_links import EtabsLinks
 from frames.exchange.etabs_loads import read_loads
 from frames.exchange.etabs_objects import Objects
 from frames.exchange.etabs_properties import read_properties, read_stories
@@ -15,8 +16,6 @@ from frames.exchange.tables import Decimal, Tables
 from frames.exchange.units import FORCES, LENGTHS, Units, units_of
 
 REFUSED = {
-    "LINK": ("links", "links between joints"),
-    "LINKASSIGN": ("links", "links between joints"),
     "HINGEASSIGN": ("hinges", "plastic hinges of frames, which stay elastic"),
     "AREAHINGEASSIGN": ("hinges", "plastic hinges of walls, which stay elastic"),
     "TENDONASSIGN": ("tendons", "tendons"),
@@ -63,7 +62,9 @@ def read_etabs(
     building = Building(file.stem, "ETABS", version, _units(tables), account)
     read_stories(tables, building)
     read_properties(tables, building)
-    Objects(tables, building).read()
+    objects = Objects(tables, building)
+    objects.read()
+    EtabsLinks(tables, building, objects).read()
     read_loads(tables, building)
     for name, count in tables.unread().items():
         if name in REFUSED:

@@ -13,6 +13,7 @@ from frames.exchange.building import (
     Pattern,
     Vector,
 )
+from frames.exchange.e2k_text import TEXT
 from frames.exchange.etabs_properties import merged
 from frames.exchange.sap2000_loads import area_direction, line_direction
 
@@ -48,15 +49,16 @@ def read_loads(tables: Tables, building: Building) -> None:
     for row in tables.rows("LINELOAD"):
         _line(row, building)
     building.account.read("LINE OBJECT LOADS", "loads on lines", len(building.line_loads))
+    sets = _load_sets(tables, building)
     for row in tables.rows("AREALOAD"):
-        _area(row, building)
+        _area(row, building, sets)
     building.account.read("AREA OBJECT LOADS", "loads on areas", len(building.area_loads))
     _read_source(tables, building)
     _read_combinations(tables, building)
 
 
-def _pattern(row: Row, building: Building) -> str:
-    name = row.text("LC")
+def _pattern(row: Row, building: Building, field: str = "LC") -> str:
+    name = row.text(field)
     if name not in building.patterns:
         some = ", ".join(building.patterns) or "none"
         msg = f'load pattern "{name}" is not defined: there are {some}'
@@ -112,9 +114,30 @@ def _line(row: Row, building: Building) -> None:
     building.line_loads.append(load)
 
 
-def _area(row: Row, building: Building) -> None:
+def _load_sets(tables: Tables, building: Building) -> dict[str, list[tuple[str, float]]]:
+    # Patterns of uniform load sets, and their pressures down [N/m2].
+    found: dict[str, list[tuple[str, float]]] = {}
+    for row in tables.rows("SHELLUNIFORMLOADSET"):
+        if row.has("LOADPAT"):
+            part = (_pattern(row, building, "LOADPAT"), row.number("VALUE"))
+            found.setdefault(row.text("Set"), []).append((part[0], part[1] * building.units.stress))
+    return found
+
+
+def _area(row: Row, building: Building, sets: dict[str, list[tuple[str, float]]]) -> None:
     name = f"{row.text('Area')}-{row.text('Story')}"
     kind = row.text("TYPE", "").upper()
+    if kind == "UNIFLOADSET" and name in building.areas:
+        given = row.text(TEXT)
+        if given not in sets:
+            msg = (
+                f'uniform load set "{given}" is not defined: there are {", ".join(sets) or "none"}'
+            )
+            raise row.error(msg)
+        down = area_direction(row, building, name, "GRAV")
+        for pattern, size in sets[given]:
+            building.area_loads.append(AreaLoad(name, pattern, _vector(size * down)))
+        return
     if name not in building.areas or kind != "UNIFF":
         what = f'loads of type "{kind}" on areas, or on areas that are not there'
         building.account.refuse("loads on nothing", row.table, what, [name], row.place)

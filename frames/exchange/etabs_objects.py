@@ -40,6 +40,11 @@ class Objects:
         Of the file.
     building : Building
         With stories and properties; it is added to.
+
+    Attributes
+    ----------
+    on_links : dict of str to Row
+        Springs that are links, by the joint that stands on them.
     """
 
     def __init__(self, tables: Tables, building: Building) -> None:
@@ -47,6 +52,7 @@ class Objects:
         self.stories = StoryIndex(building)
         self._points: dict[str, tuple[float, float, float]] = {}
         self._diaphragms: dict[tuple[str, str], list[str]] = {}
+        self.on_links: dict[str, Row] = {}
 
     def read(self) -> None:
         """Read everything.
@@ -86,6 +92,10 @@ class Objects:
             z = self.stories.elevation(story) - below
             self.building.joints[name] = Joint(name, x, y, z, row.place)
         return name
+
+    def is_place(self, point: str, story: str) -> bool:
+        """Return whether there are such a point and such a story."""
+        return point in self._points and story in self.stories.names
 
     def _read_lines(self) -> None:
         lines = {name: row for (name,), row in merged(self.tables.rows("LINE"), "Line").items()}
@@ -232,21 +242,24 @@ class Objects:
             self._diaphragm(row, [joint], story)
             name = row.text("SPRINGPROP", "")
             if name and name.upper() != "NONE":
-                building.springs[joint] = self._spring(row, springs, name)
+                stiffness = self._spring(row, springs, name, joint)
+                if any(stiffness):
+                    building.springs[joint] = stiffness
             plan = row.number("MASSUXUY", 0.0) * units.mass
             up = row.number("MASSUZ", 0.0) * units.mass
             turns = [row.number(f"MASSR{c}", 0.0) * units.mass * units.length**2 for c in "XYZ"]
             if plan or up or any(turns):
                 building.masses[joint] = (plan, plan, up, *turns)
 
-    def _spring(self, row: Row, springs: dict[str, Row], name: str) -> tuple[float, ...]:
+    def _spring(
+        self, row: Row, springs: dict[str, Row], name: str, joint: str
+    ) -> tuple[float, ...]:
         if name not in springs:
             msg = f'SPRINGPROP "{name}" is not defined as POINTSPRING'
             raise row.error(msg)
         given, units = springs[name], self.building.units
-        if given.has("LINKPROP") or given.text("STIFFNESSOPTION", "").upper() == "LINKS":
-            what = "springs of points by links"
-            self.building.account.refuse("links", given.table, what, [name], given.place)
+        if given.has("LINKPROP"):
+            self.on_links[joint] = given
         scale = [units.line] * 3 + [units.moment] * 3
         return tuple(given.number(dof, 0.0) * s for dof, s in zip(_DOFS, scale, strict=True))
 

@@ -122,6 +122,7 @@ class Links:
                 self._bearing(link, self.places.links[name])
                 self._note("links, in whose place the given bearing stands", name)
             elif prop.kind.lower().startswith(PENDULUM_LINKS):
+                self._refuse_unknown(link, prop)
                 self._bearing(link, equivalent_bearing(prop, link.place))
                 what = (
                     "friction isolators, as DCFP of the same radius and friction, two equal "
@@ -129,9 +130,16 @@ class Links:
                 )
                 self._note(what, name)
             else:
+                self._refuse_unknown(link, prop)
                 self._plain(link, prop)
         for what, names in self._as.items():
             self.building.account.read_as("links", what, names)
+
+    def _refuse_unknown(self, link: LinkObject, prop: LinkProperty) -> None:
+        if prop.unknown:
+            what = f'words of link property "{prop.name}" that are not known here'
+            account = self.building.account
+            account.refuse("link properties", "links", what, prop.unknown, link.place)
 
     def _note(self, what: str, name: str) -> None:
         self._as.setdefault(what, []).append(name)
@@ -212,14 +220,24 @@ class Links:
                 raise ModelError(message)
             direction = ("rx", "ry", "rz")[place]
         nonlinear = dof.nonlinear and kind != "linear"
+
+        def needed(word: str) -> float:
+            if values.get(word, 0.0) <= 0.0:
+                message = (
+                    f'{link.place}: {name} of link property "{prop.name}" needs a positive '
+                    f"{word} to be nonlinear: give it in that program, or make {name} linear"
+                )
+                raise ModelError(message)
+            return values[word]
+
         if nonlinear and kind.startswith("gap") and not turns:
-            law = Gap(gap=values.get("open", 0.0), stiffness=values["stiffness"])
+            law = Gap(gap=values.get("open", 0.0), stiffness=needed("stiffness"))
             self.frame.add_link(part, *ends, law, (-axis).tolist())
             self._note("gaps, which push only", link.name)
         elif nonlinear and kind.startswith(("rubber", "plastic")):
             law_b = Bilinear(
-                stiffness=values["stiffness"],
-                yield_force=values["yield"],
+                stiffness=needed("stiffness"),
+                yield_force=needed("yield"),
                 hardening=min(values.get("ratio", 0.0), 0.999),
             )
             self.frame.add_link(part, *ends, law_b, direction)

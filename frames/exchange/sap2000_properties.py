@@ -17,6 +17,7 @@ from frames.exchange.building import (
 )
 from frames.exchange.section_shapes import section_by_shape
 from frames.exchange.tables import by_name
+from frames.exchange.units import link_scales
 
 if TYPE_CHECKING:
     from frames.exchange.tables import Row, Tables
@@ -252,15 +253,8 @@ def _read_links(tables: Tables, building: Building) -> None:
 def _link_dof(row: Row, building: Building, *, turns: bool) -> LinkDof:
     units = building.units
     prefix = "Rot" if turns else "Trans"
-    factor = units.moment if turns else units.line
-    scales = {
-        "stiffness": factor,
-        "yield": units.moment if turns else units.force,
-        "rate": 1.0 / units.length,
-        "radius": units.length,
-        "open": 1.0 if turns else units.length,
-        "damping": factor,
-    }
+    scales = link_scales(units, turns=turns)
+    factor = scales["stiffness"]
     values = {
         word: row.number(field) * scales.get(word, 1.0)
         for field, word in LINK_VALUES.items()

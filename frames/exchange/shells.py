@@ -10,6 +10,7 @@ from scipy import sparse
 from frames._errors import ModelError
 from frames.model.part_elements import WithoutForces, no_elements
 from frames.opensees.model import read_model
+from lir_element.argument_checks import listed
 from lir_element.opensees import opensees
 
 if TYPE_CHECKING:
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 AT_ONCE = 60
 """Elements whose matrices are read together: they are full ones."""
 
-_SHOWN = 8  # names of areas
 
 NONE = 1e-6
 """Factor on a stiffness that stands for none [-]."""
@@ -85,8 +85,8 @@ def _told(mesh: Mesh) -> list[WithoutForces]:
         of = [area for area, nodes in mesh.elements if len(nodes) == corners]
         if of:
             areas = list(dict.fromkeys(of))
-            some = ", ".join(areas[:_SHOWN]) + (", ..." if len(areas) > _SHOWN else "")
-            found.append(WithoutForces(kind, len(of), f"areas {some}", "shells of walls and slabs"))
+            some = f"areas {listed(areas)}"
+            found.append(WithoutForces(kind, len(of), some, "shells of walls and slabs"))
     return found
 
 

@@ -61,6 +61,32 @@ class Units:
         return self.mass / self.length**3
 
 
+def link_scales(units: Units, *, turns: bool) -> dict[str, float]:
+    """Return by what the numbers of a link's deformation become SI, by their name in `LinkDof`.
+
+    Parameters
+    ----------
+    units : Units
+        Of the file.
+    turns : bool
+        Whether the deformation is a rotation.
+
+    Returns
+    -------
+    dict of str to float
+        Numbers that are not in it have no unit.
+    """
+    factor = units.moment if turns else units.line
+    return {
+        "stiffness": factor,
+        "damping": factor,
+        "yield": units.moment if turns else units.force,
+        "rate": 1.0 / units.length,
+        "radius": units.length,
+        "open": 1.0 if turns else units.length,
+    }
+
+
 def units_of(force: str, length: str) -> Units | None:
     """Return the units that two words stand for, None if one is unknown."""
     first, second = FORCES.get(force.strip().upper()), LENGTHS.get(length.strip().upper())

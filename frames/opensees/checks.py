@@ -12,7 +12,7 @@ from frames.assembly.natural_modes import is_stable, weakest
 from frames.model.superelement import asymmetry
 from frames.opensees.natures import refuse_one_sided, told
 from frames.opensees.shares import energy_shares
-from lir_element.opensees.dangling_references import listed
+from lir_element.argument_checks import listed
 
 if TYPE_CHECKING:
     from collections.abc import Collection

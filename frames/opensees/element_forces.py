@@ -12,7 +12,7 @@ from frames.opensees.element_loads import element_loads, middle_of
 from frames.opensees.element_stiffness import apart_from_assembled, geometry, stiffnesses
 from frames.opensees.materials import printed_model
 from frames.opensees.natures import BARS, LINEAR
-from lir_element.opensees.dangling_references import listed
+from lir_element.argument_checks import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

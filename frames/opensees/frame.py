@@ -26,10 +26,9 @@ from frames.opensees.natures import natures
 from frames.opensees.structure import Options, Structure, Taken, turning
 from frames.opensees.vertical_mass import with_vertical_mass
 from frames.opensees.viscous import with_viscous_springs
-from lir_element.argument_checks import require_choice, require_positive
+from lir_element.argument_checks import listed, require_choice, require_positive
 from lir_element.opensees import opensees
 from lir_element.opensees.base_nodes import BASE_ROTATIONS
-from lir_element.opensees.dangling_references import listed
 
 if TYPE_CHECKING:
     from frames.assembly.system import System

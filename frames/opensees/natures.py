@@ -9,7 +9,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.opensees.materials import DASHPOTS, DEPARTURE, Printed, law_of, printed_model
-from lir_element.opensees.dangling_references import listed
+from lir_element.argument_checks import listed
 
 if TYPE_CHECKING:
     from frames.opensees.materials import Law

@@ -10,8 +10,7 @@ from scipy import sparse
 
 from frames._errors import ModelError
 from frames.model.superelement import lumped
-from lir_element.argument_checks import require_non_negative
-from lir_element.opensees.dangling_references import listed
+from lir_element.argument_checks import listed, require_non_negative
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix

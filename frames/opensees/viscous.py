@@ -8,7 +8,7 @@ import numpy as np
 from scipy import sparse
 
 from frames.opensees.materials import printed_model
-from lir_element.opensees.dangling_references import listed
+from lir_element.argument_checks import listed
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix

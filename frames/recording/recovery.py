@@ -31,6 +31,7 @@ from frames.recording.section_cuts import cuts, resultant
 from frames.results.envelopes import envelope
 from frames.results.recorded import noted, require_recorded, require_steps
 from frames.statics.springs import first_displacement
+from lir_element.argument_checks import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -101,7 +102,7 @@ def member_forces(
     chosen = names if members is None else tuple(members)
     unknown = [name for name in chosen if name not in names]
     if unknown:
-        msg = f'members: no member "{unknown[0]}" in {model.name}; its members: {_some(names)}'
+        msg = f'members: no member "{unknown[0]}" in {model.name}; its members: {listed(names, 4)}'
         raise ModelError(msg)
     return _member_forces(found, chosen)
 
@@ -261,8 +262,8 @@ def require_own(model: FrameData, system: System, data: xr.Dataset) -> None:
     if tuple(str(name) for name in data["node"].to_numpy()) != system.node_names:
         msg = (
             f"data was not computed with this model: it has {data.sizes['node']} nodes "
-            f"({_some(data['node'].to_numpy())}), {model.name} has {len(system.node_names)} "
-            f"({_some(system.node_names)}): give the model of that time_history"
+            f"({listed(data['node'].to_numpy(), 4)}), {model.name} has {len(system.node_names)} "
+            f"({listed(system.node_names, 4)}): give the model of that time_history"
         )
         raise ModelError(msg)
 
@@ -409,8 +410,3 @@ def _bearing_ends(found: _Structure, chosen: BoolArray) -> FloatArray:
                 total[:, 6 * node : 6 * node + 3] += sign * force[:, b]
                 total[:, 6 * node + 3 : 6 * node + 6] += moment[:, b, end]
     return total
-
-
-def _some(names: Sequence[str] | FloatArray) -> str:
-    shown = ", ".join(str(name) for name in names[:4])
-    return shown + (", ..." if len(names) > 4 else "")

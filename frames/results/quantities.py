@@ -158,7 +158,7 @@ def _eccentricity(data: xr.Dataset, share: float) -> FloatArray:
         known(data, "slider_radius"),
         of_bearings(data, "axial_force"),
         known(data, "static_axial_force"),
-        np.float64(share),
+        np.array(share),
     )
 
 
@@ -295,7 +295,7 @@ QUANTITIES: dict[str, Quantity] = {
     "eccentricity_loaded": Quantity(
         _B,
         "1",
-        "the same while the axial force is above half of that at rest",
+        "interface eccentricity over slider radius, while half of the load at rest presses",
         lambda d: _eccentricity(d, LOADED),
         by_step=True,
     ),

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from lir_element.argument_checks import listed
 from lir_element.device.bearing import LIRBearing
-from lir_element.opensees.dangling_references import leftovers, listed
+from lir_element.opensees.dangling_references import leftovers
 
 BASE_ROTATIONS = ("kept", "free", "fixed")
 """What becomes of the rotations of base nodes about horizontal axes."""

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from typing import Any
 
-NAMED = 8
-"""How many tags a message lists."""
+from lir_element.argument_checks import listed
 
 
 def leftovers(ops: Any) -> str:
@@ -57,9 +55,3 @@ def leftovers(ops: Any) -> str:
     if not found:
         return ""
     return "; ".join(found) + ". OpenSees would end this process at its next analysis"
-
-
-def listed(tags: Collection[int]) -> str:
-    """Return tags as text, the first few of many."""
-    shown = ", ".join(str(tag) for tag in list(tags)[:NAMED])
-    return shown if len(tags) <= NAMED else f"{shown} and {len(tags) - NAMED} more"

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from lir_element.argument_checks import require_choice, require_positive
+from lir_element.argument_checks import listed, require_choice, require_positive
 from lir_element.device.bearing import LIRBearing
 from lir_element.element import LEVELS, Level
 from lir_element.opensees.base_nodes import (
@@ -20,7 +20,6 @@ from lir_element.opensees.base_nodes import (
     new_tags,
     release,
 )
-from lir_element.opensees.dangling_references import listed
 from lir_element.opensees.library import opensees
 from lir_element.opensees.plugin import (
     ROUTES,

@@ -16,8 +16,8 @@ OWN = "no code: limit of the project"
 class Device:
     """The bearing at a bound, or with bounds of both kinds where `bound` is None."""
 
-    def __init__(self, project, bound=None):
-        b = project.bearing
+    def __init__(self, project, bound=None, kind="standard"):
+        b = project.devices[kind]
         up, low = (bound, bound) if bound else ("upper", "lower")
         self.b = b
         self.fast, self.slow = b.fast * project.outer[up], b.slow * project.outer[low]
@@ -69,8 +69,14 @@ class Found:
         self.suite = each.get(self.bound)
         self.each = each
         self.linear = project.linear.get(self.bound)
-        self.d = Device(project, self.bound or None)
-        self.whole = Device(project)
+        part, _, rest = self.subject.partition(", ")
+        self.kind = part.removeprefix("type ") if part.startswith("type ") else "standard"
+        if part.startswith("type "):
+            self.subject = rest
+        self.ds = [Device(project, self.bound or None, kind) for kind in project.types]
+        self.b = project.devices[self.kind]
+        self.tests = project.tests.get(self.kind)
+        self.whole = Device(project, None, self.kind)
         self.own = row["clause"] == OWN
 
     def worst(self, values, limits=None):
@@ -82,10 +88,15 @@ class Found:
 
     def slips(self):
         """Return the slip of each bearing that counts."""
-        slip = self.suite.of("slip")
+        slip = self.suite.design("slip")
         if self.code == "EN 1998":
-            slip = np.maximum(slip, 1.2 * self.suite.of("displacement") - self.p.bearing.capacity)
+            rims = np.array([d.b.capacity for d in self.ds])
+            slip = np.maximum(slip, 1.2 * self.suite.design("displacement") - rims)
         return slip
+
+    def of_each(self, of):
+        """Return a number of each bearing."""
+        return np.array([of(device) for device in self.ds])
 
     def least(self, key):
         """Return a least value of the equivalent-linear analysis of ASCE 7-22."""
@@ -93,11 +104,13 @@ class Found:
 
     def of(self, name, key):
         """Return what is reached, over a limit of the project by its name."""
-        return self.worst(self.suite.of(name), self.limits.get(key, {"eccentricity": 0.8}.get(key)))
+        return self.worst(
+            self.suite.design(name), self.limits.get(key, {"eccentricity": 0.8}.get(key))
+        )
 
     def lifted(self, name):
         """Return a quantity of runs and bearings where these lift off."""
-        return np.where(self.suite.reached("time_lifted") > 0.0, self.suite.reached(name), 0.0)
+        return np.where(self.suite.every("time_lifted") > 0.0, self.suite.every(name), 0.0)
 
 
 def restoring(f):
@@ -107,20 +120,27 @@ def restoring(f):
 
 def interface(f):
     """The interface at its lower bound over the surfaces at their upper one."""
-    b = f.p.bearing
-    return b.inner * f.p.inner["lower"], b.share(b.fast) * f.p.outer["upper"]
+    each = [f.p.devices[kind] for kind in f.p.types]
+    worst = max(each, key=lambda b: b.share(b.fast) / b.inner)
+    return worst.inner * f.p.inner["lower"], worst.share(worst.fast) * f.p.outer["upper"]
 
 
 def displacement(f):
     """Displacement against rims and slip."""
-    moved = f.suite.of("displacement") * (1.2 if f.code == "EN 1998" else 1.0)
-    return f.worst(np.maximum(moved, f.least("D_least")), f.d.b.capacity + f.d.most)
+    return f.worst(allowed_of(f), f.of_each(lambda d: d.b.capacity + d.most))
+
+
+def allowed_of(f):
+    """Return the displacement that each bearing must allow by histories."""
+    moved = f.suite.design("displacement") * (1.2 if f.code == "EN 1998" else 1.0)
+    return np.maximum(moved, f.least("D_least"))
 
 
 def engaged(f):
     """Where a rim is met, over the displacement of histories."""
-    moved = displacement(f)[0]
-    return f.d.b.capacity / moved, share_of(f)
+    moved = allowed_of(f)
+    k = int((moved / f.of_each(lambda d: d.b.capacity + d.most)).argmax())
+    return f.ds[k].b.capacity / moved[k], share_of(f)
 
 
 def share_of(f):
@@ -130,38 +150,38 @@ def share_of(f):
 
 def engaged_linear(f):
     """Where a rim is met, over the displacement of the equivalent-linear analysis."""
-    return f.p.bearing.capacity / f.linear["allowed"], share_of(f)
+    return f.b.capacity / f.linear["allowed"], share_of(f)
 
 
 def pressure(f):
     """Largest load over the overlap at the largest slip."""
-    load = f.suite.of("axial_force")
-    values = [f.d.overlap_pressure(n, s) for n, s in zip(load, f.slips(), strict=True)]
+    pairs = zip(f.ds, f.suite.design("axial_force"), f.slips(), strict=True)
+    values = [d.overlap_pressure(n, s) for d, n, s in pairs]
     return f.worst(values, f.limits["interface_pressure"])
 
 
 def liner(f):
     """Largest load over a liner around its resultant: of runs, or of the bearing alone."""
     if f.row["symbol"] == "p":
-        load = f.suite.of("axial_force")
-        pairs = list(zip(load, f.slips(), strict=True))
-        values = [max(f.d.liner_pressure(k, n, s) for k in (0, 1)) for n, s in pairs]
+        pairs = list(zip(f.ds, f.suite.design("axial_force"), f.slips(), strict=True))
+        values = [max(d.liner_pressure(k, n, s) for k in (0, 1)) for d, n, s in pairs]
         return f.worst(values, f.limits["liner_pressure"])
     k = ["bottom surface", "top surface"].index(f.subject)
-    t = f.p.tests
+    t = f.tests
     return f.whole.liner_pressure(k, t.loads[1], t.slip), f.limits["liner_pressure"]
 
 
 def gap_over_rims(f):
     """Gap over the height of the rims; the worst run."""
-    return f.worst(f.lifted("gap").max(0), f.limits.get("rim_height", f.d.rim_height()))
+    heights = f.of_each(Device.rim_height)
+    return f.worst(f.lifted("gap").max(0), f.limits.get("rim_height", heights))
 
 
 def landing(f):
     """Pressure of a landing: of the runs in which a bearing lifts off."""
-    force, slip = f.suite.reached("axial_force"), f.suite.reached("slip")
-    places = np.argwhere(f.suite.reached("time_lifted") > 0.0)
-    values = [f.d.overlap_pressure(force[i, k], slip[i, k]) for i, k in places]
+    force, slip = f.suite.every("axial_force"), f.suite.every("slip")
+    places = np.argwhere(f.suite.every("time_lifted") > 0.0)
+    values = [f.ds[k].overlap_pressure(force[i, k], slip[i, k]) for i, k in places]
     return max(values), f.limits.get("interface_pressure", 90e6)
 
 
@@ -173,13 +193,13 @@ def landing_force(f):
 def drift(f):
     """Worst drift of storeys and lines, grown as the shears must."""
     more = forces.raised(f.linear, f.suite)[0]
-    theta = max(f.suite.of("drift").max(), f.suite.of("line_drift").max())
+    theta = max(f.suite.design("drift").max(), f.suite.design("line_drift").max())
     return theta * more, f.limits["drift"] if f.own else DRIFT[f.code]
 
 
 def base_shear(f):
     """Mean or largest base shear, at least that of the equivalent-linear analysis."""
-    return max(f.suite.of("base_shear")[0], f.least("V_least")), f.limits["base_shear"]
+    return max(f.suite.design("base_shear")[0], f.least("V_least")), f.limits["base_shear"]
 
 
 def storey_shear(f):
@@ -194,22 +214,22 @@ def least_base_shear(f):
 
 def lifted_for(f):
     """Longest time of a bearing in a run that parts by more than counts as contact."""
-    time = f.suite.reached("time_lifted")
-    return np.where(f.suite.parted, time, 0.0).max(), 0.0
+    time, gap = f.suite.every("time_lifted"), f.suite.every("gap")
+    return np.where(gap > f.suite.least_gap, time, 0.0).max(), 0.0
 
 
 def holds(f):
     """What the interface carries until a rim is met, over what it holds."""
-    load = f.p.tests.loads[f.subject == "N_max"]
+    load = f.tests.loads[f.subject == "N_max"]
     margin = f.limits.get("margin", 1.2)
     return load * f.whole.share, f.whole.inner * load / margin
 
 
 def slips_before(f):
     """Rim force at which the interface slips, one rim alone or both."""
-    b, w = f.p.bearing, f.whole
+    b, w = f.b, f.whole
     tilt = math.sqrt(1.0 - (b.capacity / b.L) ** 2)
-    moment = f.p.tests.loads[1] * (b.L * w.inner_up - w.slow * b.R.sum()) / tilt
+    moment = f.tests.loads[1] * (b.L * w.inner_up - w.slow * b.R.sum()) / tilt
     k = ["bottom rim", "top rim"].index(f.subject)
     if f.limits.get("rims_together", False):
         return moment * b.R[k] / (b.R**2).sum(), f.limits["rim_strength"]
@@ -218,7 +238,7 @@ def slips_before(f):
 
 def resultant(f):
     """Offset of the resultant between the sliders: no restrainer contact, then each alone."""
-    b, w, s = f.p.bearing, f.whole, f.p.tests.slip
+    b, w, s = f.b, f.whole, f.tests.slip
     levers = b.R[0] - b.low, b.R[1] - (b.h - b.low)
     free = levers[0] * (s / b.L + w.share) - b.R[0] * w.fast
     bottom = levers[1] * w.inner_up - w.slow * b.R[1]
@@ -229,19 +249,19 @@ def resultant(f):
 
 def lateral(f):
     """Lateral force at which the interface slips at the rim's tilt."""
-    b = f.p.bearing
+    b = f.b
     if f.row["symbol"] == "H":
         return f.of("force", "lateral_force")
     tilt = b.capacity / b.L
     across = tilt + f.whole.inner_up * math.sqrt(1.0 - tilt**2)
-    return f.p.tests.loads[1] * across, f.limits["lateral_force"]
+    return f.tests.loads[1] * across, f.limits["lateral_force"]
 
 
 def on_overlap(f):
     """Pressure on the sliders' overlap: of runs, or of the bearing alone."""
     if f.row["symbol"] == "p":
         return pressure(f)
-    t = f.p.tests
+    t = f.tests
     return f.whole.overlap_pressure(t.loads[1], t.slip), f.limits["interface_pressure"]
 
 
@@ -249,13 +269,13 @@ def recentring_energy(f):
     """E_S over E_H of the worst bearing, EN 15129."""
     s, d = f.linear["system"], f.linear["centre"]
     k = s.names.index(f.subject)
-    return s.P[k] * d**2 / (2.0 * s.L), 0.25 * s.P[k] * s.mu * d
+    return s.P[k] * d**2 / (2.0 * s.L[k]), 0.25 * s.P[k] * s.mu[k] * d
 
 
 def recentring(f):
     """Displacement over half of the largest residual one, EN 1998-2."""
     s = f.linear["system"]
-    return f.linear["centre"], 0.5 * s.mu * s.L
+    return f.linear["centre"], (0.5 * s.mu * s.L).max()
 
 
 def overturning(f):
@@ -272,14 +292,37 @@ def overturning(f):
 def wind(f):
     """Wind against the friction of low speed at its lower bound."""
     s = next(iter(f.p.linear.values()))["system"]
-    b = f.p.bearing
-    given = f.p.file["superstructure"]["wind_shear"]
-    return given, f.p.outer["lower"] * b.share(b.slow) * s.P.sum()
+    return f.p.file["superstructure"]["wind_shear"], s.slow @ s.P
+
+
+def service(f):
+    """Displacement in service against the first rim that is met."""
+    s = next(iter(f.p.linear.values()))["system"]
+    return f.p.file["superstructure"]["service_displacement"], s.capacity.min()
+
+
+def moat_linear(f):
+    """Displacement that bearings must allow against the clear distance."""
+    return f.linear["allowed"], f.limits["moat_gap"]
+
+
+def moat(f):
+    """Displacement of the histories with the code's factor against the clear distance."""
+    factor = 1.2 if f.code == "EN 1998" else 1.0
+    return factor * f.suite.design("displacement").max(), f.limits["moat_gap"]
 
 
 RULES = {
     "overturning of the whole structure": overturning,
     "sliding under wind": wind,
+    "no restrainer contact in service": service,
+    "clearance to the moat wall, equivalent-linear": moat_linear,
+    "clearance to the moat wall": moat,
+    "moat wall is not met in any run": lambda f: (
+        f.suite.every("displacement").max(),
+        f.limits["moat_gap"],
+    ),
+    "runs with moved masses that failed": lambda f: (f.suite.moved_failed.sum(), 0.0),
     "restoring force": restoring,
     "interface holds before the rim": interface,
     "pairs of motions": motions.pairs,
@@ -289,10 +332,10 @@ RULES = {
     "number of motions": lambda f: (len(f.suite.failed), LEAST_MOTIONS[f.code]),
     "runs that failed": lambda f: (f.suite.failed.sum(), 0.0),
     "isolator displacement": displacement,
-    "slip over the overlap": lambda f: f.worst(f.slips(), f.d.b.overlap),
-    "slip over its stable limit s*": lambda f: f.worst(f.slips(), f.d.holds),
+    "slip over the overlap": lambda f: f.worst(f.slips(), f.of_each(lambda d: d.b.overlap)),
+    "slip over its stable limit s*": lambda f: f.worst(f.slips(), f.of_each(lambda d: d.holds)),
     "residual slip": lambda f: f.worst(
-        f.suite.of("slip_left"), f.limits.get("slip_left", f.d.holds)
+        f.suite.design("slip_left"), f.limits.get("slip_left", f.of_each(lambda d: d.holds))
     ),
     "rim force": lambda f: f.of("rim_force", "rim_strength"),
     "normalised eccentricity e/a": lambda f: f.of("eccentricity_loaded", "eccentricity"),
@@ -312,7 +355,7 @@ RULES = {
     "storey drift ratio": drift,
     "floor acceleration in plan": lambda f: f.of("floor_plan", "floor_acceleration"),
     "interface holds until a rim is met": holds,
-    "stable limit of interface slip": lambda f: (f.p.tests.slip, f.whole.holds),
+    "stable limit of interface slip": lambda f: (f.tests.slip, f.whole.holds),
     "interface slips before the rim breaks": slips_before,
     "normalised eccentricity e/a at the rims": resultant,
     "recentring, energy": recentring_energy,
@@ -321,6 +364,10 @@ RULES = {
 SUITE = {
     "overturning of the whole structure",
     "sliding under wind",
+    "no restrainer contact in service",
+    "clearance to the moat wall, equivalent-linear",
+    "moat wall is not met in any run",
+    "runs with moved masses that failed",
     "restoring force",
     "interface holds before the rim",
     "number of motions",

@@ -7,6 +7,7 @@ F = P (D / L + mu), energy dissipated per cycle (EDC) 4 mu P D. SI units.
 import json
 import math
 
+import building
 import numpy as np
 from reading import GRAVITY as G
 
@@ -91,12 +92,15 @@ def spectrum(code, given, period, damping=0.05):
 
 
 def dead_shares(project):
-    """Return the multiples of dead load in the maximum and minimum combination; none where none is.
+    """Return the multiples of average load in the maximum and minimum combination.
 
-    The projects' floors have no other load, so that loads of the bearings are nearly multiples of
-    those on average.
+    None where none is. Loads of the bearings are nearly multiples of those on average where all
+    floors carry alike.
     """
     given = project.file["spectrum"]
+    if "loads" in project.file:
+        totals = building.combined(project)
+        return tuple(totals[name] / totals["average"] for name in ("maximum", "minimum"))
     if "s_ms" in given:
         part = 0.2 * given["s_ms"]
         return 1.2 + part, 0.9 - part
@@ -114,8 +118,11 @@ class System:
         self.names = [row["bearing"] for row in rows]
         own = G * statics["node_mass"][:, 0].sum()  # the mass that loads are
         self.W = own if "loads" in project.file else self.P.sum()
-        self.L = project.bearing.L
-        share = project.bearing.share(project.bearing.fast)
+        each = [project.devices[name] for name in project.types]
+        self.L = np.array([b.L for b in each])
+        self.capacity = np.array([b.capacity for b in each])
+        self.slow = np.array([b.share(b.slow) for b in each]) * project.outer["lower"]
+        share = np.array([b.share(b.fast) for b in each])
         self.mu, self.mu_nominal = share * project.outer[bound], share
         self.mu_upper = share * project.outer["upper"]
         place, mass = statics["node_position"], statics["node_mass"]
@@ -209,7 +216,7 @@ def asce(s, given, above):
     if s_1 >= 0.6:
         fixed = max(fixed, 0.5 * s_1 * i_e / above["R"])
     fixed *= above["W_s"]
-    sliding = max(s.mu_upper, 1.5 * s.mu_nominal) * s.P.sum()
+    sliding = max(s.mu_upper @ s.P, 1.5 * s.mu_nominal @ s.P)
     prime = moved / math.sqrt(1.0 + (above["T_fb"] / period) ** 2)
     return found | {
         "V_s": max(v_st / r_i, fixed, above["wind"], sliding),
@@ -282,7 +289,7 @@ def nch(s, given, above):
     }
     if above is not None:
         r_1 = max(min(above["R"], 2.0), 1.0)
-        sliding = max(s.mu_upper, 1.5 * s.mu_nominal) * s.P.sum()
+        sliding = max(s.mu_upper @ s.P, 1.5 * s.mu_nominal @ s.P)
         s_433, t_433, n_433 = SOIL_433[given["soil"]]
         a_0 = {1: 0.2, 2: 0.3, 3: 0.4}[given["zone"]]
         falling = 2.75 * s_433 * a_0 / above["R"] * (t_433 / found["T_D"]) ** n_433

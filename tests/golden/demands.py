@@ -30,11 +30,32 @@ ROWS = {
 }
 
 
+FACTORS = {
+    "displacement",
+    "force",
+    "axial_force",
+    "base_shear",
+    "storey_shear",
+    "drift",
+    "line_drift",
+    "floor_plan",
+}
+DIFFERENCES = {
+    "slip",
+    "rim_force",
+    "eccentricity",
+    "axial_tension",
+    "displacement_left",
+    "slip_left",
+}
+
+
 class Suite:
     """How the runs at one level and bound count."""
 
-    def __init__(self, project, data, peaks):
+    def __init__(self, project, data, peaks, moved=None, moved_peaks=None):
         self.data, self.peaks = data, peaks
+        self.moved, self.moved_peaks = moved, moved_peaks
         status = np.array(list(map(str, data["status"])))
         own = project.analysis.get("uplift_allowed", project.code == "ASCE 7-22")
         gap = project.analysis.get("least_gap", 1e-3)
@@ -44,6 +65,47 @@ class Suite:
         self.uplift_allowed, self.least_gap = own, gap
         self.mean = len(status) >= MEAN_FROM
         self.void = bool(self.failed.any())
+        self.more = {}
+        if moved is not None:
+            part = Suite(project, moved, moved_peaks)
+            self.moved_failed, self.moved_stopped = part.failed, part.stopped
+            self.void = self.void or part.void
+            self.more = {name: max(self._raises(name)) for name in (*FACTORS, *DIFFERENCES)}
+
+    def ways(self):
+        """Yield each way of moving masses with its runs, and the runs of the same motions."""
+        if self.moved is None:
+            return
+        known = list(zip(map(str, self.data["motion"]), self.data["scale"], strict=True))
+        ways = list(map(str, self.moved["masses_moved"]))
+        for way in dict.fromkeys(ways):
+            there = [k for k, word in enumerate(ways) if word == way]
+            own = [(str(self.moved["motion"][k]), self.moved["scale"][k]) for k in there]
+            yield way, [known.index(each) for each in own], there
+
+    def _raises(self, name):
+        # What each way of the masses does to the largest of a quantity: factor and difference.
+        there, here = (each[name] for each in (self.moved_peaks, self.peaks))
+        for _, centred, moved in self.ways():
+            pair = []
+            for values in (here[centred], there[moved]):
+                columns = values.reshape(len(values), -1)
+                each = columns.mean(0) if len(values) >= MEAN_FROM else columns.max(0)
+                pair.append(each.max())
+            if name in DIFFERENCES:
+                yield 1.0, max(pair[1] - pair[0], 0.0)
+            else:
+                yield (max(pair[1] / pair[0], 1.0) if pair[0] > 0.0 else 1.0), 0.0
+
+    def design(self, name):
+        """Return the value of each place with what moved masses add, (m,)."""
+        factor, added = self.more.get(name, (1.0, 0.0)) if not self.void else (1.0, 0.0)
+        return factor * self.of(name) + added
+
+    def every(self, name):
+        """Return what runs reached, those with moved masses last, (n_runs, m)."""
+        parts = [each[name] for each in (self.peaks, self.moved_peaks) if each is not None]
+        return np.concatenate([part.reshape(len(part), -1) for part in parts]).astype(float)
 
     def value(self, column):
         """Return mean or largest; of failed runs what they reached."""
@@ -78,7 +140,9 @@ def suites(project):
     """Return the suites by level, then bound."""
     found = {}
     for (level, bound), peaks in project.peaks.items():
-        found.setdefault(level, {})[bound] = Suite(project, project.runs[level][bound], peaks)
+        beside = project.moved.get(level, {}).get(bound), project.moved_peaks.get((level, bound))
+        own = project.runs[level][bound]
+        found.setdefault(level, {})[bound] = Suite(project, own, peaks, *beside)
     return found
 
 
@@ -87,10 +151,74 @@ def compare(project, tally):
     found = suites(project)
     _demands(project, found, tally)
     _by_motion(project, found, tally)
+    _eccentricity(project, found, tally)
     _bearings(project, tally)
     _friction(project, tally)
     _programme(project, found, tally)
     return found
+
+
+WAYS = {"+x": (0, 1.0), "-x": (0, -1.0), "+y": (1, 1.0), "-y": (1, -1.0)}
+
+
+def _eccentricity(project, found, tally):
+    # The table of moved masses; that the motion is the governing one, and each way is there once.
+    name = "moved masses: raises of each way"
+    tally.category(name, 1e-4, "of peaks from histories, in single precision")
+    wanted = project.analysis.get("accidental_eccentricity", 0.05) != "none"
+    if not project.moved:
+        tally.words(name, "no moved runs", wanted, False)
+        return
+    rows = iter(project.table("eccentricity"))
+    for level, each in found.items():
+        for bound, suite in each.items():
+            far = suite.peaks["displacement"].max(1).argmax()
+            for way, here, there in suite.ways():
+                label = f"{level} {bound} {way}"
+                if project.analysis.get("accidental_eccentricity_motions") != "all":
+                    tally.same(name, f"{label} motion", here, [far])
+                for quantity in ORDER:
+                    _one_way(suite, quantity, (here, there), next(rows), tally)
+            tally.words(name, "ways", [way for way, *_ in suite.ways()], list(WAYS))
+    tally.words(name, "no more rows", next(rows, None), None)
+
+
+ORDER = (
+    "displacement",
+    "force",
+    "axial_force",
+    "base_shear",
+    "storey_shear",
+    "drift",
+    "line_drift",
+    "floor_plan",
+    "slip",
+    "rim_force",
+    "eccentricity",
+    "axial_tension",
+    "displacement_left",
+    "slip_left",
+)
+
+
+def _one_way(suite, quantity, places, row, tally):
+    name = "moved masses: raises of each way"
+    label = f"{row['level']} {row['bound']} {row['masses']} {quantity}"
+    tally.words(name, label, row["quantity"], quantity.replace("_", " "))
+    pair = []
+    for values, at in zip((suite.peaks, suite.moved_peaks), places, strict=True):
+        columns = values[quantity][at].reshape(len(at), -1)
+        pair.append((columns.mean(0) if len(at) >= MEAN_FROM else columns.max(0)).max())
+    floor = floor_of(quantity)
+    tally.same(name, f"{label} centred", row["centred"], pair[0], floor)
+    tally.same(name, f"{label} moved", row["moved"], pair[1], floor)
+    if quantity in FACTORS:
+        tally.words(name, f"{label} added", row["added"], "")
+        tally.same(name, f"{label} factor", row["factor"], max(pair[1] / pair[0], 1.0))
+    else:
+        size = max(*map(abs, pair), floor)  # a difference of nearly equal numbers
+        tally.words(name, f"{label} factor", row["factor"], "")
+        tally.same(name, f"{label} added", row["added"], max(pair[1] - pair[0], 0.0), size)
 
 
 def _demands(project, found, tally):
@@ -110,7 +238,7 @@ def _demands(project, found, tally):
             if left and suite.void and suite.stopped.any():
                 each = np.full(values.shape[1], np.nan)
             else:
-                each = np.array([suite.value(c) for c in values.T])
+                each = suite.design(quantity)
             largest = np.nan if np.isnan(each).all() else sign * np.nanmax(each)
             tally.same(
                 name,
@@ -122,6 +250,9 @@ def _demands(project, found, tally):
             said = f"{'mean' if suite.mean else 'largest'} of"
             if len(suite.failed) == 1 and not suite.void:
                 said = "1 run"
+            if suite.moved is not None and not suite.void:
+                words = ", raised by moved masses" in column
+                tally.words(name, f"{level} {bound} raised", words, True)
             tally.words(
                 name,
                 f"{level} {bound} statistic",
@@ -132,6 +263,10 @@ def _demands(project, found, tally):
                 best = float(np.nanmax(each)), suite.names(quantity)[int(np.nanargmax(each))]
             if not np.isnan(values).all():
                 worst = max(worst, float(np.nanmax(values)))
+            if suite.moved is not None:
+                beside = suite.moved_peaks[quantity].reshape(len(suite.moved_stopped), -1)
+                beside = np.where(left & suite.moved_stopped[:, None], -math.inf, beside)
+                worst = max(worst, float(beside.max()))
         last = next(key for key in row if key.startswith("worst of all"))
         finite = math.isfinite
         tally.same(
@@ -161,7 +296,6 @@ ONE = {"base_shear", "uplifts"}  # without places
 
 
 def _by_motion(project, found, tally):
-    # Runs whose masses are moved are left out by all projects of this kind.
     name = "demands of each motion"
     tally.category(name, 1e-4, "of peaks from histories, in single precision")
     rows = iter(project.table("demands-by-motion"))
@@ -176,6 +310,14 @@ def _by_motion(project, found, tally):
                     tally.words(name, "level", row["level"], level)
                 for title, (quantity, sign) in BY_MOTION.items():
                     _one_motion(suite, k, (title, quantity, sign), row, tally)
+            beside = suite.moved["motion"] if suite.moved is not None else ()
+            for k, motion in enumerate(map(str, beside)):
+                row, way = next(rows), str(suite.moved["masses_moved"][k])
+                said = [row["bound"], row["motion"], row["masses moved"], row["failed"]]
+                known = [bound, motion, way, "yes" if suite.moved_failed[k] else "no"]
+                tally.words(name, "run", " ".join(said), " ".join(known))
+                for title, (quantity, sign) in BY_MOTION.items():
+                    _one_motion(suite, -1 - k, (title, quantity, sign), row, tally)
     tally.words(name, "no more rows", next(rows, None), None)
 
 
@@ -187,8 +329,12 @@ def _one_motion(suite, k, column, row, tally):
         tally.unknown(name, label)
         return
     unit = head.removeprefix(title)
-    own = suite.reached(quantity)[k].copy()
-    if quantity.endswith("_left") and suite.stopped[k]:
+    if k >= 0:
+        own, stopped = suite.reached(quantity)[k].copy(), suite.stopped[k]
+    else:  # of the runs with moved masses the one of place -1 - k
+        k = len(suite.failed) - 1 - k
+        own, stopped = suite.every(quantity)[k], suite.moved_stopped[k - len(suite.failed)]
+    if quantity.endswith("_left") and stopped:
         own[:] = np.nan
     place = 0
     if quantity not in ONE:
@@ -243,7 +389,8 @@ def _bearings(project, tally):
     statics = project.governing
     for k, row in enumerate(project.table("bearings")):
         for column, (quantity, sign) in columns.items():
-            reached = [peaks[quantity][:, k].max() for peaks in project.peaks.values()]
+            every = *project.peaks.values(), *project.moved_peaks.values()
+            reached = [peaks[quantity][:, k].max() for peaks in every]
             tally.same(
                 name,
                 f"{row['bearing']} {column}",
@@ -251,6 +398,8 @@ def _bearings(project, tally):
                 sign * max(reached),
                 floor_of(quantity),
             )
+        if len(project.kinds()) > 1:
+            tally.words(name, f"{row['bearing']} type", row["type"], project.types[k])
         top = statics["node_position"][statics["bearing_node"][k, 1]]
         tally.same(name, f"{row['bearing']} place", [row["x [m]"], row["y [m]"]], top[:2])
         tally.same(
@@ -269,36 +418,39 @@ def _bearings(project, tally):
 def _friction(project, tally):
     name = "table of friction"
     tally.category(name, 1e-12, "products of numbers of the file")
-    b = project.bearing
-    own = {
-        "bottom surface": b.fast,
-        "top surface": b.fast,
-        "bottom surface, slow": b.slow,
-        "top surface, slow": b.slow,
-    }
-    for row in project.table("friction"):
+    own = {}
+    kinds = project.kinds()
+    for kind in kinds:
+        b, more = project.devices[kind], f", {kind}" if len(kinds) > 1 else ""
+        own |= {f"{side} surface{more}": (b.fast, project.outer) for side in ("bottom", "top")}
+        slow = {f"{side} surface, slow{more}": b.slow for side in ("bottom", "top")}
+        own |= {what: (value, project.outer) for what, value in slow.items()}
+        own[f"interface{more}"] = b.inner, project.inner
+    rows = project.table("friction")
+    for row in rows:
         what = row["friction coefficient"]
+        value, factors = own[what]
         for bound in ("lower", "nominal", "upper"):
-            value = project.inner[bound] * b.inner
-            if what in own:
-                value = project.outer[bound] * own[what]
-            tally.same(name, f"{what} {bound}", row[bound], value)
+            tally.same(name, f"{what} {bound}", row[bound], factors[bound] * value)
+    said = {row["friction coefficient"] for row in rows}
+    missing = [what for what in own if what not in said and ", slow" not in what]
+    tally.words(name, "rows that are missing", missing, [])
 
 
 class Tests:
     """Numbers that the programme of tests is made of."""
 
-    def __init__(self, project, found):
+    def __init__(self, project, found, kind="standard", places=None):
         most = max(each["total"] for each in project.linear.values())
         alike = [each for each in project.linear.values() if each["total"] > (1.0 - 1e-6) * most]
         own = min(alike, key=lambda each: each["period"])  # alike: the faster tests
-        self.own, self.b, self.system = own, project.bearing, own["system"]
+        self.own, self.b, self.system = own, project.devices[kind], own["system"]
         self.moved, self.total = own.get("moved", own["centre"]), own["total"]
         self.more = 1.2 if project.code == "EN 1998" else 1.0  # gamma_x
         self.slow = 0.05  # m/s
         level = "maximum" if project.code == "NCh2745" else ""
-        self.loads, self.slip, self.envelope = asked(project, found[level])
-        self.average = self.system.P.mean()
+        self.loads, self.slip = asked(project, found[level], places)
+        self.average = self.system.P[places if places is not None else slice(None)].mean()
         self.impact = impact_speed(project)
 
     def force(self, load, moved, alone, ends):
@@ -312,25 +464,28 @@ class Tests:
         return load * math.tan(math.asin(b.capacity / b.L) + math.atan(inner * b.inner))
 
 
-def asked(project, suites_):
-    """Return the loads that are checked, the slip, and the displacement's envelope."""
-    b = project.bearing
-    system = next(iter(project.linear.values()))["system"]
-    loads = list(system.P)
+def asked(project, suites_, places=None):
+    """Return the loads that are checked and the slip: of the bearings of a type, or of all."""
+    if places is None:  # the largest and the least of all types
+        each = [asked(project, suites_, own) for own in project.kinds().values()]
+        least, most = min(one[0][0] for one in each), max(one[0][1] for one in each)
+        return (least, most), max(one[1] for one in each)
+    b = project.devices[project.types[places[0]]]
+    average = next(iter(project.linear.values()))["system"].P[places]
+    loads = list(average)
     if not unknown_loads(project):
-        loads += [load for share in codes.dead_shares(project) for load in system.P * share]
+        loads += [load for share in codes.dead_shares(project) for load in average * share]
     void = any(suite.void for suite in suites_.values())
     for suite in suites_.values():
-        loads.append(suite.of("axial_force").max())
-        loads.append(-suite.of("axial_tension").max())
-    slip = max(suite.of("slip").max() for suite in suites_.values())
-    moved = max(suite.of("displacement").max() for suite in suites_.values())
+        loads += [*suite.design("axial_force")[places], *-suite.design("axial_tension")[places]]
+    slip = max(suite.design("slip")[places].max() for suite in suites_.values())
+    moved = max(suite.design("displacement")[places].max() for suite in suites_.values())
     if void:
         slip = b.overlap
     elif project.code == "EN 1998":
         slip = max(slip, 1.2 * moved - b.capacity)
     loads = [load for load in loads if load > 0.0]
-    return (min(loads), max(loads)), slip, moved
+    return (min(loads), max(loads)), slip
 
 
 def unknown_loads(project):
@@ -359,15 +514,21 @@ def _programme(project, found, tally):
         "loads of combinations as multiples of those on average: the frame's"
         " equilibrium is nearly linear",
     )
-    d = Tests(project, found)
-    project.tests = d
     words = {"ASCE 7-22": _of_asce, "EN 1998": _of_en, "NCh2745": _of_nch}[project.code]
-    plan = [*words(d, project), *_of_all(d)]
+    project.tests, plan, kinds = {}, [], project.kinds()
+    for n, kind in enumerate(dict.fromkeys(project.types), start=1):
+        project.tests[kind] = d = Tests(project, found, kind, kinds[kind])
+        title = f"kind {n}, {len(kinds[kind])} of {len(project.types)}"
+        of_all = Tests(project, found, kind)  # tests are at the loads and the slip of all types
+        of_all.average = d.average
+        plan += [(title, of_all, test) for test in (*words(of_all, project), *_of_all(of_all))]
     rows = project.table("programme")
     tally.same(name, "number of tests", len(rows), len(plan))
     hidden = unknown_loads(project)
-    for row, (what, moved, load, cycles, speed, alone) in zip(rows, plan, strict=True):
+    for row, (title, d, test) in zip(rows, plan, strict=True):
+        what, moved, load, cycles, speed, alone = test
         tally.words(name, "test", row["what"], what)
+        tally.words(name, f"{what}: bearings", row["bearings"], title)
         unknown = hidden and ("largest load" in what or "least load" in what)
         load = math.nan if unknown else load
         ends = [(project.outer[e], project.inner[e]) for e in ("lower", "upper")]
@@ -417,7 +578,8 @@ def _of_asce(d, project):
 
 def _of_en(d, project):
     fast = _harmonic(d, d.total)
-    yield "S, service", math.nan, d.average, 20, 0.1 * d.slow, False
+    service = project.file.get("superstructure", {}).get("service_displacement", math.nan)
+    yield "S, service", service, d.average, 20, 0.1 * d.slow, False
     for title, share, load, speed in (
         ("P1, benchmark", 1.0, d.average, d.slow),
         ("D1, dynamic", 0.25, d.average, fast),

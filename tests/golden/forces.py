@@ -2,6 +2,7 @@
 
 import numpy as np
 
+MEAN_FROM = 7
 AXES = ("Vx", "Vy", "Fz", "Mx", "My", "Mz")
 EXTREMES = {"max": 1.0, "min": -1.0}
 
@@ -60,10 +61,8 @@ def _reactions(project, key, rows, tally):
     names = list(map(str, data["bearing"]))
     for (bearing, side), each in rows.items():
         b, end = names.index(bearing), ("below", "above").index(side)
-        sign = 1.0 if side == "below" else -1.0
+        acts, more = (_of_bearing(one, b, end) for one in (data, suite.moved))
         force, moment = data["bearing_force"][:, :, b], data["bearing_moment"][:, :, b, end]
-        acts = {"N": -force[..., 2], "Vx": sign * force[..., 0], "Vy": sign * force[..., 1]}
-        acts |= {word: -moment[..., k] for k, word in enumerate(("Mx", "My", "Mz"))}
         scale = {"N": np.nanmax(np.abs(force)), "N m": np.nanmax(np.abs(moment))}
         contact = project.analysis.get("level", "contact") == "contact"
         if side == "below" and contact:  # histories have the forces above, the sliders between
@@ -72,7 +71,17 @@ def _reactions(project, key, rows, tally):
             if row["force"] in acts:
                 told = "reactions of bearings, from histories", tally
                 factor = raised(_linear(project, key), suite)[1]
-                _row(suite, row, acts, scale[row["unit"]], told, factor)
+                _row(suite, row, (acts, more), scale[row["unit"]], told, factor)
+
+
+def _of_bearing(data, b, end):
+    # Histories of the six forces of a side of a bearing, (n_runs, steps).
+    if data is None:
+        return None
+    force, moment = data["bearing_force"][:, :, b], data["bearing_moment"][:, :, b, end]
+    sign = 1.0 if end == 0 else -1.0
+    acts = {"N": -force[..., 2], "Vx": sign * force[..., 0], "Vy": sign * force[..., 1]}
+    return acts | {word: -moment[..., k] for k, word in enumerate(("Mx", "My", "Mz"))}
 
 
 def _linear(project, key):
@@ -80,54 +89,103 @@ def _linear(project, key):
     return project.linear.get(key[1])
 
 
-def _row(suite, row, acts, scale, told, factor):
-    # A row of a table against histories of six forces, (n_runs, steps).
+def _added(suite, outward, beyond):
+    # What moved masses add to extremes, by the way that adds most.
+    most, word = 0.0, ""
+    for way, here, there in suite.ways():
+        of = np.mean if len(there) >= MEAN_FROM else np.max
+        more = of(beyond[there]) - of(outward[here])
+        if more > most:
+            most, word = more, way
+    return most, word
+
+
+def _row(suite, row, pair, scale, told, factor):
+    # A row of a table against histories of six forces, (n_runs, steps), and of moved runs.
     category, tally = told
+    (acts, more), force = pair, row["force"]
     sign, label = EXTREMES[row["extreme"]], " ".join(list(row.values())[:6])
-    extremes = sign * np.nanmax(sign * acts[row["force"]], axis=1)
-    motions = list(map(str, suite.data["motion"]))
-    k = next(n for n, motion in enumerate(motions) if row["motion"].partition(" x ")[0] == motion)
+    outward = np.nanmax(sign * acts[force], axis=1)
+    beyond = np.array([]) if more is None else np.nanmax(sign * more[force], axis=1)
+    rest, way = float(row["permanent"]), ""
     if not suite.stopped[_counting(suite)].any():  # the step that ends a run is in no history
-        value = sign * _of(suite, sign * extremes)
-        rest = float(row["permanent"])
-        value = value + (factor - 1.0) * (value - rest)
+        value = _of(suite, outward)
+        if not suite.void:
+            added, way = _added(suite, outward, beyond)
+            tally.same(category, f"{label}, added", row["moved masses add"], sign * added, scale)
+            if added > 1e-4 * scale:
+                tally.words(category, f"{label}, masses", row["masses"], way)
+            value += added
+        value = rest + max(factor, 1.0) * (sign * value - rest)
         tally.same(category, label, float(row["value"]), value, scale)
-        single = sign * np.max(sign * extremes[_counting(suite)])
+        tally.same(category, f"{label}, raised by", row["raised by"], factor)
+        single = sign * max([*outward[_counting(suite)], *beyond])
         tally.same(category, f"{label}, single", float(row["single"]), single, scale)
-    if suite.stopped[k]:
+    at = _run_of(suite, row["motion"])
+    data, acts, stopped = (suite.data, acts, suite.stopped)
+    if at >= len(outward):  # of the runs with moved masses
+        at -= len(outward)
+        data, acts, stopped = suite.moved, more, suite.moved_stopped
+    if stopped[at]:
         return
-    tally.same(category, f"{label}, motion", float(row["single"]), extremes[k], scale)
-    time = suite.data["time"] if suite.data["time"].ndim == 1 else suite.data["time"][k]
+    extreme = sign * np.nanmax(sign * acts[force][at])
+    tally.same(category, f"{label}, motion", float(row["single"]), extreme, scale)
+    time = data["time"] if data["time"].ndim == 1 else data["time"][at]
     step = int(np.nanargmin(np.abs(time - float(row["time [s]"]))))
-    for force, values in acts.items():
-        size = scale if force == row["force"] else max(scale, np.nanmax(np.abs(values)))
-        then = float(row[f"{force} then"])
-        tally.same(category, f"{label}, {force} then", then, values[k, step], size)
-    first = acts[row["force"]][k, 0]
-    tally.same(category, f"{label}, permanent", float(row["permanent"]), first, scale)
+    for word, values in acts.items():
+        size = scale if word == force else max(scale, np.nanmax(np.abs(values)))
+        then = float(row[f"{word} then"])
+        tally.same(category, f"{label}, {word} then", then, values[at, step], size)
+    tally.same(category, f"{label}, permanent", rest, acts[force][at, 0], scale)
+
+
+def _run_of(suite, said):
+    # The place of a run by its name, those with moved masses last.
+    names = list(map(str, suite.data["motion"]))
+    if suite.moved is not None:
+        ways = zip(suite.moved["motion"], suite.moved["masses_moved"], strict=True)
+        names += [f"{motion}, masses {way}" for motion, way in ways]
+    return names.index(said.partition(" x ")[0])
 
 
 def _storeys(project, key, rows, tally):
     data, suite = project.runs[key[0]][key[1]], project.suites[key[0]][key[1]]
-    statics, category = project.governing, "storey forces, from histories"
+    category = "storey forces, from histories"
     above, isolation = raised(_linear(project, key), suite)
     storeys = list(map(str, data["storey"]))
     for storey, each in rows.items():
-        if storey in storeys:
-            passed = data["storey_shear"][:, :, storeys.index(storey)]
-            acts = {word: passed[..., k] for k, word in enumerate(AXES[:3])}
-        else:  # at the foot of the lowest level, all of it passes through bearings
-            acts = _through_bearings(data, statics)
+        k = storeys.index(storey) if storey in storeys else None
+        acts, more = (_of_storey(project, one, k) for one in (data, suite.moved))
         for row in each:
             if row["force"] == "drift":
-                column = suite.reached("drift")[:, storeys.index(storey)]
-                value = above * _of(suite, column)
-                tally.same("drifts of storeys", storey, float(row["value"]), value)
+                _drift(suite, k, row, above, tally)
             elif row["force"] in acts:
                 of = [word for word in acts if (word[0] == "M") == (row["force"][0] == "M")]
                 scale = max(np.nanmax(np.abs(acts[word])) for word in of)
                 factor = above if storey in storeys else isolation
-                _row(suite, row, acts, scale, (category, tally), factor)
+                _row(suite, row, (acts, more), scale, (category, tally), factor)
+
+
+def _of_storey(project, data, k):
+    # Histories of the forces through a storey; at the foot of the lowest level through bearings.
+    if data is None:
+        return None
+    if k is None:
+        return _through_bearings(data, project.governing)
+    passed = data["storey_shear"][:, :, k]
+    return {word: passed[..., axis] for axis, word in enumerate(AXES[:3])}
+
+
+def _drift(suite, k, row, factor, tally):
+    name, centred = "drifts of storeys", suite.reached("drift")[:, k]
+    value, way = _of(suite, centred), ""
+    if suite.moved is not None and not suite.void:
+        added, way = _added(suite, centred, suite.moved_peaks["drift"][:, k])
+        tally.same(name, f"{row['storey']} added", row["moved masses add"], added, value)
+        value += added
+    tally.same(name, row["storey"], float(row["value"]), factor * value)
+    if way and float(row["moved masses add"]) > 1e-3 * value:
+        tally.words(name, f"{row['storey']} masses", row["masses"], way)
 
 
 def _through_bearings(data, statics):

@@ -83,18 +83,44 @@ class Project:
         outer, inner = bounds["friction"], bounds.get("interface", bounds["friction"])
         self.outer = {"lower": outer[0], "nominal": 1.0, "upper": outer[1]}
         self.inner = {"lower": inner[0], "nominal": 1.0, "upper": inner[1]}
+        self.devices = {"standard": self.bearing}
+        for name, own in self.file.get("bearings", {}).items():
+            self.devices[name] = Bearing(self.file["bearing"] | own)
         self.limits = self.file.get("limits", {})
         self.analysis = self.file.get("analysis", {})
         self.governing = netcdf(self.results / "governing.nc")
-        self.runs = {}  # by level, then bound
-        for path in sorted(self.results.glob("runs-*.nc")):
-            level, _, bound = path.stem.removeprefix("runs-").rpartition("-")
-            self.runs.setdefault(level, {})[bound] = netcdf(path)
+        self.runs, self.moved = self._histories("runs"), self._histories("moved")
+        self.types = [self._type(row) for row in self.table("bearings")]
+
+    def _histories(self, kind):
+        # By level, then bound.
+        found = {}
+        for path in sorted(self.results.glob(f"{kind}-*.nc")):
+            level, _, bound = path.stem.removeprefix(f"{kind}-").rpartition("-")
+            found.setdefault(level, {})[bound] = netcdf(path)
         order = ("lower", "nominal", "upper")
-        self.runs = {
+        return {
             level: {bound: each[bound] for bound in order if bound in each}
-            for level, each in sorted(self.runs.items())
+            for level, each in sorted(found.items())
         }
+
+    def _type(self, row):
+        # A type that names the column, else the highest load that is exceeded; bearings of one
+        # height, so that the loads of standard ones are those of the table.
+        given, load = self.file.get("bearings", {}), float(row["average load [N]"])
+        column = row["bearing"].removeprefix("bearing-")
+        for name, own in given.items():
+            if column in own.get("columns", []):
+                return name
+        heavy = [name for name, own in given.items() if load >= own.get("above", float("inf"))]
+        return max(heavy, key=lambda name: given[name]["above"], default="standard")
+
+    def kinds(self):
+        """Return the types that stand somewhere, each with the places of its bearings."""
+        places = {
+            name: [k for k, own in enumerate(self.types) if own == name] for name in self.devices
+        }
+        return {name: own for name, own in places.items() if own}
 
     def table(self, name):
         """Return the rows of a table as mappings."""

@@ -11,6 +11,7 @@ disagrees, and what was reported and not recomputed. The exit code is 1 where so
 import json
 import sys
 
+import building
 import checks
 import codes
 import demands
@@ -25,7 +26,9 @@ from tally import Tally
 def review(folder):
     """Return the comparisons of a project's folder."""
     project, tally = Project(folder), Tally()
-    project.peaks = histories.compare(project, tally)
+    project.peaks = histories.compare(project, project.runs, tally)
+    project.moved_peaks = histories.compare(project, project.moved, tally)
+    building.compare(project, tally)
     project.linear = codes.compare(project, tally)
     project.suites = demands.compare(project, tally)
     forces.compare(project, tally)

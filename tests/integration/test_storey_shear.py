@@ -18,7 +18,6 @@ from frames import (
     time_history,
 )
 from frames.design import (
-    HISTORY_RULES,
     Check,
     CheckError,
     EquivalentLinear,
@@ -32,7 +31,7 @@ from frames.design import (
     history_demands,
 )
 from frames.design.codes.bounds import BoundName
-from frames.design.histories.least_shears import Raise, raises_of_runs
+from frames.design.histories.least_shears import Raise, raises_by_case
 from frames.results.peak_response import largest
 from lir_element import CoulombFriction, LIRBearing
 
@@ -179,8 +178,7 @@ def test_less_than_the_least_shear_raises_forces_and_drifts(frame: Frame, runs: 
     assert drifts[1] == pytest.approx(max(1.5, at_base) * drifts[0], rel=1e-9)
     assert not [each for each in found.failed if "shear" in each.title]
     assert "forces are raised to it" in found.tally
-    raises = raises_of_runs({"MCE_R": {"lower": runs}}, HISTORY_RULES["ASCE 7-22"], windy)
-    more = raises["MCE_R", "lower"]
+    more = raises_by_case(found)["MCE_R", "lower"]
     assert more.above == pytest.approx(max(1.5, at_base), rel=1e-9)
     assert more.isolation == pytest.approx(at_base, rel=1e-12)
 
@@ -192,10 +190,10 @@ def test_shears_above_the_least_leave_forces_as_they_are(frame: Frame, runs: xr.
     strong = runs.copy()
     for name in ("reached_storey_shear", "reached_base_shear"):
         strong[name] = 100.0 * runs[name]
-    raises = raises_of_runs({"MCE_R": {"lower": strong}}, HISTORY_RULES["ASCE 7-22"], weak)
-    assert raises == {("MCE_R", "lower"): Raise(1.0, 1.0)}
-    nominal = raises_of_runs({"MCE_R": {"nominal": runs}}, HISTORY_RULES["ASCE 7-22"], weak)
-    assert nominal == {}
+    found = history_checks({"lower": strong}, frame, "ASCE 7-22", equivalent=weak)
+    assert raises_by_case(found) == {("MCE_R", "lower"): Raise(1.0, 1.0)}
+    nominal = history_checks({"nominal": runs}, frame, "ASCE 7-22", equivalent=weak)
+    assert raises_by_case(nominal) == {}
 
 
 def test_less_than_seven_motions_count_by_the_largest(frame: Frame, runs: xr.Dataset) -> None:
@@ -215,12 +213,9 @@ def test_a_suite_that_failed_has_no_storey_shear(frame: Frame, runs: xr.Dataset)
     assert check.demand > check.limit
     assert not check.passed
     assert check.verdict == "FAILS"
-    raises = raises_of_runs(
-        {"MCE_R": {"upper": runs.assign(status=status)}},
-        HISTORY_RULES["ASCE 7-22"],
-        linear(frame, wind_shear=100.0 * each.mean()),
-    )
-    assert raises["MCE_R", "upper"] == Raise()  # of no value nothing is raised
+    failed, windy = runs.assign(status=status), linear(frame, wind_shear=100.0 * each.mean())
+    found = history_checks({"upper": failed}, frame, "ASCE 7-22", equivalent=windy)
+    assert raises_by_case(found) == {("MCE_R", "upper"): Raise()}  # of no value nothing is raised
     assert "1 of 7 runs failed" in check.note
 
 

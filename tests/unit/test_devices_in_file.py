@@ -195,7 +195,8 @@ def test_wrong_values_are_refused(
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ('"2-1"', '"9-9"', r'\[dampers.base\] there is no column "9-9"'),
+        ('"2-1"', '"9-9"', r"\[dampers.base\] 9-9 is no column with a bearing: there are 0-0,"),
+        ('"2-1"', '"bearing-0-0"', r"\[dampers.base\] .*base-0-0-y"),  # 0-0 once more
         ("storeys = [2, 2]", "storeys = [2, 5]", r"\[dampers.brace\] storeys"),
     ],
 )

@@ -663,9 +663,11 @@ def test_least_shear_of_nch433(plateau: float, factor: tuple[float, float, float
         assert t.value("V_fixed") == pytest.approx(t.value("C_433") * 5.8e6, rel=1e-12)
         assert t.value("V_s") >= t.value("V_fixed")
     given = Spectrum.given([0.0, 1.0, 4.0], [4.0, 6.0, 1.5], code="NCh2745")
-    t = equivalent_linear(SYSTEM, given, bounds=None, superstructure=ABOVE, code=NCh2745())
-    assert t["nominal"].trace.value("V_fixed") == 0.0
-    assert t["nominal"].trace["V_fixed"].note.startswith("not known")
+    scaled = Spectrum.nch2745("II", zone=1).scaled(4.0 / 3.0)  # Z of zone 2, of no zone
+    for spectrum in (given, scaled):
+        t = equivalent_linear(SYSTEM, spectrum, bounds=None, superstructure=ABOVE, code=NCh2745())
+        assert t["nominal"].trace.value("V_fixed") == 0.0
+        assert t["nominal"].trace["V_fixed"].note.startswith("not known")
 
 
 def test_forces_by_nch2745() -> None:

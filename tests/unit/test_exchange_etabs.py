@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 import warnings
 from dataclasses import astuple
 from pathlib import Path
@@ -85,6 +86,14 @@ BAD = {
     "towers": (with_lines('  TOWER "T1"', '  TOWER "T2"'), r"several towers are not read"),
     "ties": (changed('SECTION "COL"', 'LIMITTENSION 0  SECTION "COL"'), r'\["tension limits"\]'),
     "area": (changed("FLOOR  4", "FLOOR  5"), r"an area needs its name, kind, number of corners"),
+    "load set": (
+        with_lines('  AREALOAD  "F1"  "Story1"  TYPE "UNIFLOADSET"  "U1"'),
+        r'uniform load set "U1" is not defined: there are none',
+    ),
+    "nothing": (
+        re.sub(r"^  (LINE|AREA|POINT)(ASSIGN|LOAD) .*\n", "", TEXT, flags=re.MULTILINE),
+        r"has no frame, area or link, and nothing on a joint",
+    ),
     "quote": (changed('SECTION "COL"', 'SECTION "COL'), r"a quotation mark is not closed"),
 }
 
@@ -119,6 +128,26 @@ def test_assignments_become_what_members_have(tmp_path: Path) -> None:
     assert_allclose(frame.loads["X3-Story1@0.4"], [0, 0, -15e3, 0, 0, 0])
     assert_allclose(frame.loads["1-Story2"][0], 7e3)
     assert "insertion points that do not transform" in str(frame.imported)
+
+
+def test_stiff_zones_end_before_the_next_joint(tmp_path: Path) -> None:
+    # 0.3 m are stiff, and a beam meets this one after 0.1 m
+    text = changed(
+        'LINEASSIGN  "X1"  "Story1"  SECTION "BEAM"',
+        'LINEASSIGN  "X1"  "Story1"  SECTION "BEAM"  LENGTHOFFI 0.3 LENGTHOFFJ 0.2 RIGIDZONE 1 ',
+    )
+    text = text.replace(
+        "$ LINE CONN", '  POINT "9"  0.1 0.0\n  POINT "8"  0.1 5.0\n\n$ LINE CONN', 1
+    )
+    text = text.replace("$ AREA CONN", '  LINE  "T"  BEAM  "9"  "8"  0\n\n$ AREA CONN', 1)
+    text = text.replace(
+        "$ AREA ASS", '  LINEASSIGN  "T"  "Story1"  SECTION "BEAM"\n\n$ AREA ASS', 1
+    )
+    frame = Frame.from_etabs(written(tmp_path, text))
+    first, last = (frame.members[f"X1-Story1/{k}"] for k in (1, 2))
+    assert_allclose(first.offsets, [(0.095, 0.0, 0.0), (0.0, 0.0, 0.0)], atol=1e-12)
+    assert_allclose(last.offsets, [(0.0, 0.0, 0.0), (-0.2, 0.0, 0.0)], atol=1e-12)
+    assert "cut before it: X1-Story1" in str(frame.imported)
 
 
 def test_a_semirigid_floor_is_shells(tmp_path: Path) -> None:

@@ -180,3 +180,17 @@ def test_given_points() -> None:
 def test_what_makes_no_sense_is_refused(make: object, words: str) -> None:
     with pytest.raises(MotionError, match=words):
         make()  # type: ignore[operator]
+
+
+def test_a_spectrum_keeps_the_site_that_it_was_made_for() -> None:
+    """Zone 1 times 4/3 has the numbers of zone 2, and is no spectrum of a zone."""
+    made = Spectrum.nch2745("III", zone=1)
+    assert dict(made.site) == {"soil": "III", "zone": 1}
+    assert "soil = III, zone = 1" in repr(made)
+    assert made.scaled(1.0).site == made.site
+    raised = made.scaled(4.0 / 3.0)
+    assert raised.parameters == pytest.approx(Spectrum.nch2745("III", zone=2).parameters)
+    assert raised.site == ()
+    assert dict(Spectrum.en1998(a_g=2.0, ground_type="C").site) == {"ground_type": "C", "kind": 1}
+    assert dict(Spectrum.nch433("B", zone=2).site) == {"soil": "B", "zone": 2}
+    assert Spectrum.asce7(s_ms=1.0, s_m1=0.6).site == ()

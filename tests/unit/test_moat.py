@@ -12,10 +12,16 @@ pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 
 from frames import GroundMotion, shear_building, time_histories
-from frames.design import CheckError, DesignLimits, code_named
+from frames.design import CheckError, DesignLimits, ProjectError, code_named
 from frames.design.devices.limits import PROJECT_LIMIT
+from frames.design.project.devices_beside import walls_of, with_devices
 from frames.design.project.moat_checks import of_the_moat
+from frames.design.project.reading import read_project
+from frames.design.project.sanity_checks import file_doubts
+from frames.design.project.schema_devices import MoatTable
+from frames.design.report.words import Words
 from lir_element import LIRBearing
+from tests.unit.test_accidental_eccentricity import PROJECT
 
 BEARING = LIRBearing(
     radius=1.5,
@@ -27,8 +33,9 @@ BEARING = LIRBearing(
 )
 
 
-def checked(gap: float | None, code: str) -> list:
+def checked(gap: float | None, code: str, wall: MoatTable | None = None) -> list:
     frame = shear_building(BEARING, 9e4, 4e8, storeys=1, plan=((1, 1), (6.0, 6.0)))
+    frame = with_devices(frame, wall, {})
     pulse = np.sin(np.linspace(0.0, 2.0 * np.pi, 41))
     motions = {
         name: GroundMotion(x=size * pulse, dt=0.02) for name, size in (("weak", 1.0), ("hard", 1.6))
@@ -38,6 +45,7 @@ def checked(gap: float | None, code: str) -> list:
     bound = SimpleNamespace(bound="lower", allowed_displacement=0.25)
     run = SimpleNamespace(
         code=code_named(code),
+        frame=frame,
         limits=DesignLimits(moat_gap=gap),
         equivalent=SimpleNamespace(bounds={"lower": bound}),
         rules=rules,
@@ -45,7 +53,8 @@ def checked(gap: float | None, code: str) -> list:
         moved={},
     )
     reached = data["reached_displacement"].to_numpy().max(axis=1)
-    return [reached, *of_the_moat(run)]
+    force = data["reached_link_force"].to_numpy() if wall else np.zeros((2, 1))
+    return [reached, *of_the_moat(run), force.max(axis=1)][: None if wall else -1]
 
 
 def test_displacements_are_held_against_the_gap() -> None:
@@ -62,6 +71,74 @@ def test_displacements_are_held_against_the_gap() -> None:
     tight = checked(reached.max() * 0.99, "ASCE 7-22")[1:]
     assert [check.passed for check in tight[1:]] == [False, False]
     assert all(check.level == "MCE_R" for check in tight)
+
+    note = "the wall is not modelled: where it is met, its force is in no result"
+    assert {check.note for check in (single, wide[2], tight[2])} == {note}
+
+
+def wall_at(gap: float) -> MoatTable:
+    return MoatTable(gap=f"{gap} m", stiffness="80 kN/mm", sides=["x+", "x-"])
+
+
+def test_walls_in_the_model_are_told_of_with_what_they_do() -> None:
+    """Forces of the note are those that the histories recorded, node by node."""
+    free = checked(0.2, "ASCE 7-22")[0]
+    between = free.mean()  # the harder motion reaches it, the weaker one does not
+    reached, linear, histories, single, force = checked(between, "ASCE 7-22", wall_at(between))
+    assert (force > 0.0).tolist() == [False, True]
+    assert between < reached[1] < free[1]  # it is held back
+    assert not single.passed
+    model = f"walls at {1e3 * between:.5g} mm along x+, x- are modelled"
+    assert single.note == (
+        f"{model}: met in 1 of 2 runs, by up to {1e-3 * force.max():.4g} kN at a node; their force "
+        "is in the results (links.csv)"
+    )
+    assert "hold back 1 of 2 runs" in histories.note
+    assert "hold back" not in linear.note  # which has no walls
+    far = 1.1 * free.max()
+    wide = checked(far, "ASCE 7-22", wall_at(far))
+    assert wide[3].passed
+    assert wide[3].note.endswith("are modelled: none is met in the runs")
+    assert "hold back" not in wide[2].note
+    pytest.importorskip("babel")
+    words = Words("es", ",")
+    for check in (histories, single, *wide[1:4]):
+        assert words.say(check.note) != check.note
+    assert words.missing == set()
+
+
+def test_walls_are_found_in_a_structure() -> None:
+    frame = shear_building(BEARING, 9e4, 4e8, storeys=1, plan=((1, 1), (6.0, 6.0)))
+    assert walls_of(frame) is None
+    found = walls_of(with_devices(frame, wall_at(0.3), {}))
+    assert (found.gap, found.sides) == (0.3, ("x+", "x-"))
+    assert len(found.links) == 4  # two nodes along each side
+
+
+@pytest.mark.parametrize(
+    ("wall", "clear", "sides", "refused", "doubted"),
+    [
+        ("450 mm", "450 mm", "", False, False),
+        ("450 mm", "600 mm", "", True, False),
+        ("450 mm", "400 mm", "", False, True),
+        ("450 mm", "400 mm", 'sides = ["x+", "x-", "y+"]\n', False, False),  # a neighbour at y-
+    ],
+)
+def test_two_distances_to_one_wall(
+    tmp_path: Path, wall: str, clear: str, sides: str, refused: bool, doubted: bool
+) -> None:
+    file = tmp_path / "project.toml"
+    walls = f'[moat]\ngap = "{wall}"\nstiffness = "1 MN/m"\n{sides}'
+    file.write_text(PROJECT.replace("[limits]\n", f'{walls}[limits]\nmoat_gap = "{clear}"\n'))
+    if refused:
+        with pytest.raises(
+            ProjectError, match=r"moat_gap = 600 mm is more than \[moat\] gap = 450"
+        ):
+            read_project(file)
+        return
+    found = [doubt for doubt in file_doubts(read_project(file)) if "moat_gap" in doubt]
+    assert bool(found) == doubted
+    assert all("400 mm, [moat] gap = 450 mm" in doubt for doubt in found)
 
 
 def test_without_a_gap_nothing_is_checked_and_odd_gaps_are_refused(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import math
 import re
 import shutil
 import subprocess  # noqa: S404
+import unicodedata
 from collections.abc import Callable
 from dataclasses import fields
 from html import unescape
@@ -518,6 +519,27 @@ def test_contents_name_the_pages_of_the_pdf(results: Path, tmp_path: Path) -> No
     assert {entry.title for entry in read.outline[1] if not isinstance(entry, list)} >= {
         title for _, title in SECTIONS
     }
+
+    def bare(text: str) -> str:  # without spaces, and without ligatures, which print "floor" has
+        return "".join(unicodedata.normalize("NFKC", text).split())
+
+    printed = [bare(text) for text in texts]
+    headings = re.findall(r"<h3[^>]*>(.*?)</h3>", (results / "report.html").read_text(), re.DOTALL)
+    assert len(headings) > 20
+    for heading in headings:  # none begins at the foot of a page and ends on the next
+        words = bare(unescape(re.sub(r"<[^>]*>", "", heading)))
+        assert any(words in text for text in printed), heading
+
+
+def test_lines_of_calculations_and_colours(page: str) -> None:
+    """Values alone, which have one sign of equality, are told from formulas; colours are there."""
+    calculations = page.split('<h2 id="calculations">')[1]
+    lines = re.findall(r"<div( class=\"given\")?>(<math>.*?</math>)", calculations)
+    given = [bool(marked) for marked, _ in lines]
+    assert given == [line.count("<mo>=</mo>") == 1 for _, line in lines]
+    assert 0 < sum(given) < len(lines)
+    style = page[page.index("<style>") : page.index("</style>")]
+    assert set(re.findall(r"var\((--\w+)\)", style)) <= set(re.findall(r"(--\w+):", style))
 
 
 def test_a_pdf_needs_a_browser(

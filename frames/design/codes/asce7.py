@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
 from frames.design.calculation.standing import MEMORY
-from frames.design.codes.code_values import standing_by
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -215,23 +214,19 @@ class ASCE7:
             pendulum.require_sliding(t.value("D_M"))
         self._total(t, system)
         t("V_b", "k_M * D_M", "N", source="ASCE 7-22 (17.5-5)")
-        judge = CheckBuilder(t, bound, MEMORY, level=MCE_R)
+        judge = CheckBuilder(t, bound, MEMORY, level=MCE_R, values=VALUES, analysis=self)
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure, spectrum, extremes)
             checks += self._structure_checks(t, superstructure, judge)
             overturning(t, "M_o", "o")
-            known = self._known(judge, "overturning")
+            known = judge.resting_on("overturning")
             checks += overturning_check(t, known, "ASCE 7-22 17.2.4.7")
             clause = "ASCE 7-22 17.2.4.6, 17.2.4.7"
-            vertical = self._known(judge, "vertical loads")
+            vertical = judge.resting_on("vertical loads")
             checks += vertical_checks(t, system, vertical, clause, self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _SYMBOLS, rounds, t.values("D_T"), forces, checks)
-
-    def _known(self, judge: CheckBuilder, *names: str) -> CheckBuilder:
-        # Of checks that rest on these values of the code.
-        return judge.known(standing_by(VALUES, *names, analysis=self))
 
     def _total(self, t: Trace, system: IsolationSystem) -> None:
         source = "ASCE 7-22 (17.5-3)"
@@ -264,17 +259,17 @@ class ASCE7:
         t("k_lim", "a_k * k_02", "N/m")
         limits, stiffness = "ASCE 7-22 17.4.1", "effective stiffness ratio, D_M to 0.2 D_M"
 
-        def limit(name: str) -> CheckBuilder:
-            return self._known(judge, name, "effective").of("procedure")
-
-        rims, back = self._known(judge, "rims"), self._known(judge, "restoring")
+        rims, back = judge.resting_on("rims"), judge.resting_on("restoring")
+        longest = judge.limit("longest period", "effective")
+        damping = judge.limit("most damping", "effective")
+        softening = judge.limit("stiffness ratio", "effective")
         return Checks(
             [
                 capacity_check(t, system, rims, "ASCE 7-22 17.2.4.5, 17.4.1", "D_T"),
                 back("ASCE 7-22 17.2.4.4", "restoring force", "Delta_F", ">=", "Delta_F_lim"),
-                limit("longest period")(limits, "effective period", "T_M", "<=", "T_lim"),
-                limit("most damping")(limits, "effective damping", "beta_M", "<=", "beta_lim"),
-                limit("stiffness ratio")(limits, stiffness, "k_M", ">=", "k_lim"),
+                longest(limits, "effective period", "T_M", "<=", "T_lim"),
+                damping(limits, "effective damping", "beta_M", "<=", "beta_lim"),
+                softening(limits, stiffness, "k_M", ">=", "k_lim"),
             ]
         )
 
@@ -349,28 +344,25 @@ class ASCE7:
     def _structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
         limits = "ASCE 7-22 17.4.1"
 
-        def limit(name: str) -> CheckBuilder:
-            return self._known(judge, name).of("procedure")
-
         t.given("a_fb", self.period_ratio)
         t("T_least", "a_fb * T_fb", "s")
-        ratio = self._known(judge, "period ratio", "effective").of("procedure")
+        ratio = judge.limit("period ratio", "effective")
         found: list[Check] = [ratio(limits, "period ratio T_M / T_fb", "T_M", ">=", "T_least")]
         if self.irregular:
             t.given("n_irr", 1.0, note="irregular, as given")
             t.given("n_irr_lim", 0.0)
             found.append(
-                limit("regularity")(limits, "irregular structure", "n_irr", "<=", "n_irr_lim")
+                judge.limit("regularity")(limits, "irregular structure", "n_irr", "<=", "n_irr_lim")
             )
         if not self.no_tension:
             t.given("n", float(len(above.storey_weights)))
             t.given("n_lim", self.storeys)
             t("h_n", "max(h_x)", "m")
             t.given("h_lim", self.height, "m")
-            found.append(limit("storeys")(limits, "storeys", "n", "<=", "n_lim"))
-            found.append(limit("height")(limits, "height", "h_n", "<=", "h_lim"))
+            found.append(judge.limit("storeys")(limits, "storeys", "n", "<=", "n_lim"))
+            found.append(judge.limit("height")(limits, "height", "h_n", "<=", "h_lim"))
         clause = "ASCE 7-22 17.5.6"
-        known = self._known(judge, "drift", "V_st", "exponent", "R_I", "F_x")
+        known = judge.resting_on("drift", "V_st", "exponent", "R_I", "F_x")
         drift = drift_checks(t, above, known, clause, limit=self.drift, factor="R_I")
         return Checks([*found, *drift])
 

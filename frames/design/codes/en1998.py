@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
 from frames.design.calculation.standing import MEMORY
-from frames.design.codes.code_values import standing_by
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -179,29 +178,25 @@ class EN1998:
             pendulum.require_sliding(t.value("d_dc"))
         self._torsion(t, system)
         t("V_b", "K_eff * d_dc", "N", source="EN 1998-1 10.9.3")
-        judge = CheckBuilder(t, bound, MEMORY, level=DESIGN)
+        judge = CheckBuilder(t, bound, MEMORY, level=DESIGN, values=VALUES, analysis=self)
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure)
             t.given("nu", self.reduction, source="EN 1998-1 4.4.3.2")
             clause = "EN 1998-1 4.4.3.2"
             limit = self.drift
-            known = self._known(judge, "drift", "reduction", "behaviour")
+            known = judge.resting_on("drift", "reduction", "behaviour")
             checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="nu * q")
             overturning(t, "M_o", "o")
-            known = self._known(judge, "overturning")
+            known = judge.resting_on("overturning")
             checks += overturning_check(t, known, "EN 1998-1 4.4.2.4")
             clause = "EN 15129 8.3, EN 1998-1 10.10"
-            known = self._known(judge, "vertical loads")
+            known = judge.resting_on("vertical loads")
             checks += vertical_checks(t, system, known, clause, self.pressure_limit)
             if self.simplified:
                 checks += self._simplified_checks(t, superstructure, judge)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _SYMBOLS, rounds, t.values("d_bi"), forces, checks)
-
-    def _known(self, judge: CheckBuilder, *names: str) -> CheckBuilder:
-        # Of checks that rest on these values of the code.
-        return judge.known(standing_by(VALUES, *names, analysis=self))
 
     def _torsion(self, t: Trace, system: IsolationSystem) -> None:
         t.given("a_e", self.accidental_eccentricity, source="EN 1998-1 4.3.2")
@@ -237,19 +232,16 @@ class EN1998:
         t.each("d_least", "a_r * d_r", "m", shown="mm")
         limits, names = "EN 1998-1 10.9.2", system.labels
         title, stiffness = "recentring, energy", "effective stiffness ratio, d_dc to 0.2 d_dc"
-        capacity = self._known(judge, "capacity", "reliability")
-
-        def limit(name: str) -> CheckBuilder:
-            return self._known(judge, name).of("procedure")
+        capacity = judge.resting_on("capacity", "reliability")
 
         found = [
             capacity_check(
                 t, system, capacity, "EN 1998-1 10.3, EN 15129 8.3", "d_Ed", "gamma_x d_bd"
             ),
-            self._known(judge, "energy").worst(
+            judge.resting_on("energy").worst(
                 "EN 15129 4.3", title, "E_S", ">=", "E_lim", subjects=names
             ),
-            self._known(judge, "recentring").worst(
+            judge.resting_on("recentring").worst(
                 "EN 1998-2 7.7.1",
                 "recentring, displacement",
                 "d_dc",
@@ -258,22 +250,24 @@ class EN1998:
                 subjects=names,
                 note="else capacity must be d_o + gamma_du rho_d d_bi,d",
             ),
-            limit("stiffness ratio")(limits, stiffness, "K_eff", ">=", "K_lim"),
-            limit("most damping")(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
-            limit("restoring")(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
-            limit("total eccentricity")(
+            judge.limit("stiffness ratio")(limits, stiffness, "K_eff", ">=", "K_lim"),
+            judge.limit("most damping")(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
+            judge.limit("restoring")(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
+            judge.limit("total eccentricity")(
                 "EN 1998-1 10.9.3",
                 "total eccentricity over the side of the plan",
                 "a_tot",
                 "<=",
                 "a_e_lim",
             ),
-            self._accumulated(t, system, limit("accumulated")),
+            self._accumulated(t, system, judge.limit("accumulated")),
         ]
         if self.property_variation is not None:
             t.given("v", self.property_variation, shown="%")
             t.given("v_lim", self.most_variation, shown="%")
-            found.append(limit("variation")(limits, "variation of properties", "v", "<=", "v_lim"))
+            found.append(
+                judge.limit("variation")(limits, "variation of properties", "v", "<=", "v_lim")
+            )
         return Checks(found)
 
     def _accumulated(self, t: Trace, system: IsolationSystem, limit: CheckBuilder) -> Check:
@@ -328,17 +322,14 @@ class EN1998:
         clause, ratio = "EN 1998-1 10.9.3", "period ratio T_eff / T_fb"
         upright = "vertical over effective stiffness"
 
-        def limit(name: str) -> CheckBuilder:
-            return self._known(judge, name).of("procedure")
-
         return Checks(
             [
-                limit("largest side")(clause, "side of the plan", "B_plan", "<=", "B_lim"),
-                limit("longest period")(clause, "effective period", "T_eff", "<=", "T_lim"),
-                limit("fault")(clause, "distance to the fault", "r_f", ">=", "r_lim"),
-                limit("period ratio")(clause, ratio, "T_eff", ">=", "T_least"),
-                limit("vertical period")(clause, "vertical period", "T_v", "<=", "T_v_lim"),
-                limit("vertical stiffness")(clause, upright, "r_V", ">=", "r_V_lim"),
+                judge.limit("largest side")(clause, "side of the plan", "B_plan", "<=", "B_lim"),
+                judge.limit("longest period")(clause, "effective period", "T_eff", "<=", "T_lim"),
+                judge.limit("fault")(clause, "distance to the fault", "r_f", ">=", "r_lim"),
+                judge.limit("period ratio")(clause, ratio, "T_eff", ">=", "T_least"),
+                judge.limit("vertical period")(clause, "vertical period", "T_v", "<=", "T_v_lim"),
+                judge.limit("vertical stiffness")(clause, upright, "r_V", ">=", "r_V_lim"),
             ]
         )
 

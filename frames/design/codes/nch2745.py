@@ -10,7 +10,6 @@ import numpy as np
 
 from frames.design.calculation.check import Bound, Checks
 from frames.design.calculation.standing import MEMORY
-from frames.design.codes.code_values import standing_by
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -54,8 +53,6 @@ from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
 from frames.design.hazard.spectral_shapes import (
     NCH433_SHEAR,
     NCH433_ZONE,
-    NCH2745_SOIL,
-    NCH2745_ZONE,
 )
 from frames.design.hazard.spectrum import Spectrum
 
@@ -170,17 +167,17 @@ class NCh2745:
         t("k_Dmax", "sum(P * (D_D / L + mu_up)) / D_D", "N/m", source="NCh2745 7.4")
         t("V_b", "k_Dmax * D_D", "N", source="NCh2745 7.4")
         t("k_Mmax", "sum(P * (D_M / L + mu_up)) / D_M", "N/m", note="largest at D_M")
-        judge = CheckBuilder(t, bound, MEMORY, level=DESIGN)
+        judge = CheckBuilder(t, bound, MEMORY, level=DESIGN, values=VALUES, analysis=self)
         checks = self._device_checks(t, system, judge)
         if superstructure is not None:
             self._shears(t, superstructure, spectrum, extremes)
             clause, limit = "NCh2745 7.6", self.drift
-            known = self._known(judge, "drift", "R_1", "F_x")
+            known = judge.resting_on("drift", "R_1", "F_x")
             checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="R_1")
             overturning(t, "M_o", "o")
-            known = self._known(judge, "overturning").at(MAXIMUM)
+            known = judge.resting_on("overturning").at(MAXIMUM)
             checks += overturning_check(t, known, "NCh2745 6.2")
-            at = self._known(judge, "vertical loads").at(MAXIMUM)
+            at = judge.resting_on("vertical loads").at(MAXIMUM)
             checks += vertical_checks(t, system, at, "NCh2745 6.2", self.pressure_limit)
         forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
         return BoundResult(bound, t, _MAXIMUM, rounds, t.values("D_TM_i"), forces, checks)
@@ -201,10 +198,6 @@ class NCh2745:
         t("D_D", "C_D / B_D", "m", source="NCh2745 7.3", shown="mm")
         return t
 
-    def _known(self, judge: CheckBuilder, *names: str) -> CheckBuilder:
-        # Of checks that rest on these values of the code.
-        return judge.known(standing_by(VALUES, *names, analysis=self))
-
     def _totals(self, t: Trace, system: IsolationSystem) -> None:
         t.given("a_e", self.accidental_eccentricity, source="NCh2745 7.3")
         t.given("a_T", self.least_torsion, source="NCh2745 7.3")
@@ -219,7 +212,7 @@ class NCh2745:
     def _device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
         enter_restoring(t, "D_D", self.restoring)
         note = "else bearings must allow 3 times the total design displacement, 3 D_TD"
-        rims, back = self._known(judge, "capacity"), self._known(judge, "restoring")
+        rims, back = judge.resting_on("capacity"), judge.resting_on("restoring")
         return Checks(
             [
                 capacity_check(t, system, rims.at(MAXIMUM), "NCh2745 7.3", "D_TM_i"),
@@ -268,14 +261,12 @@ def _enter_given(t: Trace, spectrum: Spectrum, period: str, level: str, symbol: 
 
 def _enter_fixed_base(t: Trace, spectrum: Spectrum) -> None:
     # Base shear of the same structure on a fixed base, of the period T_D: NCh433, importance 1.
-    corner, z = (spectrum.parameters.get(name, math.nan) for name in ("T_c", "Z"))
-    soils = [name for name, known in NCH2745_SOIL.items() if math.isclose(known[3], corner)]
-    zones = [zone for zone, known in NCH2745_ZONE.items() if math.isclose(known, z)]
-    if not soils or not zones:
+    site = dict(spectrum.site)
+    if not site:
         why = "not known: the spectrum is not that of a soil and a zone"
         t.given("V_fixed", 0.0, "N", source="NCh433 6.2.3", note=why)
         return
-    soil, zone = soils[0], zones[0]
+    soil, zone = str(site["soil"]), int(site["zone"])
     t.given("A_0", NCH433_ZONE[zone], note=f"zone {zone}, in g")
     for symbol, value in zip(("S_433", "T_433", "n_433"), NCH433_SHEAR[soil], strict=True):
         t.given(symbol, value, note=f"soil {soil}; T in s" if symbol == "T_433" else f"soil {soil}")

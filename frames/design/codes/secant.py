@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Scope
 from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.calculation.trace import Trace
+from frames.design.codes.code_values import CodeValue, standing_by
 from frames.design.codes.outcome import Iteration, Symbols
 
 if TYPE_CHECKING:
@@ -154,6 +155,10 @@ class CheckBuilder:
         Why its demands are no values for design.
     level : str
         Level of the seismic action of its checks.
+    values : mapping of str to CodeValue
+        Of the code, which `resting_on` and `limit` name.
+    analysis : object, optional
+        Analysis of the code, with its factors.
     """
 
     t: Trace
@@ -162,14 +167,20 @@ class CheckBuilder:
     scope: Scope = "any"
     void: str = ""
     level: str = ""
+    values: Mapping[str, CodeValue] = field(default_factory=dict)
+    analysis: object = None
 
     def of(self, scope: Scope) -> CheckBuilder:
         """Return one that makes checks of this scope."""
         return replace(self, scope=scope)
 
-    def known(self, standing: Standing) -> CheckBuilder:
-        """Return one that makes checks of this standing."""
-        return replace(self, standing=standing)
+    def resting_on(self, *names: str) -> CheckBuilder:
+        """Return one whose checks stand as the weakest of these values of the code."""
+        return replace(self, standing=standing_by(self.values, *names, analysis=self.analysis))
+
+    def limit(self, *names: str) -> CheckBuilder:
+        """Return one for limits of the procedure that rest on these values of the code."""
+        return self.resting_on(*names).of("procedure")
 
     def at(self, level: str) -> CheckBuilder:
         """Return one that makes checks at this level of the seismic action."""

@@ -51,12 +51,7 @@ def service_checks(
     """
     found: list[Check] = []
     if above.wind_shear > 0.0:
-        t = Trace()
-        t.given_each("P", system.loads, "N", note=f"loads of the {len(system.loads)} bearings")
-        slow = [slow_friction(b) for b in system.bearings]
-        t.given_each("mu_s", slow, note="of low speed, both surfaces, over the load")
-        t.given("lambda_min", bounds.friction.lower, note="lower bound of the surfaces")
-        t("Q_min", "lambda_min * sum(P * mu_s)", "N", note="starts sliding")
+        t = least_strength(system, bounds)
         t.given("V_wind", above.wind_shear, "N")
         judge = CheckBuilder(t, "lower", OWN if wind is None else wind.standing)
         clause = NO_CLAUSE if wind is None else wind.clause
@@ -71,6 +66,30 @@ def service_checks(
         title = "no restrainer contact in service"
         found.append(judge(NO_CLAUSE, title, "d_ser", "<=", "d_rim"))
     return Checks(found)
+
+
+def least_strength(system: IsolationSystem, bounds: PropertyBounds) -> Trace:
+    """Return what wind must stay below: the force that starts sliding, at the lower bound.
+
+    Parameters
+    ----------
+    system : IsolationSystem
+        With nominal properties.
+    bounds : PropertyBounds
+        Factors on friction.
+
+    Returns
+    -------
+    Trace
+        The calculation, the force "Q_min" [N] at its end.
+    """
+    t = Trace()
+    t.given_each("P", system.loads, "N", note=f"loads of the {len(system.loads)} bearings")
+    slow = [slow_friction(b) for b in system.bearings]
+    t.given_each("mu_s", slow, note="of low speed, both surfaces, over the load")
+    t.given("lambda_min", bounds.friction.lower, note="lower bound of the surfaces")
+    t("Q_min", "lambda_min * sum(P * mu_s)", "N", note="starts sliding")
+    return t
 
 
 def slow_friction(bearing: LIRBearing | FrictionPendulum) -> float:

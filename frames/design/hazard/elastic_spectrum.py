@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -41,6 +42,7 @@ class ElasticSpectrum:
     damping_code: str
     constants: tuple[tuple[str, float], ...]
     points: sh.Points = ()
+    site: sh.Site = ()
 
     @property
     def parameters(self) -> Mapping[str, float]:
@@ -153,7 +155,7 @@ class ElasticSpectrum:
         return cast("Values", found if periods.ndim else float(found))
 
     def scaled(self, factor: float, *, name: str = "") -> Self:
-        """Return the spectrum times a factor, its parameters as well.
+        """Return the spectrum times a factor, its parameters as well; no longer that of a site.
 
         Parameters
         ----------
@@ -181,6 +183,7 @@ class ElasticSpectrum:
                 (key, times * value if key in growing else value) for key, value in self.constants
             ),
             points=tuple((period, times * level) for period, level in self.points),
+            site=self.site if math.isclose(times, 1.0) else (),
         )
 
     def table(self, periods: npt.ArrayLike = TABLE_PERIODS, damping: float = 0.05) -> pd.DataFrame:
@@ -219,7 +222,8 @@ class ElasticSpectrum:
         return periods
 
     def _facts(self) -> dict[str, str]:
-        found = {key: f"{value:.6g}" for key, value in self.constants}
+        found = {key.replace("_", " "): str(value) for key, value in self.site}
+        found |= {key: f"{value:.6g}" for key, value in self.constants}
         if self.points:
             found["points"] = (
                 f"{len(self.points)}, from {self.points[0][0]:g} s to {self.points[-1][0]:g} s"

@@ -13,6 +13,8 @@ from lir_element.units import STANDARD_GRAVITY
 
 Parameters = Mapping[str, float]
 Points = tuple[tuple[float, float], ...]
+Site = tuple[tuple[str, str | int], ...]
+"""Soil, zone and the like by the names of the arguments that a spectrum was made with."""
 
 EN1998_GROUND = {
     1: {

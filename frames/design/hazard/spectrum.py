@@ -46,6 +46,9 @@ class Spectrum(ElasticSpectrum):
         Parameters by symbol.
     points : tuple of (float, float)
         Periods [s] and pseudo-accelerations [m/s2], of spectra that are given so.
+    site : tuple of (str, str or int)
+        Soil, zone and the like that the code's tables were read for; empty where it has none, and
+        once the spectrum is scaled.
 
     Examples
     --------
@@ -233,7 +236,8 @@ class Spectrum(ElasticSpectrum):
         label = name or (
             f"EN 1998-1 type {kind}, ground {ground_type}, a_g = {gamma * peak:.3g} m/s2"
         )
-        return cls("EN 1998", label, "en1998", "EN 1998", tuple(constants.items()))
+        site = (("ground_type", ground_type), ("kind", kind))
+        return cls("EN 1998", label, "en1998", "EN 1998", tuple(constants.items()), site=site)
 
     @classmethod
     def nch2745(cls, soil: str = "II", zone: int = 3, *, name: str = "") -> Spectrum:
@@ -265,7 +269,8 @@ class Spectrum(ElasticSpectrum):
         constants = {"Z": sh.NCH2745_ZONE[zone]}
         constants |= zip(symbols, sh.NCH2745_SOIL[soil], strict=True)
         label = name or f"NCh2745, soil {soil}, zone {zone}"
-        return cls("NCh2745", label, "nch2745", "NCh2745", tuple(constants.items()))
+        site = (("soil", soil), ("zone", zone))
+        return cls("NCh2745", label, "nch2745", "NCh2745", tuple(constants.items()), site=site)
 
     @classmethod
     def nch433(
@@ -302,7 +307,8 @@ class Spectrum(ElasticSpectrum):
         constants = {"A_0": sh.NCH433_ZONE[zone], "I": factor}
         constants |= zip(("S", "T_0", "p"), sh.NCH433_SOIL[soil], strict=True)
         label = name or f"NCh433, soil {soil}, zone {zone}"
-        return cls("NCh433", label, "nch433", "NCh2745", tuple(constants.items()))
+        site = (("soil", soil), ("zone", zone))
+        return cls("NCh433", label, "nch433", "NCh2745", tuple(constants.items()), site=site)
 
     @classmethod
     def given(

@@ -278,8 +278,11 @@ class BearingDemands:
     def _of_resultants(self) -> str:
         # What the offset of a resultant counts, and what its level can say of it.
         counted = f"counts while N > {LOADED:g} of that at rest"
-        lighter = np.nan_to_num(peaks_of_runs(self.data, "eccentricity")).max(axis=0)
-        if lighter.max() > self.limits.eccentricity:
+        pressed, lighter = (
+            np.nan_to_num(peaks_of_runs(self.data, name)).max(axis=0)
+            for name in ("eccentricity_loaded", "eccentricity")
+        )
+        if lighter.max() > max(self.limits.eccentricity, pressed.max()):
             where = self._names[int(lighter.argmax())]
             counted += (
                 f"; under less, down to {PRESSED:g} of it, up to {lighter.max():.2f} ({where})"

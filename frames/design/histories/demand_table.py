@@ -128,13 +128,13 @@ def _numbers(
     }
 
 
-def bearing_values(
+def largest_of_bounds(
     runs: Mapping[Bound, xr.Dataset],
     rules: HistoryRules,
     name: str,
     moved: Mapping[Bound, xr.Dataset] | None = None,
 ) -> FloatArray:
-    """Return what time histories give for design of each bearing, the largest of all bounds.
+    """Return the largest of all bounds of `values_for_design`, of each bearing.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def bearing_values(
     rows = []
     for bound, data in runs.items():
         suite = raised_suite(data, (moved or {}).get(bound), rules)
-        rows.append([suite.value(column, name) for column in reached_by(data, name).T])
+        rows.append(values_for_design(data, suite, name))
     return np.asarray(np.fmax.reduce(rows, axis=0), dtype=np.float64)
 
 

@@ -63,7 +63,7 @@ def force_demands(
     rules : HistoryRules
         How the code counts them.
     raises : mapping, optional
-        By level and bound what the code's least shears raise (`raises_of_runs`): the earthquake's
+        By level and bound what the code's least shears raise (`raises_by_case`): the earthquake's
         part of forces of members, storeys and drifts, and that of reactions and of the whole
         structure's foot. Forces of members are taken as above the isolation.
     moved : mapping of str to mapping of str to xarray.Dataset, optional

@@ -8,17 +8,17 @@ from frames.design._errors import CheckError
 from frames.design.calculation.trace import Trace
 from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
-from frames.design.histories.suite import peaks_of_runs, suite_of
+from frames.design.histories.suite import peaks_of_runs
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable
 
     import xarray as xr
 
-    from frames.design.calculation.check import Bound, Check
+    from frames.design.calculation.check import Check
     from frames.design.codes.history_rules import HistoryRules
-    from frames.design.codes.outcome import BoundResult, EquivalentLinear
+    from frames.design.codes.outcome import BoundResult
     from frames.design.histories.suite import Suite
 
 BASE = "base shear of time histories"
@@ -131,37 +131,21 @@ def raise_of(checks: list[Check]) -> Raise:
     return Raise(above=max(factors.values()), isolation=factors[BASE])
 
 
-def raises_of_runs(
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
-    rules: HistoryRules,
-    equivalent: EquivalentLinear | None,
-) -> dict[tuple[str, str], Raise]:
+def raises_by_case(checks: Iterable[Check]) -> dict[tuple[str, str], Raise]:
     """Return by what the least shears raise the forces of runs.
 
     Parameters
     ----------
-    runs : mapping of str to mapping of str to xarray.Dataset
-        Time histories by level of the seismic action, then by bound.
-    rules : HistoryRules
-        The code's.
-    equivalent : EquivalentLinear, optional
-        Analysis that has least values.
+    checks : iterable of Check
+        Those of `history_checks`, at any levels of the seismic action and bounds.
 
     Returns
     -------
     dict
-        By level and bound, where there are least values.
+        By level and bound, where runs were held against least shears.
     """
-    found: dict[tuple[str, str], Raise] = {}
-    if equivalent is None or not rules.has_minima:
-        return found
-    for level, each in runs.items():
-        for bound, data in each.items():
-            known = equivalent.bounds.get(bound)
-            if known is None or "V_b_dyn" not in known.trace:
-                continue
-            storeys = list(map(str, data["storey"].to_numpy())) if "storey" in data.coords else []
-            storey = storeys[0] if storeys else ""
-            checks = shear_checks(data, suite_of(data, rules), known, rules, storey)
-            found[level, bound] = raise_of(checks)
-    return found
+    cases: dict[tuple[str, str], list[Check]] = {}
+    for check in checks:
+        if check.scope == "minimum" and check.title in {BASE, STOREY}:
+            cases.setdefault((check.level, check.bound), []).append(check)
+    return {case: raise_of(each) for case, each in cases.items()}

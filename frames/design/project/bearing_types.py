@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from frames.design._errors import ProjectError
 from frames.statics.gravity import gravity
+from lir_element.argument_checks import listed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -126,7 +127,11 @@ def _named(column: str, kind: str, frame: Frame) -> list[str]:
     groups = {} if frame.imported is None else frame.imported.groups
     own = {column, f"bearing-{column}"} & set(frame.bearings)
     if own or column not in groups:
-        return [_known(column, kind, frame)]
+        try:
+            return [bearing_under(column, frame)]
+        except ProjectError as cause:
+            msg = f"[bearings.{kind}] columns: {cause}"
+            raise ProjectError(msg) from None
     found = [f"bearing-{label}" for label in groups[column]]
     standing = [name for name in found if name in frame.bearings]
     if not standing:
@@ -135,14 +140,31 @@ def _named(column: str, kind: str, frame: Frame) -> list[str]:
     return standing
 
 
-def _known(column: str, kind: str, frame: Frame) -> str:
-    # The bearing of a column that is named as its bearing or without that word.
+def bearing_under(column: str, frame: Frame) -> str:
+    """Return the bearing of a column that is named as its bearing, or without that word.
+
+    Parameters
+    ----------
+    column : str
+        As a file names it: "0-0", "bearing-0-0".
+    frame : Frame
+        The structure on its bearings.
+
+    Returns
+    -------
+    str
+        Name of the bearing.
+
+    Raises
+    ------
+    ProjectError
+        If there is none.
+    """
     for name in (column, f"bearing-{column}"):
         if name in frame.bearings:
             return name
     names = [name.removeprefix("bearing-") for name in frame.bearings]
     near = difflib.get_close_matches(column.removeprefix("bearing-"), names, n=1)
-    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
-    meant = f'; is "{near[0]}" meant?' if near else f": {', '.join(names[:_NAMED])}{more}"
-    msg = f"[bearings.{kind}] columns: {column} is no column with a bearing{meant}"
+    meant = f'; is "{near[0]}" meant?' if near else f": there are {listed(names, _NAMED)}"
+    msg = f"{column} is no column with a bearing{meant}"
     raise ProjectError(msg)

@@ -11,7 +11,7 @@ import xarray as xr
 
 from frames.design.calculation.check import Checks
 from frames.design.codes.prototype_programme import ProgrammeDemands
-from frames.design.histories.demand_table import bearing_values
+from frames.design.histories.demand_table import largest_of_bounds
 from frames.design.histories.histories import history_demands
 from frames.design.histories.impacts import rim_engagement
 from frames.design.project import moat_checks as moat_checks  # which it registers
@@ -276,7 +276,7 @@ def _types(
     rules, found = parts.rules(), {}
     void = next((str(why) for why in history_demands(runs, rules, moved=moved)["void"] if why), "")
     values = {
-        name: bearing_values(runs, rules, name, moved)
+        name: largest_of_bounds(runs, rules, name, moved)
         for name in ("axial_force", "axial_tension", "slip", "displacement")
     }
     loads = np.array(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from frames._errors import ModelError
 from frames.design._errors import ProjectError
+from frames.design.project.bearing_types import bearing_under
 from frames.design.project.member_sections import storeys_of
+from frames.design.project.schema_devices import SIDES
 from frames.laws import Gap, ViscousDamper
 
 if TYPE_CHECKING:
@@ -79,6 +81,49 @@ def _add_moat(frame: Frame, given: MoatTable) -> None:
         frame.add_moat(MOAT, [node], laws)
 
 
+class Walls(NamedTuple):
+    """Moat walls that a structure has.
+
+    Attributes
+    ----------
+    gap : float
+        Clear distance to them [m].
+    sides : tuple of str
+        Along which sides of the base they stand, "x+".
+    links : tuple of str
+        Names of the links that they are.
+    """
+
+    gap: float
+    sides: tuple[str, ...]
+    links: tuple[str, ...]
+
+
+def walls_of(frame: Frame) -> Walls | None:
+    """Return the moat walls that `with_devices` put into a structure; None without.
+
+    Parameters
+    ----------
+    frame : Frame
+        The structure.
+
+    Returns
+    -------
+    Walls or None
+        The walls.
+    """
+    found = {
+        name: link.law
+        for name, link in frame.links.items()
+        if name.startswith(f"{MOAT}-") and isinstance(link.law, Gap)
+    }
+    if not found:
+        return None
+    sides = {name[-2:] for name in found}
+    gap = min(law.gap for law in found.values())
+    return Walls(gap, tuple(side for side in SIDES if side in sides), tuple(found))
+
+
 def law_of(given: DamperTable) -> ViscousDamper:
     """Return the law of dampers: the coefficient that gives their force at their speed."""
     coefficient = given.force / given.speed**given.exponent
@@ -90,8 +135,8 @@ def law_of(given: DamperTable) -> ViscousDamper:
 
 
 def _add_at_base(frame: Frame, name: str, given: DamperTable) -> None:
-    for column in map(str, given.columns):
-        link = frame.bearings[_bearing(frame, column)]
+    for bearing in (bearing_under(str(column), frame) for column in given.columns):
+        link, column = frame.bearings[bearing], bearing.removeprefix("bearing-")
         for direction in given.directions:
             frame.add_link(
                 f"{name}-{column}-{direction}", link.i, link.j, law_of(given), f"u{direction}"
@@ -107,18 +152,9 @@ def _add_in_storeys(frame: Frame, name: str, given: DamperTable, between: tuple[
         frame.add_link(f"{name}-{storey}-{one}-{other}", foot, top, law_of(given))
 
 
-def _bearing(frame: Frame, column: str) -> str:
-    name = f"bearing-{column}"
-    if name not in frame.bearings:
-        known = ", ".join(f'"{each.removeprefix("bearing-")}"' for each in list(frame.bearings)[:6])
-        msg = f'there is no column "{column}": the first are {known}'
-        raise ProjectError(msg)
-    return name
-
-
 def _on_line(frame: Frame, level: int, column: str) -> str:
     # The node of a level over a bearing.
-    below = frame.nodes[frame.bearings[_bearing(frame, column)].j]
+    below = frame.nodes[frame.bearings[bearing_under(column, frame)].j]
     for node in frame.levels[level].nodes:
         place = frame.nodes[node]
         if abs(place.x - below.x) < _NEAR and abs(place.y - below.y) < _NEAR:

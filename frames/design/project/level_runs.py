@@ -73,7 +73,7 @@ def histories_at_levels(
     }
     places = [(level, bound) for level in levels for bound in given.bounds]
     cases = [(bound, name, level.factor) for level, bound in places for name in motions]
-    record = Recording(every=1 if given.histories == "all" else None, forces=True)
+    record = _recording(parts)
     data = time_histories(
         models,
         motions,
@@ -154,7 +154,7 @@ def moved_at_levels(
         dt=given.dt,
         workers=given.workers,
         progress=progress,
-        record=Recording(every=None, forces=True),
+        record=_recording(parts),
         resume=None if resume is None else resume / MOVED,
     )
     found: LevelRuns = {level.name: {} for level in rules.levels}
@@ -164,6 +164,11 @@ def moved_at_levels(
         found[name][bound] = own_rows.assign_coords({WAY: ("run", ways)})
         begin += len(ways)
     return found
+
+
+def _recording(parts: ProjectInputs) -> Recording:
+    # Of all runs alike: what they reached, and their histories where the project asks for these.
+    return Recording(every=1 if parts.file.analysis.histories == "all" else None, forces=True)
 
 
 def governing_motion(data: xr.Dataset, rules: HistoryRules) -> str:

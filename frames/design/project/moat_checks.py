@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design.calculation.check import Check
 from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT
-from frames.design.histories.demand_table import bearing_values
+from frames.design.histories.demand_table import largest_of_bounds
 from frames.design.histories.eccentricity import raised_suite, with_moved
 from frames.design.histories.suite import motion_of, peaks_of_runs
 from frames.design.project.check_register import RunToCheck, register_check
+from frames.design.project.devices_beside import walls_of
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from frames.design.calculation.check import Bound
+    from frames.frame import Frame
 
 _AT_BEARINGS = "at the bearings: what stands out past them moves more where the base turns"
 
@@ -28,8 +30,8 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
     """Make the checks of the clear distance to the moat wall.
 
     The displacement that bearings must allow by the equivalent-linear analysis, that which the
-    histories ask for with the code's factor, and the largest of all single runs, in which the wall,
-    which is not modelled, would be hit.
+    histories ask for with the code's factor, and the largest of all single runs. Notes say whether
+    the runs have the wall, and in how many of them it is met.
 
     Parameters
     ----------
@@ -64,7 +66,7 @@ def _of_histories(
     run: RunToCheck, bound: Bound, data: xr.Dataset, moved: xr.Dataset | None, gap: float
 ) -> list[Check]:
     beside = None if moved is None else {bound: moved}
-    reached = bearing_values({bound: data}, run.rules, "displacement", beside)
+    reached = largest_of_bounds({bound: data}, run.rules, "displacement", beside)
     void = raised_suite(data, moved, run.rules).void
     t = _with_gap(gap)
     t.given("D", float(reached.max()), "m", shown="mm", note="of the histories, as the code counts")
@@ -72,16 +74,41 @@ def _of_histories(
     t("D_d", "gamma_x * D", "m", shown="mm")
     judge = CheckBuilder(t, bound, OWN, void=void)
     title = "clearance to the moat wall"
-    first = judge(PROJECT_LIMIT, title, "D_d", "<=", "g_moat", note=_AT_BEARINGS)
     every = with_moved(data, moved)
+    told = _told_of_walls(run.frame, every)
+    note = f"{_AT_BEARINGS}{told.holds}"
+    first = judge(PROJECT_LIMIT, title, "D_d", "<=", "g_moat", note=note)
     largest = peaks_of_runs(every, "displacement").max(axis=1)
     k = int(largest.argmax())
     t = _with_gap(gap)
     t.given("D_max", float(largest[k]), "m", shown="mm", note=motion_of(every, k))
     judge = CheckBuilder(t, bound, OWN)
     title = "moat wall is not met in any run"
-    note = "the wall is not modelled: where it is met, its force is in no result"
-    return [first, judge(PROJECT_LIMIT, title, "D_max", "<=", "g_moat", note=note)]
+    return [first, judge(PROJECT_LIMIT, title, "D_max", "<=", "g_moat", note=told.model)]
+
+
+class _Told(NamedTuple):
+    # What notes say of walls: how they are modelled, and that they hold back what meets them.
+    model: str
+    holds: str
+
+
+def _told_of_walls(frame: Frame, every: xr.Dataset) -> _Told:
+    walls = walls_of(frame)
+    if walls is None:
+        return _Told("the wall is not modelled: where it is met, its force is in no result", "")
+    where = f"walls at {1e3 * walls.gap:.5g} mm along {', '.join(walls.sides)} are modelled"
+    which = [str(name) in walls.links for name in every["link"].to_numpy()]
+    force = peaks_of_runs(every, "link_force")[:, which].max(axis=1)
+    met = force[force > 0.0]
+    if not len(met):
+        return _Told(f"{where}: none is met in the runs", "")
+    runs = f"{len(met)} of {len(force)} runs"
+    return _Told(
+        f"{where}: met in {runs}, by up to {1e-3 * met.max():.4g} kN at a node; their force is in "
+        "the results (links.csv)",
+        f"; the walls that are modelled hold back {runs}, which would go farther without them",
+    )
 
 
 def _with_gap(gap: float) -> Trace:

@@ -102,7 +102,7 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
 
 def _told(errors: Sequence[Any]) -> list[Any]:
     # Without those of a table where its keys are told: the other way of giving it was not meant.
-    inside = {tuple(_place(error)[:-1]) for error in errors}
+    inside = {tuple(_place(error)[:-1]) for error in errors if _place(error)}
     return [
         error
         for error in errors

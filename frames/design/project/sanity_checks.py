@@ -6,9 +6,10 @@ import math
 from typing import TYPE_CHECKING
 
 from frames.design.codes.registry import code_named
-from frames.design.codes.service import slow_friction
+from frames.design.codes.service import least_strength
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
+from frames.design.project.schema_devices import SIDES
 from frames.design.project.schema_structure import BuildingTable, IrregularFrame
 from lir_element.units import STANDARD_GRAVITY
 
@@ -43,8 +44,8 @@ def file_doubts(file: ProjectFile) -> tuple[str, ...]:
     -------
     tuple of str
         About sections that are not given, masses of storeys by area, heights, loads, bays that
-        bearings do not fit into, storeys that are far too soft, and an importance that is in one
-        section alone.
+        bearings do not fit into, storeys that are far too soft, an importance that is in one
+        section alone, and moat walls that stand farther off than is checked.
     """
     return (
         *_of_sections(file),
@@ -54,6 +55,7 @@ def file_doubts(file: ProjectFile) -> tuple[str, ...]:
         *_of_bays(file),
         *_of_storeys(file),
         *_of_importance(file),
+        *_of_moat(file),
     )
 
 
@@ -77,8 +79,7 @@ def wind_doubts(
         At most one sentence.
     """
     wind = 0.0 if file.superstructure is None else file.superstructure.wind_shear
-    pairs = zip(system.bearings, system.loads, strict=True)
-    holds = bounds.friction.lower * sum(slow_friction(b) * load for b, load in pairs)
+    holds = least_strength(system, bounds).value("Q_min")
     if wind <= holds:
         return ()
     return (
@@ -218,4 +219,16 @@ def _of_importance(file: ProjectFile) -> list[str]:
         f"{own:g}: {file.project.code} multiplies a_g by gamma_I, which only the spectrum's "
         f"does; if {above.importance:g} is meant, the spectrum is to be multiplied by {share:.3g}: "
         "give both sections the same"
+    ]
+
+
+def _of_moat(file: ProjectFile) -> list[str]:
+    # A neighbour may be nearer than a wall, but not where walls stand all around.
+    clear, wall = file.limits.moat_gap, file.moat
+    if wall is None or clear is None or clear >= wall.gap or len(set(wall.sides)) < len(SIDES):
+        return []
+    return [
+        f"[limits] moat_gap = {1e3 * clear:.5g} mm, [moat] gap = {1e3 * wall.gap:.5g} mm: walls "
+        "all around stand farther off than the clear distance that is checked; give both the same "
+        "if they are of one wall"
     ]

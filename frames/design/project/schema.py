@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime
 from functools import cache
-from typing import Annotated, Any, Literal, Union
+from typing import Annotated, Any, Literal, Self, Union
 
 from pydantic import Field, create_model, model_validator
 
@@ -67,6 +67,18 @@ class ProjectFile(Table):
     limits: Limits = Limits()
     design: Target = Target()
     analysis: Analysis = Analysis()
+
+    @model_validator(mode="after")
+    def _clear_as_far_as_the_wall(self) -> Self:
+        clear, wall = self.limits.moat_gap, self.moat
+        if wall is not None and clear is not None and clear > wall.gap:
+            msg = (
+                f"[limits] moat_gap = {1e3 * clear:.5g} mm is more than [moat] gap = "
+                f"{1e3 * wall.gap:.5g} mm: what meets the wall in the runs would be called clear "
+                f"of it; give {1e3 * wall.gap:.5g} mm at most, or leave moat_gap out"
+            )
+            raise ValueError(msg)
+        return self
 
     @model_validator(mode="before")
     @classmethod

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal, Self, get_args
 
 from pydantic import Field, model_validator
 
@@ -18,6 +18,12 @@ from frames.design.project.quantities import (
 )
 from frames.design.project.schema_sections import Count
 
+Side = Literal["x+", "x-", "y+", "y-"]
+"""A side of the base, by the way in which it looks."""
+
+SIDES: tuple[Side, ...] = get_args(Side)
+"""All of them."""
+
 
 class MoatTable(Table):
     """``[moat]``: walls around the base as springs behind a gap."""
@@ -25,9 +31,7 @@ class MoatTable(Table):
     gap: Annotated[Length, Positive]
     stiffness: Annotated[Stiffness, Positive]
     damping: Annotated[quantity("N s/m"), NotNegative] = 0.0  # type: ignore[valid-type]  # made
-    sides: tuple[Literal["x+", "x-", "y+", "y-"], ...] = Field(
-        default=("x+", "x-", "y+", "y-"), min_length=1
-    )
+    sides: tuple[Side, ...] = Field(default=SIDES, min_length=1)
 
 
 class DamperTable(Table):

@@ -10,9 +10,29 @@ from frames.design.report.governs import statistic_of
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Check
+    from frames.design.calculation.trace import Trace
     from frames.design.codes.bounds import PropertyBounds
 
 _ZERO = {0.0}  # exact: as it was given
+
+
+class Line(NamedTuple):
+    """A line of a calculation as the report shows it.
+
+    Attributes
+    ----------
+    formula : str
+        As MathML.
+    source, note : str
+        Clause, equation or table; what else a reader should know.
+    is_given : bool
+        Whether it has a value alone, no formula: on paper several such stand beside each other.
+    """
+
+    formula: str
+    source: str
+    note: str
+    is_given: bool
 
 
 class Judged(NamedTuple):
@@ -26,8 +46,8 @@ class Judged(NamedTuple):
         As text, with units.
     statistic : str
         Of which runs the demand is.
-    steps : list of (str, str, str)
-        Lines of its calculation: formula as MathML, source, note.
+    steps : list of Line
+        Its calculation.
     """
 
     check: Check
@@ -36,7 +56,7 @@ class Judged(NamedTuple):
     limit: str
     ratio: str
     statistic: str
-    steps: list[tuple[str, str, str]]
+    steps: list[Line]
 
 
 def judged(check: Check) -> Judged:
@@ -68,11 +88,11 @@ def judged(check: Check) -> Judged:
         limit=limit,
         ratio="" if ratio == "-" else ratio,
         statistic=statistic_of(check),
-        steps=[(step.mathml(), step.source, step.note) for step in check.trace],
+        steps=_lines(check.trace),
     )
 
 
-def factor_steps(bounds: PropertyBounds) -> list[tuple[str, list[tuple[str, str, str]]]]:
+def factor_steps(bounds: PropertyBounds) -> list[tuple[str, list[Line]]]:
     """Return the calculations of factors on friction that are given by source.
 
     Parameters
@@ -91,7 +111,11 @@ def factor_steps(bounds: PropertyBounds) -> list[tuple[str, list[tuple[str, str,
         "Factors on the friction of the interface": bounds.interface,
     }
     return [
-        (what, [(step.mathml(), step.source, step.note) for step in one.trace])
+        (what, _lines(one.trace))
         for what, one in both.items()
         if one is not None and len(one.trace)
     ]
+
+
+def _lines(trace: Trace) -> list[Line]:
+    return [Line(step.mathml(), step.source, step.note, not step.formula) for step in trace]

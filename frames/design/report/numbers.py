@@ -10,7 +10,7 @@ import pandas as pd
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands
-from frames.design.histories.least_shears import raises_of_runs
+from frames.design.histories.least_shears import raises_by_case
 from frames.design.histories.link_demands import link_demands
 from frames.design.histories.motion_table import demands_by_motion
 from frames.design.histories.suite import peaks_of_runs
@@ -175,7 +175,7 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "demands-by-motion", "member-groups", "members-without-forces"; "members", "storeys" and
         "reactions" as far as the structure has them (`force_demands`).
     """
-    raises = raises_of_runs(run.runs, run.rules, run.equivalent)
+    raises = raises_by_case(run.checks)
     forces = force_demands(run.runs, run.rules, raises, run.moved)
     return {
         "bearings": bearing_table(run),

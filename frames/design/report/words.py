@@ -33,7 +33,7 @@ _WORDLESS = "|".join(
         r"[^a-zA-Z\s]+",
         r"[a-zA-Z]{1,2}",
         r"[A-Z-]{2,}\S*",
-        r"[+-][xyz]",
+        r"[+-][xyz]|[xyz][+-]",
         r"\S+\.md",
         r"\[[^\]]*\]",
         _UNITS,

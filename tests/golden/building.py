@@ -1,0 +1,77 @@
+"""Weight and mass of a frame with loads by area, counted by hand from the project's file."""
+
+import math
+
+from reading import GRAVITY
+
+DENSITY = {"S": 7850.0, "A": 7850.0, "C": 2500.0}  # kg/m3, by the first letter of a grade
+FACTORS = {  # of dead load, live load and snow
+    "ASCE 7-22": {"average": (1.0, 0.5, 0.0), "maximum": (1.2, 1.0, 0.15), "minimum": (0.9, 0, 0)},
+    "EN 1998": {"average": (1.0, 0.3, 0.0), "maximum": (1.0, 0.3, 0.2), "minimum": (1.0, 0, 0)},
+    "NCh2745": {"average": (1.0, 0.5, 0.0), "maximum": (1.2, 1.0, 0.2), "minimum": (0.8, 0, 0)},
+}
+MASS = {"ASCE 7-22": (1.0, 0.0, 0.0), "EN 1998": (1.0, 0.3, 0.0), "NCh2745": (1.0, 0.25, 0.0)}
+
+
+def area(section):
+    """Return the area of a box, an I shape or a pipe [m2]."""
+    if "box" in section:
+        *sides, wall = section["box"]
+        one, other = sides if len(sides) == 2 else (sides[0], sides[0])
+        return one * other - (one - 2.0 * wall) * (other - 2.0 * wall)
+    depth, width, flange, web = section["i_shape"]
+    return 2.0 * width * flange + (depth - 2.0 * flange) * web
+
+
+def weight(section, length):
+    """Return the weight of members of a section [N]."""
+    return GRAVITY * DENSITY[section.get("material", "A992")[0]] * area(section) * length
+
+
+def cases(project):
+    """Return dead load, live load and snow of the whole building [N]."""
+    given, loads = project.file["structure"], project.file["loads"]
+    (n, m), (a, b) = given["bays"], given["bay_width"]
+    storeys, plan = given["storeys"], n * a * m * b
+    along = n * a * (m + 1) + m * b * (n + 1)  # of the beams of a level
+    columns = (n + 1) * (m + 1) * storeys * given["storey_height"]
+    dead = weight(given["columns"], columns)
+    dead += weight(given["beams"], storeys * along) + weight(given["base_beams"], along)
+    dead += (storeys + 1) * plan * loads["dead"]
+    dead += storeys * 2.0 * (n * a + m * b) * loads.get("facade", 0.0)
+    return dead, (storeys + 1) * plan * loads.get("live", 0.0), plan * loads.get("snow", 0.0)
+
+
+def combined(project):
+    """Return the vertical load of each combination [N]."""
+    each, found = cases(project), {}
+    vertical = 0.2 * project.file["spectrum"].get("s_ms", 0.0)
+    if project.code != "ASCE 7-22":
+        vertical = 0.0
+    for name, factors in FACTORS[project.code].items():
+        sign = {"maximum": 1.0, "minimum": -1.0}.get(name, 0.0)
+        factors = (factors[0] + sign * vertical, *factors[1:])
+        found[name] = math.fsum(f * load for f, load in zip(factors, each, strict=True))
+    return found
+
+
+def compare(project, tally):
+    """Hold the weight that the bearings carry, and the seismic mass, against the count."""
+    if "loads" not in project.file or "bays" not in project.file["structure"]:
+        return
+    structure = project.file["structure"]
+    if "walls" in structure or "braces" in structure or "span" in project.file["loads"]:
+        return
+    name = "loads and masses, by hand"
+    tally.category(name, 1e-9, "sums of the same numbers in another order")
+    given = project.file["loads"].get("mass")
+    shares = MASS[project.code]
+    if given is not None:
+        shares = given.get("dead", 1.0), given.get("live", 0.0), given.get("snow", 0.0)
+    carried = float(project.governing["weight"])
+    tally.same(name, "average combination", carried, combined(project)["average"])
+    dead, live, snow = cases(project)
+    mass = (shares[0] * dead + shares[1] * live + shares[2] * snow) / GRAVITY
+    for axis in (0, 1, 2):
+        own = project.governing["node_mass"][:, axis].sum()
+        tally.same(name, f"mass along {'xyz'[axis]}", own, mass)
