@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from frames.exchange.account import Account
     from frames.exchange.building import Building
     from frames.exchange.options import BaseRotations, Options
+    from frames.model.sections import Section
     from frames.motion.ground_motion import GroundMotion
     from frames.statics.model_check import ModelCheck
     from lir_element import LIRBearing
@@ -241,6 +242,7 @@ class Frame(FrameEditor):
         base_rotations: BaseRotations = "kept",
         base_diaphragm: bool = True,
         decimal: Literal[".", ","] = ".",
+        sections: Mapping[str, Section] | None = None,
         name: str | None = None,
     ) -> Self:
         """Read an ETABS model, and put it on bearings; docs/exchange.md says what is read and how.
@@ -251,6 +253,10 @@ class Frame(FrameEditor):
             A .e2k or .$et text file.
         bearing, at, loads, mass, allow, mesh, base_rotations, base_diaphragm, decimal, name
             As in `from_sap2000`; joints are named by point and story, "12-Story2".
+        sections : mapping, optional
+            Constants of frame sections that the file has by the name of a catalogue alone, or in
+            place of its own: {"W24X55": Section(...)}, local z along axis 2. Materials and
+            modifiers are those of the file.
 
         Returns
         -------
@@ -270,7 +276,8 @@ class Frame(FrameEditor):
         from frames.exchange.options import Options
 
         options = Options(bearing, at, loads, mass, mesh, base_rotations, base_diaphragm)
-        return cls._of(read_etabs(path, allow=allow, decimal=decimal), options, name)
+        building = read_etabs(path, allow=allow, decimal=decimal, sections=sections)
+        return cls._of(building, options, name)
 
     @classmethod
     def _of(cls, building: Building, options: Options, name: str | None) -> Self:

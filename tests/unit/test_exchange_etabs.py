@@ -134,7 +134,8 @@ def test_stiff_zones_end_before_the_next_joint(tmp_path: Path) -> None:
     # 0.3 m are stiff, and a beam meets this one after 0.1 m
     text = changed(
         'LINEASSIGN  "X1"  "Story1"  SECTION "BEAM"',
-        'LINEASSIGN  "X1"  "Story1"  SECTION "BEAM"  LENGTHOFFI 0.3 LENGTHOFFJ 0.2 RIGIDZONE 1 ',
+        'LINEASSIGN  "X1"  "Story1"  SECTION "BEAM"  LENGTHOFFI 0.3 LENGTHOFFJ 0.2 RIGIDZONE 1 '
+        'SELFWEIGHTOPTION "Clear Length" ',
     )
     text = text.replace(
         "$ LINE CONN", '  POINT "9"  0.1 0.0\n  POINT "8"  0.1 5.0\n\n$ LINE CONN', 1
@@ -148,6 +149,7 @@ def test_stiff_zones_end_before_the_next_joint(tmp_path: Path) -> None:
     assert_allclose(first.offsets, [(0.095, 0.0, 0.0), (0.0, 0.0, 0.0)], atol=1e-12)
     assert_allclose(last.offsets, [(0.0, 0.0, 0.0), (-0.2, 0.0, 0.0)], atol=1e-12)
     assert "cut before it: X1-Story1" in str(frame.imported)
+    assert "where the file has it between end zones: X1-Story1" in str(frame.imported)
 
 
 def test_a_semirigid_floor_is_shells(tmp_path: Path) -> None:
