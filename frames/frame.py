@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from frames.exchange.account import Account
     from frames.exchange.building import Building
     from frames.exchange.options import BaseRotations, Options
+    from frames.model.sections import Section
     from frames.motion.ground_motion import GroundMotion
     from frames.statics.model_check import ModelCheck
     from lir_element import LIRBearing
@@ -241,6 +242,7 @@ class Frame(FrameEditor):
         base_rotations: BaseRotations = "kept",
         base_diaphragm: bool = True,
         decimal: Literal[".", ","] = ".",
+        sections: Mapping[str, Section] | None = None,
         name: str | None = None,
     ) -> Self:
         """Read an ETABS model, and put it on bearings; docs/exchange.md says what is read and how.
@@ -251,6 +253,10 @@ class Frame(FrameEditor):
             A .e2k or .$et text file.
         bearing, at, loads, mass, allow, mesh, base_rotations, base_diaphragm, decimal, name
             As in `from_sap2000`; joints are named by point and story, "12-Story2".
+        sections : mapping, optional
+            Constants of frame sections that the file has by the name of a catalogue alone, or in
+            place of its own: {"W24X55": Section(...)}, local z along axis 2. Materials and
+            modifiers are those of the file.
 
         Returns
         -------
@@ -270,7 +276,8 @@ class Frame(FrameEditor):
         from frames.exchange.options import Options
 
         options = Options(bearing, at, loads, mass, mesh, base_rotations, base_diaphragm)
-        return cls._of(read_etabs(path, allow=allow, decimal=decimal), options, name)
+        building = read_etabs(path, allow=allow, decimal=decimal, sections=sections)
+        return cls._of(building, options, name)
 
     @classmethod
     def _of(cls, building: Building, options: Options, name: str | None) -> Self:
@@ -317,6 +324,40 @@ class Frame(FrameEditor):
 
         text = text_of(Writer(self, displacement, units).tables())
         Path(path).write_text(text, encoding="utf-8", newline="")
+
+    def to_etabs(
+        self, path: str | Path, *, displacement: float | None = None, units: str = "KN, m, C"
+    ) -> dict[str, str]:
+        """Write the frame as ETABS' text, to check one program by the other.
+
+        Parameters
+        ----------
+        path : str or Path
+            The .e2k file.
+        displacement, units
+            As in `to_sap2000`.
+
+        Returns
+        -------
+        dict of str to str
+            What nodes ("12-Story2") and members ("C1-Story2") are called in the file.
+
+        Raises
+        ------
+        ModelError
+            As in `to_sap2000`; and if two nodes stand at one place, which ETABS merges.
+
+        Notes
+        -----
+        Stories are the frame's levels or diaphragms, the lowest node the base; other nodes are
+        points below the next story. Springs to a held node at one place are springs of points.
+        docs/exchange.md says what of the file no file of ETABS confirms.
+        """
+        from frames.exchange.write_etabs import EtabsWriter
+
+        writer = EtabsWriter(self, displacement, units)
+        Path(path).write_text(writer.text(), encoding="utf-8", newline="")
+        return writer.names
 
     def program_tables(
         self,

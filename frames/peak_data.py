@@ -12,8 +12,15 @@ if TYPE_CHECKING:
 PRESSED = 0.05
 """Axial force over the static one below which eccentricities are left to uplift."""
 
+LOADED = 0.5
+"""The same from which on the resultant's offset is held against a limit: what an edge feels goes by
+the load as well, and bearings that lift off or land stand on an edge for an instant."""
+
 FULL_SLIP = 1.0 - 1e-9
 """Share of what the interface's friction holds from which on it counts as slipping."""
+
+LOOSE = 0.01
+"""Axial force over the static one up to which sliders are loose between their plates."""
 
 LEAST_SHARE = 1e-3
 """Axial force over the static one that the interface's friction is taken for at least."""
@@ -79,4 +86,5 @@ class Reached(NamedTuple):
     whole_at: Array
     total: Array  # (3,) sliding work, what it is lower by, uplifts
     lifted: Array  # (n_bearings, 2) time lifted off [s]; 1 where lifted off at the last step
+    loose: Array  # (n_bearings, 2) slip gained by loose sliders, slip at the last step [m]
     last: Array  # (2,) time of the last step taken up, and their number

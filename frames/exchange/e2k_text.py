@@ -86,6 +86,8 @@ def read_e2k(path: Path, decimal: Decimal = ".") -> Tables:
             continue
         if section.upper().startswith(("LOG", "END OF MODEL FILE")) or not section:
             continue
+        if text.upper() == "END":  # before the last line
+            continue
         _add(tables, _row(name, section, line, text, decimal))
     if not begun:
         message = (

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from frames.exchange.account import Account
 from frames.exchange.building import Building
@@ -14,6 +15,9 @@ from frames.exchange.etabs_objects import Objects
 from frames.exchange.etabs_properties import read_properties, read_stories
 from frames.exchange.tables import Decimal, Tables
 from frames.exchange.units import FORCES, LENGTHS, Units, units_of
+
+if TYPE_CHECKING:
+    from frames.model.sections import Section
 
 REFUSED = {
     "HINGEASSIGN": ("hinges", "plastic hinges of frames, which stay elastic"),
@@ -31,7 +35,11 @@ REFUSED = {
 
 
 def read_etabs(
-    path: str | Path, *, allow: Collection[str] = (), decimal: Decimal = "."
+    path: str | Path,
+    *,
+    allow: Collection[str] = (),
+    decimal: Decimal = ".",
+    sections: Mapping[str, Section] | None = None,
 ) -> Building:
     """Read an ETABS model.
 
@@ -43,6 +51,8 @@ def read_etabs(
         What may be left out although it changes the answer; the message of a refusal has the key.
     decimal : {".", ","}
         Decimal sign of the file: that of the Windows that wrote it.
+    sections : mapping of str to Section, optional
+        Constants of sections that the file has by the name of a catalogue alone.
 
     Returns
     -------
@@ -61,7 +71,7 @@ def read_etabs(
     version = program[0].text("VERSION", "") if program else ""
     building = Building(file.stem, "ETABS", version, _units(tables), account)
     read_stories(tables, building)
-    read_properties(tables, building)
+    read_properties(tables, building, sections)
     objects = Objects(tables, building)
     objects.read()
     EtabsLinks(tables, building, objects).read()

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from frames._errors import ModelError
 from frames.exchange.building import AreaSection, Building, FrameSection, Material, Modifiers
-from frames.exchange.section_shapes import section_by_shape
+from frames.exchange.section_shapes import section_by_shape, with_constants
 from frames.exchange.tables import Row
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from frames.exchange.tables import Tables, Value
+    from frames.model.sections import Section
 
 SECTION_FACTORS = ("AMOD", "A2MOD", "A3MOD", "JMOD", "I2MOD", "I3MOD", "MMOD", "WMOD")
 OBJECT_FACTORS = (
@@ -92,7 +95,9 @@ def read_stories(tables: Tables, building: Building) -> None:
     building.account.read("STORIES", "stories", len(names))
 
 
-def read_properties(tables: Tables, building: Building) -> None:
+def read_properties(
+    tables: Tables, building: Building, constants: Mapping[str, Section] | None = None
+) -> None:
     """Read materials, and the sections that objects have.
 
     Parameters
@@ -101,6 +106,8 @@ def read_properties(tables: Tables, building: Building) -> None:
         Of the file.
     building : Building
         It is added to.
+    constants : mapping of str to Section, optional
+        Constants in place of those of the file, by name of a section.
 
     Raises
     ------
@@ -114,9 +121,15 @@ def read_properties(tables: Tables, building: Building) -> None:
     frames = {row.text("SECTION", "") for row in tables.rows("LINEASSIGN")}
     areas = {row.text("SECTION", "") for row in tables.rows("AREAASSIGN")}
     given = merged(tables.rows("FRAMESECTION"), "Section")
+    constants = constants or {}
+    wrong = [name for name in constants if (name,) not in given or name not in frames]
+    if wrong:
+        message = f'sections: no frame of {building.account.file} has a section "{wrong[0]}"'
+        raise ModelError(message)
     for (name,), row in given.items():
         if name in frames:
-            building.sections[name] = _section(row, name, building)
+            building.sections[name] = _section(row, name, building, constants.get(name))
+    building.account.read_as("FRAME SECTIONS", "with the constants given", list(constants))
     building.account.read("FRAME SECTIONS", "cross-sections in use", len(building.sections))
     idle = [name for (name,) in given if name not in frames]
     building.account.left_out("FRAME SECTIONS", "which nothing has", idle)
@@ -147,7 +160,9 @@ def _material(row: Row, name: str, building: Building) -> Material:
     return Material(name, modulus, 0.5 * modulus / (1.0 + poisson), poisson, density, weight)
 
 
-def _section(row: Row, name: str, building: Building) -> FrameSection:
+def _section(
+    row: Row, name: str, building: Building, constants: Section | None = None
+) -> FrameSection:
     one = building.units.length
     material, shape = row.text("MATERIAL", ""), row.text("SHAPE", "General")
     if material not in building.materials:
@@ -160,6 +175,8 @@ def _section(row: Row, name: str, building: Building) -> FrameSection:
         row.number("TW", row.number("TF", 0.0)) * one,
     )
     modifiers = factors(row, SECTION_FACTORS)
+    if constants is not None:
+        return replace(with_constants(name, material, shape, constants), modifiers=modifiers)
     if row.has("AREA", "I33", "I22"):
         return FrameSection(
             name=name,

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
 from frames.exchange.building import FrameSection
+from frames.model.rolled_shapes import catalogue_dimensions
 from frames.model.sections import Section
 
 if TYPE_CHECKING:
@@ -17,6 +19,7 @@ _ROUND = {"circle", "concrete circle", "steel rod", "steel solid rod"}
 _I = {"i/wide flange", "steel i/wide flange", "i section"}
 _TUBE = {"box/tube", "tube", "steel tube"}
 _PIPE = {"pipe", "steel pipe"}
+_ROLLED = re.compile(r"(IPE|HE)[ABM]?\s*\d+\s*[ABM]?", re.IGNORECASE)
 _ANY = 1e9  # Pa: the constants of a shape are those of any material but for its Poisson's ratio
 
 
@@ -58,6 +61,8 @@ def shape_constants(
         return Section.box(width, depth, web, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
     if word in _PIPE:
         return Section.circle(depth, web, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
+    if _ROLLED.fullmatch(word):
+        return Section.catalogue(word, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
     return None
 
 
@@ -93,6 +98,9 @@ def section_by_shape(
         If the shape is not known or its dimensions do not fit.
     """
     try:
+        if not sizes[0] and _ROLLED.fullmatch(shape.strip()):
+            depth, width, flange, web, _ = catalogue_dimensions(shape)
+            sizes = (depth, width, flange, web)
         found = shape_constants(shape, sizes, poisson_ratio)
     except ModelError as cause:
         msg = f'section "{name}": {cause}'
@@ -100,10 +108,40 @@ def section_by_shape(
     if found is None:
         message = (
             f'section "{name}" is a "{shape}" without Area, I33, I22 and torsion constant: known '
-            "by dimensions are rectangles, circles, I shapes, tubes of one thickness and pipes; "
-            "define it as a general section"
+            "by dimensions are rectangles, circles, I shapes, tubes of one thickness and pipes, by "
+            "name IPE, HEA, HEB and HEM; define it as a general section, or of an ETABS model give "
+            f'its constants, sections={{"{name}": ...}}'
         )
         raise row.error(message)
+    return with_constants(name, material, shape, found, sizes)
+
+
+def with_constants(
+    name: str,
+    material: str,
+    shape: str,
+    found: Section,
+    sizes: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0),
+) -> FrameSection:
+    """Return a cross-section with the constants of a section, whose local z is axis 2.
+
+    Parameters
+    ----------
+    name, material, shape : str
+        As the file has them.
+    found : Section
+        With the constants; its own material does not count.
+    sizes : tuple of float
+        Depth, width and thicknesses [m]; without them depth and width are those of the rectangle
+        with the same area and inertia, for insertion points.
+
+    Returns
+    -------
+    FrameSection
+        The cross-section, its factors 1.
+    """
+    depth = sizes[0] or math.sqrt(12.0 * found.inertia_y / found.area)
+    width = sizes[1] or sizes[0] or found.area / depth
     return FrameSection(
         name=name,
         material=material,
@@ -114,6 +152,6 @@ def section_by_shape(
         inertia_22=found.inertia_z,
         shear_2=found.shear_area_z,
         shear_3=found.shear_area_y,
-        depth=sizes[0],
-        width=sizes[1] or sizes[0],
+        depth=depth,
+        width=width,
     )

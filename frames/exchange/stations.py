@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 ON_LINE = 1e-3
 """How far a joint may be beside the line of a frame object to lie on it [m]."""
 
+MOST_STIFF = 0.95
+"""Largest share of a member that its stiff end zones take [-]."""
+
 Points = dict[str, tuple[float, float, float]]
 
 
@@ -61,6 +64,12 @@ class Divided:
         if len(self.nodes) == 2:
             return [self.frame.name]
         return [f"{self.frame.name}/{k}" for k in range(1, len(self.nodes))]
+
+    @property
+    def cut(self) -> bool:
+        """Whether its stiff zones are shorter than asked for, to leave a flexible length."""
+        asked = self.frame.rigid * (self.frame.end_i + self.frame.end_j) / self.length
+        return sum(self.stiff) < asked - 1e-9
 
     def at(self, share: float) -> FloatArray:
         """Return the point of its axis at a share of the length (3,) [m]."""
@@ -158,16 +167,27 @@ def _divided(
         middle = two * axes[1] + three * axes[2]
         shifts = [np.array(o) + middle for o in (frame.offset_i, frame.offset_j)]
     start, end = ends[0] + shifts[0], ends[1] + shifts[1]
+    shares = np.array([0.0, *(share for share, _ in between), 1.0])
     return Divided(
         frame=frame,
         nodes=[frame.i, *(name for _, name in between), frame.j],
-        shares=np.array([0.0, *(share for share, _ in between), 1.0]),
+        shares=shares,
         start=start,
         way=end - start,
         length=length,
         axes=axes,
-        stiff=(frame.rigid * frame.end_i / length, frame.rigid * frame.end_j / length),
+        stiff=_stiff_zones(frame, shares, length),
     )
+
+
+def _stiff_zones(frame: FrameObject, shares: FloatArray, length: float) -> tuple[float, float]:
+    # As shares of the length: each within its member, of which a part stays flexible.
+    i, j = (frame.rigid * zone / length for zone in (frame.end_i, frame.end_j))
+    if len(shares) == 2:
+        scale = min(1.0, MOST_STIFF / (i + j)) if i + j else 1.0
+        return scale * i, scale * j
+    rooms = float(shares[1]), float(1.0 - shares[-2])
+    return min(i, MOST_STIFF * rooms[0]), min(j, MOST_STIFF * rooms[1])
 
 
 def _at_loads(found: list[Divided], points: Points, loads: Mapping[str, Sequence[float]]) -> None:

@@ -8,11 +8,12 @@ from frames._errors import ModelError
 from frames.exchange.area_loads import OWN_MASS, Loading
 from frames.exchange.building import MassSource
 from frames.exchange.links import Links
-from frames.exchange.members import LEAST_FACTOR, Sections, add_members
+from frames.exchange.members import Sections, add_members
 from frames.exchange.mesh import Mesh, mesh_areas
+from frames.exchange.notes import note_areas, note_members
 from frames.exchange.shares import Shares
 from frames.exchange.slabs import Slabs
-from frames.exchange.stations import divide, is_offset, under_loads
+from frames.exchange.stations import divide, under_loads
 from frames.exchange.supports import Places, add_constraints, add_supports, by_elevation
 from frames.model.applied_loads import applied_loads, load_masses
 
@@ -56,6 +57,12 @@ def fill(frame: FrameEditor, building: Building, options: Options) -> None:
     factors = permanent(building, options)
     source = _source(building, options)
     points = _points(building)
+    if not points:
+        message = (
+            f"{building.account.file} has no frame, area or link, and nothing on a joint: export "
+            "the whole model"
+        )
+        raise ModelError(message)
     mesh = mesh_areas(_shells(building), points, options.mesh)
     at_loads: dict[str, list[float]] = {}
     for load in building.line_loads:
@@ -77,7 +84,8 @@ def fill(frame: FrameEditor, building: Building, options: Options) -> None:
     slabs = Slabs(frame, building)
     loading.put(frame, slabs, factors, own=False)
     _add_levels(frame, building, places)
-    _say(building, sections, divided, slabs, mesh)
+    note_members(building, sections, divided)
+    note_areas(building, slabs, mesh)
     building.account.finish()
 
 
@@ -334,32 +342,3 @@ def _add_levels(frame: FrameEditor, building: Building, places: Places) -> None:
         near = min(groups, key=lambda other: abs(other - z))
         if abs(near - z) < 2e-3:
             frame.add_level(stories[z], groups[near])
-
-
-def _say(
-    building: Building, sections: Sections, divided: list[Divided], slabs: Slabs, mesh: Mesh
-) -> None:
-    account = building.account
-    account.read_as(
-        "sections",
-        f"with a stiffness of none, taken as {LEAST_FACTOR:g} of it",
-        sorted(sections.softened),
-    )
-    parts = [one.frame.name for one in divided if len(one.nodes) > 2]
-    shares = Shares(building)
-    what = "divided at joints on their line or under point loads"
-    account.read_as("frames", what, parts, *shares.of(parts))
-    beside = [
-        one.frame.name
-        for one in divided
-        if not one.frame.transforms and (one.frame.cardinal < 10 or any(one.frame.offset_i))
-    ]
-    what = "insertion points that do not transform the stiffness, as the file says"
-    account.read_as("frames", what, beside, *shares.of(beside))
-    offset = [one.frame.name for one in divided if is_offset(one.frame)]
-    account.read_as("frames", "insertion points, as rigid offsets", offset, *shares.of(offset))
-    shells = {area for area, _ in mesh.elements}
-    loaded = [name for name in slabs.at_corners if name not in shells]
-    account.read_as("areas", "loads on areas, at their corners: no members around them", loaded)
-    if building.patterns:
-        account.read_as("masses", "of loads and elements, in all three directions", ["all"])

@@ -38,10 +38,19 @@ class Writer:
         Of the equivalent-linear analysis, for links [m].
     words : str
         Units of the file, "KN, m, C".
+    program : str
+        For messages.
     """
 
-    def __init__(self, frame: FrameData, displacement: float | None, words: str) -> None:
-        self.frame, self.displacement = frame, displacement
+    def __init__(
+        self,
+        frame: FrameData,
+        displacement: float | None,
+        words: str,
+        *,
+        program: str = "SAP2000",
+    ) -> None:
+        self.frame, self.displacement, self.program = frame, displacement, program
         parts = words.split(",")
         found = units_of(parts[0], parts[1]) if len(parts) > 1 else None
         if found is None:
@@ -60,7 +69,7 @@ class Writer:
             if group:
                 message = (
                     f'frame "{frame.name}" has {word} ("{next(iter(group))}"), which are not '
-                    "written to SAP2000's tables: take them out of a copy, or model them there"
+                    f"written for {self.program}: take them out of a copy, or model them there"
                 )
                 raise ModelError(message)
         if frame.bearings and self.displacement is None:
@@ -168,7 +177,7 @@ class Writer:
         if not -1.0 < poisson <= 0.5:
             message = (
                 f'member "{member}": moduli {modulus:g} and {shear:g} Pa have Poisson\'s ratio '
-                f"{poisson:g}, SAP2000 needs one in (-1, 0.5]: give another shear_modulus"
+                f"{poisson:g}, {self.program} needs one in (-1, 0.5]: give another shear_modulus"
             )
             raise ModelError(message)
         units = self.units
@@ -246,7 +255,8 @@ class Writer:
         if float(along @ axes[0]) < 1.0 - 1e-12:
             message = (
                 f'member "{member.name}": its offsets turn it against the line between its nodes, '
-                "which SAP2000's local axes do not follow: give both ends the same offset across it"
+                f"which {self.program}'s local axes do not follow: give both ends the same offset "
+                "across it"
             )
             raise ModelError(message)
         up = default_up(first[None], last[None])[0] if member.up is None else np.array(member.up)

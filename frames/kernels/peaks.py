@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined, kernel
 from frames.kernel_data import ENERGY_TERMS
 from frames.kernels.quantities import balance_gap, show_bearing, size, sliding_power
+from frames.peak_data import LOOSE
 from lir_element.kernels.derived import in_plan
 from lir_element.kernels.friction_law import lowered
 from lir_element.kernels.sampling import ground_acceleration
@@ -65,6 +66,14 @@ def add_totals(p: Props, state: State, reached: Reached, k: int, t: float) -> No
     reached.lifted[k, 1] = 1.0 if lifted else 0.0
 
 
+@inlined
+def add_loose_slip(static: float, load: float, slip: float, reached: Reached, k: int) -> None:
+    """Add what the slip of a bearing changed by in a step at whose end its sliders are loose."""
+    if load <= LOOSE * static and reached.last[1] > 0.0:
+        reached.loose[k, 0] += slip - reached.loose[k, 1]
+    reached.loose[k, 1] = slip
+
+
 @kernel
 def peak_bearings(devices: Devices, reached: Reached, states: Records, row: int, t: float) -> None:
     """Take up one step of all bearings."""
@@ -86,6 +95,8 @@ def peak_bearings(devices: Devices, reached: Reached, states: Records, row: int,
         for column in range(values.shape[0]):
             raise_to(values, times, column, reached.columns[0, column], t)
         add_totals(p, state, reached, k, t)
+        slip = reached.shown[0].slip
+        add_loose_slip(devices.static[k], state.axial_force, slip, reached, k)
 
 
 @kernel

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from numpy import absolute, maximum, sqrt
 
 from frames._jit import inlined
-from frames.peak_data import FULL_SLIP, LEAST_SHARE, PRESSED
+from frames.peak_data import FULL_SLIP, LEAST_SHARE, LOADED, PRESSED
 from lir_element.kernels.derived import eccentricity, in_plan, in_space, resultant_offset
 
 if TYPE_CHECKING:
@@ -98,10 +98,10 @@ def slips(share: float) -> float:
 
 @inlined
 def pressed_eccentricity(
-    eccentricity: float, slider_radius: float, axial_force: float, static: float
+    eccentricity: float, slider_radius: float, axial_force: float, static: float, share: float
 ) -> float:
-    """Return an eccentricity over the slider's radius; 0 where hardly anything presses."""
-    return eccentricity / slider_radius * (axial_force > PRESSED * static)
+    """Return an eccentricity over the slider's radius; 0 up to this share of the load at rest."""
+    return eccentricity / slider_radius * (axial_force > share * static)
 
 
 @inlined
@@ -162,5 +162,6 @@ def show_bearing(
         state.slip[1],
     )
     e = resultant_offset(e, state.offset)
-    now.eccentricity = pressed_eccentricity(e, p.slider_radius, load, static)
+    now.eccentricity = pressed_eccentricity(e, p.slider_radius, load, static, PRESSED)
+    now.eccentricity_loaded = pressed_eccentricity(e, p.slider_radius, load, static, LOADED)
     now.spin = size(state.spin)

@@ -121,7 +121,7 @@ def build_dataset(
             "total acceleration, ground included",
         ),
         "ground_acceleration": labelled(
-            ("time", "axis"), motion.ground, "m/s2", "ground acceleration"
+            ("time", "axis"), motion.ground.copy(), "m/s2", "ground acceleration"
         ),
         "base_shear": labelled(
             ("time", "axis"),

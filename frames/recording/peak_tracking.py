@@ -174,6 +174,7 @@ def nothing_reached(bearings: int, shape: Shape | None) -> Reached:
         whole_at=np.zeros(whole),
         total=np.zeros(3),
         lifted=np.zeros((bearings, 2)),
+        loose=np.zeros((bearings, 2)),
         last=np.zeros(2),
     )
 
@@ -230,7 +231,7 @@ class PeakTracker:
         r = self._reached
         names = ("sliding_work", "sliding_work_lower", "uplifts")
         found = {name: np.array(r.total[k]) for k, name in enumerate(names)}
-        return found | {"time_lifted": r.lifted[:, 0].copy()}
+        return found | {"time_lifted": r.lifted[:, 0].copy(), "slip_loose": r.loose[:, 0].copy()}
 
 
 def _nodes_dofs(nodes: IntArray, dofs: int) -> IntArray:

@@ -24,6 +24,7 @@ from frames.kernels.quantities import (
     slips,
     vertical_change,
 )
+from frames.peak_data import LOADED, PRESSED
 from frames.results.hinge_extremes import hinge_rotation, link_ductility, of_hinges, of_links
 from frames.results.measures import (
     ABSORBED,
@@ -150,13 +151,14 @@ def _vertical_ratio(data: xr.Dataset) -> FloatArray:
     return formed(over_static, vertical_force(data), known(data, "static_axial_force"))
 
 
-def _eccentricity(data: xr.Dataset) -> FloatArray:
+def _eccentricity(data: xr.Dataset, share: float) -> FloatArray:
     return formed(
         pressed_eccentricity,
         of_bearings(data, "interface_eccentricity"),
         known(data, "slider_radius"),
         of_bearings(data, "axial_force"),
         known(data, "static_axial_force"),
+        np.array(share),
     )
 
 
@@ -287,7 +289,14 @@ QUANTITIES: dict[str, Quantity] = {
         _B,
         "1",
         "interface eccentricity over slider radius, while pressed",
-        _eccentricity,
+        lambda d: _eccentricity(d, PRESSED),
+        by_step=True,
+    ),
+    "eccentricity_loaded": Quantity(
+        _B,
+        "1",
+        "interface eccentricity over slider radius, while half of the load at rest presses",
+        lambda d: _eccentricity(d, LOADED),
         by_step=True,
     ),
     "spin": Quantity(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames.kernels.quantities import sliding_power
+from frames.peak_data import LOOSE
 from frames.results.quantities import formed, known, of_bearings
 from lir_element.kernels.friction_law import fill_left
 from lir_element.layout import FRICTION_TABLE
@@ -96,6 +97,14 @@ def _time_lifted(data: xr.Dataset, first: int, last: int) -> FloatArray:
     return np.asarray((steps[:, None] * lifted).sum(axis=0))
 
 
+def _slip_loose(data: xr.Dataset, first: int, last: int) -> FloatArray:
+    first = max(first, 1)
+    changes = np.diff(of_bearings(data, "interface_slip_size")[first - 1 : last], axis=0)
+    static = data.variables["static_axial_force"].to_numpy()
+    loose = of_bearings(data, "axial_force")[first:last] <= LOOSE * static
+    return np.asarray((changes * loose).sum(axis=0))
+
+
 TOTALS: dict[str, Total] = {
     "sliding_work": Total(
         (), "N m/s", "sum over steps and surfaces: load, friction at high speed, speed", _work
@@ -111,5 +120,11 @@ TOTALS: dict[str, Total] = {
     ),
     "uplifts": Total((), "1", "how often bearings lifted off", _uplifts),
     "time_lifted": Total(_B, "s", "uplift duration", _time_lifted),
+    "slip_loose": Total(
+        _B,
+        "m",
+        "growth of the interface slip while the axial force was at most 1 % of that at rest",
+        _slip_loose,
+    ),
 }
 """Sums over the steps by name."""

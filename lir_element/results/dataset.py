@@ -92,6 +92,9 @@ def bearing_variables(
     def of(form: Callable[[], Floats], *shape: int) -> Any:
         return deferred((*states.shape, *shape), form) if kept else form()
 
+    def entering(field: Floats) -> Any:  # into what is formed later: not to be written to
+        return of(field.copy, *field.shape[2:])
+
     u, f = states["displacement"], states["force"]
     each = (step, "bearing")
     vector, surface = (*each, "axis"), (*each, "surface")
@@ -103,7 +106,7 @@ def bearing_variables(
         "bearing_velocity": labelled(vector, velocity, "m/s", "velocity of node j relative to i"),
         "bearing_force": labelled(
             vector,
-            own(f[..., 6:9]),
+            entering(f[..., 6:9]),
             "N",
             "resisting force on node j, positive with positive displacement",
         ),
@@ -122,7 +125,9 @@ def bearing_variables(
             "m",
             "sliding on each concave surface",
         ),
-        "interface_slip": labelled(vector, own(slip), "m", "top slider relative to bottom slider"),
+        "interface_slip": labelled(
+            vector, entering(slip), "m", "top slider relative to bottom slider"
+        ),
         "interface_slip_size": labelled(
             each,
             of(lambda: on_arrays(in_space)(slip[..., 0], slip[..., 1], slip[..., 2])),
@@ -138,7 +143,9 @@ def bearing_variables(
             "N",
             "force that the interface passes in its plane",
         ),
-        "rim_force": labelled(surface, own(states["rim_force"]), "N", "radial force of each rim"),
+        "rim_force": labelled(
+            surface, entering(states["rim_force"]), "N", "radial force of each rim"
+        ),
         "rim_closure": labelled(
             surface, own(states["rim_closure"]), "m", "deformation of each rim"
         ),

@@ -2,7 +2,8 @@
 
 Most of what a time history could tell is never asked for: forming all of it would take as long as
 the analysis. A deferred variable is formed once, when its values are needed, and is an array like
-any other from then on; copies and pickles hold the values.
+any other from then on: parts of it that were taken before are views of it where those of an array
+are, and what is written to them stays; copies and pickles hold the values.
 """
 
 from __future__ import annotations
@@ -10,7 +11,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from xarray.backends import BackendArray
 from xarray.core import indexing as xarray_indexing
 
 if TYPE_CHECKING:
@@ -30,57 +30,66 @@ def deferred(shape: tuple[int, ...], form: Callable[[], Floats]) -> Any:
     shape : tuple of int
         Its shape.
     form : callable
-        Returns it, an array of float64; what it is made from must stay as it is.
+        Returns it, an array of float64 of its own; what it is made from must stay as it is.
 
     Returns
     -------
     object
         What `xarray.Variable` takes as values.
     """
-    lazy = indexing.LazilyIndexedArray(_Deferred(shape, form))
-    return indexing.MemoryCachedArray(indexing.CopyOnWriteArray(lazy))
+    return indexing.MemoryCachedArray(_Deferred(shape, form))
 
 
-class _Deferred(BackendArray):
-    # The array, as xarray asks for arrays that are elsewhere. Who asks for all of it gets it and
-    # keeps it; where parts are asked for, it stays here, and they get copies.
+class _Deferred(indexing.ExplicitlyIndexedNDArrayMixin):  # type: ignore[misc]  # see `indexing`
+    # The array, or a part of one, as xarray asks for arrays that are elsewhere. A part is formed
+    # with the whole, by the indexing that numpy would do: a view of it, or a copy.
 
     def __init__(self, shape: tuple[int, ...], form: Callable[[], Floats]) -> None:
-        self.shape = shape
-        self.dtype = np.dtype(np.float64)
-        self._form = form
+        self._shape, self._form = shape, form
         self._values: Floats | None = None
 
-    def __getitem__(self, key: Any) -> Any:
-        return indexing.explicit_indexing_adapter(
-            key, self.shape, indexing.IndexingSupport.OUTER_1VECTOR, self._part
-        )
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return self._shape
 
-    def _part(self, key: tuple[Any, ...]) -> Floats:
-        values = self._form() if self._values is None else self._values
-        part: Floats = values
-        for axis, one in enumerate(key):
-            if isinstance(one, np.ndarray):
-                part = np.take(part, one, axis=axis)
-                key = (*key[:axis], slice(None), *key[axis + 1 :])
-        part = part[key]
-        is_all = part.shape == values.shape and part.strides == values.strides
-        if is_all and np.shares_memory(part, values):
-            self._values = None
-            return part
-        self._values = values
-        return part.copy()
+    @property
+    def dtype(self) -> np.dtype[np.float64]:
+        return np.dtype(np.float64)
+
+    def get_duck_array(self) -> Floats:
+        if self._values is None:
+            self._values = self._form()
+        return self._values
+
+    def _part(self, choice: Callable[[Any], Any]) -> _Deferred:
+        # Its shape is that of the same part of an array without memory.
+        empty = np.broadcast_to(np.zeros((), dtype=np.bool_), self.shape)
+        shape = choice(indexing.NumpyIndexingAdapter(empty)).shape
+        return _Deferred(shape, lambda: np.asarray(choice(self._adapter())))
+
+    def _adapter(self) -> Any:
+        return indexing.NumpyIndexingAdapter(self.get_duck_array())
+
+    def __getitem__(self, key: Any) -> Any:
+        return self._part(lambda array: array[key])
+
+    def _oindex_get(self, indexer: Any) -> Any:
+        return self._part(lambda array: array.oindex[indexer])
+
+    def _vindex_get(self, indexer: Any) -> Any:
+        return self._part(lambda array: array.vindex[indexer])
+
+    def transpose(self, order: Any) -> Any:
+        return self._part(lambda array: array.transpose(order))
+
+    def __setitem__(self, key: Any, value: Any) -> None:
+        self._adapter()[key] = value
+
+    def _oindex_set(self, indexer: Any, value: Any) -> None:
+        self._adapter().oindex[indexer] = value
+
+    def _vindex_set(self, indexer: Any, value: Any) -> None:
+        self._adapter().vindex[indexer] = value
 
     def __reduce__(self) -> tuple[Any, ...]:
-        whole = (slice(None),) * len(self.shape)
-        return _Deferred, (self.shape, _Formed(self._part(whole).copy()))
-
-
-class _Formed:
-    # Stands for what forms the values where these are known.
-
-    def __init__(self, values: Floats) -> None:
-        self._values = values
-
-    def __call__(self) -> Floats:
-        return self._values.copy()
+        return indexing.NumpyIndexingAdapter, (np.array(self.get_duck_array()),)

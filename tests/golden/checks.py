@@ -338,7 +338,7 @@ RULES = {
         f.suite.design("slip_left"), f.limits.get("slip_left", f.of_each(lambda d: d.holds))
     ),
     "rim force": lambda f: f.of("rim_force", "rim_strength"),
-    "normalised eccentricity e/a": lambda f: f.of("eccentricity", "eccentricity"),
+    "normalised eccentricity e/a": lambda f: f.of("eccentricity_loaded", "eccentricity"),
     "lateral force of a bearing": lateral,
     "lateral force that the bearing passes on": lateral,
     "residual displacement": lambda f: f.of("displacement_left", "displacement_left"),

@@ -292,7 +292,7 @@ def _demands(project, found, tally):
 BY_MOTION = {
     **ROWS,
     "lateral force of a bearing": ("force", 1),
-    "normalised eccentricity e/a": ("eccentricity", 1),
+    "normalised eccentricity e/a": ("eccentricity_loaded", 1),
 }
 ONE = {"base_shear", "uplifts"}  # without places
 
@@ -374,7 +374,7 @@ def floor_of(quantity):
         "axial_tension": 1e4,
         "drift": 1e-3,
         "line_drift": 1e-3,
-        "eccentricity": 1e-2,
+        "eccentricity_loaded": 1e-2,
     }.get(quantity, 0.0)
 
 

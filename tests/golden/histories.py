@@ -4,6 +4,8 @@ import numpy as np
 
 SAME_PLACE = 1e-3  # m
 ROUND_OFF = 3e-7  # of single precision, some digits
+LOADED = 0.5  # the same, below which a check leaves it aside
+LOOSE = 0.01  # the same, below which sliders are loose
 PRESSED = 0.05  # share of the load at rest below which a resultant's offset does not count
 
 
@@ -79,6 +81,8 @@ def of_run(run, statics):
     steps = np.diff(time, prepend=time[0])
     offset = run["interface_eccentricity"] / statics["slider_radius"]
     pressed = force > PRESSED * statics["static_axial_force"]
+    loaded = force > LOADED * statics["static_axial_force"]
+    loose = force <= LOOSE * statics["static_axial_force"]
     means, drifts, lines = floors(run, statics)
     kinetic = run["energy"]
     found = {
@@ -94,6 +98,8 @@ def of_run(run, statics):
         "rim_force": run["rim_force"].max((0, 2)),
         "rims_met": (run["rim_force"] > 0.0).any((0, 2)).astype(float),
         "eccentricity": np.where(pressed, offset, 0.0).max(0),
+        "eccentricity_loaded": np.where(loaded, offset, 0.0).max(0),
+        "slip_loose": (np.diff(slip, axis=0, prepend=slip[:1]) * loose).sum(0),
         "time_lifted": (steps[:, None] * lifted).sum(0),
         "uplifts": float(begins.sum()),
         "gap": gaps(run, statics, lifted).max(0),
@@ -173,6 +179,8 @@ COMPARED = (
     "rim_force",
     "rims_met",
     "eccentricity",
+    "eccentricity_loaded",
+    "slip_loose",
     "time_lifted",
     "uplifts",
     "gap",
@@ -206,6 +214,7 @@ def compare(project, runs, tally):
         "slip_left": 1e-3,
         "displacement_left": 1e-2,
         "eccentricity": 1e-2,
+        "eccentricity_loaded": 1e-2,
         "axial_tension": 1e4,
     }
     found = {}

@@ -152,6 +152,17 @@ def test_checks_have_the_standing_of_what_they_rest_on(
     ).endswith(" *")
 
 
+def test_tables_of_spectra_that_were_compared_have_no_star() -> None:
+    for code, spectrum in (
+        ("EN 1998", Spectrum.en1998(2.4, "C")),
+        ("NCh2745", Spectrum.nch2745(soil="II", zone=3)),
+    ):
+        own = code_named(code)
+        found = {spectrum.standing, own.damping.standing, own.standing("spectrum")}
+        assert found == {own.standing("damping factor")}
+        assert found.pop().kind == "agrees"
+
+
 def test_a_value_from_memory_has_its_star(monkeypatch: pytest.MonkeyPatch) -> None:
     def damping() -> Check:
         return next(c for c in checks_of(ASCE7()) if c.title == "effective damping")

@@ -2,13 +2,15 @@
 
 import copy
 import pickle  # of what this test has made  # noqa: S403
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from frames import load, save
+from frames import GroundMotion, load, lumped_mass, save, time_history
+from frames.demo import bearing_for
 from lir_element.results.dataset import labelled
 from lir_element.results.deferred import deferred
 
@@ -95,3 +97,51 @@ def test_written_to(data: xr.Dataset) -> None:
 def test_saved(data: xr.Dataset, tmp_path: Path, *, compress: bool) -> None:
     save(data, tmp_path / "data.nc", compress=compress)
     xr.testing.assert_identical(load(tmp_path / "data.nc"), data)
+
+
+WRITES: dict[str, Callable[[xr.Dataset], object]] = {
+    "a part taken by place": lambda d: set_first(d["move"].isel(time=0)),
+    "a part of a part": lambda d: set_first(d["move"][0][1]),
+    "a part of the Dataset": lambda d: set_first(d.isel(bearing=1)["move"]),
+    "a part by label": lambda d: set_first(d["move"].sel(axis="y")),
+    "every second instant": lambda d: set_first(d["move"].isel(time=slice(None, None, -2))),
+    "its values": lambda d: set_first(d["move"].isel(time=0).values),
+    "turned": lambda d: set_first(d["move"].transpose("axis", ...)),
+    "one value": lambda d: d["move"][0, 1].loc.__setitem__({"axis": "x"}, -7.0),
+    "a Dataset that shares it": lambda d: set_first(d.assign_attrs(of="copy")["move"]),
+    "chosen places, a copy": lambda d: set_first(d["move"].isel(time=[0, 1])),
+    "places point by point, a copy": lambda d: set_first(d["move"].isel(bearing=POINTS)),
+    "places of the whole": lambda d: d["move"].__setitem__({"time": [0, 2]}, -7.0),
+    "points of the whole": lambda d: d["move"].__setitem__({"bearing": POINTS}, -7.0),
+    "a part of a deep copy": lambda d: set_first(d.copy(deep=True)["move"].isel(time=0)),
+}
+POINTS = xr.DataArray([2, 0, 1, 1], dims="time")
+
+
+def set_first(part: xr.DataArray | np.ndarray) -> None:
+    """Write to the first place along the first dimension."""
+    part[0] = -7.0
+
+
+@pytest.mark.parametrize("looked_at", [False, True])
+@pytest.mark.parametrize("write", WRITES.values(), ids=WRITES)
+def test_what_is_written_to_a_part_is_where_it_would_be_in_an_array(
+    data: xr.Dataset, write: Callable[[xr.Dataset], object], *, looked_at: bool
+) -> None:
+    plain = data.copy(deep=True).load()
+    if looked_at:
+        _ = data["move"].values
+    write(plain)
+    write(data)
+    xr.testing.assert_identical(data, plain)
+
+
+def test_what_is_written_enters_nothing_that_is_formed_later() -> None:
+    pulse = GroundMotion(x=2.5 * np.sin(np.linspace(0.0, 6.28, 41)), dt=0.04)
+    frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    changed, kept = (time_history(frame, pulse) for _ in range(2))
+    for name in ("bearing_force", "interface_slip", "rim_force", "ground_acceleration"):
+        changed[name][...] = 1e9
+    formed = ("base_shear", "interface_slip_size", "interface_eccentricity", "imbalance")
+    for name in (*formed, "node_acceleration"):
+        xr.testing.assert_identical(changed[name], kept[name])

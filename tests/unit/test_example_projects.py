@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from frames.motion.spectra import response_spectrum
 
 pytest.importorskip("pydantic")
 
+from frames.command.app import app
 from frames.design import ProjectError, code_named, equivalent_linear
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.codes.registry import known_codes
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.device import device_checks
 from frames.design.project import artificial_motions
-from frames.design.project.design_run import run_project
+from frames.design.project.design_run import ProjectRun, run_project
 from frames.design.project.example import BUILDINGS, write_example
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
@@ -89,12 +92,25 @@ def test_plain_example_is_sound_before_any_run(code: str, tmp_path: Path) -> Non
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("code", CODES)
-def test_plain_example_runs_to_the_end_and_is_sound(code: str, tmp_path: Path) -> None:
-    """As `lir new` writes it: all motions, bounds and ways of the masses at the level "contact"."""
-    write_example(tmp_path, code)
-    parts = ProjectInputs(read_project(tmp_path / "project.toml"), tmp_path)
-    assert parts.file.analysis.level == "contact"
-    run = run_project(parts)
+def test_plain_example_runs_to_the_end_and_is_sound(
+    code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """`lir new`, `lir run` as they are: all motions, bounds and ways at the level "contact"."""
+    runs = []
+
+    def kept(*given: Any, **options: Any) -> ProjectRun:
+        runs.append(run_project(*given, **options))
+        return runs[-1]
+
+    monkeypatch.setattr("frames.design.project.design_run.run_project", kept)
+    command, folder = CliRunner().invoke, tmp_path / "plain"
+    done = command(app, ["new", str(folder), "--code", code])
+    assert done.exit_code == 0, done.output
+    done = command(app, ["run", str(folder / "project.toml"), "--results", str(folder / "results")])
+    assert done.exit_code == 0, done.output
+    assert (folder / "results" / "report.html").is_file()
+    (run,) = runs
+    assert read_project(folder / "project.toml").analysis.level == "contact"
     assert run.checks.passed, run.checks.failed
     assert not run.checks.to_agree, run.checks.to_agree
     assert run.doubts == ()

@@ -49,6 +49,41 @@ def test_what_cannot_be_is_an_error_of_the_section(tmp_path: Path) -> None:
         project(tmp_path, 'kind = "etabs"\nfile = "model.e2k"\nmesh = "-1 m"')
 
 
+def test_sections_of_a_catalogue_have_the_constants_of_the_file(tmp_path: Path) -> None:
+    own = 'sections = { "BEAM" = { i_shape = ["600 mm", "220 mm", "19 mm", "12 mm"] } }'
+    parts = project(tmp_path, f'kind = "etabs"\nfile = "model.e2k"\n{own}')
+    path = tmp_path / "model.e2k"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    at = next(k for k, line in enumerate(lines) if '"BEAM"' in line and "SHAPE" in line)
+    lines[at] = '  FRAMESECTION  "BEAM"  MATERIAL "C30"  SHAPE "W24X62"  FILE "AISC14"'
+    path.write_text("\n".join(lines), encoding="utf-8")
+    frame = parts.frame()
+    beam = frame.members["X1-Story1"].section
+    area = 2 * 220.0 * 19.0 + (600.0 - 2 * 19.0) * 12.0  # mm2
+    assert_allclose(beam.area, area * 1e-6)
+    assert_allclose(beam.elastic_modulus, 30e9)
+    assert ("FRAME SECTIONS", "with the constants given") in {
+        (entry.table, entry.what) for entry in frame.imported.entries
+    }
+    rolled = [line.replace("W24X62", "IPE600") for line in lines]
+    path.write_text("\n".join(rolled), encoding="utf-8")
+    plain = project_of(parts, tmp_path, sections={}).frame()
+    assert_allclose(plain.members["X1-Story1"].section.area, 156e-4, rtol=5e-3)  # of the tables
+    path.write_text("\n".join(lines), encoding="utf-8")
+    with pytest.raises(ProjectError, match=r'"W24X62" without Area.*sections=\{"BEAM"'):
+        project_of(parts, tmp_path, sections={}).frame()
+    other = parts.file.structure.sections | {"BEAN": parts.file.structure.sections["BEAM"]}
+    with pytest.raises(ProjectError, match=r'no frame of model.e2k has a section "BEAN"'):
+        project_of(parts, tmp_path, sections=other).frame()
+    with pytest.raises(ProjectError, match="those of SAP2000 have them"):
+        project(tmp_path, f'kind = "sap2000"\nfile = "model.s2k"\n{own}')
+
+
+def project_of(parts: ProjectInputs, folder: Path, **changes: object) -> ProjectInputs:
+    structure = parts.file.structure.model_copy(update=changes)
+    return ProjectInputs(parts.file.model_copy(update={"structure": structure}), folder)
+
+
 def test_types_of_bearings_by_groups_of_the_model(tmp_path: Path) -> None:
     parts = project(tmp_path, 'kind = "sap2000"\nfile = "model.s2k"')
     joints = [name.removeprefix("bearing-") for name in parts.frame().bearings]

@@ -505,10 +505,14 @@ def test_strings_of_style_sheets_end_nowhere_else() -> None:
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no chromium is installed")
-def test_contents_name_the_pages_of_the_pdf(results: Path, tmp_path: Path) -> None:
+def test_contents_name_the_pages_of_the_pdf(
+    results: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     pypdf = pytest.importorskip("pypdf")
     paper = print_report(results / "report.html", tmp_path / "report.pdf")
+    assert not caplog.messages
     read = pypdf.PdfReader(paper)
+    assert read.metadata["/Producer"].startswith("lir-dcfp ")
     pages = pages_of(read)
     texts = [page.extract_text() for page in read.pages]
     for anchor, title in SECTIONS:

@@ -1,10 +1,15 @@
 """What EN 1998 and EN 15129 give for isolation, value by value, and how well each is known."""
 
 from frames.design.codes.code_values import NTC, CodeValue
+from frames.design.hazard.spectral_shapes import EN1998_TABLES
 
 VALUES = {
-    "spectrum": CodeValue("EN 1998-1 3.2.2.2, tables 3.2 and 3.3", "elastic spectra"),
-    "damping factor": CodeValue("EN 1998-1 (3.6)", "eta = sqrt(10 / (5 + xi)), at least 0.55"),
+    "spectrum": CodeValue(
+        "EN 1998-1 3.2.2.2, tables 3.2 and 3.3", "elastic spectra", EN1998_TABLES
+    ),
+    "damping factor": CodeValue(
+        "EN 1998-1 (3.6)", "eta = sqrt(10 / (5 + xi)), at least 0.55", EN1998_TABLES
+    ),
     "d_dc": CodeValue("EN 1998-1 (10.4)", "d_dc with the least stiffness", NTC),
     "reliability": CodeValue(
         "EN 1998-1 10.3(2)", "gamma_x = 1.2 of buildings", field="reliability"

@@ -1,10 +1,13 @@
 """What NCh2745 gives, value by value, and how well each is known."""
 
 from frames.design.codes.code_values import CodeValue
+from frames.design.hazard.spectral_shapes import NCH2745_TABLES
 
 VALUES = {
-    "spectrum": CodeValue("NCh2745 Of.2003", "elastic spectra by soil and zone"),
-    "damping factor": CodeValue("NCh2745 Of.2003, table of B_D and B_M", "B by the damping"),
+    "spectrum": CodeValue("NCh2745 Of.2003", "elastic spectra by soil and zone", NCH2745_TABLES),
+    "damping factor": CodeValue(
+        "NCh2745 Of.2003, table of B_D and B_M", "B by the damping", NCH2745_TABLES
+    ),
     "displacements": CodeValue("NCh2745 7.3", "D_D and D_M by C_D, C_M and B"),
     "maximum": CodeValue("NCh2745 7.3", "M_M = 1.2", field="maximum"),
     "eccentricity": CodeValue(

@@ -34,13 +34,18 @@ EN1998_GROUND = {
 }
 """S [-], T_B, T_C, T_D [s] by kind of spectrum and ground type: EN 1998-1:2004, tables 3.2, 3.3."""
 
+EN1998_TABLES = Standing("agrees", "EzGM, a public program, for EN 1998-1:2004, and others alike")
+"""How well these tables, the shape and eta are known."""
+
 NCH2745_SOIL = {
     "I": (0.40, 0.03, 0.110, 0.29, 2.51, 10.85, 0.50, 0.20),
     "II": (0.41, 0.03, 0.20, 0.54, 2.00, 11.00, 0.94, 0.30),
     "III": (0.45, 0.03, 0.375, 0.68, 1.58, 12.12, 1.31, 0.33),
 }
-"""A [g], T_a, T_b, T_c, T_d [s], alpha_A [m/s2], alpha_V [m/s], alpha_D [m] by soil: NCh2745.
-T_a of soil III is assumed to be that of the others."""
+"""A [g], T_a, T_b, T_c, T_d [s], alpha_A [m/s2], alpha_V [m/s], alpha_D [m] by soil: NCh2745."""
+
+NCH2745_TABLES = Standing("agrees", "a public program of seismic hazard, by its name that of 2003")
+"""How well this table, Z, the shape and B by the damping are known."""
 
 NCH2745_ZONE = {1: 0.75, 2: 1.0, 3: 1.25}
 """Factor Z [-] by seismic zone: NCh2745."""
@@ -152,8 +157,12 @@ SHAPES = {
     "asce7_multi_period": Shape(
         _asce7_points, ("S_MS", "S_M1", "S_1"), ("T_S", "T_L"), "ASCE/SEI 7-22, 11.4.5.1, 21.4"
     ),
-    "en1998": Shape(_en1998, ("a_gR", "a_g"), ("T_B", "T_C", "T_D"), "EN 1998-1:2004, 3.2.2.2"),
-    "nch2745": Shape(_nch2745, ("Z",), ("T_a", "T_b", "T_c", "T_d"), "NCh2745 Of.2003"),
+    "en1998": Shape(
+        _en1998, ("a_gR", "a_g"), ("T_B", "T_C", "T_D"), "EN 1998-1:2004, 3.2.2.2", EN1998_TABLES
+    ),
+    "nch2745": Shape(
+        _nch2745, ("Z",), ("T_a", "T_b", "T_c", "T_d"), "NCh2745 Of.2003", NCH2745_TABLES
+    ),
     "nch433": Shape(_nch433, ("A_0",), ("T_0",), "NCh433 with decree 61 of 2011", _DS61),
     "given": Shape(_given, (), (), "as given", OWN),
 }

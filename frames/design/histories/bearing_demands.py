@@ -18,7 +18,7 @@ from frames.design.devices.overlap import liner_pressure, pressure
 from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.level_margins import doubted, level_errors
 from frames.design.histories.suite import names_of, peaks_of_runs
-from frames.peak_data import PRESSED
+from frames.peak_data import LOADED, PRESSED
 from frames.results.level_doubts import DOUBTED
 
 if TYPE_CHECKING:
@@ -191,7 +191,7 @@ class BearingDemands:
         found += self._against("rim force", "rim_force", "P", "rim_strength", "N")
         title = "normalised eccentricity e/a"
         found += self._against(
-            title, "eccentricity", "epsilon", "eccentricity", "-", note=self._of_resultants
+            title, "eccentricity_loaded", "epsilon", "eccentricity", "-", note=self._of_resultants
         )
         title = "lateral force of a bearing"
         found += self._against(title, "force", "H", "lateral_force", "N")
@@ -277,7 +277,16 @@ class BearingDemands:
     @property
     def _of_resultants(self) -> str:
         # What the offset of a resultant counts, and what its level can say of it.
-        counted = f"counts while N > {PRESSED:g} of that at rest"
+        counted = f"counts while N > {LOADED:g} of that at rest"
+        pressed, lighter = (
+            np.nan_to_num(peaks_of_runs(self.data, name)).max(axis=0)
+            for name in ("eccentricity_loaded", "eccentricity")
+        )
+        if lighter.max() > max(self.limits.eccentricity, pressed.max()):
+            where = self._names[int(lighter.argmax())]
+            counted += (
+                f"; under less, down to {PRESSED:g} of it, up to {lighter.max():.2f} ({where})"
+            )
         if "pendulum" not in str(self.data.attrs["level"]):
             return counted
         return f"{counted}; {_ALONE}"

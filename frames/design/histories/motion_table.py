@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 QUANTITIES = (
     *DEMANDS,
     ("lateral force of a bearing", "force", "N", 1.0),
-    ("normalised eccentricity e/a", "eccentricity", "-", 1.0),
+    ("normalised eccentricity e/a", "eccentricity_loaded", "-", 1.0),
 )
 """Columns: title, quantity, unit and sign; those of the demands, and what checks take besides."""
 

@@ -35,10 +35,8 @@ def resultant_offsets(
     data : xarray.Dataset
         Of a time history that recorded eccentricity, axial force, rims, sliding and slip.
     least_load : float
-        Axial force over that at rest above which offsets count [-]. They are ``M / N``, but what
-        turns a slider is held by friction and so goes by N as well: the offset does not grow
-        without bound as N fades, and this share hardly matters. The one that all runs keep
-        (`reached_eccentricity`) counts above 0.05.
+        Axial force over that at rest above which offsets count [-]. All runs keep those above 0.05
+        (`reached_eccentricity`) and above 0.5 (`reached_eccentricity_loaded`, which checks take).
     limit : float
         Offset over the slider's radius, the time above which is given [-].
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
+from frames.design._errors import CheckError
 from frames.design.calculation.trace import Trace
 from frames.results.peak_response import largest, left, storeys_of_lines, total
 from frames.results.quantities import LEFT, QUANTITIES
@@ -262,8 +263,16 @@ def peaks_of_runs(data: xr.Dataset, name: str) -> FloatArray:
     -------
     ndarray
         With a row for each run.
+
+    Raises
+    ------
+    CheckError
+        If runs of an earlier version do not keep it.
     """
     if "run" in data.dims:
+        if REACHED + name not in data.variables:
+            msg = f"the runs keep no {name!r}, an earlier version made them: run them again"
+            raise CheckError(msg)
         return data.variables[REACHED + name].transpose("run", ...).to_numpy()
     if name in QUANTITIES:
         return largest(data, name).values[None]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import runpy
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -20,6 +21,7 @@ from frames.design.hazard.motion_set import MotionSet
 from frames.design.project.bearing_types import STANDARD, on_types, types_by_column
 from frames.design.project.devices_beside import with_devices
 from frames.design.project.extensions import RunningScript
+from frames.design.project.member_sections import named_section
 from frames.design.project.schema import (
     ImportedModel,
     IrregularFrame,
@@ -266,7 +268,10 @@ def _imported(given: ImportedModel, bearing: LIRBearing, name: str, folder: Path
         raise ProjectError(msg)
     with contextlib.suppress(ImportError):  # which shells alone need
         opensees().wipe()
-    read = Frame.from_sap2000 if given.kind == "sap2000" else Frame.from_etabs
+    read: Callable[..., Frame] = Frame.from_sap2000
+    if given.kind == "etabs":
+        shapes = {k: named_section(v, column=False).section for k, v in given.sections.items()}
+        read = partial(Frame.from_etabs, sections=shapes)
     return read(
         path,
         bearing,

@@ -165,6 +165,14 @@ class ImportedModel(Table):
     base_rotations: Literal["kept", "free", "fixed"] = "kept"
     base_diaphragm: bool = True
     decimal: Literal[".", ","] = "."
+    sections: dict[str, SectionTable] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _sections_of_etabs(self) -> Self:
+        if self.sections and self.kind != "etabs":
+            msg = "sections gives constants that a file of ETABS lacks; those of SAP2000 have them"
+            raise ValueError(msg)
+        return self
 
 
 Structure = Annotated[

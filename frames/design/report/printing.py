@@ -62,7 +62,7 @@ def print_report(page: Path, paper: Path) -> Path:
             _print(browser, filled, made)
             found = pages_of(PdfReader(made))
             if found == numbers:
-                writer = PdfWriter(clone_from=made)
+                writer = PdfWriter(made, incremental=True)  # what Chromium wrote stays
                 writer.add_metadata({"/Producer": f"lir-dcfp {package_version()}, Chromium"})
                 writer.write(paper)
                 return paper

@@ -32,7 +32,7 @@ _OF_BEARINGS = {
     "slip over its stable limit s*": "slip",
     "residual slip": "slip_left",
     "rim force": "rim_force",
-    "normalised eccentricity e/a": "eccentricity",
+    "normalised eccentricity e/a": "eccentricity_loaded",
     "lateral force of a bearing": "force",
     "maximum axial force": "axial_force",
 }
