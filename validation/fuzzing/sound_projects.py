@@ -47,7 +47,7 @@ def sound(rng: np.random.Generator) -> Document:
             "storey_mass": ["120 t", "110 t"],
             "storey_stiffness": ["400 kN/mm", "300 kN/mm"],
         }
-    counted = frame and code == "ASCE 7-22"  # whose combinations the recomputation has
+    counted = frame and code == "ASCE 7-22"
     loads = _loads(rng) if counted and rng.random() < _LOADED else None
     if loads is not None:
         del structure["floor_load"]
@@ -81,7 +81,7 @@ def sound(rng: np.random.Generator) -> Document:
             "level": "pendulum",
             "histories": "all",
             "uplift_allowed": True,
-            "accidental_eccentricity": "none",  # the recomputation has the runs as they are
+            "accidental_eccentricity": "none",  # half of the runs; tests/golden moves masses
             "bounds": ["lower", "upper"],
         },
     }
