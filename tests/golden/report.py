@@ -121,7 +121,10 @@ def _model(project, head, rows, tally):
         found["carried by the bearings"],
         1e-3 * float(statics["weight"]),
     )
-    period = 2.0 * math.pi * math.sqrt(project.bearing.L / GRAVITY)
+    rows = zip(project.table("bearings"), project.types, strict=True)
+    loads = [(float(row["average load [N]"]), project.devices[kind].L) for row, kind in rows]
+    length = sum(load for load, _ in loads) / sum(load / own for load, own in loads)
+    period = 2.0 * math.pi * math.sqrt(length / GRAVITY)
     tally.printed(
         "tables of the report", "pendulum", found["period on the bearings, sliding"], period
     )
