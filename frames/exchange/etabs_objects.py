@@ -53,6 +53,7 @@ class Objects:
         self._points: dict[str, tuple[float, float, float]] = {}
         self._diaphragms: dict[tuple[str, str], list[str]] = {}
         self.on_links: dict[str, Row] = {}
+        self._clear: list[str] = []
 
     def read(self) -> None:
         """Read everything.
@@ -78,6 +79,8 @@ class Objects:
         account, building = self.building.account, self.building
         account.read("POINT COORDINATES", "joints", len(building.joints))
         account.read("LINE CONNECTIVITIES", "frame objects by story", len(building.frames))
+        what = "own weight along the whole length, where the file has it between end zones"
+        account.read_as("LINE ASSIGNS", what, self._clear)
         account.read("AREA CONNECTIVITIES", "areas by story", len(building.areas))
         account.read("POINT ASSIGNS", "supports", len(building.restraints))
 
@@ -136,6 +139,8 @@ class Objects:
             msg = f'MATERIALOVERWRITE "{material}" is not defined'
             raise row.error(msg)
         lengths = [one * row.number(f"LENGTHOFF{end}", 0.0) for end in "IJ"]
+        if row.text("SELFWEIGHTOPTION", "").upper() == "CLEAR LENGTH" and any(lengths):
+            self._clear.append(frame.name)
         rigid = row.number("RIGIDZONE", 0.0)
         cardinal = row.count("CARDINALPT", 10)
         if min(lengths) < 0.0 or not 0.0 <= rigid <= 1.0 or not 1 <= cardinal <= 11:
