@@ -1,4 +1,4 @@
-"""Golden review: eleven projects run by `lir run`, every number recomputed without the package.
+"""Golden review: thirteen projects run by `lir run`, every number recomputed without the package.
 
     python -m validation.golden_review [FOLDER] [--only 01 05]
 

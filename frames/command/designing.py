@@ -35,6 +35,7 @@ _SHOWN = [
     "friction [-]",
     "displacement [m]",
     "base shear / weight [-]",
+    "rims",
     "plan diameter [m]",
     "bearing volume [m3]",
     "pressure, typical [Pa]",

@@ -104,7 +104,7 @@ def _key(edge: Edge) -> Edge:
 
 def _cuts(areas: Sequence[AreaObject], points: Points, size: float) -> dict[Edge, list[float]]:
     # Shares of each edge's length, from its first joint by name, at which it is divided.
-    edges = {_key(edge) for area in areas for edge in _edges(area)}
+    edges = list(dict.fromkeys(_key(edge) for area in areas for edge in _edges(area)))
     found = _joints_on(edges, points)
     quads = [area for area in areas if len(area.joints) == 4]
     _spread(quads, found)
@@ -129,7 +129,7 @@ def _cuts(areas: Sequence[AreaObject], points: Points, size: float) -> dict[Edge
     }
 
 
-def _joints_on(edges: set[Edge], points: Points) -> dict[Edge, list[float]]:
+def _joints_on(edges: list[Edge], points: Points) -> dict[Edge, list[float]]:
     names = list(points)
     where = np.array([points[name] for name in names])
     tree = cKDTree(where)

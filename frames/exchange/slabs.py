@@ -70,7 +70,7 @@ class Slabs:
         self._around = members_at(frame.members)
         self._levels = _by_level(frame)
         self._unit: dict[str, list[PanelLoads] | None] = {}
-        self.at_corners: set[str] = set()
+        self.at_corners: dict[str, None] = {}  # in the order of the loads
 
     def add(self, area: AreaObject, load: FloatArray, case: str) -> None:
         """Add a load on an area.
@@ -93,7 +93,7 @@ class Slabs:
                 return
         points = self._points(area)
         _, size = area_normal(points)
-        self.at_corners.add(area.name)
+        self.at_corners[area.name] = None
         for joint, share in zip(area.joints, corner_shares(points), strict=True):
             force = share * size * load
             self.frame.add_load(joint, [*force.tolist(), 0.0, 0.0, 0.0], case=case)

@@ -460,7 +460,8 @@ def _void(found, title):
     if found.suite is None or title in SUITE or found.row["symbol"] in {"eta", "n"}:
         return False
     if title in OF_RUN or title.startswith("uplift duration"):
-        return bool(found.suite.stopped.any())
+        moved = found.suite.moved is not None and found.suite.moved_stopped.any()
+        return bool(found.suite.stopped.any() or moved)
     return found.suite.void
 
 

@@ -87,11 +87,7 @@ class Suite:
         # What each way of the masses does to the largest of a quantity: factor and difference.
         there, here = (each[name] for each in (self.moved_peaks, self.peaks))
         for _, centred, moved in self.ways():
-            pair = []
-            for values in (here[centred], there[moved]):
-                columns = values.reshape(len(values), -1)
-                each = columns.mean(0) if len(values) >= MEAN_FROM else columns.max(0)
-                pair.append(each.max())
+            pair = largest(here[centred]), largest(there[moved])
             if name in DIFFERENCES:
                 yield 1.0, max(pair[1] - pair[0], 0.0)
             else:
@@ -136,6 +132,12 @@ class Suite:
         return list(map(str, self.data[key]))
 
 
+def largest(values):
+    """Return the largest over all places of the mean or the largest of runs, (n_runs, ...)."""
+    columns = values.reshape(len(values), -1)
+    return (columns.mean(0) if len(values) >= MEAN_FROM else columns.max(0)).max()
+
+
 def suites(project):
     """Return the suites by level, then bound."""
     found = {}
@@ -172,7 +174,9 @@ def _eccentricity(project, found, tally):
     rows = iter(project.table("eccentricity"))
     for level, each in found.items():
         for bound, suite in each.items():
-            far = suite.peaks["displacement"].max(1).argmax()
+            far = suite.peaks["displacement"].max(1)
+            counts = ~suite.failed if not suite.failed.all() else suite.failed
+            far = np.where(counts, far, -math.inf).argmax()
             for way, here, there in suite.ways():
                 label = f"{level} {bound} {way}"
                 if project.analysis.get("accidental_eccentricity_motions") != "all":
@@ -205,10 +209,8 @@ def _one_way(suite, quantity, places, row, tally):
     name = "moved masses: raises of each way"
     label = f"{row['level']} {row['bound']} {row['masses']} {quantity}"
     tally.words(name, label, row["quantity"], quantity.replace("_", " "))
-    pair = []
-    for values, at in zip((suite.peaks, suite.moved_peaks), places, strict=True):
-        columns = values[quantity][at].reshape(len(at), -1)
-        pair.append((columns.mean(0) if len(at) >= MEAN_FROM else columns.max(0)).max())
+    here, there = places
+    pair = largest(suite.peaks[quantity][here]), largest(suite.moved_peaks[quantity][there])
     floor = floor_of(quantity)
     tally.same(name, f"{label} centred", row["centred"], pair[0], floor)
     tally.same(name, f"{label} moved", row["moved"], pair[1], floor)
@@ -476,8 +478,9 @@ def asked(project, suites_, places=None):
     if not unknown_loads(project):
         loads += [load for share in codes.dead_shares(project) for load in average * share]
     void = any(suite.void for suite in suites_.values())
-    for suite in suites_.values():
-        loads += [*suite.design("axial_force")[places], *-suite.design("axial_tension")[places]]
+    for name, sign in (("axial_force", 1.0), ("axial_tension", -1.0)):
+        each = [suite.design(name)[places] for suite in suites_.values()]
+        loads += [*sign * np.max(each, axis=0)]  # of a bearing at the bound that is worst
     slip = max(suite.design("slip")[places].max() for suite in suites_.values())
     moved = max(suite.design("displacement")[places].max() for suite in suites_.values())
     if void:

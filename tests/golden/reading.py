@@ -5,6 +5,7 @@ Nothing of the package is imported: its numbers are read as they lie in the file
 
 import csv
 import html.parser
+import math
 import re
 import tomllib
 from pathlib import Path
@@ -80,7 +81,10 @@ class Project:
         self.code = raw["project"]["code"]
         self.bearing = Bearing(self.file["bearing"])
         bounds = self.file["bounds"]
-        outer, inner = bounds["friction"], bounds.get("interface", bounds["friction"])
+        outer, inner = (
+            by_source(self.code, given) if isinstance(given, dict) else given
+            for given in (bounds["friction"], bounds.get("interface", bounds["friction"]))
+        )
         self.outer = {"lower": outer[0], "nominal": 1.0, "upper": outer[1]}
         self.inner = {"lower": inner[0], "nominal": 1.0, "upper": inner[1]}
         self.devices = {"standard": self.bearing}
@@ -130,6 +134,29 @@ class Project:
     def text(self, name):
         """Return a text file of the results."""
         return (self.results / name).read_text(encoding="utf-8")
+
+
+def by_source(code, given):
+    """Return lower and upper factor on friction, of their sources.
+
+    ASCE 7-22 17.2.8.4, EN 1998-2 annex J; the product of all where a code has no rule.
+    """
+    found = []
+    for end in (0, 1):
+        each = {name: pair[end] for name, pair in given.items() if isinstance(pair, list)}
+        spec = each.pop("specification", 1.0)
+        if code == "ASCE 7-22":
+            aged = each.pop("ageing", 1.0) * each.pop("contamination", 1.0)
+            factor = (1.0 + 0.75 * (aged - 1.0)) * each.pop("test", 1.0) * spec
+            if not given.get("full_scale_tests", False):
+                factor = max(factor, 1.8) if end else min(factor, 0.6)
+        elif code == "EN 1998":
+            psi = {"I": 0.6, "II": 0.7, "III": 0.9}[given.get("importance_class", "II")]
+            factor = spec * math.prod(1.0 + (value - 1.0) * psi for value in each.values())
+        else:
+            factor = spec * math.prod(each.values())
+        found.append(factor)
+    return found
 
 
 class Data(dict):

@@ -54,6 +54,7 @@ def compare(project, tally):
         _by_motion,
         _checks,
         _programme,
+        _accepted,
     ]
     columns = {title for title in project.table("equivalent-linear")[0] if title}
     tally.words("tables of the report", "columns of linear", project.shown == columns, True)
@@ -79,6 +80,7 @@ def _kind(heading, head):
         ("Time histories", "members"): _members,
         ("Checks", "check"): _checks,
         ("Test programme", "test"): _programme,
+        ("Test programme", "accepted if"): _accepted,
     }
     if (heading, head[0]) == ("Bearings", "bearing"):
         return _loads if any(title.startswith("pressure") for title in head) else _bearings
@@ -119,7 +121,10 @@ def _model(project, head, rows, tally):
         found["carried by the bearings"],
         1e-3 * float(statics["weight"]),
     )
-    period = 2.0 * math.pi * math.sqrt(project.bearing.L / GRAVITY)
+    rows = zip(project.table("bearings"), project.types, strict=True)
+    loads = [(float(row["average load [N]"]), project.devices[kind].L) for row, kind in rows]
+    length = sum(load for load, _ in loads) / sum(load / own for load, own in loads)
+    period = 2.0 * math.pi * math.sqrt(length / GRAVITY)
     tally.printed(
         "tables of the report", "pendulum", found["period on the bearings, sliding"], period
     )
@@ -340,6 +345,17 @@ def _raised(project, head, rows, tally):
                 shown(tally, label, text, value, factor)
             else:
                 tally.words("tables of the report", label, text, value)
+
+
+def _accepted(project, head, rows, tally):
+    # Rule by rule what programme.csv has test by test.
+    category, by_test = "tables of the report", {}
+    for rule, tests, clause in rows:
+        for number in tests.split(", "):
+            by_test.setdefault(number, []).append(f"{rule} ({clause})")
+    for row in project.table("programme"):
+        said = "; ".join(by_test.get(row["test"], []))
+        tally.words(category, f"{row['what']}: accepted if", said, row["accepted if"])
 
 
 def _programme(project, head, rows, tally):

@@ -16,6 +16,7 @@ from frames.design import (
     DesignLimits,
     DesignTarget,
     IsolationSystem,
+    NCh2745,
     NoCandidateError,
     PropertyBounds,
     PropertyModificationFactors,
@@ -24,6 +25,7 @@ from frames.design import (
     device_checks,
     equivalent_linear,
 )
+from frames.design.devices.capacity import engagement_checks
 from frames.design.plots import design_candidates
 from frames.design.sizing.fitting import rounded_up
 from frames.design.sizing.size_groups import grouped
@@ -92,10 +94,50 @@ def test_a_candidate_is_what_a_calculation_by_hand_gives() -> None:
     assert found.chosen.plan_diameter == pytest.approx(2.0 * (edge + 0.025))
 
 
+@pytest.mark.parametrize(
+    ("code", "spectrum", "words"),
+    [
+        (EN1998(), Spectrum.en1998(3.4, "B"), "beyond gamma_x d_bd"),
+        (NCh2745(), Spectrum.nch2745(soil="III", zone=3), "beyond D_TM"),
+    ],
+)
+def test_codes_without_a_rule_for_rims_get_rims_that_are_not_met(
+    code: EN1998 | NCh2745, spectrum: Spectrum, words: str
+) -> None:
+    """The proposed bearing keeps all that its code holds against rims, of whichever bound."""
+    target = replace(ONE, radii=(1.5,), frictions=(0.04,))
+    found = design(SYSTEM, spectrum, code=code, bounds=BOUNDS, target=target)
+    bearing, t = found.bearings()[0], found.chosen.trace
+    on = replace(SYSTEM, bearings=found.bearings())
+    linear = equivalent_linear(on, spectrum, code=code, bounds=BOUNDS)
+    allowed = {each.bound: each.allowed_displacement for each in linear.bounds.values()}
+    assert {one.verdict for one in engagement_checks(bearing, allowed, code=code.name)} == {"ok"}
+    of_rims = [c for c in linear.checks if c.limit == pytest.approx(bearing.lateral_capacity)]
+    assert len(of_rims) >= 2
+    assert max(c.ratio for c in of_rims) == pytest.approx(1.0 / 1.05, rel=1e-6)
+    assert not [c for c in linear.checks.failed if c.unit == "m"]
+    assert t.value("s") == pytest.approx(0.1 * max(allowed.values()), rel=1e-6)
+    assert found.to_dataframe()["rims"].tolist() == [words]
+    assert bearing.slip_stability > t.value("s")
+    free = found.bearings("DCFP without rim contact")[0]
+    assert free.lateral_capacity == pytest.approx(bearing.lateral_capacity)
+    told = design(SYSTEM, spectrum, code=code, bounds=BOUNDS, target=replace(target, rim_share=0.8))
+    assert told.bearings()[0].lateral_capacity == pytest.approx(0.8 * told.chosen.displacement)
+    assert told.to_dataframe()["rims"].iloc[0].endswith("needs agreement")
+
+
+def test_rims_that_asce_allows_to_be_met_say_so() -> None:
+    found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=ONE)
+    assert found.chosen.rims == "met, ASCE 7-22 17.2.4.5 allows it from 0.6 D_TM"
+    assert found.chosen.trace.value("r") == 0.75
+
+
 def test_en_1998_asks_for_room_beyond_its_displacement() -> None:
     """10.3: gamma_x = 1.2 on the displacement with torsion, of rims and slip together."""
     spectrum = Spectrum.en1998(5.0, "D")
-    found = design(SYSTEM, spectrum, code=EN1998(), bounds=BOUNDS, target=ONE)
+    found = design(
+        SYSTEM, spectrum, code=EN1998(), bounds=BOUNDS, target=replace(ONE, rim_share=0.75)
+    )
     whole = found.chosen.analysis
     assert whole.allowed_displacement == pytest.approx(1.2 * whole.total_displacement, rel=1e-12)
     t = found.chosen.trace
@@ -284,7 +326,14 @@ def test_what_none_keeps_is_told() -> None:
     weak = DesignTarget(radii=(2.0,), frictions=(0.05,), limits=DesignLimits(rim_strength=100e3))
     with pytest.raises(CheckError, match="interface slips before the rim breaks"):
         design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=weak)
-    for wrong in ({"rim_share": 1.0}, {"radii": ()}, {"pressure": -1.0}, {"max_base_shear": 0.0}):
+    for wrong in (
+        {"rim_share": 2.0},
+        {"rim_share": 0.0},
+        {"free_margin": 0.9},
+        {"radii": ()},
+        {"pressure": -1.0},
+        {"max_base_shear": 0.0},
+    ):
         with pytest.raises(CheckError):
             DesignTarget(**wrong)
 

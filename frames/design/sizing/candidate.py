@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
+from frames.design.codes.registry import code_named
+
 if TYPE_CHECKING:
     from frames.design.calculation.check import Checks
     from frames.design.calculation.trace import Trace
@@ -120,6 +122,16 @@ class Candidate:
             f"{check.title} ({check.bound})" for check in self.analysis.checks.inapplicable
         )
 
+    @property
+    def rims(self) -> str:
+        """Where its rims are, in words: beyond the displacement, or met, and what that asks for."""
+        rule, share = code_named(self.analysis.code).rims, self.trace.value("r")
+        if share >= 1.0:
+            return f"beyond {rule.symbol}"
+        if share >= rule.least:
+            return f"met, {rule.clause} allows it from {rule.least:g} {rule.symbol}"
+        return f"met below {rule.least:g} {rule.symbol}: needs agreement"
+
     def row(self) -> dict[str, object]:
         """Return its main numbers in SI units, and what it lacks."""
         t = self.trace
@@ -135,6 +147,8 @@ class Candidate:
         return found | {
             "slider radius [m]": t.value("a"),
             "capacity [m]": t.value("U_cap"),
+            "capacity / displacement [-]": t.value("r"),
+            "rims": self.rims,
             "interface friction [-]": t.value("mu_h"),
             "plan diameter [m]": self.plan_diameter,
             "bearing volume [m3]": self.bearing_volume,

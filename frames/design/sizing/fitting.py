@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from frames.design.calculation.check import Checks
 from frames.design.calculation.trace import Trace
+from frames.design.codes.registry import code_named
 from frames.design.devices.device import device_checks
 from frames.design.sizing.candidate import Candidate, Governing
 from lir_element import DesignWarning, LIRBearing
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
 
 _SHALLOW = 0.2
 """Radius of a slider over that of its concave surface, at most: beyond it is no shallow bowl."""
+
+MET_SHARE = 0.75
+"""Where rims are, over the displacement, under a code that has a rule for rims that are met."""
 
 _WHATEVER_SLIDER = frozenset({"P_1", "P_2", "H_slip"})
 """Demands that a larger slider does not lessen."""
@@ -185,9 +189,7 @@ def _measures(
     t.given("a", plain.slider_radius, "m", shown="mm", note="largest slider")
     t.given("h", plain.slider_height, "m", shown="mm")
     t("L", "2 * R - h", "m")
-    t.given("r", target.rim_share, note="share of D at which the rims are met")
-    t("U_cap", "r * D", "m", shown="mm", source="docs/design_checks.md")
-    t("s", "D - U_cap", "m", shown="mm", note="left to the interface")
+    _place_rims(t, analysis, target)
     t("e_plate", "U_cap * R / L + a", "m", shown="mm", note="edge of the concave surfaces")
     t.given("c", target.clearance, "m", shown="mm", note="between the plates' edges at rest")
     t(
@@ -210,8 +212,30 @@ def _measures(
     t.given("mu_h", rounded_up(needed, target.friction_step), note="rounded up")
     t.given("b", target.rim_width, "m", shown="mm", note="width of the rim")
     t("d_plan", "2 * (e_plate + b)", "m", shown="mm")
-    t("d_plan_free", "2 * (D * R / L + a + b)", "m", shown="mm", note="without rims met")
+    t("d_plan_free", "2 * (max(D, U_cap) * R / L + a + b)", "m", shown="mm", note="rims not met")
     return t
+
+
+def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget) -> None:
+    # As told; else by intent where the code has a rule for it, beyond all its checks where not.
+    rule, share, source = code_named(analysis.code).rims, target.rim_share, "docs/design_checks.md"
+    if share is None and rule.least < 1.0:
+        share = max(MET_SHARE, rule.least)
+    if share is not None:
+        t.given("r", share, note="share of D at which the rims are met")
+        t("U_cap", "r * D", "m", shown="mm", source=source)
+    else:
+        held = [c.demand for c in analysis.checks if c.unit == "m" and math.isinf(c.limit)]
+        note = "largest that the code's checks hold against rims"
+        t.given("D_held", max(held, default=t.value("D")), "m", shown="mm", note=note)
+        t.given("m_r", target.free_margin, note="margin of rims that are not met")
+        t("U_cap", "m_r * max(D, D_held)", "m", shown="mm", source=source)
+        t("r", "U_cap / D", note="share of D at which the rims are met")
+    if t.value("r") < 1.0:
+        t("s", "D - U_cap", "m", shown="mm", note="left to the interface")
+    else:
+        t.given("r_s", target.slip_reserve, note="reserve, rims not being met")
+        t("s", "r_s * D", "m", shown="mm", note="reserve of the interface")
 
 
 def _rimmed(plain: LIRBearing, slider_radius: float, t: Trace) -> LIRBearing:

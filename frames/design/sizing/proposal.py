@@ -106,7 +106,9 @@ class Design:
         if device != "LIR-DCFP":
             made = tuple(bearing.as_dcfp() for bearing in made)
         if device == "DCFP without rim contact":
-            made = tuple(replace(one, capacity=self.chosen.trace.value("D")) for one in made)
+            t = self.chosen.trace
+            free = max(t.value("D"), t.value("U_cap"))
+            made = tuple(replace(one, capacity=free) for one in made)
         return tuple(made[size] for size in self.sizes)
 
     def isolated(self, frame: Frame, device: Device = "LIR-DCFP") -> Frame:
@@ -212,9 +214,10 @@ def design(
 
     Each radius and friction of the target is tried. Without rims the bearings would go as far as
     the lower bound of friction lets them, by EN 1998 times gamma_x; rims are put at a share of
-    that, and the interface gets the friction that holds until then and stays stable over what is
-    left. Of those that keep what is asked, the one with the least base shear is taken, or as
-    `least` says; those whose liners work under usual pressures before others.
+    that, or beyond it where the code has no rule for rims that are met, and the interface gets the
+    friction that holds until then and stays stable over what is left, or over a reserve. Of those
+    that keep what is asked, the one with the least base shear is taken, or as `least` says; those
+    whose liners work under usual pressures before others.
 
     Parameters
     ----------

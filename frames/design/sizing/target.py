@@ -37,10 +37,16 @@ class DesignTarget:
         Radii of the concave surfaces to choose from, both alike [m].
     frictions : sequence of float or FrictionLaw
         Nominal frictions of the concave surfaces to choose from.
-    rim_share : float
+    rim_share : float, optional
         Displacement at which the rims are met, over the largest that a bearing without rims must
-        allow [-], in (0, 1): D_TM, by EN 1998 gamma_x d_bd. What is left, the interface has to
-        slip.
+        allow [-], in (0, 2): D_TM, by EN 1998 gamma_x d_bd. What is left, the interface has to
+        slip. None: 0.75 where the code has a rule for rims that are met (ASCE 7-22); where it has
+        none (EN 1998, NCh2745) rims are `free_margin` beyond all that its checks hold against them.
+    free_margin : float
+        How far rims that are not to be met are beyond the largest displacement of those checks [-].
+    slip_reserve : float
+        What the interface must be able to slip where rims are not met, over the displacement that
+        bearings must allow [-]: for an earthquake that is stronger.
     pressure : float
         Mean pressure on a slider under the average combination [Pa].
     largest_pressure : float
@@ -80,7 +86,9 @@ class DesignTarget:
 
     radii: Sequence[float] = (1.0, 1.5, 2.0, 2.5, 3.0)
     frictions: Sequence[float | FrictionLaw] = (0.04, 0.05, 0.06, 0.08)
-    rim_share: float = 0.75
+    rim_share: float | None = None
+    free_margin: float = 1.05
+    slip_reserve: float = 0.10
     pressure: float = 30e6
     largest_pressure: float = 60e6
     least_pressure: float = LEAST_PRESSURE
@@ -105,9 +113,13 @@ class DesignTarget:
             object.__setattr__(self, name, values)
         for radius in self.radii:
             require_positive("radius", radius, "m", error=CheckError)
-        require_between("rim_share", self.rim_share, 0.0, 1.0, "-", error=CheckError)
+        if self.rim_share is not None:
+            share = require_positive("rim_share", self.rim_share, "-", error=CheckError)
+            require_between("rim_share", share, 0.0, 2.0, "-", error=CheckError)
+        require_between("free_margin", self.free_margin, 1.0, 2.0, "-", error=CheckError)
+        require_between("slip_reserve", self.slip_reserve, 0.0, 1.0, "-", error=CheckError)
         for name in (
-            "rim_share",
+            "slip_reserve",
             "pressure",
             "largest_pressure",
             "least_pressure",
