@@ -307,6 +307,21 @@ def _members(project, head, rows, tally):
                 tally.words("tables of the report", f"members {title}", text, source)
 
 
+RAISED = {
+    "displacement": "isolator displacement",
+    "force": "lateral force of a bearing",
+    "axial force": "maximum axial force",
+    "drift": "storey drift ratio",
+    "line drift": "storey drift ratio, maximum at any column line",
+    "floor plan": "floor acceleration in plan",
+    "slip": "interface slip",
+    "eccentricity loaded": "normalised eccentricity e/a",
+    "axial tension": "maximum axial tension",
+    "displacement left": "residual displacement",
+    "slip left": "residual interface slip",
+}
+
+
 def _raised(project, head, rows, tally):
     # Of each quantity and bound the way that raises it most, in parts.
     own, best = project.table("eccentricity"), {}
@@ -318,7 +333,8 @@ def _raised(project, head, rows, tally):
     given_rows = [row for row in own if any(row is kept for _, kept in best.values())]
     tally.same("tables of the report", "rows of moved masses", len(rows), len(given_rows))
     for row, given in zip(rows, given_rows, strict=True):
-        tally.words("tables of the report", "moved masses", row[0], given["quantity"])
+        said = RAISED.get(given["quantity"], given["quantity"])
+        tally.words("tables of the report", "moved masses", row[0], said)
         unit = FACTORS.get(UNIT.get(given["unit"], ""), 1.0)
         for title, text in zip(head[1:], row[1:], strict=True):
             label, value = f"moved masses {row[0]} {title}", given[title]
