@@ -43,7 +43,7 @@ FACTORS = {
 DIFFERENCES = {
     "slip",
     "rim_force",
-    "eccentricity",
+    "eccentricity_loaded",
     "axial_tension",
     "displacement_left",
     "slip_left",
@@ -198,7 +198,7 @@ ORDER = (
     "floor_plan",
     "slip",
     "rim_force",
-    "eccentricity",
+    "eccentricity_loaded",
     "axial_tension",
     "displacement_left",
     "slip_left",

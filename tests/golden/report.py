@@ -54,6 +54,7 @@ def compare(project, tally):
         _by_motion,
         _checks,
         _programme,
+        _accepted,
     ]
     columns = {title for title in project.table("equivalent-linear")[0] if title}
     tally.words("tables of the report", "columns of linear", project.shown == columns, True)
@@ -79,6 +80,7 @@ def _kind(heading, head):
         ("Time histories", "members"): _members,
         ("Checks", "check"): _checks,
         ("Test programme", "test"): _programme,
+        ("Test programme", "accepted if"): _accepted,
     }
     if (heading, head[0]) == ("Bearings", "bearing"):
         return _loads if any(title.startswith("pressure") for title in head) else _bearings
@@ -305,6 +307,21 @@ def _members(project, head, rows, tally):
                 tally.words("tables of the report", f"members {title}", text, source)
 
 
+RAISED = {
+    "displacement": "isolator displacement",
+    "force": "lateral force of a bearing",
+    "axial force": "maximum axial force",
+    "drift": "storey drift ratio",
+    "line drift": "storey drift ratio, maximum at any column line",
+    "floor plan": "floor acceleration in plan",
+    "slip": "interface slip",
+    "eccentricity loaded": "normalised eccentricity e/a",
+    "axial tension": "maximum axial tension",
+    "displacement left": "residual displacement",
+    "slip left": "residual interface slip",
+}
+
+
 def _raised(project, head, rows, tally):
     # Of each quantity and bound the way that raises it most, in parts.
     own, best = project.table("eccentricity"), {}
@@ -316,7 +333,8 @@ def _raised(project, head, rows, tally):
     given_rows = [row for row in own if any(row is kept for _, kept in best.values())]
     tally.same("tables of the report", "rows of moved masses", len(rows), len(given_rows))
     for row, given in zip(rows, given_rows, strict=True):
-        tally.words("tables of the report", "moved masses", row[0], given["quantity"])
+        said = RAISED.get(given["quantity"], given["quantity"])
+        tally.words("tables of the report", "moved masses", row[0], said)
         unit = FACTORS.get(UNIT.get(given["unit"], ""), 1.0)
         for title, text in zip(head[1:], row[1:], strict=True):
             label, value = f"moved masses {row[0]} {title}", given[title]
@@ -327,6 +345,17 @@ def _raised(project, head, rows, tally):
                 shown(tally, label, text, value, factor)
             else:
                 tally.words("tables of the report", label, text, value)
+
+
+def _accepted(project, head, rows, tally):
+    # Rule by rule what programme.csv has test by test.
+    category, by_test = "tables of the report", {}
+    for rule, tests, clause in rows:
+        for number in tests.split(", "):
+            by_test.setdefault(number, []).append(f"{rule} ({clause})")
+    for row in project.table("programme"):
+        said = "; ".join(by_test.get(row["test"], []))
+        tally.words(category, f"{row['what']}: accepted if", said, row["accepted if"])
 
 
 def _programme(project, head, rows, tally):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.testing import assert_allclose
 
 from docs.imported_building import HEIGHT, PRESSURES, SIZES, STOREYS, WALLS, X, Y, model
 from frames import Frame
+from frames.demo import bearing_for
 from lir_element.opensees import opensees
 from tests.fixed_base import periods, reactions
 
@@ -173,3 +175,14 @@ def test_the_weight_is_that_of_the_volumes(frame: Frame) -> None:
     own = UNIT * (beams * (0.9 * 0.4 + 5 * 0.6 * 0.3) + 12 * 16.5 * 0.25 + 4 * 6.0 * 16.5 * WALL)
     vertical = sum(force[2] for name, force in reactions(frame).items() if "Base" in name)
     assert_allclose(vertical, floors + own, rtol=1e-9)
+
+
+def test_the_page_has_the_numbers_of_the_building(tmp_path: Path) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "imported_building.md").read_text(encoding="utf-8")
+    path = tmp_path / "model.e2k"
+    path.write_text(model(), encoding="utf-8")
+    opensees().wipe()
+    fine = Frame.from_etabs(path, bearing_for(1.4e6), loads="all", mesh=1.5)
+    assert f"| {fine.check().mass / 1e3:.0f} t," in page
+    assert "in 240 elements" in str(fine.imported)
+    assert "left out" not in str(fine.imported)

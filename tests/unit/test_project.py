@@ -431,6 +431,9 @@ def test_uplift_counts_as_the_file_says(folder: Path) -> None:
         at_loads = tests["what"].str.contains("largest load|least load|interface|impact")
         marked = tests["note"].fillna("").str.contains("no values for design")
         assert (marked == (at_loads & bool(why))).all()
+        page = (folder / "up" / "report.html").read_text(encoding="utf-8")
+        programme = page.partition('id="test-programme"')[2].partition('id="calculations"')[0]
+        assert ("no values for design" in programme) == bool(why)
         voids.add(bool(why))
         is_told = "count as contact" in (folder / "up" / "checks.csv").read_text()
         if line != 'least_gap = "0.01 mm"':  # up to which there may be gaps as well

@@ -26,7 +26,7 @@ from typer.testing import CliRunner
 
 from frames import load, modes, moment_frame, save
 from frames.command.app import app
-from frames.design import HISTORY_RULES, Check
+from frames.design import HISTORY_RULES, Check, code_named
 from frames.design._errors import ProjectError
 from frames.design.project.design_run import ProjectRun, evaluate_run
 from frames.design.project.inputs import ProjectInputs
@@ -163,6 +163,12 @@ def test_the_programme_of_tests_is_there(results: Path, page: str) -> None:
             text = shown[title]
             if text != "-":
                 assert float(text) == pytest.approx(factor * row[name], rel=1e-3)
+    accepted = section(page, "test-programme").partition('id="accepted"')[2]
+    for rule in code_named("ASCE 7-22").accepted:
+        of = [str(k) for k, name in table["what"].items() if rule.holds_for(name)]
+        shown = columns(accepted, rule.value.what)
+        assert shown.pop("accepted if") == rule.value.what
+        assert shown == {"tests": ", ".join(of), "clause": f"{rule.value.clause} *"}
     alone = table[table["what"].str.startswith("interface alone")]
     slip = demands.loc["interface slip", "envelope of these"]
     assert (alone["displacement [m]"] >= slip - 1e-12).all()
@@ -752,6 +758,6 @@ def test_factors_of_moved_masses_are_pure_numbers(results: Path, page: str) -> N
     head = re.findall(r"<th[^>]*>([^<]*)</th>", part)
     rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in part.split("</tr>")]
     place, of = head.index("factor"), head.index("bound")
-    shown = {row[of]: row[place] for row in rows if row and row[0] == "displacement"}
+    shown = {row[of]: row[place] for row in rows if row and row[0] == "isolator displacement"}
     assert shown == {bound: f"{factor:.4g}" for bound, factor in worst.items()}
     assert set(shown) == {"lower", "upper"}

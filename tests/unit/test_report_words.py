@@ -12,13 +12,16 @@ pytest.importorskip("jinja2")
 pytest.importorskip("pydantic")
 
 from babel.messages.extract import extract_from_dir
+from typer.testing import CliRunner
 
+from frames.command.app import app
 from frames.design._errors import ProjectError
 from frames.design.codes.registry import code_named
 from frames.design.hazard.plot_hazard import motion_spectra
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
+from frames.design.project.structure_statement import structure_rows
 from frames.design.report.tables import Table
 from frames.design.report.words import LANGUAGES, Words, catalogue
 from frames.design.report.writing import SECTIONS
@@ -74,6 +77,24 @@ def test_places_of_translations_are_those_of_the_messages(language: str) -> None
         assert sorted(PLACES.findall(message.id)) == sorted(PLACES.findall(message.string))
 
 
+@pytest.mark.parametrize("name", ["office", "near-fault"])
+def test_structures_of_whole_buildings_are_translated(name: str, tmp_path: Path) -> None:
+    """Walls, braces, cracked sections by storey, loads; clauses keep their points."""
+    assert CliRunner().invoke(app, ["new", str(tmp_path), "--example", name]).exit_code == 0
+    parts = ProjectInputs(read_project(tmp_path / "project.toml"), tmp_path)
+    frame = parts.frame()
+    words = Words("es", ",", frame.bearings)
+    said = {words.say(what): words.say(how) for what, how in structure_rows(parts.file, frame)}
+    assert words.missing == set()
+    code = {"office": "EN 1998-1:2004, 3.2.4 *: psi_2 = 0,3", "near-fault": "12.7.2 y 17.2.7.1 *"}
+    assert code[name] in said["masa sísmica"]
+    part = {
+        "office": ("muro 2-0 a 3-0, como columna ancha", "fisurado: 0,5 de la rigidez a flexión"),
+        "near-fault": ("arriostramientos 1-0 a 2-0", "cruzados, circular 220 x 12 mm"),
+    }[name]
+    assert part[1] in said[part[0]]
+
+
 @pytest.mark.parametrize("code", ["ASCE 7-22", "EN 1998", "NCh2745"])
 def test_checks_of_every_code_are_translated(code: str, tmp_path: Path, put_example) -> None:
     folder = put_example(tmp_path, code)
@@ -88,6 +109,8 @@ def test_checks_of_every_code_are_translated(code: str, tmp_path: Path, put_exam
             words.say(text)
     words.table(Table(known.equivalent.head(), known.equivalent.rows()))
     words.say(code_named(code).title)
+    for row in structure_rows(parts.file, known.frame):
+        list(map(words.say, row))
     words.figure(motion_spectra(known.motions, known.spectrum))
     assert words.missing == set()
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
 from frames.design.calculation.standing import MEMORY
+from frames.design.codes.acceptance_rules import AcceptanceRule
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -480,6 +481,18 @@ CODE = DesignCode(
         VALUES["rims"].standing,
     ),
     tests=_tests,
+    accepted=tuple(
+        AcceptanceRule(tests, VALUES[name])
+        for tests, name in (
+            (("increments", "maximum displacement", "many cycles"), "accepted slope"),
+            (("increments", "maximum displacement"), "accepted k_d and EDC"),
+            (("increments", "maximum displacement"), "specimens"),
+            (("many cycles",), "many cycles, stiffness"),
+            (("many cycles",), "many cycles, damping"),
+            (("static",), "stable"),
+            (("production",), "production"),
+        )
+    ),
     acceptance=f"{NO_LIMITS}, not of ASCE 7-22 17.8.4",
     example=ExampleProject({"s_ms": 1.2, "s_m1": 0.7}, {}),
 )

@@ -17,6 +17,7 @@ UFC_BNBC = Standing("agrees", "UFC 3-310-03A and BNBC 2020 of Bangladesh, 2.5.16
 BNBC = Standing("agrees", "BNBC 2020 of Bangladesh, 2.5.16")
 USGS = Standing("agrees", "the example of USGS for ASCE 7-22, UCSF Parnassus")
 NTC = Standing("agrees", "NTC 2018 of Italy, 7.10.5")
+NTC_SLIDERS = Standing("agrees", "NTC 2018 of Italy, 11.9.8")
 
 _ORDER = ("memory", "agrees", "read")
 """Kinds of standings of codes, the weakest first."""

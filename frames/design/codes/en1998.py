@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
 from frames.design.calculation.standing import MEMORY
+from frames.design.codes.acceptance_rules import AcceptanceRule
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -429,6 +430,15 @@ CODE = DesignCode(
         VALUES["rims"].standing,
     ),
     tests=_tests,
+    accepted=tuple(
+        AcceptanceRule(tests, VALUES[name])
+        for tests, name in (
+            (("P1", "D1", "D2", "D3"), "accepted k_d"),
+            (("D", "B"), "accepted friction"),
+            (("D", "B"), "cycles"),
+            (("D4", "D5"), "stable"),
+        )
+    ),
     acceptance=f"{NO_LIMITS}, not of EN 15129 8.3.4",
     example=ExampleProject(
         {"a_g": 3.4, "ground_type": "B"},

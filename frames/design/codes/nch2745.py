@@ -10,6 +10,7 @@ import numpy as np
 
 from frames.design.calculation.check import Bound, Checks
 from frames.design.calculation.standing import MEMORY
+from frames.design.codes.acceptance_rules import AcceptanceRule
 from frames.design.codes.common import (
     capacity_check,
     drift_checks,
@@ -389,6 +390,17 @@ CODE = DesignCode(
         VALUES["rims"].standing,
     ),
     tests=_tests,
+    accepted=tuple(
+        AcceptanceRule(tests, VALUES[name])
+        for tests, name in (
+            (("increments", "maximum displacement", "many cycles"), "accepted slope"),
+            (("increments",), "accepted k_eff"),
+            (("increments",), "specimens"),
+            (("many cycles",), "many cycles, stiffness"),
+            (("many cycles",), "many cycles, damping"),
+            (("static",), "stable"),
+        )
+    ),
     acceptance=f"{NO_LIMITS}, not of NCh2745 14",
     example=ExampleProject(
         {"soil": "II", "zone": 3},

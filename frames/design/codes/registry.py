@@ -24,6 +24,7 @@ from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Bound
+    from frames.design.codes.acceptance_rules import AcceptanceRule
     from frames.design.codes.bounds import PropertyModificationFactors
     from frames.design.codes.code_values import CodeValue
     from frames.design.codes.isolation import Extremes, IsolationSystem
@@ -196,8 +197,10 @@ class DesignCode(HazardRules):
         What it asks of the displacement at which rims are met.
     tests : callable
         Its tests of bearings, made of a `DesignToTest`.
+    accepted : tuple of AcceptanceRule
+        What it accepts of its tests, as the programme states it.
     acceptance : str
-        Clause of the limits that measured loops are held against.
+        Clause of the limits that `acceptance_checks` holds measured loops against.
     loads : LoadRule
         What it makes of dead, live and snow load.
     example : ExampleProject, optional
@@ -227,6 +230,7 @@ class DesignCode(HazardRules):
     spectrum_keys: Mapping[str, SpectrumKey]
     rims: RimRule
     tests: Callable[[DesignToTest], Iterable[PlannedTest]] = field(default=no_tests)
+    accepted: tuple[AcceptanceRule, ...] = ()
     acceptance: str = NO_LIMITS
     loads: LoadRule = LOADS_OF_ASCE
     example: ExampleProject | None = None

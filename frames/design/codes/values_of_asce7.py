@@ -73,6 +73,24 @@ VALUES = {
     "moved masses": CodeValue("ASCE 7-22 17.6.2.1", "5 % of the sides in histories"),
     "tests": CodeValue("ASCE 7-22 17.8.2.2", "which tests, in which order", BNBC),
     "cycles": CodeValue("ASCE 7-22 17.8.2.2, 17.8.2.5, 17.8.5", "amplitudes and cycles of tests"),
-    "acceptance": CodeValue("ASCE 7-22 17.8.4", "what measured loops may deviate"),
+    "accepted slope": CodeValue("ASCE 7-22 17.8.4", "the force rises with the displacement"),
+    "accepted k_d and EDC": CodeValue(
+        "ASCE 7-22 17.8.4",
+        "post-elastic stiffness and EDC of each cycle within lambda_test of the nominal ones",
+    ),
+    "specimens": CodeValue(
+        "ASCE 7-22 17.8.4",
+        "post-elastic stiffness of two specimens within 15 % of their mean, cycle by cycle",
+    ),
+    "many cycles, stiffness": CodeValue(
+        "ASCE 7-22 17.8.4", "effective stiffness changes by 20 % at most over the cycles"
+    ),
+    "many cycles, damping": CodeValue(
+        "ASCE 7-22 17.8.4", "effective damping falls by 20 % at most over the cycles"
+    ),
+    "stable": CodeValue("ASCE 7-22 17.8.4", "the bearing stays stable"),
+    "production": CodeValue(
+        "ASCE 7-22 17.8.5", "post-elastic stiffness and EDC within lambda_spec of the nominal ones"
+    ),
 }
 """By name; of what no text was compared it is from memory."""

@@ -1,6 +1,6 @@
 """What EN 1998 and EN 15129 give for isolation, value by value, and how well each is known."""
 
-from frames.design.codes.code_values import NTC, CodeValue
+from frames.design.codes.code_values import NTC, NTC_SLIDERS, CodeValue
 from frames.design.hazard.spectral_shapes import EN1998_TABLES
 
 VALUES = {
@@ -64,5 +64,15 @@ VALUES = {
     "moved masses": CodeValue("EN 1998-1 4.3.2", "5 % of the sides in histories"),
     "rims": CodeValue("EN 1998-1 10.3(2), EN 15129", "rims are not met below gamma_x d_bd"),
     "tests": CodeValue("EN 15129 8.3.4", "which tests, amplitudes and cycles"),
+    "accepted k_d": CodeValue(
+        "EN 15129 8.3.4", "post-elastic stiffness within 15 % of that of the design"
+    ),
+    "accepted friction": CodeValue(
+        "EN 15129 8.3.4", "friction within the bounds that the design counts on"
+    ),
+    "cycles": CodeValue(
+        "NTC 2018 11.9.8", "friction of each cycle within 25 % of that of the third", NTC_SLIDERS
+    ),
+    "stable": CodeValue("EN 15129 8.3.4", "the bearing stays stable"),
 }
 """By name; of what no text was compared it is from memory."""

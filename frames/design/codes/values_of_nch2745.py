@@ -38,5 +38,19 @@ VALUES = {
     "moved masses": CodeValue("NCh2745 8.3", "5 % of the sides in histories"),
     "rims": CodeValue("NCh2745 7.3", "rims are not met below D_TM"),
     "tests": CodeValue("NCh2745 14", "which tests, amplitudes and cycles"),
+    "accepted slope": CodeValue("NCh2745 14.4", "the force rises with the displacement"),
+    "accepted k_eff": CodeValue(
+        "NCh2745 14.4", "effective stiffness of each cycle within 10 % of the test's mean"
+    ),
+    "specimens": CodeValue(
+        "NCh2745 14.4", "mean effective stiffness of two specimens within 10 % of one another"
+    ),
+    "many cycles, stiffness": CodeValue(
+        "NCh2745 14.4", "effective stiffness changes by 20 % at most over the cycles"
+    ),
+    "many cycles, damping": CodeValue(
+        "NCh2745 14.4", "effective damping falls by 20 % at most over the cycles"
+    ),
+    "stable": CodeValue("NCh2745 14.4", "the bearing stays stable"),
 }
 """By name; of what no text was compared it is from memory."""

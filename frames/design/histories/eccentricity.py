@@ -52,7 +52,7 @@ _RAISED: tuple[tuple[str, str, Literal["factor", "difference"]], ...] = (
     ("floor_plan", "m/s2", "factor"),
     ("slip", "m", "difference"),
     ("rim_force", "N", "difference"),
-    ("eccentricity", "-", "difference"),
+    ("eccentricity_loaded", "-", "difference"),
     ("axial_tension", "N", "difference"),
     ("displacement_left", "m", "difference"),
     ("slip_left", "m", "difference"),

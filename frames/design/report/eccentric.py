@@ -16,12 +16,29 @@ if TYPE_CHECKING:
     from frames.design.project.design_run import ProjectRun
 
 
+_TITLES = {
+    "displacement": "isolator displacement",
+    "force": "lateral force of a bearing",
+    "axial force": "maximum axial force",
+    "drift": "storey drift ratio",
+    "line drift": "storey drift ratio, maximum at any column line",
+    "floor plan": "floor acceleration in plan",
+    "slip": "interface slip",
+    "eccentricity loaded": "normalised eccentricity e/a",
+    "axial tension": "maximum axial tension",
+    "displacement left": "residual displacement",
+    "slip left": "residual interface slip",
+}
+"""What the demands call the quantities of ``eccentricity.csv`` that they call otherwise."""
+
+
 def raised_tables(table: pd.DataFrame) -> list[Table]:
     """Return the way that raises each quantity most at each bound; none without moved runs."""
     if table.empty:
         return []
     size = table["factor"].fillna(0.0) + table["added"].fillna(0.0)
     worst = table.loc[size.groupby([table["level"], table["bound"], table["quantity"]]).idxmax()]
+    worst["quantity"] = worst["quantity"].replace(_TITLES)
     worst = worst.sort_index().set_index("quantity")
     worst["factor"] = worst["factor"].map(_factor)  # a pure number, whatever unit its row has
     order = ["level", "bound", "masses", "unit", "centred", "moved", "factor", "added", "motions"]

@@ -23,7 +23,8 @@ LANGUAGES = ("en", "es")
 """Languages of reports; English is that of the sources."""
 
 _PLACE = re.compile(r"\{(\w+)\}")
-_DECIMAL = re.compile(r"(?<![\w.,])(-?\d+)\.(\d+(?:e[+-]\d+)?)(?![\w.]|-\d)")
+_CITED = r"(?:NCh ?\d+|EN \d[\d:-]*|ASCE(?:/SEI)? \d+-\d+|NTC \d+),? \d[\d.]*"  # clauses stay
+_DECIMAL = re.compile(rf"({_CITED})|(?<![\w.,])(-?\d+)\.(\d+(?:e[+-]\d+)?)(?![\w.]|-\d)")
 _LISTED = re.compile(r"(?<=[\d…]), (?=[-\d…])")
 _UNITS = r"mm|MPa|GPa|kN/m|kN/mm|s/m|m/s2?²?|kg|kg/m[23²³]"
 _WORDLESS = "|".join(
@@ -106,7 +107,7 @@ class Words:
 
     def number(self, text: str) -> str:
         """Return a text with the decimal sign; clauses, versions and names stay as they are."""
-        return _DECIMAL.sub(r"\1,\2", text) if self.decimal == "," else text
+        return _DECIMAL.sub(_with_comma, text) if self.decimal == "," else text
 
     def formula(self, mathml: str) -> Markup:
         """Return a formula with the decimal sign; lists of numbers then have semicolons."""
@@ -208,6 +209,10 @@ class Words:
                 several = [self._known(part) for part in text.split(sign)]
                 return None if None in several else sign.join(map(str, several))
         return None
+
+
+def _with_comma(found: re.Match[str]) -> str:
+    return found[1] or f"{found[2]},{found[3]}"
 
 
 class _Said(Formatter):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from frames.design.calculation.standing import LEGEND, standing_of
+from frames.design.codes.registry import code_named
 from frames.design.histories.demand_table import envelope_said, headed, void_said
 from frames.design.histories.link_demands import largest_of_links
 from frames.design.report.by_motion import BY_MOTION, motion_tables
@@ -21,10 +22,12 @@ from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from frames.design.report.terms import device_table, loads_table, model_table
 from frames.design.report.words import Words
+from frames.design.testing.programme import OWN_RULES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from frames.design.codes.registry import DesignCode
     from frames.design.project.design_run import ProjectRun
 
 SECTIONS = (
@@ -123,6 +126,8 @@ def report_in(
         untold=words.table(page_table(tables.get(WITHOUT_FORCES, pd.DataFrame()), "kind")),
         members=fit(page_table(tables.get("member-groups", pd.DataFrame()), "members"), keep=3),
         programme=fit(_programme(tables["programme"])),
+        accepted=words.table(_accepted(code_named(run.equivalent.code), tables["programme"])),
+        of_tests=_notes(tables["programme"]),
         motions=fit(page_table(run.motions.table().rename(columns=_named), "motion")),
         equivalent=fit(Table(run.equivalent.head(), run.equivalent.rows())),
         demands=fit(_demands(run.demands)),
@@ -211,8 +216,28 @@ def _programme(tests: pd.DataFrame) -> Table:
         for clause, said in zip(tests["clause"], tests["standing"], strict=True)
     ]
     named = pd.Index([f"{k} {name}" for k, name in tests["what"].items()])
-    left_out = ["standing", "note", "what", "shows"]
+    left_out = ["standing", "note", "what", "shows", "accepted if"]
     shown = tests.assign(clause=cited).drop(columns=left_out).set_index(named)
     if shown["bearings"].nunique() == 1:
         shown = shown.drop(columns="bearings")
     return page_table(in_mm_and_kn(shown), "test")
+
+
+def _accepted(code: DesignCode, tests: pd.DataFrame) -> Table:
+    # What is accepted, rule by rule, and of which tests.
+    rows = []
+    for rule in (*code.accepted, *OWN_RULES):
+        numbers = [str(k) for k, name in tests["what"].items() if rule.holds_for(name)]
+        clause = rule.value.standing.cited(rule.value.clause)
+        if numbers:
+            rows.append((rule.value.what, ", ".join(numbers), clause))
+    return Table(("accepted if", "tests", "clause"), rows, frozenset({0, 1, 2}))
+
+
+def _notes(tests: pd.DataFrame) -> list[tuple[str, str]]:
+    # What the notes of tests say, each once, with the numbers of its tests.
+    noted = tests[tests["note"].fillna("") != ""]
+    return [
+        (", ".join(map(str, group.index)), str(note))
+        for note, group in noted.groupby("note", sort=False)
+    ]

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from frames.design._errors import CheckError
 from frames.design.calculation.standing import OWN, Standing
 from frames.design.calculation.unevaluated import NOT_EVALUATED
+from frames.design.codes.acceptance_rules import AcceptanceRule, accepted_of
 from frames.design.codes.bounds import ENDS, with_property_bounds
-from frames.design.codes.code_values import weakest
+from frames.design.codes.code_values import CodeValue, weakest
 from frames.design.codes.pendulum import FrictionPendulum
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, ProgrammeDemands
 from frames.design.codes.registry import code_named
@@ -27,6 +28,24 @@ if TYPE_CHECKING:
 
 PROPOSAL = "no code: a proposal"
 """Clause of tests that no code has."""
+
+OWN_RULES = (
+    AcceptanceRule(
+        ("interface alone",),
+        CodeValue(
+            PROPOSAL, "friction of the interface within the bounds that the design counts on", OWN
+        ),
+    ),
+    AcceptanceRule(
+        ("impact and return",),
+        CodeValue(PROPOSAL, "rims, liner and welds whole; the slider comes back", OWN),
+    ),
+    AcceptanceRule(
+        ("after the impacts",),
+        CodeValue(PROPOSAL, "the interface does not slip; EDC as before the impacts", OWN),
+    ),
+)
+"""What is proposed to be accepted of the tests that no code has."""
 
 _ALIKE = 1e-6  # of displacements at two bounds
 _LEAST_SLIP = 0.25  # of the stable limit of interface slip: tested though runs slip less
@@ -61,10 +80,11 @@ def prototype_tests(
         A row a test, numbered from 1: kind of bearing, test, displacement [m], vertical load [N],
         fully reversed cycles, period [s] and peak speed [m/s] of harmonic motion, least and
         largest lateral force to expect with friction of high speed at its bounds [N], what the
-        test shows, clause, its standing, a note. NaN: not given, or without meaning. Of an
-        LIR-DCFP there are tests besides that no code has: the interface alone, and impacts. Where
-        the system's loads are not known (`IsolationSystem.unknown_loads`), `demands` giving none,
-        tests at the largest and the least load have NaN for it, and a note that says why.
+        test shows, clause, its standing, what is accepted of it with the clauses, a note. NaN: not
+        given, or without meaning. Of an LIR-DCFP there are tests besides that no code has: the
+        interface alone, and impacts. Where the system's loads are not known
+        (`IsolationSystem.unknown_loads`), `demands` giving none, tests at the largest and the least
+        load have NaN for it, and a note that says why.
 
     Raises
     ------
@@ -99,8 +119,8 @@ def prototype_tests(
     for title, bearing, places in _kinds(system):
         at_ends = [end.bearings[places[0]] for end in ends]
         design = DesignToTest(result, bearing, at_ends, *_loads(system, places, asked), asked)
-        rows += [_row(title, test, design, known) for test in code.tests(design)]
-        rows += [_row(title, test, design, OWN) for test in _of_interface(design)]
+        rows += [_row(title, test, design, known, code.accepted) for test in code.tests(design)]
+        rows += [_row(title, test, design, OWN, OWN_RULES) for test in _of_interface(design)]
     table = pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
     return _without_loads(table, "" if asked.loads is not None else system.unknown_loads)
 
@@ -202,7 +222,11 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
 
 
 def _row(
-    kind: str, test: PlannedTest, design: DesignToTest, standing: Standing
+    kind: str,
+    test: PlannedTest,
+    design: DesignToTest,
+    standing: Standing,
+    rules: Iterable[AcceptanceRule],
 ) -> dict[str, object]:
     least, most = (_force(test, bearing) for bearing in design.ends)
     period = 2.0 * math.pi * test.displacement / test.speed if test.speed > 0.0 else math.nan
@@ -219,6 +243,7 @@ def _row(
         "shows": test.shows,
         "clause": test.clause,
         "standing": str(standing),
+        "accepted if": accepted_of(rules, test.name),
         "note": "",
     }
 
