@@ -162,7 +162,8 @@ def with_moved(data: xr.Dataset, moved: xr.Dataset | None) -> xr.Dataset:
         return data
     beside = named_by_way(moved)
     own = [name for name, each in data.variables.items() if each.dims[:1] == ("run",)]
-    own = [name for name in own if name in beside.variables and "time" not in data[name].dims]
+    own = [name for name in own if name in beside.variables]
+    own = [name for name in own if not {"time", "step"} & {*data[name].dims, *beside[name].dims}]
     parts = [part[own].drop_vars(WAY, errors="ignore") for part in (data, beside)]
     found = xr.concat(parts, "run", data_vars="minimal", coords="minimal", compat="override")
     return found.assign_attrs(data.attrs)
