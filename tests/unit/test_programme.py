@@ -1,6 +1,7 @@
 """Programmes of tests by hand, and measured loops judged against a design."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -426,6 +427,51 @@ def test_nominal_friction_goes_by_pressure_and_corners() -> None:
     low = next(c for c in checks if c.title == "friction by the energy")
     whole = (0.04 * 1.0 + 0.08 * 1.25) / L
     assert low.limit == pytest.approx(0.8 * (whole - corner / (4.0 * 0.2)), rel=1e-9)
+
+
+def of_specimen(specimen: str, **changed: float) -> PrototypeTest:
+    return replace(loop(**changed), specimen=specimen)
+
+
+@pytest.mark.parametrize(
+    ("code", "title", "limit"),
+    [
+        ("ASCE 7-22", "post-elastic stiffness of specimens, off their mean", 0.15),
+        ("NCh2745", "effective stiffness of specimens, off the least of them", 0.10),
+    ],
+)
+def test_specimens_are_held_against_one_another(code: str, title: str, limit: float) -> None:
+    """N / L and N / (c L): off their mean by (1 - 1/c) / (1 + 1/c); of k_eff by its formula."""
+    for c in (1.05, 1.6):
+        pair = of_specimen("A"), of_specimen("B", radius=c * L)
+        checks = {k.title: k for k in acceptance_checks(pair, bearing(), code, bounds=BOUNDS)}
+        by_mean = (1.0 - 1.0 / c) / (1.0 + 1.0 / c)
+        by_least = (0.2 / L + MU) / (0.2 / (c * L) + MU) - 1.0
+        expected = by_mean if code == "ASCE 7-22" else by_least
+        check = checks[title]
+        assert check.demand == pytest.approx(expected, rel=1e-3)
+        assert (check.limit, check.passed) == (limit, expected <= limit)
+        assert check.subject.startswith("200 mm, ")
+        assert check.clause.startswith(code)
+    alone = acceptance_checks([of_specimen("A")], bearing(), code, bounds=BOUNDS)
+    assert title not in {check.title for check in alone}
+    europe = acceptance_checks(pair, bearing(), "EN 1998", bounds=BOUNDS)
+    assert title not in {check.title for check in europe}
+
+
+@pytest.mark.parametrize("fade", [0.1, 0.15])
+def test_cycles_are_held_against_the_third(fade: float) -> None:
+    """The first cycle's friction over the third's is 1 / (1 - fade)^2."""
+    title = "friction of each cycle, off that of the third"
+    checks = acceptance_checks([loop(fade=fade)], bearing(), "EN 1998", bounds=BOUNDS)
+    check = next(k for k in checks if k.title == title)
+    expected = (1.0 - fade) ** -2 - 1.0
+    assert check.demand == pytest.approx(expected, rel=1e-2)
+    assert (check.limit, check.passed) == (0.25, expected <= 0.25)
+    assert check.subject == "200 mm, cycle 1"
+    two = acceptance_checks([loop(cycles=2)], bearing(), "EN 1998", bounds=BOUNDS)
+    assert title not in {k.title for k in two}
+    assert title not in {k.title for k in judged(loop(fade=fade))}
 
 
 def test_drop_and_spread_by_hand() -> None:

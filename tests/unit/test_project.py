@@ -429,7 +429,7 @@ def test_uplift_counts_as_the_file_says(folder: Path) -> None:
         assert of_loads["verdict"].eq("FAILS").all() or not why
         tests = pd.read_csv(folder / "up" / "programme.csv")
         at_loads = tests["what"].str.contains("largest load|least load|interface|impact")
-        marked = tests["note"].fillna("").str.contains("no values for design")
+        marked = tests["note"].astype(str).str.contains("no values for design")
         assert (marked == (at_loads & bool(why))).all()
         page = (folder / "up" / "report.html").read_text(encoding="utf-8")
         programme = page.partition('id="test-programme"')[2].partition('id="calculations"')[0]

@@ -435,7 +435,7 @@ CODE = DesignCode(
         for tests, name in (
             (("P1", "D1", "D2", "D3"), "accepted k_d"),
             (("D", "B"), "accepted friction"),
-            (("D", "B"), "cycles"),
+            (("D", "B"), "accepted cycles"),
             (("D4", "D5"), "stable"),
         )
     ),

@@ -70,7 +70,7 @@ VALUES = {
     "accepted friction": CodeValue(
         "EN 15129 8.3.4", "friction within the bounds that the design counts on"
     ),
-    "cycles": CodeValue(
+    "accepted cycles": CodeValue(
         "NTC 2018 11.9.8", "friction of each cycle within 25 % of that of the third", NTC_SLIDERS
     ),
     "stable": CodeValue("EN 15129 8.3.4", "the bearing stays stable"),

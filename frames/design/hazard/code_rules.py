@@ -38,8 +38,8 @@ class DampingRule(NamedTuple):
     --------
     >>> from frames.design import code_named
     >>> rule = code_named("EN 1998").damping
-    >>> rule.source, str(rule.standing)
-    ('EN 1998-1:2004, 3.2.2.2(3)', 'from memory, to be confirmed against the standard')
+    >>> rule.source, rule.standing.kind
+    ('EN 1998-1:2004, 3.2.2.2(3)', 'agrees')
     """
 
     source: str

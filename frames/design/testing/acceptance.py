@@ -12,6 +12,7 @@ from frames.design.calculation.trace import Trace
 from frames.design.codes.pendulum import FrictionPendulum
 from frames.design.codes.registry import code_named
 from frames.design.codes.secant import CheckBuilder
+from frames.design.testing.acceptance_of_code import checks_of_code
 from frames.design.testing.programme import PROPOSAL, pressure_factor
 from lir_element import LIRBearing
 from lir_element.argument_checks import require_between
@@ -100,9 +101,9 @@ def acceptance_checks(
     bearing : LIRBearing or FrictionPendulum
         The design, friction nominal.
     code : str
-        Code of the design, "ASCE 7-22", "EN 1998" or "NCh2745". The limits are those of ASCE 7-10
-        unless others are given; no clause of the code is cited for them, since its own were not
-        read: give them.
+        Code of the design, "ASCE 7-22", "EN 1998" or "NCh2745": specimens against one another
+        (ASCE 7-22, NCh2745) and cycles against the third (EN 1998, by NTC 2018) are its own. The
+        other limits are those of ASCE 7-10 unless others are given.
     bounds : PropertyBounds
         Factors of friction that the design was made with.
     limits : AcceptanceLimits, optional
@@ -113,7 +114,8 @@ def acceptance_checks(
     Checks
         Of each set: least slope of loading, spread of post-elastic stiffness and energy, second
         stiffness and friction within their bounds, drops of effective stiffness and damping over
-        the cycles of a test of many cycles. Displacements beyond the rims have no post-elastic
+        the cycles of a test of many cycles; what the code asks of specimens, or of each cycle
+        against the third. Displacements beyond the rims have no post-elastic
         stiffness and no friction of the surfaces; of the interface alone friction, spread and drop
         of the energy.
 
@@ -145,7 +147,7 @@ def acceptance_checks(
     >>> len(checks), checks.passed
     (7, True)
     """
-    clause = code_named(code).acceptance
+    rules = code_named(code)
     if not tests:
         msg = "tests is empty: give one PrototypeTest at least"
         raise CheckError(msg)
@@ -155,8 +157,10 @@ def acceptance_checks(
         sets.setdefault((test.name, test.kind), []).append(test)
     for (name, kind), group in sets.items():
         _require_alike(name, group)
-        one = _Set(name, group, bearing, bounds, chosen, clause)
+        one = _Set(name, group, bearing, bounds, chosen, rules.acceptance)
         found += one.of_interface() if kind == "interface" else one.of_bearing()
+        if kind != "interface":
+            found += checks_of_code(rules, name, group, FrictionPendulum.of(bearing).capacity)
     return Checks(found)
 
 
