@@ -272,7 +272,7 @@ def _interface(data: xr.Dataset, out: bool) -> Finding:
     if np.isinf(data.variables["interface_friction"].to_numpy()).all():
         return _finding("interface", out, False, 0.0, "the slider is rigid")
     share = float(largest(data, "interface_share").values.max())
-    loose = _loose_slip(data)
+    loose = "" if out else _loose_slip(data)
     if out or (share < FULL_SLIP and not loose):
         mattered = out and share >= _reached(data, "interface")
         text = f"carried {_share(share)} of what its friction holds"
@@ -287,11 +287,13 @@ def _loose_slip(data: xr.Dataset) -> str:
     # What sliders slipped while next to nothing pressed them, beyond what the rims made them slip:
     # that is given by the displacement, on whatever the sliders did. Without mass, at the level
     # "pendulum", they slip no further.
+    bodies = np.array(levels_of_bearings(data)) != "pendulum"
+    if not bodies.any():
+        return ""
     slips, moved = largest(data, "slip").values, largest(data, "displacement").values
     tilts = data.variables["rim_displacement"].to_numpy() / data.variables["radius"].to_numpy()
     room = data.variables["length"].to_numpy() * tilts.min(axis=1)  # until a rim is met
-    free = np.minimum(total(data, "slip_loose"), slips - np.maximum(moved - room, 0.0))
-    free[np.array(levels_of_bearings(data)) == "pendulum"] = 0.0
+    free = bodies * np.minimum(total(data, "slip_loose"), slips - np.maximum(moved - room, 0.0))
     k = int(np.argmax(free))
     by, least = float(free[k]), BARE * float(data["slider_radius"][k])
     if not by > max(LOOSE_SLIP * float(slips.max()), least):

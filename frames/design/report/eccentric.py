@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from frames.design.calculation.standing import MEMORY
 from frames.design.codes.registry import code_named
+from frames.design.histories.motion_table import QUANTITIES
 from frames.design.report.columns import in_parts
 from frames.design.report.page import Table, page_table
 
@@ -16,20 +17,9 @@ if TYPE_CHECKING:
     from frames.design.project.design_run import ProjectRun
 
 
-_TITLES = {
-    "displacement": "isolator displacement",
-    "force": "lateral force of a bearing",
-    "axial force": "maximum axial force",
-    "drift": "storey drift ratio",
-    "line drift": "storey drift ratio, maximum at any column line",
-    "floor plan": "floor acceleration in plan",
-    "slip": "interface slip",
-    "eccentricity loaded": "normalised eccentricity e/a",
-    "axial tension": "maximum axial tension",
-    "displacement left": "residual displacement",
-    "slip left": "residual interface slip",
-}
-"""What the demands call the quantities of ``eccentricity.csv`` that they call otherwise."""
+_TITLES = {name.replace("_", " "): title for title, name, _, _ in QUANTITIES}
+_TITLES |= {"axial tension": "maximum axial tension"}  # as the table has it, not its negative
+"""What the demands call the quantities of ``eccentricity.csv``."""
 
 
 def raised_tables(table: pd.DataFrame) -> list[Table]:
