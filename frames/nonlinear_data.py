@@ -55,7 +55,10 @@ class NonlinearElements(NamedTuple):
     active: Array  # (m,) deformations of loose parts
     live: Array  # (m,) those of them that a step of Newton's method changes the flow of
     place: Array  # (m,) places in the pool
-    number: Array  # (3,) number of active ones; of flexibilities in the pool; of live ones
+    number: Array  # (4,) number of active ones; of flexibilities in the pool; of live ones; of gains
+    gain: Array  # (m, n_b) flows by a step of b, as the last tangent has them
+    gained: Array  # (m,) flows that have a gain
+    at: Array  # (n_b,) step of b that the guessed flows belong to
     known: Array  # (m,) deformation if b rests
     linear: Array  # (m,) deformation if nothing is loose
     framed: Array  # (m,) deformation that the frame has under the flows
@@ -126,7 +129,10 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Non
         active=np.zeros(m, np.int64),
         live=np.zeros(m, np.int64),
         place=np.zeros(m, np.int64),
-        number=np.zeros(3, np.int64),
+        number=np.zeros(4, np.int64),
+        gain=np.zeros((m, n_b)),
+        gained=np.zeros(m, np.int64),
+        at=np.zeros(n_b),
         known=each(),
         linear=each(),
         framed=each(),

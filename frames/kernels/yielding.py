@@ -45,7 +45,8 @@ def begin_parts(
 ) -> None:
     """Set the deformations at the end of the step if b rests and nothing flows.
 
-    Needs ``run.h_e``, what the modes do then. What flowed in the last step is guessed to go on.
+    Needs ``run.h_e``, what the modes do then. What flowed in the last step is guessed to go on, as
+    b does in ``run.step``.
     """
     dt, before = run.clock[0].dt, run.clock[0].dt_before
     c_m, c_c, c_k = effective(settings, dt)
@@ -60,6 +61,10 @@ def begin_parts(
         parts.change[i] = 0.0
     add_product(parts.of_e, run.h_e, 1.0, parts.known)
     parts.number[0] = 0
+    if run.clock[0].kept != run.clock[0].halvings + 1:
+        parts.number[3] = 0  # gains are those of a tangent
+    for a in range(parts.at.shape[0]):
+        parts.at[a] = run.step[a]
     ratio = dt / before if before > 0.0 else 0.0
     for k in range(parts.kind.shape[0]):
         parts.loose[k] = 0
@@ -244,6 +249,20 @@ def newton_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearEle
 
 
 @inlined
+def follow_step(parts: NonlinearElements, step: Floats) -> None:
+    """Guess how the loose parts flow at a step of b from how they did at the one tried before."""
+    for n in range(parts.number[3]):
+        i = parts.gained[n]
+        if parts.loose[parts.owner[i]] == 1 and parts.flow[i] != 0.0:
+            total = 0.0
+            for a in range(step.shape[0]):
+                total += parts.gain[n, a] * (step[a] - parts.at[a])
+            parts.guess[i] += total
+    for a in range(step.shape[0]):
+        parts.at[a] = step[a]
+
+
+@inlined
 def start_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Set the deformations by the guessed flows; returns whether any is guessed."""
     for i in range(parts.d.shape[0]):
@@ -253,7 +272,8 @@ def start_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElem
 
 @inlined
 def forget_guess(parts: NonlinearElements) -> None:
-    """Guess that nothing flows."""
+    """Guess that nothing flows, whatever b does."""
+    parts.number[3] = 0
     for n in range(parts.number[0]):
         parts.guess[parts.active[n]] = 0.0
 
@@ -268,6 +288,7 @@ def settle_parts(
     add_product(parts.lead[run.clock[0].halvings], step, 1.0, parts.linear)
     for i in range(parts.d.shape[0]):
         parts.framed[i] = parts.linear[i]
+    follow_step(parts, step)
     begin, guessed, turns = True, False, 0
     while turns <= parts.kind.shape[0]:
         if begin:
@@ -315,6 +336,7 @@ def add_part_forces(run: IntegrationState, parts: NonlinearElements, out: Floats
 @inlined
 def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Add what the loose parts do to ``run.tangent``; returns False where they are singular."""
+    parts.number[3] = 0
     if parts.number[0] == 0:
         return True
     n_b = run.step.shape[0]
@@ -335,6 +357,11 @@ def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: Nonlinea
     if not factorise(factors, parts.order):
         return False
     substitute_many(factors, parts.order, parts.right[:count])
+    for n in range(count):
+        parts.gained[n] = parts.live[n]
+        for a in range(n_b):
+            parts.gain[n, a] = parts.right[n, a]
+    parts.number[3] = count
     lead = parts.lead[run.clock[0].halvings]
     for n in range(count):
         for a in range(n_b):
