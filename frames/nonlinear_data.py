@@ -55,7 +55,9 @@ class NonlinearElements(NamedTuple):
     active: Array  # (m,) deformations of loose parts
     live: Array  # (m,) those of them that a step of Newton's method changes the flow of
     place: Array  # (m,) places in the pool
-    number: Array  # (6,) of active ones, of flexibilities in the pool, of live ones, of gains; factors'
+    number: (
+        Array  # (6,) active, rows in the pool, live, gains; live ones of the factors, their step
+    )
     gain: Array  # (m, n_b) flows by a step of b, as the last tangent has them
     gained: Array  # (m,) flows that have a gain
     factored: Array  # (m,) live ones of the factors in `matrix`
