@@ -1,5 +1,6 @@
 """What all tests share: the random-test profile, an empty OpenSees, the folder of records."""
 
+import gc
 import itertools
 import os
 import shutil
@@ -43,6 +44,37 @@ LONG = set((Path(__file__).parent / "long.txt").read_text(encoding="utf-8").spli
 """Modules that `make quick` leaves out, but for what is marked in them: a second and more each."""
 
 
+ROOMS = {"unit", "integration", "properties"}
+"""Folders whose modules `make quick` runs, but for those that are long."""
+
+
+def has_quick_tests(path: Path) -> bool:
+    """Whether `make quick` runs tests of a module: it need not be imported otherwise."""
+    whole = path.parent.name in ROOMS and path.stem not in LONG
+    return whole or "mark.quick" in path.read_text(encoding="utf-8")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out modules without a quick test where only those are asked for."""
+    if config.option.markexpr != "quick" or collection_path.suffix != ".py":
+        return None
+    return None if has_quick_tests(collection_path) else True
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[Any]:
+    """Collect without Python's search for cycles, which later passes over what is there then.
+
+    A third of the time of collecting is that search, again and again through all modules.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
 DOUBTS = ("lir_element.DesignWarning", "lir_element.AnalysisWarning", "frames.ModelWarning")
 """Warnings of what is strange of a bearing, a model or a run, which a test may mean to be."""
 
@@ -56,8 +88,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.path.stem in PLAIN and item.path.parent.name == "unit":
             item.add_marker("plain")
-        rooms = {"unit", "integration", "properties"}
-        if item.path.parent.name in rooms and item.path.stem not in LONG:
+        if item.path.parent.name in ROOMS and item.path.stem not in LONG:
             item.add_marker("quick")
         words = [each for marker in item.iter_markers("meant") for each in marker.args]
         for each, kind in itertools.product(words, DOUBTS):
