@@ -117,21 +117,31 @@ def records() -> Path:
 
 
 @pytest.fixture(scope="session")
-def put_example(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
-    """Put the project of ``lir new`` into a folder: made once a code, for all processes."""
-    example = pytest.importorskip("frames.design.project.example")
+def made_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """Put a folder that is made once for all processes of the suite, under a name, into another."""
     filelock = pytest.importorskip("filelock")
     base = tmp_path_factory.getbasetemp()
     shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
 
-    def put(folder: Path, code: str = "ASCE 7-22") -> Path:
-        made = shared / f"example {code}"
+    def put(name: str, make: Callable[[Path], object], folder: Path) -> Path:
+        made = shared / name
         with filelock.FileLock(f"{made}.lock"):
             if not made.is_dir():
-                part = tmp_path_factory.mktemp("example")
-                example.write_example(part, code)
+                part = tmp_path_factory.mktemp("made")
+                make(part)
                 part.rename(made)  # whole, or not there
         shutil.copytree(made, folder, dirs_exist_ok=True)
         return folder
+
+    return put
+
+
+@pytest.fixture(scope="session")
+def put_example(made_once: Callable[..., Path]) -> Callable[..., Path]:
+    """Put the project of ``lir new`` into a folder: made once a code, for all processes."""
+    example = pytest.importorskip("frames.design.project.example")
+
+    def put(folder: Path, code: str = "ASCE 7-22") -> Path:
+        return made_once(f"example {code}", lambda part: example.write_example(part, code), folder)
 
     return put
