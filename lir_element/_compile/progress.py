@@ -1,4 +1,4 @@
-"""A word while kernels compile: the first run takes half a minute to two.
+"""A word while kernels compile: the first run takes ten seconds to a minute.
 
 Written to the standard error, once: a line that says what happens and, on a terminal, how far it
 is. Nothing is written where the kernels come from the cache, nor with LIR_QUIET=1.
@@ -108,7 +108,7 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
         if seconds < PATIENCE:
             return
         if not self._told:
-            say(f"compiling kernels for the first use, half a minute to two; {self._where()}")
+            say(f"compiling kernels for the first use, ten seconds to a minute; {self._where()}")
             self._told = True
         if on_terminal():
             line = f"  {self._done} compiled, {seconds:.0f} s: {self._open[-1]}"
