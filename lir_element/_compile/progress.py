@@ -108,7 +108,8 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
         if seconds < PATIENCE:
             return
         if not self._told:
-            say(f"compiling kernels for the first use, ten seconds to a minute; {self._where()}")
+            long = "ten seconds to a minute"
+            say(f"compiling kernels for the first use, {long}; {self._where()}")
             self._told = True
         if on_terminal():
             line = f"  {self._done} compiled, {seconds:.0f} s: {self._open[-1]}"
