@@ -15,7 +15,9 @@ import lir_element
 from lir_element._compile.progress import Progress
 
 ROOT = Path(lir_element.__file__).parents[1]
-SAID = "lir-dcfp: compiling kernels for the first use, ten seconds to a minute; they are kept in /c\n"
+SAID = (
+    "lir-dcfp: compiling kernels for the first use, ten seconds to a minute; they are kept in /c\n"
+)
 
 
 class Terminal(io.StringIO):
