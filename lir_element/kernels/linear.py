@@ -9,6 +9,9 @@ from lir_element._compile.jit import inlined, kernel
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Words
 
+_WHOLE = 200  # columns, up to which a matrix stays at hand as a whole while it is factorised
+_PANEL = 32  # columns of a larger one that are taken out of the rest together: a multiple of 4
+
 
 @inlined
 def gather(start: Words, columns: Words, values: Floats, source: Floats, target: Floats) -> None:
@@ -86,34 +89,45 @@ def factorise(columns: Floats, order: Words) -> bool:
     """Factorise a matrix (n, n) in place, row c of `columns` being its column c.
 
     Gaussian elimination of the transposed with pivoted rows, exchanged as `order` tells; the
-    pivots are kept inverted. Four pivots at a time are taken out of what is left, which is read
-    and written once for them. Returns False if the matrix is singular.
+    pivots are kept inverted. Large matrices are taken a panel of columns at a time, whose pivots
+    stay at hand while all that is right of them is read and written once. Returns False if the
+    matrix is singular.
     """
     n = columns.shape[0]
-    for first in range(0, n, 4):
-        last = min(first + 4, n)
-        if not factorise_panel(columns, order, first, last):
+    width = n if n <= _WHOLE else _PANEL
+    for first in range(0, n, width):
+        last = min(first + width, n)
+        if not factorise_columns(columns, order, first, last):
             return False
-        for row in range(first + 1, last):
-            for col in range(first, row):
-                factor = columns[row, col]
-                for k in range(last, n):
-                    columns[row, k] -= factor * columns[col, k]
-        if last - first < 4:
+        if last < n:
+            eliminate_panel(columns, first, last)
+    return True
+
+
+@kernel
+def factorise_columns(columns: Floats, order: Words, first: int, last: int) -> bool:
+    """Factorise the columns `first` to `last`, four pivots at a time taken out of the rest."""
+    n = columns.shape[0]
+    for at in range(first, last, 4):
+        end = min(at + 4, last)
+        if not factorise_pivots(columns, order, at, end):
+            return False
+        eliminate_pivots(columns, at, end, end, last)
+        if end == last:
             return True
-        p_0, p_1 = columns[first, last:], columns[first + 1, last:]
-        p_2, p_3 = columns[first + 2, last:], columns[first + 3, last:]
-        for row in range(last, n):
-            f_0, f_1 = columns[row, first], columns[row, first + 1]
-            f_2, f_3 = columns[row, first + 2], columns[row, first + 3]
-            rest = columns[row, last:]
+        p_0, p_1 = columns[at, end:last], columns[at + 1, end:last]
+        p_2, p_3 = columns[at + 2, end:last], columns[at + 3, end:last]
+        for row in range(end, n):
+            f_0, f_1 = columns[row, at], columns[row, at + 1]
+            f_2, f_3 = columns[row, at + 2], columns[row, at + 3]
+            rest = columns[row, end:last]
             for k in range(rest.shape[0]):
                 rest[k] -= (f_0 * p_0[k] + f_1 * p_1[k]) + (f_2 * p_2[k] + f_3 * p_3[k])
     return True
 
 
 @kernel
-def factorise_panel(columns: Floats, order: Words, first: int, last: int) -> bool:
+def factorise_pivots(columns: Floats, order: Words, first: int, last: int) -> bool:
     """Eliminate with the pivots `first` to `last` in their own columns alone."""
     n = columns.shape[0]
     for col in range(first, last):
@@ -133,6 +147,51 @@ def factorise_panel(columns: Floats, order: Words, first: int, last: int) -> boo
                 for k in range(col + 1, last):
                     columns[row, k] -= factor * columns[col, k]
     return True
+
+
+@inlined
+def eliminate_pivots(columns: Floats, first: int, last: int, begin: int, end: int) -> None:
+    """Take the pivots `first` to `last` out of one another's columns `begin` to `end`."""
+    for row in range(first + 1, last):
+        for col in range(first, row):
+            factor = columns[row, col]
+            for k in range(begin, end):
+                columns[row, k] -= factor * columns[col, k]
+
+
+@kernel
+def eliminate_panel(columns: Floats, first: int, last: int) -> None:
+    """Take the pivots `first` to `last`, fours, out of all columns beyond them, rows in pairs."""
+    n = columns.shape[0]
+    for at in range(first, last, 4):
+        for before in range(first, at, 4):
+            eliminate_four(columns, at, before, last)
+            eliminate_four(columns, at + 2, before, last)
+        eliminate_pivots(columns, at, at + 4, last, n)
+    for row in range(last, n - 1, 2):
+        for at in range(first, last, 4):
+            eliminate_four(columns, row, at, last)
+    if (n - last) % 2 == 1:  # the last row has none beside it
+        for col in range(first, last):
+            factor = columns[n - 1, col]
+            for k in range(last, n):
+                columns[n - 1, k] -= factor * columns[col, k]
+
+
+@inlined
+def eliminate_four(columns: Floats, row: int, at: int, begin: int) -> None:
+    """Take the four pivots from `at` on out of a row and the next, from column `begin` on."""
+    f_0, f_1 = columns[row, at], columns[row, at + 1]
+    f_2, f_3 = columns[row, at + 2], columns[row, at + 3]
+    g_0, g_1 = columns[row + 1, at], columns[row + 1, at + 1]
+    g_2, g_3 = columns[row + 1, at + 2], columns[row + 1, at + 3]
+    p_0, p_1 = columns[at, begin:], columns[at + 1, begin:]
+    p_2, p_3 = columns[at + 2, begin:], columns[at + 3, begin:]
+    one, other = columns[row, begin:], columns[row + 1, begin:]
+    for k in range(one.shape[0]):
+        q_0, q_1, q_2, q_3 = p_0[k], p_1[k], p_2[k], p_3[k]
+        one[k] -= (f_0 * q_0 + f_1 * q_1) + (f_2 * q_2 + f_3 * q_3)
+        other[k] -= (g_0 * q_0 + g_1 * q_1) + (g_2 * q_2 + g_3 * q_3)
 
 
 @kernel
