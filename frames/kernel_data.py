@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[Any]
 
+_MANY = 100  # unknowns of bearings, from which on what few of them share is kept apart
+_SHARED_BY = 8  # bearings at least
+_FEW = 0.05  # of the unknowns at most
+
 MOST_HALVINGS = 14
 """Largest number of halvings of a step: a step of 0.005 s down to 0.3 microseconds."""
 
@@ -66,6 +70,7 @@ COUNT_FIELDS = (
     Field("steps", "-", "", "steps accepted", (), "i8"),
     Field("iterations", "-", "", "iterations of Newton's method", (), "i8"),
     Field("tangents", "-", "", "tangents made", (), "i8"),
+    Field("shared_tangents", "-", "", "times that only their shared part was", (), "i8"),
     Field("halvings", "-", "", "steps halved by adaptive substepping", (), "i8"),
     Field("trials", "-", "", "state determinations of all bearings", (), "i8"),
     Field("bearing", "-", "", "bearing whose limit or state was the last to fail", (), "i8"),
@@ -100,6 +105,9 @@ class ReducedModel(NamedTuple):
     start: Array  # (n_bearings, 13): first entry of each row of the maps below
     columns: Array
     values: Array
+    place: Array  # (n_b,) of each coordinate in the tangent: those that many bearings share last
+    at: Array  # (n_b,) the coordinates by place
+    shared: int  # how many these are
 
 
 class IntegrationState(NamedTuple):
@@ -130,8 +138,20 @@ class IntegrationState(NamedTuple):
     force_before: Array  # (2, n_b) and those of the two steps before
     balanced: Array  # (1,) 1: accelerations are recorded from equilibrium at the end of the step
     balance: Array  # (n_b, n_b) then: accelerations of b by forces, eta following
-    tangent: Array  # (n_b, n_b) the last one made, transposed and factorised
-    order: Array  # (n_b,) of its rows
+    tangent: Array  # (n_v, n_v) the last one made, transposed and factorised: not what is shared
+    order: Array  # (n_v,) of its rows
+    across: Array  # (n_h, n_v) how the rest follows the n_h = n_b - n_v shared coordinates
+    below: Array  # (n_h, n_v) tangent of their forces by the rest
+    corner: Array  # (n_h, n_h) and by themselves, the rest following; transposed and factorised
+    corner_order: Array
+    sorted_b: Array  # (n_b,) scratch; this and what follows of no size where nothing is shared
+    linear_step: Array  # (n_b,) what the linear structure makes of the step, of a trial of it,
+    linear_trial: Array
+    linear_change: Array  # of Newton's correction,
+    linear_before: Array  # (2, n_b) and of the last two steps
+    flows: Array  # (6, n_b) mass_b v_b, mass_b a_b, damping_b v_b, damping_b a_b, and scratch
+    element_whole: Array  # (n_bearings, 12, 12) tangents that `tangent` was made of
+    of_nodes: Array  # (4, 12) scratch
     reduced: Array  # (halvings, n_b, n_b) linear effective stiffness of each step size
     has_reduced: Array
     inverse_e: Array  # (halvings, n_e, n_e) with full damping: effective flexibility of modes
@@ -184,6 +204,7 @@ class IntegratorSettings(NamedTuple):
     force_tolerance: float
     max_iterations: int
     tangent_worth: float  # iterations that a kept tangent may take before a new one is cheaper
+    shared_worth: float  # the same before its shared part alone; as above where none is shared
     energy_tolerance: float  # made or lost by contacts in a step, of the energy moved so far
     energy_floor: float  # J, below which that energy does not count
     error_tolerance: float  # of histories over the displacement reached; infinite: fixed step
@@ -210,6 +231,9 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
     def plain(array: Array) -> Array:
         return np.ascontiguousarray(array, dtype=np.float64)
 
+    last = np.zeros(rows.shape[1], dtype=np.int64)
+    last[shared_coordinates(system, rows)] = 1
+    at = np.argsort(last, kind="stable").astype(np.int64)
     return ReducedModel(
         mass_b=plain(basis.mass_b),
         mass_be=plain(basis.mass_be),
@@ -230,7 +254,35 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
         start=start,
         columns=rows.indices.astype(np.int64),
         values=plain(rows.data),
+        place=np.argsort(at).astype(np.int64),
+        at=at,
+        shared=int(last.sum()),
     )
+
+
+def shared_coordinates(system: System, rows: Array) -> Array:
+    """Return those coordinates of b that many bearings share, if it pays to keep them apart.
+
+    Parameters
+    ----------
+    system : System
+        The frame. What yields enters the tangent of all coordinates: then none is kept apart.
+    rows : csr_array, (12 n_bearings, n_b)
+        Displacements of the bearings' nodes from b.
+
+    Returns
+    -------
+    ndarray
+        Places, in order.
+    """
+    n_b = rows.shape[1]
+    if n_b < _MANY or len(system.parts.kind):
+        return np.zeros(0, dtype=np.int64)
+    entries = rows.tocoo()
+    bearing, column = entries.coords[0] // 12, entries.coords[1]
+    pairs = np.unique(np.column_stack([column, bearing]), axis=0)
+    shared = np.flatnonzero(np.bincount(pairs[:, 0], minlength=n_b) >= _SHARED_BY)
+    return shared if len(shared) <= _FEW * n_b else shared[:0]
 
 
 def device_records(system: System) -> Array:
@@ -251,6 +303,8 @@ def run_arrays(model: ReducedModel) -> IntegrationState:
 
     energy = np.zeros(1, dtype=LEDGER)
     sizes = MOST_HALVINGS + 1
+    n_h = model.shared
+    n_s = n_b if n_h else 0
     n_full = len(model.damping_ee)  # pages of the arrays below that no step touches take no memory
 
     return IntegrationState(
@@ -279,8 +333,20 @@ def run_arrays(model: ReducedModel) -> IntegrationState:
         force_before=np.zeros((2, n_b)),
         balanced=np.zeros(1, np.int64),
         balance=np.zeros((n_b, n_b)),
-        tangent=np.zeros((n_b, n_b)),
-        order=np.zeros(n_b, np.int64),
+        tangent=np.zeros((n_b - n_h, n_b - n_h)),
+        order=np.zeros(n_b - n_h, np.int64),
+        across=np.zeros((n_h, n_b - n_h)),
+        below=np.zeros((n_h, n_b - n_h)),
+        corner=np.zeros((n_h, n_h)),
+        corner_order=np.zeros(n_h, np.int64),
+        sorted_b=np.zeros(n_s),
+        linear_step=np.zeros(n_s),
+        linear_trial=np.zeros(n_s),
+        linear_change=np.zeros(n_s),
+        linear_before=np.zeros((2, n_s)),
+        flows=np.zeros((6, n_s)),
+        element_whole=np.zeros((count if n_h else 0, 12, 12)),
+        of_nodes=np.zeros((4, 12)),
         reduced=np.zeros((sizes, n_b, n_b)),
         has_reduced=np.zeros(sizes, np.int64),
         inverse_e=np.zeros((sizes, n_full, n_full)),

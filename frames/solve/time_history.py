@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from frames.kernel_data import Output
+    from frames.kernel_data import Output, ReducedModel
     from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.recording.recording import Recording
@@ -338,7 +338,8 @@ def settings_of(state: GravityState, options: Options) -> IntegratorSettings:
         gamma=float(0.5 - alpha_m + alpha_f),
         force_tolerance=float(force_tolerance(state.system, _FORCE_TOLERANCE)),
         max_iterations=_MAX_ITERATIONS,
-        tangent_worth=_tangent_worth(len(state.model.props), len(state.run.b)),
+        tangent_worth=_tangent_worth(state.model),
+        shared_worth=_shared_worth(state.model),
         energy_tolerance=_ENERGY_TOLERANCE,
         energy_floor=float(_ENERGY_FLOOR * length * np.abs(state.system.load).sum()),
         error_tolerance=float(tolerance),
@@ -368,11 +369,21 @@ def _least_halvings(base: float, tolerance: float) -> int:
     return min(max(wanted, 0), MOST_HALVINGS // 2)
 
 
-def _tangent_worth(bearings: int, unknowns: int) -> float:
+def _tangent_worth(model: ReducedModel) -> float:
     # Cost of a new tangent in iterations with a kept one, over the steps that it serves.
+    bearings, unknowns = len(model.props), len(model.load_b)
     new = bearings + _PRODUCT * unknowns**3 / 3.0
     kept = bearings + _PRODUCT * unknowns**2
     return max(new / kept - 1.0, 0.0) / _SERVES
+
+
+def _shared_worth(model: ReducedModel) -> float:
+    # The same of what bearings share of it, which serves one step.
+    if not model.shared:
+        return _tangent_worth(model)
+    bearings, unknowns = len(model.props), len(model.load_b)
+    kept = bearings + _PRODUCT * unknowns**2
+    return (bearings + _PRODUCT * model.shared * unknowns**2) / kept
 
 
 def ground_of(motion: GroundMotion, features: Features, settings: IntegratorSettings) -> Ground:

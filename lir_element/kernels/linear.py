@@ -65,6 +65,38 @@ def set_product(columns: Floats, x: Floats, out: Floats) -> None:
     add_product(columns, x, 1.0, out)
 
 
+@inlined
+def copy(source: Floats, target: Floats) -> None:
+    """Set `target` (n,) to `source`."""
+    for a in range(target.shape[0]):
+        target[a] = source[a]
+
+
+@kernel
+def subtract_squares(rows: Floats, weights: Floats, out: Floats) -> None:
+    """Take ``rows.T @ diag(weights) @ rows`` from `out` (n, n); rows (m, n), weights (m,).
+
+    A block of rows, which stays at hand, is taken out of all of `out` before the next.
+    """
+    m, n = rows.shape
+    for first in range(0, m, _PANEL):
+        last = min(first + _PANEL, m)
+        whole = last - (last - first) % 4
+        for a in range(n):
+            row = out[a]
+            for k in range(first, whole, 4):
+                x_0, x_1 = weights[k] * rows[k, a], weights[k + 1] * rows[k + 1, a]
+                x_2, x_3 = weights[k + 2] * rows[k + 2, a], weights[k + 3] * rows[k + 3, a]
+                r_0, r_1, r_2, r_3 = rows[k], rows[k + 1], rows[k + 2], rows[k + 3]
+                for c in range(n):
+                    less = (row[c] - x_0 * r_0[c]) - x_1 * r_1[c]
+                    row[c] = (less - x_2 * r_2[c]) - x_3 * r_3[c]
+            for k in range(whole, last):
+                x_0 = weights[k] * rows[k, a]
+                for c in range(n):
+                    row[c] -= x_0 * rows[k, c]
+
+
 @kernel
 def dot(x: Floats, y: Floats) -> float:
     """Return the scalar product of `x` and `y`."""
@@ -197,18 +229,61 @@ def eliminate_four(columns: Floats, row: int, at: int, begin: int) -> None:
 @kernel
 def substitute(factors: Floats, order: Words, x: Floats) -> None:
     """Solve for the right-hand side `x` (n,) in place, with what `factorise` made."""
+    substitute_rows(factors, order, x.reshape((1, x.shape[0])))
+
+
+@kernel
+def substitute_rows(factors: Floats, order: Words, x: Floats) -> None:
+    """Solve for the right-hand sides in the rows of `x` (m, n) in place, as `substitute`.
+
+    Four rows of `factors` at a time are read for all of them: large ones are read once.
+    """
     n = factors.shape[0]
-    for c in range(n):
-        value = x[c] * factors[c, c]
-        x[c] = value
-        for a in range(c + 1, n):
-            x[a] -= factors[c, a] * value
-    for c in range(n - 1, 0, -1):
-        value = x[c]
-        for a in range(c):
-            x[a] -= factors[c, a] * value
-    for c in range(n - 1, -1, -1):
-        x[c], x[order[c]] = x[order[c]], x[c]
+    whole = n - n % 4
+    for c in range(0, whole, 4):
+        for y in x:
+            forward_four(factors, c, y)
+    for y in x:
+        for c in range(whole, n):
+            y[c] *= factors[c, c]
+            for a in range(c + 1, n):
+                y[a] -= factors[c, a] * y[c]
+        for c in range(n - 1, whole - 1, -1):
+            for a in range(c):
+                y[a] -= factors[c, a] * y[c]
+    for c in range(whole - 4, -1, -4):
+        for y in x:
+            backward_four(factors, c, y)
+    for y in x:
+        for c in range(n - 1, -1, -1):
+            y[c], y[order[c]] = y[order[c]], y[c]
+
+
+@inlined
+def forward_four(factors: Floats, c: int, x: Floats) -> None:
+    """Take four unknowns from `c` on, which become known, out of those that follow."""
+    for k in range(c, c + 4):
+        x[k] *= factors[k, k]
+        for a in range(k + 1, c + 4):
+            x[a] -= factors[k, a] * x[k]
+    x_0, x_1, x_2, x_3 = x[c], x[c + 1], x[c + 2], x[c + 3]
+    f_0, f_1, f_2, f_3 = factors[c], factors[c + 1], factors[c + 2], factors[c + 3]
+    for a in range(c + 4, x.shape[0]):
+        less = (x[a] - f_0[a] * x_0) - f_1[a] * x_1
+        x[a] = (less - f_2[a] * x_2) - f_3[a] * x_3
+
+
+@inlined
+def backward_four(factors: Floats, c: int, x: Floats) -> None:
+    """Take four unknowns from `c` on, which become known, out of those before."""
+    for k in range(c + 3, c, -1):
+        for a in range(c, k):
+            x[a] -= factors[k, a] * x[k]
+    x_0, x_1, x_2, x_3 = x[c], x[c + 1], x[c + 2], x[c + 3]
+    f_0, f_1, f_2, f_3 = factors[c], factors[c + 1], factors[c + 2], factors[c + 3]
+    for a in range(c):
+        less = (x[a] - f_3[a] * x_3) - f_2[a] * x_2
+        x[a] = (less - f_1[a] * x_1) - f_0[a] * x_0
 
 
 @kernel
