@@ -22,9 +22,10 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[Any]
 
-_MANY = 100  # unknowns of bearings, from which on what few of them share is kept apart
+_MANY = 200  # unknowns of bearings, from which on what few of them share is kept apart
 _SHARED_BY = 8  # bearings at least
 _FEW = 0.05  # of the unknowns at most
+_SECANTS = 8  # corrections of Newton's method that are remembered within a step
 
 MOST_HALVINGS = 14
 """Largest number of halvings of a step: a step of 0.005 s down to 0.3 microseconds."""
@@ -107,7 +108,7 @@ class ReducedModel(NamedTuple):
     values: Array
     place: Array  # (n_b,) of each coordinate in the tangent: those that many bearings share last
     at: Array  # (n_b,) the coordinates by place
-    shared: int  # how many these are
+    shared: Array  # (n_h,) those that many bearings share, if there are many coordinates
 
 
 class IntegrationState(NamedTuple):
@@ -152,6 +153,10 @@ class IntegrationState(NamedTuple):
     flows: Array  # (6, n_b) mass_b v_b, mass_b a_b, damping_b v_b, damping_b a_b, and scratch
     element_whole: Array  # (n_bearings, 12, 12) tangents that `tangent` was made of
     of_nodes: Array  # (4, 12) scratch
+    weights: Array  # (n_b,) of the coordinates in products of corrections
+    corrections: Array  # (m, n_b) of Newton's method since the tangent was renewed
+    corrections_linear: Array  # (m, n_b) what the linear structure makes of them
+    corrections_size: Array  # (m,) their squares
     reduced: Array  # (halvings, n_b, n_b) linear effective stiffness of each step size
     has_reduced: Array
     inverse_e: Array  # (halvings, n_e, n_e) with full damping: effective flexibility of modes
@@ -232,7 +237,8 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
         return np.ascontiguousarray(array, dtype=np.float64)
 
     last = np.zeros(rows.shape[1], dtype=np.int64)
-    last[shared_coordinates(system, rows)] = 1
+    shared = shared_coordinates(system, rows)
+    last[shared] = 1
     at = np.argsort(last, kind="stable").astype(np.int64)
     return ReducedModel(
         mass_b=plain(basis.mass_b),
@@ -256,7 +262,7 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
         values=plain(rows.data),
         place=np.argsort(at).astype(np.int64),
         at=at,
-        shared=int(last.sum()),
+        shared=shared,
     )
 
 
@@ -303,7 +309,7 @@ def run_arrays(model: ReducedModel) -> IntegrationState:
 
     energy = np.zeros(1, dtype=LEDGER)
     sizes = MOST_HALVINGS + 1
-    n_h = model.shared
+    n_h = len(model.shared)
     n_s = n_b if n_h else 0
     n_full = len(model.damping_ee)  # pages of the arrays below that no step touches take no memory
 
@@ -347,6 +353,10 @@ def run_arrays(model: ReducedModel) -> IntegrationState:
         flows=np.zeros((6, n_s)),
         element_whole=np.zeros((count if n_h else 0, 12, 12)),
         of_nodes=np.zeros((4, 12)),
+        weights=np.ones(n_s),
+        corrections=np.zeros((_SECANTS, n_s)),
+        corrections_linear=np.zeros((_SECANTS, n_s)),
+        corrections_size=np.zeros(_SECANTS),
         reduced=np.zeros((sizes, n_b, n_b)),
         has_reduced=np.zeros(sizes, np.int64),
         inverse_e=np.zeros((sizes, n_full, n_full)),

@@ -57,7 +57,7 @@ def damping_work(model: ReducedModel, run: IntegrationState) -> float:
     for a in range(run.b.shape[0]):
         run.h_b[a] = 0.5 * (run.v_b[a] + run.v_b_new[a])
     if model.damping_b.shape[0] > 0:
-        if model.shared > 0:
+        if model.shared.shape[0] > 0:
             total += dot(run.step, run.flows[4])
         else:
             set_product(model.damping_b, run.h_b, run.g_b)
@@ -110,8 +110,8 @@ def add_energy(
         given += part_energy_on(parts.load_e, parts, parts.to_e, run.g_e)
         parts.work[3] += given
         bearings += given
-    momentum = run.flows[0] if model.shared > 0 else run.h_b
-    if model.shared == 0:
+    momentum = run.flows[0] if model.shared.shape[0] > 0 else run.h_b
+    if model.shared.shape[0] == 0:
         set_product(model.mass_b, run.v_b_new, momentum)
         set_product(model.stiffness_b, run.b_new, run.held)
     kinetic = kinetic_energy(model, run.v_b_new, run.v_e_new, run.flow_v_new, momentum)

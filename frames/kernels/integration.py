@@ -87,7 +87,7 @@ def renew_products(model: ReducedModel, run: IntegrationState) -> None:
     set_product(model.stiffness_b, run.b, run.held)
     set_product(model.mass_be, run.v_b, run.flow_v)
     set_product(model.mass_be, run.a_b, run.flow_a)
-    if model.shared > 0:
+    if model.shared.shape[0] > 0:
         set_product(model.mass_b, run.v_b, run.flows[0])
         set_product(model.mass_b, run.a_b, run.flows[1])
         if model.damping_b.shape[0] > 0:
@@ -138,7 +138,7 @@ def set_load(
             run.rhs_b[a] -= model.inertia_b[a, axis] * pull
         for k in range(run.e.shape[0]):
             run.rhs_e[k] -= model.inertia_e[k, axis] * pull
-    if model.shared > 0:
+    if model.shared.shape[0] > 0:
         for a in range(run.b.shape[0]):
             run.rhs_b[a] += known_v * run.flows[0, a] + known_a * run.flows[1, a]
             run.rhs_b[a] -= damp_v * run.flows[2, a] + damp_a * run.flows[3, a]
@@ -239,7 +239,7 @@ def try_step(
         begin_parts(model, run, parts, settings)
     if foreseen:
         predict(model, run, run.reduced[clock.halvings], 1.0 - settings.alpha_f)
-    elif model.shared > 0:
+    elif model.shared.shape[0] > 0:
         set_product(run.reduced[clock.halvings], run.step, run.linear_step)
     code = newton(
         model,
@@ -279,7 +279,7 @@ def accept_step(
 ) -> None:
     """Commit the step."""
     clock = run.clock[0]
-    if model.shared > 0:
+    if model.shared.shape[0] > 0:
         carry_products(
             model.mass_b,
             model.damping_b,

@@ -19,6 +19,8 @@ from typing import TYPE_CHECKING
 from frames._jit import kernel
 from lir_element.kernels.linear import dot, factorise, set_product, substitute, substitute_rows
 
+_LEAST = 0.2  # of a secant's slope over that of the tangent: corrections grow fivefold at most
+
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Words
 
@@ -174,6 +176,64 @@ def linear_part_of_correction(
             for i in range(start[k, row], start[k, row + 1]):
                 force = on_v[row] if place[columns[i]] < n_v else on_h[row]
                 flow[columns[i]] -= share * values[i] * force
+
+
+@kernel
+def with_secants(
+    weights: Floats,
+    corrections: Floats,
+    linear: Floats,
+    sizes: Floats,
+    count: int,
+    x: Floats,
+    flow: Floats,
+) -> int:
+    """Improve Newton's correction `x` by what the ones before it did: Broyden's method.
+
+    Parameters
+    ----------
+    weights : (n_b,)
+        Of the coordinates in scalar products.
+    corrections, linear, sizes : (m, n_b), (m, n_b), (m,)
+        The corrections since the tangent was renewed, what the linear structure makes of them, and
+        their squared sizes; the new one joins them.
+    count : int
+        How many these are.
+    x, flow : (n_b,)
+        The correction by the kept tangent, and what the linear structure makes of it: overwritten.
+
+    Returns
+    -------
+    int
+        How many corrections are kept now.
+
+    Notes
+    -----
+    Kelley 1995, Iterative Methods for Linear and Nonlinear Equations, algorithm brsol.
+    """
+    n_b = x.shape[0]
+    if count == sizes.shape[0]:
+        count = 0
+    for j in range(count):
+        along = 0.0
+        for a in range(n_b):
+            along += weights[a] * corrections[j, a] * x[a]
+        along /= sizes[j]
+        if j + 1 < count:
+            for a in range(n_b):
+                x[a] += along * corrections[j + 1, a]
+                flow[a] += along * linear[j + 1, a]
+        else:
+            growth = 1.0 / max(1.0 - along, _LEAST)
+            for a in range(n_b):
+                x[a] *= growth
+                flow[a] *= growth
+    size = 0.0
+    for a in range(n_b):
+        corrections[count, a], linear[count, a] = x[a], flow[a]
+        size += weights[a] * x[a] * x[a]
+    sizes[count] = size
+    return count + 1 if size > 0.0 else 0
 
 
 @kernel

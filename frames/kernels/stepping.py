@@ -17,6 +17,7 @@ from frames.kernels.shared_tangent import (
     linear_part_of_correction,
     set_linear_blocks,
     substitute_blocks,
+    with_secants,
 )
 from frames.kernels.yielding import add_part_forces, add_part_tangent, settle_parts
 from lir_element.errors import RunStatus
@@ -89,7 +90,7 @@ def bearing_tangents(
     for k in range(model.props.shape[0]):
         element = run.element_k[k]
         bearing_tangent(model.props, run.new, run.work, contacts, k, element)
-        if model.shared > 0:
+        if model.shared.shape[0] > 0:
             add_element_to_blocks(
                 model.start[k],
                 model.columns,
@@ -154,7 +155,7 @@ def set_residual(
         return math.inf
     for a in range(n_b):
         run.residual[a] = run.rhs_b[a] - share * run.force[a]
-    if model.shared > 0:
+    if model.shared.shape[0] > 0:
         for a in range(n_b):
             run.residual[a] -= run.linear_trial[a]
     else:
@@ -217,7 +218,7 @@ def predict(model: ReducedModel, run: IntegrationState, linear: Floats, share: f
         gain = run.force_old[a] - run.force_before[0, a]
         turn = bent * (gain - (run.force_before[0, a] - run.force_before[1, a]))
         run.residual[a] = run.rhs_b[a] - share * (run.force_old[a] + ratio * gain + turn)
-    if model.shared == 0:
+    if model.shared.shape[0] == 0:
         add_product(linear, run.step, -1.0, run.residual)
         substitute(run.tangent, run.order, run.residual)
     else:
@@ -252,17 +253,19 @@ def renew_tangent(
     Unless `whole`, only what belongs to the coordinates that many bearings share is renewed.
     """
     n_b = run.step.shape[0]
-    if model.shared > 0:
+    if model.shared.shape[0] > 0:
         set_linear_blocks(linear, model.at, whole, run.tangent, run.across, run.below, run.corner)
     else:
         for a in range(n_b):
             for c in range(n_b):
                 run.tangent[a, c] = linear[a, c]
     bearing_tangents(model, run, contacts, share, whole)
-    if model.shared > 0:
+    if model.shared.shape[0] > 0:
         if whole:
             size = run.element_k.size
             copy(run.element_k.reshape((size,)), run.element_whole.reshape((size,)))
+            for a in range(n_b):
+                run.weights[a] = abs(linear[a, a])
         run.counts[0].shared_tangents += 1 - int(whole)
         run.counts[0].tangents += int(whole)
         return factorise_blocks(
@@ -298,9 +301,9 @@ def newton(
     n_b = run.step.shape[0]
     clock = run.clock[0]
     need = _KEPT if clock.kept == clock.halvings + 1 else _WHOLE
-    less = _SHARED if model.shared > 0 else _WHOLE
+    less = _SHARED if model.shared.shape[0] > 0 else _WHOLE
     size, factor = math.inf, 1.0
-    at, tries, passes = _GUESS, 0, 0
+    at, tries, passes, secants = _GUESS, 0, 0, 0
     while True:  # one place where the bearings are run: they are its code
         if at == _CORRECTED:
             for a in range(n_b):
@@ -348,6 +351,8 @@ def newton(
         if size <= tolerance:
             return _OK
         run.counts[0].iterations += 1
+        if need != _KEPT or factor != 1.0:
+            secants = 0
         if need != _KEPT:
             clock.kept = 0
             if not renew_tangent(model, run, contacts, parts, linear, share, need == _WHOLE):
@@ -355,9 +360,18 @@ def newton(
             clock.kept = clock.halvings + 1
         for a in range(n_b):
             run.h_b[a] = run.residual[a]
-        if model.shared > 0:
+        if model.shared.shape[0] > 0:
             copy(run.residual, run.linear_change)
             solve_tangent(model, run, share, run.h_b)
+            secants = with_secants(
+                run.weights,
+                run.corrections,
+                run.corrections_linear,
+                run.corrections_size,
+                secants,
+                run.h_b,
+                run.linear_change,
+            )
         else:
             substitute(run.tangent, run.order, run.h_b)
         at, tries, factor = _CORRECTED, 0, 1.0
@@ -380,7 +394,7 @@ def solve_gravity(
         run.step[a] = run.b[a]
         run.b[a] = 0.0
         run.rhs_b[a] = model.load_b[a]
-    if model.shared > 0:
+    if model.shared.shape[0] > 0:
         set_product(model.stiffness_b, run.step, run.linear_step)
     run.clock[0].kept = 0
     code = newton(
