@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.assembly.basis import bearing_rows
+from frames.shared_data import order_of, shared_coordinates, tangent_arrays
 from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
 from lir_element.device.features import apply
 from lir_element.element import heat_parts, initial_state
@@ -21,11 +22,6 @@ if TYPE_CHECKING:
     from frames.assembly.basis import Basis
 
     Array = npt.NDArray[Any]
-
-_MANY = 200  # unknowns of bearings, from which on what few of them share is kept apart
-_SHARED_BY = 8  # bearings at least
-_FEW = 0.05  # of the unknowns at most
-_SECANTS = 8  # corrections of Newton's method that are remembered within a step
 
 MOST_HALVINGS = 14
 """Largest number of halvings of a step: a step of 0.005 s down to 0.3 microseconds."""
@@ -236,10 +232,8 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
     def plain(array: Array) -> Array:
         return np.ascontiguousarray(array, dtype=np.float64)
 
-    last = np.zeros(rows.shape[1], dtype=np.int64)
     shared = shared_coordinates(system, rows)
-    last[shared] = 1
-    at = np.argsort(last, kind="stable").astype(np.int64)
+    at = order_of(shared, rows.shape[1])
     return ReducedModel(
         mass_b=plain(basis.mass_b),
         mass_be=plain(basis.mass_be),
@@ -266,31 +260,6 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
     )
 
 
-def shared_coordinates(system: System, rows: Array) -> Array:
-    """Return those coordinates of b that many bearings share, if it pays to keep them apart.
-
-    Parameters
-    ----------
-    system : System
-        The frame. What yields enters the tangent of all coordinates: then none is kept apart.
-    rows : csr_array, (12 n_bearings, n_b)
-        Displacements of the bearings' nodes from b.
-
-    Returns
-    -------
-    ndarray
-        Places, in order.
-    """
-    n_b = rows.shape[1]
-    if n_b < _MANY or len(system.parts.kind):
-        return np.zeros(0, dtype=np.int64)
-    entries = rows.tocoo()
-    bearing, column = entries.coords[0] // 12, entries.coords[1]
-    pairs = np.unique(np.column_stack([column, bearing]), axis=0)
-    shared = np.flatnonzero(np.bincount(pairs[:, 0], minlength=n_b) >= _SHARED_BY)
-    return shared if len(shared) <= _FEW * n_b else shared[:0]
-
-
 def device_records(system: System) -> Array:
     """Return the properties of all bearings with everything modelled."""
     return np.concatenate([placed.bearing.to_record() for placed in system.bearings])
@@ -309,8 +278,6 @@ def run_arrays(model: ReducedModel) -> IntegrationState:
 
     energy = np.zeros(1, dtype=LEDGER)
     sizes = MOST_HALVINGS + 1
-    n_h = len(model.shared)
-    n_s = n_b if n_h else 0
     n_full = len(model.damping_ee)  # pages of the arrays below that no step touches take no memory
 
     return IntegrationState(
@@ -339,24 +306,7 @@ def run_arrays(model: ReducedModel) -> IntegrationState:
         force_before=np.zeros((2, n_b)),
         balanced=np.zeros(1, np.int64),
         balance=np.zeros((n_b, n_b)),
-        tangent=np.zeros((n_b - n_h, n_b - n_h)),
-        order=np.zeros(n_b - n_h, np.int64),
-        across=np.zeros((n_h, n_b - n_h)),
-        below=np.zeros((n_h, n_b - n_h)),
-        corner=np.zeros((n_h, n_h)),
-        corner_order=np.zeros(n_h, np.int64),
-        sorted_b=np.zeros(n_s),
-        linear_step=np.zeros(n_s),
-        linear_trial=np.zeros(n_s),
-        linear_change=np.zeros(n_s),
-        linear_before=np.zeros((2, n_s)),
-        flows=np.zeros((6, n_s)),
-        element_whole=np.zeros((count if n_h else 0, 12, 12)),
-        of_nodes=np.zeros((4, 12)),
-        weights=np.ones(n_s),
-        corrections=np.zeros((_SECANTS, n_s)),
-        corrections_linear=np.zeros((_SECANTS, n_s)),
-        corrections_size=np.zeros(_SECANTS),
+        **tangent_arrays(n_b, len(model.shared), count),
         reduced=np.zeros((sizes, n_b, n_b)),
         has_reduced=np.zeros(sizes, np.int64),
         inverse_e=np.zeros((sizes, n_full, n_full)),

@@ -311,6 +311,7 @@ def _run_from(
         "halvings": int(counts["halvings"]),
         "state_determinations": int(counts["trials"]),
         "tangents": int(counts["tangents"]),
+        "shared_tangents": int(counts["shared_tangents"]),
         "degrees_of_freedom": int(state.system.mass.shape[0]),
         "modes": len(state.run.e),
         "seconds_gravity": state.seconds,
