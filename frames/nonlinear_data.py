@@ -55,7 +55,13 @@ class NonlinearElements(NamedTuple):
     active: Array  # (m,) deformations of loose parts
     live: Array  # (m,) those of them that a step of Newton's method changes the flow of
     place: Array  # (m,) places in the pool
-    number: Array  # (3,) number of active ones; of flexibilities in the pool; of live ones
+    number: (
+        Array  # (6,) active, rows in the pool, live, gains; live ones of the factors, their step
+    )
+    gain: Array  # (m, n_b) flows by a step of b, as the last tangent has them
+    gained: Array  # (m,) flows that have a gain
+    factored: Array  # (m,) live ones of the factors in `matrix`
+    at: Array  # (n_b,) step of b that the guessed flows belong to
     known: Array  # (m,) deformation if b rests
     linear: Array  # (m,) deformation if nothing is loose
     framed: Array  # (m,) deformation that the frame has under the flows
@@ -71,8 +77,8 @@ class NonlinearElements(NamedTuple):
     pool: Array  # (size, m) deformations by a flow of 1, at a step
     load_b: Array  # (n_b,) committed forces g in frame coordinates
     load_e: Array
-    matrix: Array  # (m * m,) scratch
-    order: Array  # (m,) scratch
+    matrix: Array  # (m * m,) factors of Newton's method
+    order: Array  # (m,) of their rows
     right: Array  # (m, max(n_b, 1)) scratch
     small: Array  # SCRATCH, of a hinged member
     vector: Array  # (m,) scratch
@@ -126,7 +132,11 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Non
         active=np.zeros(m, np.int64),
         live=np.zeros(m, np.int64),
         place=np.zeros(m, np.int64),
-        number=np.zeros(3, np.int64),
+        number=np.zeros(6, np.int64),
+        gain=np.zeros((m, n_b)),
+        gained=np.zeros(m, np.int64),
+        factored=np.zeros(m, np.int64),
+        at=np.zeros(n_b),
         known=each(),
         linear=each(),
         framed=each(),

@@ -1,5 +1,6 @@
 """What all tests share: the random-test profile, an empty OpenSees, the folder of records."""
 
+import gc
 import itertools
 import os
 import shutil
@@ -43,6 +44,37 @@ LONG = set((Path(__file__).parent / "long.txt").read_text(encoding="utf-8").spli
 """Modules that `make quick` leaves out, but for what is marked in them: a second and more each."""
 
 
+ROOMS = {"unit", "integration", "properties"}
+"""Folders whose modules `make quick` runs, but for those that are long."""
+
+
+def has_quick_tests(path: Path) -> bool:
+    """Whether `make quick` runs tests of a module: it need not be imported otherwise."""
+    whole = path.parent.name in ROOMS and path.stem not in LONG
+    return whole or "mark.quick" in path.read_text(encoding="utf-8")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out modules without a quick test where only those are asked for."""
+    if config.option.markexpr != "quick" or collection_path.suffix != ".py":
+        return None
+    return None if has_quick_tests(collection_path) else True
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[Any]:
+    """Collect without Python's search for cycles, which later passes over what is there then.
+
+    A third of the time of collecting is that search, again and again through all modules.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
 DOUBTS = ("lir_element.DesignWarning", "lir_element.AnalysisWarning", "frames.ModelWarning")
 """Warnings of what is strange of a bearing, a model or a run, which a test may mean to be."""
 
@@ -56,8 +88,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.path.stem in PLAIN and item.path.parent.name == "unit":
             item.add_marker("plain")
-        rooms = {"unit", "integration", "properties"}
-        if item.path.parent.name in rooms and item.path.stem not in LONG:
+        if item.path.parent.name in ROOMS and item.path.stem not in LONG:
             item.add_marker("quick")
         words = [each for marker in item.iter_markers("meant") for each in marker.args]
         for each, kind in itertools.product(words, DOUBTS):
@@ -86,21 +117,31 @@ def records() -> Path:
 
 
 @pytest.fixture(scope="session")
-def put_example(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
-    """Put the project of ``lir new`` into a folder: made once a code, for all processes."""
-    example = pytest.importorskip("frames.design.project.example")
+def made_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """Put a folder that is made once for all processes of the suite, under a name, into another."""
     filelock = pytest.importorskip("filelock")
     base = tmp_path_factory.getbasetemp()
     shared = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
 
-    def put(folder: Path, code: str = "ASCE 7-22") -> Path:
-        made = shared / f"example {code}"
+    def put(name: str, make: Callable[[Path], object], folder: Path) -> Path:
+        made = shared / name
         with filelock.FileLock(f"{made}.lock"):
             if not made.is_dir():
-                part = tmp_path_factory.mktemp("example")
-                example.write_example(part, code)
+                part = tmp_path_factory.mktemp("made")
+                make(part)
                 part.rename(made)  # whole, or not there
         shutil.copytree(made, folder, dirs_exist_ok=True)
         return folder
+
+    return put
+
+
+@pytest.fixture(scope="session")
+def put_example(made_once: Callable[..., Path]) -> Callable[..., Path]:
+    """Put the project of ``lir new`` into a folder: made once a code, for all processes."""
+    example = pytest.importorskip("frames.design.project.example")
+
+    def put(folder: Path, code: str = "ASCE 7-22") -> Path:
+        return made_once(f"example {code}", lambda part: example.write_example(part, code), folder)
 
     return put

@@ -272,7 +272,8 @@ def _member_table(
         if member.up is not None:
             up[place] = member.up
     arrays = member_arrays([member.section for member in members], start, end, up)
-    load = np.array([frame.uniform_loads.get(m.name, np.zeros(3)) for m in members])
+    uniform = frame.uniform_loads  # made anew whenever it is asked for
+    load = np.array([uniform.get(m.name, np.zeros(3)) for m in members])
     elastic = local_stiffness(arrays)
     places = {name: 3 + k for k, name in enumerate(RELEASABLE)}
     free = [

@@ -20,6 +20,7 @@ from frames.kernels.part_states import (
     set_changes,
     set_mode_flexibility,
     try_part,
+    weigh_row,
 )
 from lir_element.kernels.linear import add_product, factorise, substitute, substitute_many
 
@@ -32,6 +33,7 @@ _MOST = 40  # iterations over the loose parts
 _HELD = 1e-25  # m/N: flexibility of a deformation that supports hold, or round-off of it
 _CLOSER = 1e-3  # of the tolerance of the whole: what parts may lack
 _TRIES = 12  # of a step of Newton's method
+_WORTH = 2.0  # tries that new factors are worth
 _LESS = 0.7  # of the error before: then a step does
 _FLAT = 0.2  # of the slope of the potential at the start of a step: then it does, too
 
@@ -45,7 +47,8 @@ def begin_parts(
 ) -> None:
     """Set the deformations at the end of the step if b rests and nothing flows.
 
-    Needs ``run.h_e``, what the modes do then. What flowed in the last step is guessed to go on.
+    Needs ``run.h_e``, what the modes do then. What flowed in the last step is guessed to go on, as
+    b does in ``run.step``.
     """
     dt, before = run.clock[0].dt, run.clock[0].dt_before
     c_m, c_c, c_k = effective(settings, dt)
@@ -60,6 +63,10 @@ def begin_parts(
         parts.change[i] = 0.0
     add_product(parts.of_e, run.h_e, 1.0, parts.known)
     parts.number[0] = 0
+    if run.clock[0].kept != run.clock[0].halvings + 1:
+        parts.number[3] = 0  # gains are those of a tangent
+    for a in range(parts.at.shape[0]):
+        parts.at[a] = run.step[a]
     ratio = dt / before if before > 0.0 else 0.0
     for k in range(parts.kind.shape[0]):
         parts.loose[k] = 0
@@ -132,13 +139,12 @@ def try_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElemen
 
 
 @inlined
-def set_part_matrix(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> None:
-    """List the flows that deformations change or that are not as guessed, and set their matrix.
+def list_live(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
+    """List the flows that deformations change or that are not as guessed.
 
-    It is ``1 + give F``, F the deformations by flows: that of a step of Newton's method, its
-    columns one after the other.
+    Returns whether they are those of the factors that are kept, at the present step size.
     """
-    count = 0
+    count, same = 0, parts.number[5] == run.clock[0].halvings + 1
     for n in range(parts.number[0]):
         i = parts.active[n]
         k = parts.owner[i]
@@ -146,38 +152,65 @@ def set_part_matrix(model: ReducedModel, run: IntegrationState, parts: Nonlinear
         for q in range(parts.first[k + 1] - parts.first[k]):
             changes = changes or parts.give[i, q] != 0.0
         if changes:
+            same = same and count < parts.number[4] and parts.factored[count] == i
             parts.live[count] = i
             parts.place[count] = row_of(model, run, parts, i)
             count += 1
     parts.number[2] = count
-    for p in range(count):
-        row = parts.pool[parts.place[p]]
-        for n in range(count):
-            i = parts.live[n]
-            at, end = parts.first[parts.owner[i]], parts.first[parts.owner[i] + 1]
-            total = 1.0 if n == p else 0.0
-            for q in range(end - at):
-                total += parts.give[i, q] * row[at + q]
-            parts.matrix[p * count + n] = total
+    return bool(same and count == parts.number[4])
 
 
 @inlined
-def set_newton_step(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
-    """Set Newton's step of the flows (`right`) and of the deformations (`way`)."""
-    set_part_matrix(model, run, parts)
+def factorise_parts(run: IntegrationState, parts: NonlinearElements) -> bool:
+    """Factorise the matrix of the live flows; returns False where it is singular.
+
+    It is ``1 + give F``, F the deformations by flows: that of a step of Newton's method, its
+    columns one after the other.
+    """
     count = parts.number[2]
-    factors = parts.matrix[: count * count].reshape((count, count))
-    if not factorise(factors, parts.order):
-        return False
+    for p in range(count):
+        column = parts.matrix[p * count : (p + 1) * count]
+        weigh_row(
+            parts.kind,
+            parts.first,
+            parts.owner,
+            parts.live,
+            parts.give,
+            parts.pool[parts.place[p]],
+            column,
+        )
+        column[p] += 1.0
+        parts.factored[p] = parts.live[p]
+    parts.number[4], parts.number[5] = count, run.clock[0].halvings + 1
+    if factorise(parts.matrix[: count * count].reshape((count, count)), parts.order):
+        return True
+    parts.number[5] = 0
+    return False
+
+
+@inlined
+def set_newton_step(
+    model: ReducedModel, run: IntegrationState, parts: NonlinearElements, keep: bool
+) -> int:
+    """Set Newton's step of the flows (`right`) and of the deformations (`way`).
+
+    With factors that are kept, where they may be and there are some of the same flows. Returns 1
+    then, 0 if they are new, and -1 if they are singular.
+    """
+    kept = list_live(model, run, parts) and keep
+    if not kept and not factorise_parts(run, parts):
+        return -1
+    count = parts.number[2]
     for n in range(count):
         parts.vector[n] = parts.guess[parts.live[n]] - parts.flow[parts.live[n]]
+    factors = parts.matrix[: count * count].reshape((count, count))
     substitute(factors, parts.order, parts.vector)
     for i in range(parts.way.shape[0]):
         parts.way[i] = 0.0
     for n in range(count):
         parts.right[n, 0] = -parts.vector[n]
     add_rows(parts.pool, parts.place, parts.vector, count, parts.way)
-    return True
+    return 1 if kept else 0
 
 
 @inlined
@@ -210,11 +243,17 @@ def newton_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearEle
     of Newton's method that goes too far is cut back to where the potential does not rise any more.
     """
     size, start, low, high, here, down, up = math.inf, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0
-    steps, tries = 0, 0
+    steps, tries, kept, keep = 0, 0, False, True
     while True:  # one place where the parts are run: they are its code
         found = try_loose(model, run, parts)
         good = tries == 0
-        if tries > 0:
+        if kept and tries > 0:
+            good = found < math.inf
+            if not good:  # back to where it was, for a step of new factors
+                go_along(parts, -1.0)
+                tries, keep = 0, False
+                continue
+        elif tries > 0:
             rise = ascent(parts)
             if tries == 1:
                 low, high, here, down, up = 0.0, 1.0, 1.0, start, rise
@@ -226,11 +265,17 @@ def newton_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearEle
                 low, down = here, rise
             good = good or found < _LESS * size or (up <= 0.0 and found < math.inf)
         if good or tries > _TRIES:
+            if tries > 0:
+                keep = found * (found / size) ** _WORTH <= parts.scheme[4]
             size = found
             if size <= parts.scheme[4]:
                 return True
-            if size == math.inf or steps == _MOST or not set_newton_step(model, run, parts):
+            if size == math.inf or steps == _MOST:
                 return False
+            made = set_newton_step(model, run, parts, keep)
+            if made < 0:
+                return False
+            kept = made == 1
             start = ascent(parts)
             go_along(parts, 1.0)
             steps, tries = steps + 1, 1
@@ -244,6 +289,20 @@ def newton_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearEle
 
 
 @inlined
+def follow_step(parts: NonlinearElements, step: Floats) -> None:
+    """Guess how the loose parts flow at a step of b from how they did at the one tried before."""
+    for n in range(parts.number[3]):
+        i = parts.gained[n]
+        if parts.loose[parts.owner[i]] == 1 and parts.flow[i] != 0.0:
+            total = 0.0
+            for a in range(step.shape[0]):
+                total += parts.gain[n, a] * (step[a] - parts.at[a])
+            parts.guess[i] += total
+    for a in range(step.shape[0]):
+        parts.at[a] = step[a]
+
+
+@inlined
 def start_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Set the deformations by the guessed flows; returns whether any is guessed."""
     for i in range(parts.d.shape[0]):
@@ -253,7 +312,8 @@ def start_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElem
 
 @inlined
 def forget_guess(parts: NonlinearElements) -> None:
-    """Guess that nothing flows."""
+    """Guess that nothing flows, whatever b does."""
+    parts.number[3] = 0
     for n in range(parts.number[0]):
         parts.guess[parts.active[n]] = 0.0
 
@@ -268,6 +328,7 @@ def settle_parts(
     add_product(parts.lead[run.clock[0].halvings], step, 1.0, parts.linear)
     for i in range(parts.d.shape[0]):
         parts.framed[i] = parts.linear[i]
+    follow_step(parts, step)
     begin, guessed, turns = True, False, 0
     while turns <= parts.kind.shape[0]:
         if begin:
@@ -315,11 +376,14 @@ def add_part_forces(run: IntegrationState, parts: NonlinearElements, out: Floats
 @inlined
 def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Add what the loose parts do to ``run.tangent``; returns False where they are singular."""
+    parts.number[3] = 0
     if parts.number[0] == 0:
         return True
     n_b = run.step.shape[0]
     follow = parts.follow[run.clock[0].halvings]
-    set_part_matrix(model, run, parts)
+    list_live(model, run, parts)
+    if not factorise_parts(run, parts):
+        return False
     count = parts.number[2]
     for n in range(count):
         i = parts.live[n]
@@ -332,9 +396,12 @@ def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: Nonlinea
                 for a in range(n_b):
                     parts.right[n, a] += value * follow[at + q, a]
     factors = parts.matrix[: count * count].reshape((count, count))
-    if not factorise(factors, parts.order):
-        return False
     substitute_many(factors, parts.order, parts.right[:count])
+    for n in range(count):
+        parts.gained[n] = parts.live[n]
+        for a in range(n_b):
+            parts.gain[n, a] = parts.right[n, a]
+    parts.number[3] = count
     lead = parts.lead[run.clock[0].halvings]
     for n in range(count):
         for a in range(n_b):

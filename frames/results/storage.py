@@ -13,9 +13,11 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from frames.results.netcdf import read, written
+
 
 def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
-    """Write a Dataset to netCDF (h5netcdf engine).
+    """Write a Dataset to netCDF.
 
     Parameters
     ----------
@@ -58,7 +60,10 @@ def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
         raise TypeError(msg)
     # HDF5 does not survive a write that fails (the process dies at its end): it works in memory
     encoding = _packed(data) if compress else {}
-    write_whole(path, data.to_netcdf(None, engine="h5netcdf", encoding=encoding))
+    content: bytes | memoryview | None = written(data, encoding)
+    if content is None:
+        content = data.to_netcdf(None, engine="h5netcdf", encoding=encoding)
+    write_whole(path, content)
 
 
 def save_groups(results: Mapping[str, xr.Dataset], path: str | Path) -> None:
@@ -189,11 +194,12 @@ def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
         msg = f"{path} is no file: give one that save, or `lir run`, has written"
         raise FileNotFoundError(msg)
     try:
-        data = xr.open_dataset(path, engine="h5netcdf")
+        whole = None if lazy else read(path)
+        data = xr.open_dataset(path, engine="h5netcdf") if whole is None else whole
     except (OSError, ValueError) as cause:
         msg = f"{path} holds no results (netCDF): give a file that save, or `lir run`, has written"
         raise OSError(msg) from cause
-    if lazy:
+    if lazy or whole is not None:
         return data
     with data:
         return data.load()

@@ -23,6 +23,8 @@ from numba.core.registry import CPUDispatcher
 from numba.core.runtime import rtsys
 from numba.core.types.misc import unliteral
 
+from lir_element._compile.lowering import KernelPipeline
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
 
@@ -195,7 +197,7 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no typ
             usual.targetdescr,
             usual.targetoptions,
             usual.locals,
-            usual.pipeline_class,
+            KernelPipeline,
         )
 
     def get_call_template(self, args: Any, kws: Any) -> Any:

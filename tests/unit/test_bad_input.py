@@ -32,7 +32,12 @@ KINDS = ("far-field", "near-fault pulse", "near-fault no pulse")
 
 @pytest.fixture(scope="module")
 def example(tmp_path_factory: pytest.TempPathFactory, put_example: Callable[..., Path]) -> Path:
+    """The example with one of its storeys: what is said of it does not go by their number."""
     folder = put_example(tmp_path_factory.mktemp("example"))
+    file = folder / "project.toml"
+    text = file.read_text(encoding="utf-8")
+    assert "storeys = 5" in text
+    file.write_text(text.replace("storeys = 5", "storeys = 1"), encoding="utf-8")
     return folder
 
 

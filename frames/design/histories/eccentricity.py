@@ -219,6 +219,16 @@ def every_motion(data: xr.Dataset, moved: xr.Dataset | None) -> list[str]:
     return [motion_of(one, k) for one in every for k in range(one.sizes["run"])]
 
 
+_OF_SUITES = (
+    "status",
+    "failed_at",
+    "failed_where",
+    "reached_time_lifted",
+    "reached_gap",
+    "level",
+)
+"""What `suite_of` and `names_of` look at, beside the runs' coordinates."""
+
 _KINDS = tuple((name, kind) for name, _, kind in _RAISED)
 
 Pairs = dict[tuple[str, str], tuple[float, float, str]]
@@ -272,7 +282,10 @@ def added_by_moved(
 
 
 def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple[Pairs, str]:
-    # Of each way the same motions are compared, as the code counts them together.
+    # Of each way the same motions are compared, as the code counts them together. To select runs
+    # takes as long as there are variables, of which few are looked at.
+    wanted = (*(f"reached_{name}" for name, _, _ in _RAISED), *_OF_SUITES)
+    data, moved = (part[[n for n in wanted if n in part.variables]] for part in (data, moved))
     found, failed = Pairs(), []
     for way, here, there in pairs_by_way(data, moved):
         suites = suite_of(here, rules), suite_of(there, rules)
