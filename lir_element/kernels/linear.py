@@ -126,7 +126,7 @@ def factorise(columns: Floats, order: Words) -> bool:
     matrix is singular.
     """
     n = columns.shape[0]
-    width = n if n <= _WHOLE else _PANEL
+    width = max(n, 1) if n <= _WHOLE else _PANEL
     for first in range(0, n, width):
         last = min(first + width, n)
         if not factorise_columns(columns, order, first, last):

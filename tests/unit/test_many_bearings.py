@@ -43,6 +43,11 @@ def test_large_systems_are_solved(n: int) -> None:
     assert not factorise(np.zeros((n, n)), order)
 
 
+def test_systems_of_no_unknown_are_solved() -> None:
+    """As when no part of a structure has let go."""
+    assert factorise(np.zeros((0, 0)), np.zeros(0, np.int64))
+
+
 def test_weighted_squares_are_subtracted() -> None:
     """Against the product as it is written, blocks of rows whole or not."""
     random = np.random.default_rng(1)
