@@ -99,6 +99,26 @@ def set_forces(par: Floats, p: Floats, d: Floats, s: Floats) -> None:
 
 
 @kernel
+def rests(par: Floats, old: Floats, d: Floats, s: Floats) -> bool:
+    """Return whether the hinges of a member surely do not turn, by `is_inside`; `s` is scratch."""
+    set_forces(par, old, d, s)
+    for h in range(2):
+        at = HINGE + STRIDE * h
+        if par[at + 8] > 0.0:
+            y = s[3 + h] - par[at + 6] * old[3 * h + 1]
+            z = s[1 + h] - par[at + 7] * old[3 * h + 2]
+            x, y, z = (
+                s[0] - par[at + 5] * old[3 * h] - par[at + 3],
+                y * par[at + 1],
+                z * par[at + 2],
+            )
+            left = 1.0 - abs(x * par[at])
+            if left < 0.0 or y * y + z * z > left * left:
+                return False
+    return True
+
+
+@kernel
 def set_stress(par: Floats, hinge: int, p: Floats, s: Floats, sigma: Floats) -> None:
     """Set N, My, Mz of a hinge less its back stress."""
     at = HINGE + STRIDE * hinge
@@ -162,13 +182,13 @@ def set_system(
     Unknowns of a hinge that is on are the plastic parts whose forces are limited, then its
     multiplier; n is `count_unknowns`.
     """
-    s, sigma, first, second = w[9, :5], w[10, :3], w[11:13, :3], w[13:16, :3]
+    s, sigma, first = w[9, :5], w[10, :3], w[11:13, :3]
     set_forces(par, p, d, s)
     error, row = 0.0, 0
     for h in range(2):
         if on[h] == 0.0:
             continue
-        at = HINGE + STRIDE * h
+        at, second = HINGE + STRIDE * h, w[13:16, 3 * h : 3 * h + 3]
         set_stress(par, h, p, s, sigma)
         value = surface(par, at, sigma, first[h], second)
         error = max(error, abs(value))
@@ -216,12 +236,9 @@ def go_on(
 def return_map(
     par: Floats, old: Floats, new: Floats, lam: Floats, on: Floats, d: Floats, w: Floats
 ) -> bool:
-    """Find the plastic parts of the hinges that are on; returns whether that succeeded."""
+    """Find the plastic parts of the hinges that are on from a guess; returns success."""
     step, back = w[16, :8], w[17, :8]
     count = count_unknowns(par, on)
-    for a in range(N_PLASTIC):
-        new[a] = old[a]
-    lam[0], lam[1] = 0.0, 0.0
     error = set_system(par, old, new, lam, on, d, w)
     for _ in range(_MOST):
         if error <= _TOLERANCE:
@@ -247,19 +264,60 @@ def return_map(
 
 
 @kernel
+def forget_turns(old: Floats, new: Floats, lam: Floats) -> None:
+    """Guess that no hinge has turned."""
+    for a in range(N_PLASTIC):
+        new[a] = old[a]
+    lam[0], lam[1] = 0.0, 0.0
+
+
+@kernel
+def guess_multipliers(
+    par: Floats, old: Floats, new: Floats, lam: Floats, on: Floats, d: Floats, w: Floats
+) -> None:
+    """Set multipliers that fit plastic parts `new` best; hinges that are off have not turned."""
+    s, sigma = w[9, :5], w[10, :3]
+    for h in range(2):
+        if on[h] == 0.0:
+            for part in range(3):
+                new[3 * h + part] = old[3 * h + part]
+    set_forces(par, new, d, s)
+    for h in range(2):
+        at, first, above, below = HINGE + STRIDE * h, w[11 + h, :3], 0.0, 0.0
+        if on[h] > 0.0:
+            set_stress(par, h, new, s, sigma)
+            surface(par, at, sigma, first, w[13:16, 3 * h : 3 * h + 3])
+            for i in range(3):
+                if par[at + i] > 0.0:
+                    steep = first[i] / par[at + i]
+                    above += (new[3 * h + i] - old[3 * h + i]) / par[at + i] * steep
+                    below += steep * steep
+        lam[h] = max(above / below, 0.0) if below > 0.0 else 0.0
+
+
+@kernel
 def turn_hinges(
-    par: Floats, old: Floats, new: Floats, d: Floats, flow: Floats, give: Floats, w: Floats
+    par: Floats,
+    old: Floats,
+    new: Floats,
+    d: Floats,
+    flow: Floats,
+    give: Floats,
+    w: Floats,
+    warm: bool,
 ) -> int:
     """Set the changes `flow` of the plastic parts of the five deformations, and derivatives `give`.
 
     Returns 0 where nothing yields, and neither is set; 1 where a hinge does, -1 where no state was
-    found. `w` (18, 16) is scratch.
+    found. `w` (18, 16) is scratch. Where it is `warm`, `new` holds a state near by to start from.
     """
     s, sigma, on, lam = w[9, :5], w[10, :3], w[17, 8:10], w[17, 10:12]
-    for k in range(old.shape[0]):
+    for k in range(N_PLASTIC, old.shape[0]):
         new[k] = old[k]
+    if rests(par, old, d, s):
+        forget_turns(old, new, lam)
+        return 0
     yields = 0
-    set_forces(par, old, d, s)
     for h in range(2):
         on[h] = 0.0
         at = HINGE + STRIDE * h
@@ -267,11 +325,15 @@ def turn_hinges(
             set_stress(par, h, old, s, sigma)
             if is_outside(par, at, sigma, w):
                 on[h], yields = 1.0, 1
+    if yields == 0 or not warm:
+        forget_turns(old, new, lam)
+    else:
+        guess_multipliers(par, old, new, lam, on, d, w)
     if yields == 0:
         return 0
     if not settle_hinges(par, old, new, lam, on, d, w):
         return -1
-    set_give(par, old, new, lam, on, d, give, w)
+    set_give(par, lam, on, give, w)
     for c in range(5):
         flow[c] = 0.0
     for h in range(2):
@@ -294,7 +356,7 @@ def hinged_member(
     for a in range(5):
         for c in range(5):
             slope[a, c] = 0.0
-    yields = turn_hinges(par, old, new, d, flow, slope, w)
+    yields = turn_hinges(par, old, new, d, flow, slope, w, False)
     for a in range(5):
         g[a] = 0.0
         for h in range(2):
@@ -314,11 +376,20 @@ def hinged_member(
 def settle_hinges(
     par: Floats, old: Floats, new: Floats, lam: Floats, on: Floats, d: Floats, w: Floats
 ) -> bool:
-    """Return-map with the hinges that turn out to yield: none pulled back, none left outside."""
+    """Return-map with the hinges that turn out to yield: none pulled back, none left outside.
+
+    `new` and `lam` hold a guess to start from.
+    """
     s, sigma = w[9, :5], w[10, :3]
+    guessed = True
     for _ in range(6):
         if not return_map(par, old, new, lam, on, d, w):
-            return False
+            if not guessed:
+                return False
+            guessed = False
+            forget_turns(old, new, lam)
+            if not return_map(par, old, new, lam, on, d, w):
+                return False
         same = True
         for h in range(2):
             at = HINGE + STRIDE * h
@@ -328,44 +399,34 @@ def settle_hinges(
             elif par[at + 8] > 0.0:
                 set_forces(par, new, d, s)
                 set_stress(par, h, new, s, sigma)
-                if surface(par, at, sigma, w[11, :3], w[13:16, :3]) > 1e-9:
+                if surface(par, at, sigma, w[11 + h, :3], w[13:16, 3 * h : 3 * h + 3]) > 1e-9:
                     on[h], same = 1.0, False
         if same:
             return True
+        guessed = False
+        forget_turns(old, new, lam)
     return False
 
 
 @kernel
-def set_give(
-    par: Floats,
-    old: Floats,
-    p: Floats,
-    lam: Floats,
-    on: Floats,
-    d: Floats,
-    give: Floats,
-    w: Floats,
-) -> None:
-    """Set the derivatives of the plastic parts of the five deformations by these."""
-    set_system(par, old, p, lam, on, d, w)
+def set_give(par: Floats, lam: Floats, on: Floats, give: Floats, w: Floats) -> None:
+    """Set the derivatives of the plastic parts of the five deformations by these.
+
+    `w` is as `settle_hinges` leaves it: the system at the state that was found.
+    """
     right, count = w[:8, 9:14], count_unknowns(par, on)
-    first, second = w[11:13, :3], w[13:16, :3]
-    sigma, s = w[16, :3], w[17, :5]
-    set_forces(par, p, d, s)
     row = 0
     for h in range(2):
         if on[h] == 0.0:
             continue
-        at = HINGE + STRIDE * h
-        set_stress(par, h, p, s, sigma)
-        surface(par, at, sigma, first[h], second)
+        at, second = HINGE + STRIDE * h, w[13:16, 3 * h : 3 * h + 3]
         for i in range(4):
             if i < 3 and par[at + i] == 0.0:
                 continue
             for c in range(5):
                 total = 0.0
                 for q in range(3):
-                    push = lam[h] * second[i, q] if i < 3 else -first[h, q]
+                    push = lam[h] * second[i, q] if i < 3 else -w[11 + h, q]
                     total += push * par[5 * place(h, q) + c]
                 right[row, c] = total
             row += 1

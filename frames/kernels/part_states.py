@@ -41,15 +41,18 @@ def part_trial(
     k: int,
     rate: float,
     dt: float,
+    warm: bool,
 ) -> int:
-    """Set the flows of part `k` at `d`, and their derivatives.
+    """Set the flows of part `k` at `d`, and their derivatives; `warm` where `new` is near by.
 
     Returns 0 where nothing flows, 1 where it does, -1 where there is no state.
     """
     at = first[k]
     if kind[k] == HINGES:
         end = at + WIDEST
-        found = turn_hinges(par[k], old[k], new[k], d[at:end], flow[at:end], give[at:end], small)
+        found = turn_hinges(
+            par[k], old[k], new[k], d[at:end], flow[at:end], give[at:end], small, warm
+        )
         if found == 0:
             for i in range(at, end):
                 flow[i] = 0.0
@@ -99,6 +102,7 @@ def try_part(parts: NonlinearElements, k: int, dt: float) -> int:
         k,
         speed,
         dt,
+        parts.loose[k] == 1,
     )
 
 
@@ -173,6 +177,26 @@ def add_rows(pool: Floats, place: Words, factor: Floats, count: int, out: Floats
         x_0, r_0 = factor[c], place[c]
         for a in range(out.shape[0]):
             out[a] += pool[r_0, a] * x_0
+
+
+@kernel
+def weigh_row(
+    kind: Words, first: Words, owner: Words, live: Words, give: Floats, row: Floats, out: Floats
+) -> None:
+    """Set how the flows `live` change by deformations `row` (m,), each by those of its part."""
+    n = 0
+    while n < out.shape[0]:
+        k = owner[live[n]]
+        at = first[k]
+        if kind[k] != HINGES:
+            out[n] = give[live[n], 0] * row[at]
+            n += 1
+            continue
+        d_0, d_1, d_2, d_3, d_4 = row[at], row[at + 1], row[at + 2], row[at + 3], row[at + 4]
+        while n < out.shape[0] and owner[live[n]] == k:
+            by = give[live[n]]
+            out[n] = (by[0] * d_0 + by[1] * d_1) + (by[2] * d_2 + by[3] * d_3) + by[4] * d_4
+            n += 1
 
 
 @kernel

@@ -20,6 +20,7 @@ from frames.kernels.part_states import (
     set_changes,
     set_mode_flexibility,
     try_part,
+    weigh_row,
 )
 from lir_element.kernels.linear import add_product, factorise, substitute, substitute_many
 
@@ -168,14 +169,17 @@ def factorise_parts(run: IntegrationState, parts: NonlinearElements) -> bool:
     """
     count = parts.number[2]
     for p in range(count):
-        row = parts.pool[parts.place[p]]
-        for n in range(count):
-            i = parts.live[n]
-            at, end = parts.first[parts.owner[i]], parts.first[parts.owner[i] + 1]
-            total = 1.0 if n == p else 0.0
-            for q in range(end - at):
-                total += parts.give[i, q] * row[at + q]
-            parts.matrix[p * count + n] = total
+        column = parts.matrix[p * count : (p + 1) * count]
+        weigh_row(
+            parts.kind,
+            parts.first,
+            parts.owner,
+            parts.live,
+            parts.give,
+            parts.pool[parts.place[p]],
+            column,
+        )
+        column[p] += 1.0
         parts.factored[p] = parts.live[p]
     parts.number[4], parts.number[5] = count, run.clock[0].halvings + 1
     if factorise(parts.matrix[: count * count].reshape((count, count)), parts.order):

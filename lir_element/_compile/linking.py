@@ -23,6 +23,7 @@ from numba.core.registry import CPUDispatcher
 from numba.core.runtime import rtsys
 from numba.core.types.misc import unliteral
 
+from lir_element._compile.front_end import shortened
 from lir_element._compile.lowering import KernelPipeline
 
 if TYPE_CHECKING:
@@ -220,7 +221,7 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no typ
             before = self._compiler.as_part
             self._compiler.as_part = self._cache.as_part = as_part
             try:
-                with _without_collection():
+                with _without_collection(), shortened(self.typingctx):
                     return super().compile(sig)
             finally:
                 self._compiler.as_part = self._cache.as_part = before

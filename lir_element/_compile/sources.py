@@ -13,7 +13,13 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-COMPILERS = ("_jit.py", "_compile/jit.py", "_compile/linking.py", "_compile/lowering.py")
+COMPILERS = (
+    "_jit.py",
+    "_compile/front_end.py",
+    "_compile/jit.py",
+    "_compile/linking.py",
+    "_compile/lowering.py",
+)
 """What makes kernels of functions, in a package."""
 
 _IMPORT = re.compile(

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import copy
 import os
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numba
 import numpy as np
 import pytest
+from numba.core import inline_closurecall
+from numba.core.ir import Inst
+from numba.core.registry import cpu_target
 
 from lir_element._compile.cache import Sources
-from lir_element._compile.jit import WITH_PARTS, kernels_of
+from lir_element._compile.jit import WITH_PARTS, expanded, kernels_of
 
 pytestmark = pytest.mark.skipif(
     not WITH_PARTS or os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="nothing is compiled"
@@ -137,3 +142,38 @@ def test_a_kernel_gives_what_its_python_gives(
     assert data.inner.table.tobytes() == python.inner.table.tobytes()
     for ours, theirs in zip(data[:3], python[:3], strict=True):
         assert ours.tobytes() == theirs.tobytes()
+
+
+@expanded
+def stretched(b: Outer, by: float) -> Inner:
+    """A bundle from a kernel that is put into others."""
+    total = 0.0
+    for k in range(b.x.shape[0]):
+        total += by * b.x[k]
+    return Inner(total, b.inner.table)
+
+
+def twice_stretched(b: Outer, i: int) -> float:
+    """One kernel put twice into another, under names of its own each time."""
+    total = stretched(b, 2.0).scale
+    if i > 0:
+        total -= stretched(b, 0.5 * total).scale
+    return total
+
+
+@pytest.mark.parametrize("i", [0, 1])
+def test_numba_is_left_as_it_was(i: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path))
+    x = bundle().x.sum()
+    before = (cpu_target.typing_context.resolve_function_type, Inst._rec_list_vars)
+    found = kernels_of(Sources(tmp_path))(twice_stretched)(bundle(), i)
+    assert found == pytest.approx(2.0 * x if i == 0 else 2.0 * x - x * x, rel=1e-14)
+
+    def unknown(b: Outer) -> float:
+        return b.x.no_such_thing
+
+    with pytest.raises(numba.TypingError, match="no_such_thing"):
+        kernels_of(Sources(tmp_path))(unknown)(bundle())
+    assert (cpu_target.typing_context.resolve_function_type, Inst._rec_list_vars) == before
+    assert inline_closurecall.copy is copy
+    assert "mangler" not in vars(cpu_target.target_context)

@@ -12,7 +12,7 @@ from scipy.optimize import minimize
 from frames import ModelError
 from frames.assembly.members import local_stiffness, member_arrays
 from frames.assembly.nonlinear import BASIC, _hinges
-from frames.kernels.hinges import hinged_member, place, surface
+from frames.kernels.hinges import hinged_member, place, surface, turn_hinges
 from frames.laws import PlasticHinge
 from frames.library.moment_frames import DEFAULT_BEAM, DEFAULT_COLUMN
 from frames.nonlinear_layout import HINGE, STATE_SIZE, STRIDE
@@ -119,6 +119,37 @@ def test_the_step_is_the_closest_point_of_the_elastic_trial(seed):
     assert min(inside(ours)) > -1e-8
     assert energy(ours) <= energy(done.x) * (1.0 + 1e-5) + 1e-9
     assert_allclose(ours[:5], done.x[:5], rtol=0.0, atol=5e-3 * np.abs(ours[:5]).max())
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_step_is_the_same_from_a_state_near_by_and_from_one_that_is_none(seed):
+    """What the last trial left is only where the search begins."""
+    rng = np.random.default_rng(300 + seed)
+    par, _ = constants((interacting(), interacting(1.0, 0.0)))
+    old, turned = np.zeros(STATE_SIZE), 0
+    path = random_path(rng, 0.3)
+
+    def run(d, new, warm):
+        flow, give = np.zeros(5), np.zeros((5, 5))
+        code = turn_hinges(par, old, new, d, flow, give, np.zeros((18, 16)), warm)
+        assert code >= 0
+        return code, new, give
+
+    for d in path:
+        code, cold, give = run(d, old.copy(), False)
+        for start in (
+            run(d + 0.05 * rng.normal() * (d - path[0]), old.copy(), False)[1],
+            old + np.r_[rng.normal(size=6) * 1e-2, np.zeros(4)],
+            old + np.r_[np.full(6, math.nan), np.zeros(4)],
+        ):
+            found, new, by = run(d, start.copy(), True)
+            assert found == code
+            assert_allclose(new, cold, rtol=0.0, atol=1e-9 * np.abs(cold).max() + 1e-15)
+            if code:
+                assert_allclose(by, give, rtol=0.0, atol=1e-6 * np.abs(give).max())
+        turned += code
+        old = cold
+    assert turned > 10
 
 
 @pytest.mark.parametrize("seed", range(6))

@@ -1,5 +1,7 @@
 """Cost of this program and of OpenSees for the same accuracy: writes docs/validation/benchmark.md.
 
+How far it is from its goals goes into docs/benchmark_goals.md.
+
     python -m validation.measurements.benchmark
 
 Runs what docs/validation/benchmark.json does not hold yet, case by case, each in a process of its
@@ -29,6 +31,7 @@ from lir_element.opensees import opensees
 from validation.measurements.benchmark_batch import batch_here, batch_there
 from validation.measurements.benchmark_cases import SOME, measure
 from validation.measurements.benchmark_figure import draw
+from validation.measurements.benchmark_goals import before, write_goals
 from validation.measurements.benchmark_models import STRUCTURES
 from validation.measurements.benchmark_page import text
 from validation.measurements.benchmark_profile import PROFILED, profile
@@ -108,7 +111,10 @@ def run(case: str, kept: dict[str, Any], file: Path, *, again: bool, short: bool
         else:
             print("  needs the steps of b: run that case first")
             continue
+        earlier = kept.get(key, {})
         kept[key] = {**found, "when": f"{datetime.datetime.now():%Y-%m-%d}"}
+        if earlier.get("state") == "ok":
+            kept[key]["before"] = before(earlier)
         kept["machine"] = machine()
         file.write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
 
@@ -130,12 +136,13 @@ def processor() -> str:
 
 
 def write(kept: dict[str, Any], folder: Path = FOLDER) -> None:
-    """Write page, figure and index."""
+    """Write page, figure, index, and the page of goals beside the folder."""
     draw(kept).savefig(
         folder / "figures" / "benchmark-cost.png", dpi=DPI, metadata={"Software": None}
     )
     (folder / "benchmark.md").write_text(text(kept), encoding="utf-8")
     (folder / "README.md").write_text(index(folder), encoding="utf-8")
+    write_goals(kept, folder.parent / "benchmark_goals.md")
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -105,7 +105,7 @@ class Setting:
         )
 
 
-_TIMED = ("frames.statics.", "frames.solve.", "frames.batch.")
+_TIMED = "frames."
 
 USUAL = Setting()
 """What manuals and examples show."""

@@ -1,4 +1,4 @@
-"""Figures of the benchmark from what was kept: costs, ratios, growth, goals."""
+"""Figures of the benchmark from what was kept: costs, ratios, growth."""
 
 from __future__ import annotations
 
@@ -8,11 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from validation.measurements.benchmark_batch import (
-    GOAL_BYTES,
-    GOAL_HISTORIES,
-    GOAL_SECONDS,
-)
 from validation.measurements.benchmark_cases import device_of
 from validation.measurements.benchmark_models import STRUCTURES
 from validation.measurements.benchmark_search import OWN, PLAIN, RESILIENT
@@ -22,8 +17,6 @@ if TYPE_CHECKING:
 
     from validation.measurements.benchmark_models import Structure
 
-GOALS = {"a": {"best": 20.0}, "b": {"best": 100.0, "usual": 200.0}, "c": {"best": 200.0}}
-"""Cost of OpenSees over that of this program, by case and setting."""
 GROUPS = {
     "plain DCFP": tuple(kind for kind in PLAIN if kind not in OWN),
     "LIR-DCFP": RESILIENT,
@@ -162,49 +155,27 @@ def growth_with_steps(found: dict[str, Any]) -> float:
     return power([run["steps"] for run in runs], [run["loop"] for run in runs])
 
 
-def goals(kept: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return rows: goal, device, what was found, and whether it is met."""
-    rows: list[tuple[str, ...]] = []
+def short(kept: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return rows: structure, device, its cheapest element in OpenSees, and how often it costs more.
+
+    Parameters
+    ----------
+    kept : dict
+        By key of structure.
+
+    Returns
+    -------
+    list of tuple
+        "-" where no setting of OpenSees keeps the error.
+    """
+    rows = []
     for one in there_are(kept):
-        for setting, goal in GOALS.get(one.case, {}).items():
-            for device in GROUPS:
-                found = rival(kept[one.key], device, setting)
-                what = f"{one.name}: {goal:g} times OpenSees at its {setting}"
-                if found is None:
-                    rows.append((what, device, "no setting of OpenSees keeps the error", "-"))
-                    continue
-                got = f"{found.ratio:.3g} ({found.kind}; here {found.method})"
-                rows.append((what, device, got, verdict(goal, found.ratio)))
-    if kept.get("e", {}).get("state") == "ok":
-        rows += batch_goals(kept["e"]["here"])
+        for device in GROUPS:
+            ways = [rival(kept[one.key], device, setting) for setting in ("usual", "best")]
+            kinds = dict.fromkeys(way.kind for way in ways if way)
+            ratios = (f"{way.ratio:.3g}" if way else "-" for way in ways)
+            rows.append((one.name, device, ", ".join(kinds) or "-", *ratios))
     return rows
-
-
-def verdict(goal: float, ratio: float) -> str:
-    """Say whether a ratio meets a goal, and what is missing."""
-    return "met" if ratio >= goal else f"**missed**, by a factor of {goal / ratio:.1f}"
-
-
-def batch_goals(here: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return the rows of the goals for the batch; on a busy machine CPU time tells more."""
-    many = GOAL_HISTORIES / here["histories"]
-    clock, cpu = here["clock"] * many, here["cpu"] * many / here["cores"]
-    what = f"{GOAL_HISTORIES} histories of the building in {GOAL_SECONDS / 60.0:g} minutes"
-    return [
-        (
-            what,
-            "LIR-DCFP",
-            f"{cpu / 60.0:.1f} minutes by CPU time over {here['cores']} cores, {clock / 60.0:.1f} by "
-            "the clock",
-            verdict(GOAL_SECONDS, GOAL_SECONDS**2 / cpu),
-        ),
-        (
-            "memory below 2 GiB",
-            "LIR-DCFP",
-            f"{here['memory'] / 2**30:.2f} GiB",
-            verdict(GOAL_BYTES, GOAL_BYTES**2 / here["memory"]),
-        ),
-    ]
 
 
 def bound(spent: dict[str, float]) -> str:
