@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.assembly.basis import bearing_rows
+from frames.shared_data import order_of, shared_coordinates, tangent_arrays
 from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
 from lir_element.device.features import apply
 from lir_element.element import heat_parts, initial_state
@@ -66,6 +67,7 @@ COUNT_FIELDS = (
     Field("steps", "-", "", "steps accepted", (), "i8"),
     Field("iterations", "-", "", "iterations of Newton's method", (), "i8"),
     Field("tangents", "-", "", "tangents made", (), "i8"),
+    Field("shared_tangents", "-", "", "times that only their shared part was", (), "i8"),
     Field("halvings", "-", "", "steps halved by adaptive substepping", (), "i8"),
     Field("trials", "-", "", "state determinations of all bearings", (), "i8"),
     Field("bearing", "-", "", "bearing whose limit or state was the last to fail", (), "i8"),
@@ -100,6 +102,9 @@ class ReducedModel(NamedTuple):
     start: Array  # (n_bearings, 13): first entry of each row of the maps below
     columns: Array
     values: Array
+    place: Array  # (n_b,) of each coordinate in the tangent: those that many bearings share last
+    at: Array  # (n_b,) the coordinates by place
+    shared: Array  # (n_h,) those that many bearings share, if there are many coordinates
 
 
 class IntegrationState(NamedTuple):
@@ -130,8 +135,24 @@ class IntegrationState(NamedTuple):
     force_before: Array  # (2, n_b) and those of the two steps before
     balanced: Array  # (1,) 1: accelerations are recorded from equilibrium at the end of the step
     balance: Array  # (n_b, n_b) then: accelerations of b by forces, eta following
-    tangent: Array  # (n_b, n_b) the last one made, transposed and factorised
-    order: Array  # (n_b,) of its rows
+    tangent: Array  # (n_v, n_v) the last one made, transposed and factorised: not what is shared
+    order: Array  # (n_v,) of its rows
+    across: Array  # (n_h, n_v) how the rest follows the n_h = n_b - n_v shared coordinates
+    below: Array  # (n_h, n_v) tangent of their forces by the rest
+    corner: Array  # (n_h, n_h) and by themselves, the rest following; transposed and factorised
+    corner_order: Array
+    sorted_b: Array  # (n_b,) scratch; this and what follows of no size where nothing is shared
+    linear_step: Array  # (n_b,) what the linear structure makes of the step, of a trial of it,
+    linear_trial: Array
+    linear_change: Array  # of Newton's correction,
+    linear_before: Array  # (2, n_b) and of the last two steps
+    flows: Array  # (6, n_b) mass_b v_b, mass_b a_b, damping_b v_b, damping_b a_b, and scratch
+    element_whole: Array  # (n_bearings, 12, 12) tangents that `tangent` was made of
+    of_nodes: Array  # (4, 12) scratch
+    weights: Array  # (n_b,) of the coordinates in products of corrections
+    corrections: Array  # (m, n_b) of Newton's method since the tangent was renewed
+    corrections_linear: Array  # (m, n_b) what the linear structure makes of them
+    corrections_size: Array  # (m,) their squares
     reduced: Array  # (halvings, n_b, n_b) linear effective stiffness of each step size
     has_reduced: Array
     inverse_e: Array  # (halvings, n_e, n_e) with full damping: effective flexibility of modes
@@ -184,6 +205,7 @@ class IntegratorSettings(NamedTuple):
     force_tolerance: float
     max_iterations: int
     tangent_worth: float  # iterations that a kept tangent may take before a new one is cheaper
+    shared_worth: float  # the same before its shared part alone; as above where none is shared
     energy_tolerance: float  # made or lost by contacts in a step, of the energy moved so far
     energy_floor: float  # J, below which that energy does not count
     error_tolerance: float  # of histories over the displacement reached; infinite: fixed step
@@ -210,6 +232,8 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
     def plain(array: Array) -> Array:
         return np.ascontiguousarray(array, dtype=np.float64)
 
+    shared = shared_coordinates(system, rows)
+    at = order_of(shared, rows.shape[1])
     return ReducedModel(
         mass_b=plain(basis.mass_b),
         mass_be=plain(basis.mass_be),
@@ -230,6 +254,9 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
         start=start,
         columns=rows.indices.astype(np.int64),
         values=plain(rows.data),
+        place=np.argsort(at).astype(np.int64),
+        at=at,
+        shared=shared,
     )
 
 
@@ -279,8 +306,7 @@ def run_arrays(model: ReducedModel) -> IntegrationState:
         force_before=np.zeros((2, n_b)),
         balanced=np.zeros(1, np.int64),
         balance=np.zeros((n_b, n_b)),
-        tangent=np.zeros((n_b, n_b)),
-        order=np.zeros(n_b, np.int64),
+        **tangent_arrays(n_b, len(model.shared), count),
         reduced=np.zeros((sizes, n_b, n_b)),
         has_reduced=np.zeros(sizes, np.int64),
         inverse_e=np.zeros((sizes, n_full, n_full)),

@@ -40,6 +40,12 @@ class Factors:
         same = bool((self._factors.perm_r == self._factors.perm_c).all())
         return same and bool((self._factors.U.diagonal() > 0.0).all())
 
+    @property
+    def negative(self) -> int:
+        """Number of negative eigenvalues, that of negative pivots (Sylvester); -1 if unknown."""
+        same = bool((self._factors.perm_r == self._factors.perm_c).all())
+        return int(np.count_nonzero(self._factors.U.diagonal() < 0.0)) if same else -1
+
     def solve(self, right: FloatArray) -> FloatArray:
         """Solve for right-hand sides (n,) or (n, m)."""
         return np.asarray(self._factors.solve(np.asarray(right, dtype=np.float64)))

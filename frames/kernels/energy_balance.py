@@ -24,11 +24,10 @@ if TYPE_CHECKING:
 def kinetic_energy(
     model: ReducedModel, v_b: Floats, v_e: Floats, flow: Floats, momentum: Floats
 ) -> float:
-    """Return the kinetic energy relative to the ground; `flow` (n_e,) is mass_eb v_b.
+    """Return the kinetic energy relative to the ground.
 
-    `momentum` (n_b,) is overwritten.
+    `flow` (n_e,) is mass_eb v_b, `momentum` (n_b,) mass_b v_b.
     """
-    set_product(model.mass_b, v_b, momentum)
     total = dot(v_b, momentum)
     for k in range(v_e.shape[0]):
         total += v_e[k] * (model.mass_e[k] * v_e[k] + 2.0 * flow[k])
@@ -39,9 +38,8 @@ def kinetic_energy(
 def elastic_energy(model: ReducedModel, b: Floats, e: Floats, force: Floats) -> float:
     """Return the strain energy of the structure, geometric part included.
 
-    `force` (n_b,) becomes that of the structure on b.
+    `force` (n_b,) is stiffness_b b.
     """
-    set_product(model.stiffness_b, b, force)
     total = dot(b, force)
     for k in range(e.shape[0]):
         total += model.omega2[k] * e[k] * e[k]
@@ -59,8 +57,11 @@ def damping_work(model: ReducedModel, run: IntegrationState) -> float:
     for a in range(run.b.shape[0]):
         run.h_b[a] = 0.5 * (run.v_b[a] + run.v_b_new[a])
     if model.damping_b.shape[0] > 0:
-        set_product(model.damping_b, run.h_b, run.g_b)
-        total += dot(run.step, run.g_b)
+        if model.shared.shape[0] > 0:
+            total += dot(run.step, run.flows[4])
+        else:
+            set_product(model.damping_b, run.h_b, run.g_b)
+            total += dot(run.step, run.g_b)
     if model.damping_ee.shape[0] > 0:
         total += coupled_work(
             model.damping_be,
@@ -109,7 +110,11 @@ def add_energy(
         given += part_energy_on(parts.load_e, parts, parts.to_e, run.g_e)
         parts.work[3] += given
         bearings += given
-    kinetic = kinetic_energy(model, run.v_b_new, run.v_e_new, run.flow_v_new, run.h_b)
+    momentum = run.flows[0] if model.shared.shape[0] > 0 else run.h_b
+    if model.shared.shape[0] == 0:
+        set_product(model.mass_b, run.v_b_new, momentum)
+        set_product(model.stiffness_b, run.b_new, run.held)
+    kinetic = kinetic_energy(model, run.v_b_new, run.v_e_new, run.flow_v_new, momentum)
     elastic = elastic_energy(model, run.b_new, run.e_new, run.held) - clock.elastic_start
     energy.input += supplied
     energy.gravity += lifted

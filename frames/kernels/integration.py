@@ -14,11 +14,12 @@ from frames.kernels.effective import effective, rates_after
 from frames.kernels.energy_balance import add_bearing_energy, add_energy, add_part_energy
 from frames.kernels.nonlinear_works import commit_parts
 from frames.kernels.part_states import set_part_follow
+from frames.kernels.shared_tangent import carry_products
 from frames.kernels.step_error import is_rough, keep_motion
 from frames.kernels.stepping import commit_bearings, newton, predict
 from frames.kernels.yielding import begin_parts, part_load_on_modes
 from lir_element.errors import RunStatus
-from lir_element.kernels.linear import add_product, set_product
+from lir_element.kernels.linear import add_product, set_product, subtract_squares
 from lir_element.kernels.pendulum.trial import copy_words
 from lir_element.kernels.sampling import ground_acceleration
 
@@ -75,11 +76,8 @@ def set_reduced_stiffness(
         )
     else:
         for k in range(n_e):
-            inv = c_m * c_m / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
-            for a in range(n_b):
-                value = inv * model.mass_eb[k, a]
-                for c in range(n_b):
-                    out[a, c] -= value * model.mass_eb[k, c]
+            run.g_e[k] = c_m * c_m / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
+        subtract_squares(model.mass_eb, run.g_e, out)
     run.has_reduced[at] = 1
 
 
@@ -89,6 +87,12 @@ def renew_products(model: ReducedModel, run: IntegrationState) -> None:
     set_product(model.stiffness_b, run.b, run.held)
     set_product(model.mass_be, run.v_b, run.flow_v)
     set_product(model.mass_be, run.a_b, run.flow_a)
+    if model.shared.shape[0] > 0:
+        set_product(model.mass_b, run.v_b, run.flows[0])
+        set_product(model.mass_b, run.a_b, run.flows[1])
+        if model.damping_b.shape[0] > 0:
+            set_product(model.damping_b, run.v_b, run.flows[2])
+            set_product(model.damping_b, run.a_b, run.flows[3])
 
 
 @expanded
@@ -134,9 +138,14 @@ def set_load(
             run.rhs_b[a] -= model.inertia_b[a, axis] * pull
         for k in range(run.e.shape[0]):
             run.rhs_e[k] -= model.inertia_e[k, axis] * pull
-    add_product(model.mass_b, run.h_b, 1.0, run.rhs_b)
-    if model.damping_b.shape[0] > 0:
-        add_product(model.damping_b, run.g_b, -1.0, run.rhs_b)
+    if model.shared.shape[0] > 0:
+        for a in range(run.b.shape[0]):
+            run.rhs_b[a] += known_v * run.flows[0, a] + known_a * run.flows[1, a]
+            run.rhs_b[a] -= damp_v * run.flows[2, a] + damp_a * run.flows[3, a]
+    else:
+        add_product(model.mass_b, run.h_b, 1.0, run.rhs_b)
+        if model.damping_b.shape[0] > 0:
+            add_product(model.damping_b, run.g_b, -1.0, run.rhs_b)
     # the modes, eliminated
     if model.damping_ee.shape[0] > 0:
         add_product(model.mass_eb, run.h_e, 1.0, run.rhs_b)
@@ -229,7 +238,9 @@ def try_step(
         foreseen = foreseen and parts.number[0] == 0
         begin_parts(model, run, parts, settings)
     if foreseen:
-        predict(run, run.reduced[clock.halvings], 1.0 - settings.alpha_f)
+        predict(model, run, run.reduced[clock.halvings], 1.0 - settings.alpha_f)
+    elif model.shared.shape[0] > 0:
+        set_product(run.reduced[clock.halvings], run.step, run.linear_step)
     code = newton(
         model,
         run,
@@ -240,6 +251,7 @@ def try_step(
         settings.force_tolerance,
         settings.max_iterations,
         settings.tangent_worth,
+        settings.shared_worth,
     )
     if code == _OK:
         finish_step(model, run, parts, settings)
@@ -267,6 +279,19 @@ def accept_step(
 ) -> None:
     """Commit the step."""
     clock = run.clock[0]
+    if model.shared.shape[0] > 0:
+        carry_products(
+            model.mass_b,
+            model.damping_b,
+            model.stiffness_b,
+            run.step,
+            1.0 / (settings.beta * clock.dt),
+            0.5 / settings.beta - 1.0,
+            clock.dt,
+            settings.gamma,
+            run.flows,
+            run.held,
+        )
     add_energy(model, run, parts, ground)
     keep_motion(model, run, settings, ground)
     commit_bearings(model, run, contacts)
@@ -279,6 +304,9 @@ def accept_step(
         run.mean_v_before[a] = run.mean_v_b[a]
         run.mean_v_b[a] = run.step[a] / clock.dt
         run.b[a], run.v_b[a], run.a_b[a] = run.b_new[a], run.v_b_new[a], run.a_b_new[a]
+    for a in range(run.linear_step.shape[0]):
+        run.linear_before[1, a] = run.linear_before[0, a]
+        run.linear_before[0, a] = run.linear_step[a]
     for k in range(run.e.shape[0]):
         run.e[k], run.v_e[k], run.a_e[k] = run.e_new[k], run.v_e_new[k], run.a_e_new[k]
         run.flow_v[k], run.flow_a[k] = run.flow_v_new[k], run.flow_a_new[k]

@@ -11,10 +11,26 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import expanded, inlined, kernel
+from frames.kernels.shared_tangent import (
+    add_element_to_blocks,
+    factorise_blocks,
+    linear_part_of_correction,
+    set_linear_blocks,
+    substitute_blocks,
+    with_secants,
+)
 from frames.kernels.yielding import add_part_forces, add_part_tangent, settle_parts
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
-from lir_element.kernels.linear import add_product, factorise, gather, scatter, substitute
+from lir_element.kernels.linear import (
+    add_product,
+    copy,
+    factorise,
+    gather,
+    scatter,
+    set_product,
+    substitute,
+)
 from lir_element.kernels.pendulum.trial import has_no_state
 
 if TYPE_CHECKING:
@@ -31,6 +47,8 @@ _TRIES = 6  # of a step: the last one, 0.4^5 or 1 % of it, is taken as it is (a 
 _PATIENCE = 3  # tries: then a residual that rises a little does, past a corner of a law (a choice)
 _RISE = 2.0  # of the residual that is little (a choice)
 _GUESS, _REST, _BACK, _CORRECTED = range(4)  # what Newton's method looks at
+_KEPT, _SHARED, _WHOLE = range(3)  # what of the tangent is renewed
+_GRAVITY_WORTH = 3.0  # iterations that save a tangent of all coordinates under permanent loads
 
 
 @inlined
@@ -62,12 +80,31 @@ def bearing_forces(
 
 @expanded
 def bearing_tangents(
-    model: ReducedModel, run: IntegrationState, contacts: Contacts | None, factor: float
+    model: ReducedModel,
+    run: IntegrationState,
+    contacts: Contacts | None,
+    factor: float,
+    whole: bool,
 ) -> None:
-    """Add `factor` times the bearings' tangents at the last trial, transposed, to `run.tangent`."""
+    """Add `factor` times the bearings' tangents at the last trial, transposed, to the tangent."""
     for k in range(model.props.shape[0]):
         element = run.element_k[k]
         bearing_tangent(model.props, run.new, run.work, contacts, k, element)
+        if model.shared.shape[0] > 0:
+            add_element_to_blocks(
+                model.start[k],
+                model.columns,
+                model.values,
+                element,
+                factor,
+                model.place,
+                whole,
+                run.tangent,
+                run.across,
+                run.below,
+                run.corner,
+            )
+            continue
         for row in range(12):
             for i in range(model.start[k, row], model.start[k, row + 1]):
                 for col in range(12):
@@ -105,7 +142,7 @@ def set_residual(
     """Set displacement, bearing forces and residual of the trial ``b + step``; return its size.
 
     residual = rhs - linear step - share force; infinite where bearings or nonlinear parts of the
-    structure have no state.
+    structure have no state. Of many bearings `run.linear_trial` is linear step.
     """
     n_b = step.shape[0]
     dt = run.clock[0].dt
@@ -118,7 +155,11 @@ def set_residual(
         return math.inf
     for a in range(n_b):
         run.residual[a] = run.rhs_b[a] - share * run.force[a]
-    add_product(linear, step, -1.0, run.residual)
+    if model.shared.shape[0] > 0:
+        for a in range(n_b):
+            run.residual[a] -= run.linear_trial[a]
+    else:
+        add_product(linear, step, -1.0, run.residual)
     if parts is not None:
         if not settle_parts(model, run, parts, step):
             return math.inf
@@ -127,7 +168,40 @@ def set_residual(
 
 
 @inlined
-def predict(run: IntegrationState, linear: Floats, share: float) -> None:
+def solve_tangent(model: ReducedModel, run: IntegrationState, share: float, x: Floats) -> None:
+    """Solve for the right-hand side `x` (n_b,) in place, with the tangent of many bearings.
+
+    Of `run.linear_change`, which holds the right-hand side too, is left what belongs to the linear
+    structure.
+    """
+    substitute_blocks(
+        run.tangent,
+        run.order,
+        run.across,
+        run.below,
+        run.corner,
+        run.corner_order,
+        model.at,
+        run.sorted_b,
+        x,
+    )
+    linear_part_of_correction(
+        model.start,
+        model.columns,
+        model.values,
+        run.element_k,
+        run.element_whole,
+        share,
+        model.place,
+        run.tangent.shape[0],
+        x,
+        run.of_nodes,
+        run.linear_change,
+    )
+
+
+@inlined
+def predict(model: ReducedModel, run: IntegrationState, linear: Floats, share: float) -> None:
     """Set a guess of ``run.step`` that takes no state determination.
 
     One iteration with the kept tangent, as if displacements and forces of the bearings went on as
@@ -144,8 +218,22 @@ def predict(run: IntegrationState, linear: Floats, share: float) -> None:
         gain = run.force_old[a] - run.force_before[0, a]
         turn = bent * (gain - (run.force_before[0, a] - run.force_before[1, a]))
         run.residual[a] = run.rhs_b[a] - share * (run.force_old[a] + ratio * gain + turn)
-    add_product(linear, run.step, -1.0, run.residual)
-    substitute(run.tangent, run.order, run.residual)
+    if model.shared.shape[0] == 0:
+        add_product(linear, run.step, -1.0, run.residual)
+        substitute(run.tangent, run.order, run.residual)
+    else:
+        if ratio == 1.0:
+            for a in range(n_b):
+                turn = bent * (run.linear_before[0, a] - run.linear_before[1, a])
+                run.linear_step[a] = run.linear_before[0, a] + turn
+        else:
+            set_product(linear, run.step, run.linear_step)
+        for a in range(n_b):
+            run.residual[a] -= run.linear_step[a]
+            run.linear_change[a] = run.residual[a]
+        solve_tangent(model, run, share, run.residual)
+        for a in range(n_b):
+            run.linear_step[a] += run.linear_change[a]
     for a in range(n_b):
         run.step[a] += run.residual[a]
 
@@ -158,14 +246,32 @@ def renew_tangent(
     parts: NonlinearElements | None,
     linear: Floats,
     share: float,
+    whole: bool,
 ) -> bool:
-    """Set and factorise the tangent at the last trial; returns False where it is singular."""
+    """Set and factorise the tangent at the last trial; returns False where it is singular.
+
+    Unless `whole`, only what belongs to the coordinates that many bearings share is renewed.
+    """
     n_b = run.step.shape[0]
+    if model.shared.shape[0] > 0:
+        set_linear_blocks(linear, model.at, whole, run.tangent, run.across, run.below, run.corner)
+    else:
+        for a in range(n_b):
+            for c in range(n_b):
+                run.tangent[a, c] = linear[a, c]
+    bearing_tangents(model, run, contacts, share, whole)
+    if model.shared.shape[0] > 0:
+        if whole:
+            size = run.element_k.size
+            copy(run.element_k.reshape((size,)), run.element_whole.reshape((size,)))
+            for a in range(n_b):
+                run.weights[a] = abs(linear[a, a])
+        run.counts[0].shared_tangents += 1 - int(whole)
+        run.counts[0].tangents += int(whole)
+        return factorise_blocks(
+            whole, run.tangent, run.order, run.across, run.below, run.corner, run.corner_order
+        )
     run.counts[0].tangents += 1
-    for a in range(n_b):
-        for c in range(n_b):
-            run.tangent[a, c] = linear[a, c]
-    bearing_tangents(model, run, contacts, share)
     if parts is not None and not add_part_tangent(model, run, parts):
         return False
     return factorise(run.tangent, run.order)
@@ -182,38 +288,46 @@ def newton(
     tolerance: float,
     max_iterations: int,
     worth: float,
+    shared_worth: float,
 ) -> int:
     """Find ``run.step`` with a residual below `tolerance`; returns a status code.
 
     `run.step` holds the first guess. The tangent is kept from step to step and from iteration to
     iteration while it serves: it is renewed where the residual falls so slowly that it would take
-    more than `worth` further iterations. A step of a new tangent that does not reduce the residual
-    is shortened.
+    more than `worth` further iterations; first, where bearings share coordinates, what belongs to
+    these alone, from `shared_worth` iterations on. A step of a new tangent that does not reduce the
+    residual is shortened.
     """
     n_b = run.step.shape[0]
     clock = run.clock[0]
-    kept = clock.kept == clock.halvings + 1
+    need = _KEPT if clock.kept == clock.halvings + 1 else _WHOLE
+    less = _SHARED if model.shared.shape[0] > 0 else _WHOLE
     size, factor = math.inf, 1.0
-    at, tries, passes = _GUESS, 0, 0
+    at, tries, passes, secants = _GUESS, 0, 0, 0
     while True:  # one place where the bearings are run: they are its code
         if at == _CORRECTED:
             for a in range(n_b):
                 run.g_b[a] = run.step[a] + factor * run.h_b[a]
+        for a in range(run.linear_step.shape[0]):
+            change = factor * run.linear_change[a] if at == _CORRECTED else 0.0
+            run.linear_trial[a] = run.linear_step[a] + change
         trial = run.g_b if at == _CORRECTED else run.step
         new = set_residual(model, run, contacts, parts, linear, trial, share)
         if at == _GUESS and new == math.inf:  # start from rest instead
             at = _REST
             for a in range(n_b):
                 run.step[a] = 0.0
+            for a in range(run.linear_step.shape[0]):
+                run.linear_step[a] = 0.0
             continue
         if at == _CORRECTED:
             tries += 1
             good = new < size or (tries > _PATIENCE and new < _RISE * size)
-            if not good and not kept and tries < _TRIES:
+            if not good and need == _WHOLE and tries < _TRIES:
                 factor *= _SHORTER
                 continue
-            if kept and not new < size:  # back to where it was, with a tangent of its own
-                kept = False
+            if need != _WHOLE and not new < size:  # back to where it was, with a newer tangent
+                need = less if need == _KEPT else _WHOLE
                 at = _BACK
                 continue
         if new == math.inf and at != _BACK:
@@ -221,7 +335,14 @@ def newton(
         if at == _CORRECTED:
             for a in range(n_b):
                 run.step[a] = run.g_b[a]
-            kept = new * (new / size) ** worth <= tolerance
+            copy(run.linear_trial, run.linear_step)
+            fall = new / size
+            if new * fall**shared_worth <= tolerance:
+                need = _KEPT
+            elif need == _SHARED and not new * fall**worth <= tolerance:
+                need = _WHOLE
+            else:
+                need = less
         if at != _BACK:
             size = new
         if passes == max_iterations:
@@ -230,14 +351,29 @@ def newton(
         if size <= tolerance:
             return _OK
         run.counts[0].iterations += 1
-        if not kept:
+        if need != _KEPT or factor != 1.0:
+            secants = 0
+        if need != _KEPT:
             clock.kept = 0
-            if not renew_tangent(model, run, contacts, parts, linear, share):
+            if not renew_tangent(model, run, contacts, parts, linear, share, need == _WHOLE):
                 return _SINGULAR
             clock.kept = clock.halvings + 1
         for a in range(n_b):
             run.h_b[a] = run.residual[a]
-        substitute(run.tangent, run.order, run.h_b)
+        if model.shared.shape[0] > 0:
+            copy(run.residual, run.linear_change)
+            solve_tangent(model, run, share, run.h_b)
+            secants = with_secants(
+                run.weights,
+                run.corrections,
+                run.corrections_linear,
+                run.corrections_size,
+                secants,
+                run.h_b,
+                run.linear_change,
+            )
+        else:
+            substitute(run.tangent, run.order, run.h_b)
         at, tries, factor = _CORRECTED, 0, 1.0
 
 
@@ -258,9 +394,20 @@ def solve_gravity(
         run.step[a] = run.b[a]
         run.b[a] = 0.0
         run.rhs_b[a] = model.load_b[a]
+    if model.shared.shape[0] > 0:
+        set_product(model.stiffness_b, run.step, run.linear_step)
     run.clock[0].kept = 0
     code = newton(
-        model, run, contacts, None, model.stiffness_b, 1.0, tolerance, max_iterations, 0.0
+        model,
+        run,
+        contacts,
+        None,
+        model.stiffness_b,
+        1.0,
+        tolerance,
+        max_iterations,
+        _GRAVITY_WORTH,
+        0.0,
     )
     run.clock[0].kept = 0
     if code != _OK:

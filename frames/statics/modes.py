@@ -6,12 +6,15 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
+from scipy import sparse
 
 from frames._errors import ModelError
+from frames.assembly.few_modes import few_modes
 from frames.assembly.natural_modes import UnstableError, natural_modes
+from frames.assembly.ritz import RitzSpace
 from frames.model.components import bearing_axial_stiffness
 from frames.statics.blas_threads import blas_threads_for
-from frames.statics.gravity import GravityState, gravity
+from frames.statics.gravity import GravityState, at_rest, gravity, prepare
 from frames.statics.springs import spring_matrix
 from lir_element.argument_checks import require_choice
 from lir_element.tables import html_table, text_table
@@ -24,6 +27,7 @@ if TYPE_CHECKING:
 BearingStiffness = Literal["sliding", "sticking", "fixed"]
 
 
+_LARGE = 1500  # displacements and rotations of nodes, above which sparse matrices are the faster
 _HEAD = ("mode", "period [s]", "mass x [-]", "mass y [-]", "mass z [-]")
 
 
@@ -85,7 +89,7 @@ def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "slidin
     Returns
     -------
     Modes
-        Periods, shapes and participating masses (dense; frames/assembly/natural_modes.py).
+        Periods, shapes and participating masses.
 
     Raises
     ------
@@ -105,13 +109,15 @@ def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "slidin
         message = f"count = {count} must be at least 1"
         raise ModelError(message)
     require_choice("bearings", bearings, ("sliding", "sticking", "fixed"), error=ModelError)
-    state = gravity(frame)
+    state = _at_rest(frame)
     system = state.system
-    k = (system.stiffness + state.geometric + _mode_springs(state, bearings)).toarray()
-    m = system.mass.toarray()
+    k = sparse.csr_array(system.stiffness + state.geometric + _mode_springs(state, bearings))
     try:
         with blas_threads_for(frame):
-            found = natural_modes(k, m, count)
+            if _is_large(frame):
+                found = few_modes(k, system.mass, count)
+            else:
+                found = natural_modes(k.toarray(), system.mass.toarray(), count)
     except UnstableError as error:
         label = system.dof_labels[int(np.argmax(np.abs(error.direction)))]
         message = (
@@ -125,6 +131,20 @@ def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "slidin
     total = system.node_mass[:, :3].sum(axis=0)
     total[~total.astype(bool)] = np.inf  # a plane model: nothing takes part out of its plane
     return Modes(2.0 * np.pi / np.sqrt(omega2), shapes, (shares / total[:, None]).T)
+
+
+def _is_large(frame: FrameData) -> bool:
+    return 6 * len(frame.nodes) > _LARGE
+
+
+def _at_rest(frame: FrameData) -> GravityState:
+    # The equilibrium; that of a large frame without its modes, which no equilibrium needs.
+    if not _is_large(frame):
+        return gravity(frame)
+    with blas_threads_for(frame):
+        prepared = prepare(frame, None, "pendulum")
+        basis = RitzSpace(prepared.system, prepared.geometric, frame.damping).basis()
+        return at_rest(prepared, basis, 0.0)
 
 
 def _mode_springs(state: GravityState, bearings: BearingStiffness) -> SparseMatrix:

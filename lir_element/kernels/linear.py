@@ -9,6 +9,9 @@ from lir_element._compile.jit import inlined, kernel
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Words
 
+_WHOLE = 200  # columns, up to which a matrix stays at hand as a whole while it is factorised
+_PANEL = 32  # columns of a larger one that are taken out of the rest together: a multiple of 4
+
 
 @inlined
 def gather(start: Words, columns: Words, values: Floats, source: Floats, target: Floats) -> None:
@@ -62,6 +65,38 @@ def set_product(columns: Floats, x: Floats, out: Floats) -> None:
     add_product(columns, x, 1.0, out)
 
 
+@inlined
+def copy(source: Floats, target: Floats) -> None:
+    """Set `target` (n,) to `source`."""
+    for a in range(target.shape[0]):
+        target[a] = source[a]
+
+
+@kernel
+def subtract_squares(rows: Floats, weights: Floats, out: Floats) -> None:
+    """Take ``rows.T @ diag(weights) @ rows`` from `out` (n, n); rows (m, n), weights (m,).
+
+    A block of rows, which stays at hand, is taken out of all of `out` before the next.
+    """
+    m, n = rows.shape
+    for first in range(0, m, _PANEL):
+        last = min(first + _PANEL, m)
+        whole = last - (last - first) % 4
+        for a in range(n):
+            row = out[a]
+            for k in range(first, whole, 4):
+                x_0, x_1 = weights[k] * rows[k, a], weights[k + 1] * rows[k + 1, a]
+                x_2, x_3 = weights[k + 2] * rows[k + 2, a], weights[k + 3] * rows[k + 3, a]
+                r_0, r_1, r_2, r_3 = rows[k], rows[k + 1], rows[k + 2], rows[k + 3]
+                for c in range(n):
+                    less = (row[c] - x_0 * r_0[c]) - x_1 * r_1[c]
+                    row[c] = (less - x_2 * r_2[c]) - x_3 * r_3[c]
+            for k in range(whole, last):
+                x_0 = weights[k] * rows[k, a]
+                for c in range(n):
+                    row[c] -= x_0 * rows[k, c]
+
+
 @kernel
 def dot(x: Floats, y: Floats) -> float:
     """Return the scalar product of `x` and `y`."""
@@ -86,34 +121,45 @@ def factorise(columns: Floats, order: Words) -> bool:
     """Factorise a matrix (n, n) in place, row c of `columns` being its column c.
 
     Gaussian elimination of the transposed with pivoted rows, exchanged as `order` tells; the
-    pivots are kept inverted. Four pivots at a time are taken out of what is left, which is read
-    and written once for them. Returns False if the matrix is singular.
+    pivots are kept inverted. Large matrices are taken a panel of columns at a time, whose pivots
+    stay at hand while all that is right of them is read and written once. Returns False if the
+    matrix is singular.
     """
     n = columns.shape[0]
-    for first in range(0, n, 4):
-        last = min(first + 4, n)
-        if not factorise_panel(columns, order, first, last):
+    width = max(n, 1) if n <= _WHOLE else _PANEL
+    for first in range(0, n, width):
+        last = min(first + width, n)
+        if not factorise_columns(columns, order, first, last):
             return False
-        for row in range(first + 1, last):
-            for col in range(first, row):
-                factor = columns[row, col]
-                for k in range(last, n):
-                    columns[row, k] -= factor * columns[col, k]
-        if last - first < 4:
+        if last < n:
+            eliminate_panel(columns, first, last)
+    return True
+
+
+@kernel
+def factorise_columns(columns: Floats, order: Words, first: int, last: int) -> bool:
+    """Factorise the columns `first` to `last`, four pivots at a time taken out of the rest."""
+    n = columns.shape[0]
+    for at in range(first, last, 4):
+        end = min(at + 4, last)
+        if not factorise_pivots(columns, order, at, end):
+            return False
+        eliminate_pivots(columns, at, end, end, last)
+        if end == last:
             return True
-        p_0, p_1 = columns[first, last:], columns[first + 1, last:]
-        p_2, p_3 = columns[first + 2, last:], columns[first + 3, last:]
-        for row in range(last, n):
-            f_0, f_1 = columns[row, first], columns[row, first + 1]
-            f_2, f_3 = columns[row, first + 2], columns[row, first + 3]
-            rest = columns[row, last:]
+        p_0, p_1 = columns[at, end:last], columns[at + 1, end:last]
+        p_2, p_3 = columns[at + 2, end:last], columns[at + 3, end:last]
+        for row in range(end, n):
+            f_0, f_1 = columns[row, at], columns[row, at + 1]
+            f_2, f_3 = columns[row, at + 2], columns[row, at + 3]
+            rest = columns[row, end:last]
             for k in range(rest.shape[0]):
                 rest[k] -= (f_0 * p_0[k] + f_1 * p_1[k]) + (f_2 * p_2[k] + f_3 * p_3[k])
     return True
 
 
 @kernel
-def factorise_panel(columns: Floats, order: Words, first: int, last: int) -> bool:
+def factorise_pivots(columns: Floats, order: Words, first: int, last: int) -> bool:
     """Eliminate with the pivots `first` to `last` in their own columns alone."""
     n = columns.shape[0]
     for col in range(first, last):
@@ -135,21 +181,109 @@ def factorise_panel(columns: Floats, order: Words, first: int, last: int) -> boo
     return True
 
 
+@inlined
+def eliminate_pivots(columns: Floats, first: int, last: int, begin: int, end: int) -> None:
+    """Take the pivots `first` to `last` out of one another's columns `begin` to `end`."""
+    for row in range(first + 1, last):
+        for col in range(first, row):
+            factor = columns[row, col]
+            for k in range(begin, end):
+                columns[row, k] -= factor * columns[col, k]
+
+
+@kernel
+def eliminate_panel(columns: Floats, first: int, last: int) -> None:
+    """Take the pivots `first` to `last`, fours, out of all columns beyond them, rows in pairs."""
+    n = columns.shape[0]
+    for at in range(first, last, 4):
+        for before in range(first, at, 4):
+            eliminate_four(columns, at, before, last)
+            eliminate_four(columns, at + 2, before, last)
+        eliminate_pivots(columns, at, at + 4, last, n)
+    for row in range(last, n - 1, 2):
+        for at in range(first, last, 4):
+            eliminate_four(columns, row, at, last)
+    if (n - last) % 2 == 1:  # the last row has none beside it
+        for col in range(first, last):
+            factor = columns[n - 1, col]
+            for k in range(last, n):
+                columns[n - 1, k] -= factor * columns[col, k]
+
+
+@inlined
+def eliminate_four(columns: Floats, row: int, at: int, begin: int) -> None:
+    """Take the four pivots from `at` on out of a row and the next, from column `begin` on."""
+    f_0, f_1 = columns[row, at], columns[row, at + 1]
+    f_2, f_3 = columns[row, at + 2], columns[row, at + 3]
+    g_0, g_1 = columns[row + 1, at], columns[row + 1, at + 1]
+    g_2, g_3 = columns[row + 1, at + 2], columns[row + 1, at + 3]
+    p_0, p_1 = columns[at, begin:], columns[at + 1, begin:]
+    p_2, p_3 = columns[at + 2, begin:], columns[at + 3, begin:]
+    one, other = columns[row, begin:], columns[row + 1, begin:]
+    for k in range(one.shape[0]):
+        q_0, q_1, q_2, q_3 = p_0[k], p_1[k], p_2[k], p_3[k]
+        one[k] -= (f_0 * q_0 + f_1 * q_1) + (f_2 * q_2 + f_3 * q_3)
+        other[k] -= (g_0 * q_0 + g_1 * q_1) + (g_2 * q_2 + g_3 * q_3)
+
+
 @kernel
 def substitute(factors: Floats, order: Words, x: Floats) -> None:
     """Solve for the right-hand side `x` (n,) in place, with what `factorise` made."""
+    substitute_rows(factors, order, x.reshape((1, x.shape[0])))
+
+
+@kernel
+def substitute_rows(factors: Floats, order: Words, x: Floats) -> None:
+    """Solve for the right-hand sides in the rows of `x` (m, n) in place, as `substitute`.
+
+    Four rows of `factors` at a time are read for all of them: large ones are read once.
+    """
     n = factors.shape[0]
-    for c in range(n):
-        value = x[c] * factors[c, c]
-        x[c] = value
-        for a in range(c + 1, n):
-            x[a] -= factors[c, a] * value
-    for c in range(n - 1, 0, -1):
-        value = x[c]
-        for a in range(c):
-            x[a] -= factors[c, a] * value
-    for c in range(n - 1, -1, -1):
-        x[c], x[order[c]] = x[order[c]], x[c]
+    whole = n - n % 4
+    for c in range(0, whole, 4):
+        for y in x:
+            forward_four(factors, c, y)
+    for y in x:
+        for c in range(whole, n):
+            y[c] *= factors[c, c]
+            for a in range(c + 1, n):
+                y[a] -= factors[c, a] * y[c]
+        for c in range(n - 1, whole - 1, -1):
+            for a in range(c):
+                y[a] -= factors[c, a] * y[c]
+    for c in range(whole - 4, -1, -4):
+        for y in x:
+            backward_four(factors, c, y)
+    for y in x:
+        for c in range(n - 1, -1, -1):
+            y[c], y[order[c]] = y[order[c]], y[c]
+
+
+@inlined
+def forward_four(factors: Floats, c: int, x: Floats) -> None:
+    """Take four unknowns from `c` on, which become known, out of those that follow."""
+    for k in range(c, c + 4):
+        x[k] *= factors[k, k]
+        for a in range(k + 1, c + 4):
+            x[a] -= factors[k, a] * x[k]
+    x_0, x_1, x_2, x_3 = x[c], x[c + 1], x[c + 2], x[c + 3]
+    f_0, f_1, f_2, f_3 = factors[c], factors[c + 1], factors[c + 2], factors[c + 3]
+    for a in range(c + 4, x.shape[0]):
+        less = (x[a] - f_0[a] * x_0) - f_1[a] * x_1
+        x[a] = (less - f_2[a] * x_2) - f_3[a] * x_3
+
+
+@inlined
+def backward_four(factors: Floats, c: int, x: Floats) -> None:
+    """Take four unknowns from `c` on, which become known, out of those before."""
+    for k in range(c + 3, c, -1):
+        for a in range(c, k):
+            x[a] -= factors[k, a] * x[k]
+    x_0, x_1, x_2, x_3 = x[c], x[c + 1], x[c + 2], x[c + 3]
+    f_0, f_1, f_2, f_3 = factors[c], factors[c + 1], factors[c + 2], factors[c + 3]
+    for a in range(c):
+        less = (x[a] - f_3[a] * x_3) - f_2[a] * x_2
+        x[a] = (less - f_1[a] * x_1) - f_0[a] * x_0
 
 
 @kernel

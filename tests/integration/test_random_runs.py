@@ -13,7 +13,7 @@ from validation.fuzzing.scenes import random_scene
 from validation.fuzzing.trial import try_scene
 
 SEED = 1
-CASES, NIGHTLY = 180, 300
+CASES, NIGHTLY = 90, 300
 """Number of test cases, and with those that `make nightly` adds."""
 AGAIN = 6
 BUILDINGS = 20

@@ -1,0 +1,275 @@
+"""Kernels of the tangent of many bearings under a diaphragm, in two blocks.
+
+The tangent is [[V, B], [D, H]]: H of the few coordinates that many bearings share (a diaphragm's),
+V of all others. As bearings slide and turn, their vertical and rotational stiffness stays what it
+is while they are pressed: what changes from step to step is B, D and H. With V factorised,
+V^-1 B and H - D V^-1 B are a few substitutions, where a tangent of all coordinates is a
+factorisation.
+
+Matrices of so many coordinates have no room near the processor: a step takes as long as they take
+to be read. So what they make of a vector is carried along, where it follows from what is known:
+what the structure makes of Newton's correction from the residual that it was to take away, and
+what mass, damping and stiffness make of motions from what they make of the step.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from frames._jit import kernel
+from lir_element.kernels.linear import dot, factorise, set_product, substitute, substitute_rows
+
+_LEAST = 0.2  # of a secant's slope over that of the tangent: corrections grow fivefold at most
+
+if TYPE_CHECKING:
+    from lir_element.layout import Floats, Words
+
+
+@kernel
+def add_element_to_blocks(
+    start: Words,
+    columns: Words,
+    values: Floats,
+    element: Floats,
+    factor: float,
+    place: Words,
+    whole: bool,
+    tangent: Floats,
+    across: Floats,
+    below: Floats,
+    corner: Floats,
+) -> None:
+    """Add `factor` times the tangent (12, 12) of a bearing to the blocks.
+
+    `start` (13,), `columns` and `values` are its map as in `gather`; `place` (n_b,) the places of
+    the coordinates, those in V first. V is left alone unless `whole`.
+    """
+    n_v = tangent.shape[0]
+    for row in range(12):
+        for i in range(start[row], start[row + 1]):
+            r = place[columns[i]]
+            for col in range(12):
+                value = factor * values[i] * element[row, col]
+                for j in range(start[col], start[col + 1]):
+                    c = place[columns[j]]
+                    if r < n_v and c < n_v:
+                        if whole:
+                            tangent[c, r] += value * values[j]
+                    elif r < n_v:
+                        across[c - n_v, r] += value * values[j]
+                    elif c < n_v:
+                        below[r - n_v, c] += value * values[j]
+                    else:
+                        corner[c - n_v, r - n_v] += value * values[j]
+
+
+@kernel
+def set_linear_blocks(
+    linear: Floats,
+    at: Words,
+    whole: bool,
+    tangent: Floats,
+    across: Floats,
+    below: Floats,
+    corner: Floats,
+) -> None:
+    """Set the blocks to a symmetric matrix (n_b, n_b); `at` (n_b,) are its rows by place."""
+    n_v, n_h = tangent.shape[0], corner.shape[0]
+    if whole:
+        for i in range(n_v):
+            row = linear[at[i]]
+            for j in range(n_v):
+                tangent[i, j] = row[at[j]]
+    for h in range(n_h):
+        row = linear[at[n_v + h]]
+        for j in range(n_v):
+            across[h, j] = row[at[j]]
+            below[h, j] = row[at[j]]
+        for j in range(n_h):
+            corner[h, j] = row[at[n_v + j]]
+
+
+@kernel
+def factorise_blocks(
+    whole: bool,
+    tangent: Floats,
+    order: Words,
+    across: Floats,
+    below: Floats,
+    corner: Floats,
+    corner_order: Words,
+) -> bool:
+    """Factorise V if `whole`, make `across` V^-1 B and factorise ``H - D V^-1 B`` in place of H."""
+    if whole and not factorise(tangent, order):
+        return False
+    n_h = corner.shape[0]
+    substitute_rows(tangent, order, across)
+    for c in range(n_h):
+        for r in range(n_h):
+            corner[c, r] -= dot(below[r], across[c])
+    return factorise(corner, corner_order)
+
+
+@kernel
+def substitute_blocks(
+    tangent: Floats,
+    order: Words,
+    across: Floats,
+    below: Floats,
+    corner: Floats,
+    corner_order: Words,
+    at: Words,
+    sorted_x: Floats,
+    x: Floats,
+) -> None:
+    """Solve for the right-hand side `x` (n_b,) in place; `sorted_x` (n_b,) is overwritten."""
+    n_v, n_h = tangent.shape[0], corner.shape[0]
+    for i in range(n_v + n_h):
+        sorted_x[i] = x[at[i]]
+    inner, shared = sorted_x[:n_v], sorted_x[n_v:]
+    substitute(tangent, order, inner)
+    for r in range(n_h):
+        shared[r] -= dot(below[r], inner)
+    substitute(corner, corner_order, shared)
+    for c in range(n_h):
+        for i in range(n_v):
+            inner[i] -= across[c, i] * shared[c]
+    for i in range(n_v + n_h):
+        x[at[i]] = sorted_x[i]
+
+
+@kernel
+def linear_part_of_correction(
+    start: Words,
+    columns: Words,
+    values: Floats,
+    latest: Floats,
+    before: Floats,
+    share: float,
+    place: Words,
+    n_v: int,
+    x: Floats,
+    scratch: Floats,
+    flow: Floats,
+) -> None:
+    """Take from `flow` (n_b,) what the bearings' share of the tangent in use makes of `x`.
+
+    `latest` and `before` (n, 12, 12) are the bearings' tangents that the shared blocks, and V, were
+    made of. With ``flow = T x`` it becomes what the structure alone makes of `x`.
+    """
+    inner, outer, on_v, on_h = scratch[0], scratch[1], scratch[2], scratch[3]
+    for k in range(start.shape[0]):
+        for row in range(12):
+            inner[row], outer[row], on_v[row], on_h[row] = 0.0, 0.0, 0.0, 0.0
+            for i in range(start[k, row], start[k, row + 1]):
+                if place[columns[i]] < n_v:
+                    inner[row] += values[i] * x[columns[i]]
+                else:
+                    outer[row] += values[i] * x[columns[i]]
+        for row in range(12):
+            if start[k, row] == start[k, row + 1]:
+                continue
+            for col in range(12):
+                on_v[row] += before[k, row, col] * inner[col]
+                on_v[row] += latest[k, row, col] * outer[col]
+                on_h[row] += latest[k, row, col] * (inner[col] + outer[col])
+            for i in range(start[k, row], start[k, row + 1]):
+                force = on_v[row] if place[columns[i]] < n_v else on_h[row]
+                flow[columns[i]] -= share * values[i] * force
+
+
+@kernel
+def with_secants(
+    weights: Floats,
+    corrections: Floats,
+    linear: Floats,
+    sizes: Floats,
+    count: int,
+    x: Floats,
+    flow: Floats,
+) -> int:
+    """Improve Newton's correction `x` by what the ones before it did: Broyden's method.
+
+    Parameters
+    ----------
+    weights : (n_b,)
+        Of the coordinates in scalar products.
+    corrections, linear, sizes : (m, n_b), (m, n_b), (m,)
+        The corrections since the tangent was renewed, what the linear structure makes of them, and
+        their squared sizes; the new one joins them.
+    count : int
+        How many these are.
+    x, flow : (n_b,)
+        The correction by the kept tangent, and what the linear structure makes of it: overwritten.
+
+    Returns
+    -------
+    int
+        How many corrections are kept now.
+
+    Notes
+    -----
+    Kelley 1995, Iterative Methods for Linear and Nonlinear Equations, algorithm brsol.
+    """
+    n_b = x.shape[0]
+    if count == sizes.shape[0]:
+        count = 0
+    for j in range(count):
+        along = 0.0
+        for a in range(n_b):
+            along += weights[a] * corrections[j, a] * x[a]
+        along /= sizes[j]
+        if j + 1 < count:
+            for a in range(n_b):
+                x[a] += along * corrections[j + 1, a]
+                flow[a] += along * linear[j + 1, a]
+        else:
+            growth = 1.0 / max(1.0 - along, _LEAST)
+            for a in range(n_b):
+                x[a] *= growth
+                flow[a] *= growth
+    size = 0.0
+    for a in range(n_b):
+        corrections[count, a], linear[count, a] = x[a], flow[a]
+        size += weights[a] * x[a] * x[a]
+    sizes[count] = size
+    return count + 1 if size > 0.0 else 0
+
+
+@kernel
+def carry_products(
+    mass: Floats,
+    damping: Floats,
+    stiffness: Floats,
+    step: Floats,
+    rate: float,
+    rest: float,
+    dt: float,
+    gamma: float,
+    flows: Floats,
+    held: Floats,
+) -> None:
+    """Carry what mass, damping and stiffness (n_b, n_b) make of the motion over a step.
+
+    The acceleration after it is ``rate (step / dt - v) - rest a`` (`rates_after`). Rows of `flows`
+    (6, n_b): mass by velocity and acceleration, damping by them, damping by the mean velocity, and
+    scratch; `held` is stiffness by displacement.
+    """
+    n_b = step.shape[0]
+    set_product(stiffness, step, flows[5])
+    for a in range(n_b):
+        held[a] += flows[5, a]
+    for kind in range(2):
+        if kind == 0:
+            set_product(mass, step, flows[5])
+        elif damping.shape[0] > 0:
+            set_product(damping, step, flows[5])
+        else:
+            return
+        v, w = flows[2 * kind], flows[2 * kind + 1]
+        for a in range(n_b):
+            after = rate * (flows[5, a] / dt - v[a]) - rest * w[a]
+            before = v[a]
+            v[a] += dt * ((1.0 - gamma) * w[a] + gamma * after)
+            w[a] = after
+            flows[4, a] = 0.5 * (before + v[a])
