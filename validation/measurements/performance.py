@@ -31,6 +31,7 @@ from lir_element.element import Level, heat_parts, initial_state
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
 from lir_element.layout import WORK, Floats, Records, Words
 from validation.cases import example_bearing
+from validation.measurements.performance_many import many_rows
 
 REPEATS = 9
 STATES = ("linear", "elastic", "yielding")
@@ -306,6 +307,16 @@ def write() -> str:
         "| model | dt (s) | linear | elastic parts | yielding parts | yielding / linear | yields |",
         "|---|---|---|---|---|---|---|",
         *yielding_rows(),
+        "",
+        "## Many bearings",
+        "",
+        "Ten storeys, 2 % Rayleigh damping, strong part of the benchmark's motion, steps of 10 ms; the loop, and the "
+        "equilibrium with its modes or vectors before it. Method 'reduced' runs two to five times.",
+        "",
+        "| bearings | DOFs | method | modes or vectors | µs a step | ms a second of motion "
+        "| Newton iterations | tangents, of what is shared | set-up (s) |",
+        "|---|---|---|---|---|---|---|---|---|",
+        *many_rows(),
         "",
         "## Start",
         "",
