@@ -36,9 +36,7 @@ def building(side: int) -> Frame:
     bearing = example_bearing(friction=CoulombFriction(0.065))
     bays = (side - 1, side - 1)
     frame = slender_frame(bays, STOREYS, bearing)
-    weight = sum(float(mass[2]) for mass in frame.masses.values()) * (
-        frame.gravity or STANDARD_GRAVITY
-    )
+    weight = sum(float(mass[2]) for mass in frame.masses.values()) * frame.gravity
     load = weight / len(frame.bearings)
     frame = slender_frame(bays, STOREYS, replace(bearing, design_load=load))
     frame.set_damping(RayleighDamping(RATIO, (FAR, float(modes(frame, 1, "fixed").periods[0]))))
