@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import io
 import os
 import shutil
 import uuid
@@ -13,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from frames.results.netcdf import read, written
+_FIRST_BYTES = 1 << 16  # of a file in memory: it grows
 
 
 def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
@@ -58,12 +57,7 @@ def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
             "of fragility are written by save_fragility, tables by write_tables"
         )
         raise TypeError(msg)
-    # HDF5 does not survive a write that fails (the process dies at its end): it works in memory
-    encoding = _packed(data) if compress else {}
-    content: bytes | memoryview | None = written(data, encoding)
-    if content is None:
-        content = data.to_netcdf(None, engine="h5netcdf", encoding=encoding)
-    write_whole(path, content)
+    write_whole(path, _content({"": data}, compress=compress))
 
 
 def save_groups(results: Mapping[str, xr.Dataset], path: str | Path) -> None:
@@ -81,15 +75,26 @@ def save_groups(results: Mapping[str, xr.Dataset], path: str | Path) -> None:
     OSError
         If the file cannot be written; the message names it.
     """
-    import h5netcdf  # with HDF5 in its train
-    from xarray.backends import H5NetCDFStore
+    write_whole(path, _content(results, compress=True))
 
-    whole = io.BytesIO()
-    with h5netcdf.File(whole, "w") as file:
-        for name, data in results.items():
-            store = H5NetCDFStore(file.create_group(name), mode="a")
-            data.dump_to_store(store, encoding=_packed(data))
-    write_whole(path, whole.getbuffer())
+
+def _content(groups: Mapping[str, xr.Dataset], *, compress: bool) -> memoryview:
+    # A netCDF file of one Dataset ("") or a group each. HDF5 does not survive a write that fails
+    # (the process dies at its end): it works in memory.
+    import netCDF4  # with HDF5 in its train
+    from xarray.backends import NetCDF4DataStore
+
+    whole = netCDF4.Dataset("results", "w", memory=_FIRST_BYTES)
+    try:
+        for name, data in groups.items():
+            place = whole.createGroup(name) if name else whole
+            store = NetCDF4DataStore(place)  # type: ignore[no-untyped-call]  # has no types
+            data.dump_to_store(store, encoding=_packed(data) if compress else {})
+    except BaseException:
+        whole.close()
+        raise
+    content: memoryview = whole.close()
+    return content
 
 
 def _packed(data: xr.Dataset) -> dict[Hashable, dict[str, object]]:
@@ -194,12 +199,11 @@ def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
         msg = f"{path} is no file: give one that save, or `lir run`, has written"
         raise FileNotFoundError(msg)
     try:
-        whole = None if lazy else read(path)
-        data = xr.open_dataset(path, engine="h5netcdf") if whole is None else whole
-    except (OSError, ValueError) as cause:
+        data = xr.open_dataset(path, engine="netcdf4")
+    except (OSError, ValueError, RuntimeError) as cause:
         msg = f"{path} holds no results (netCDF): give a file that save, or `lir run`, has written"
         raise OSError(msg) from cause
-    if lazy or whole is not None:
+    if lazy:
         return data
     with data:
         return data.load()

@@ -51,7 +51,7 @@ def test_quick_run_writes_table_results_and_figures(written: Path) -> None:
 def test_results_are_one_file_with_a_group_for_each_system(written: Path) -> None:
     for name in (demo.LIR, demo.DCFP, demo.FREE):
         path = written / "results.nc"
-        with xr.open_dataset(path, group=group_of(name), engine="h5netcdf") as data:
+        with xr.open_dataset(path, group=group_of(name), engine="netcdf4") as data:
             assert data.attrs["status"] == "ok"
             assert data.sizes["bearing"] == 9
             assert float(data["time"][-1]) == pytest.approx(demo.QUICK_DURATION)
@@ -119,7 +119,7 @@ def test_earlier_results_stay_until_all_are_written(
     monkeypatch.undo()
     assert (tmp_path / "results.nc").read_bytes() == before
     write_results({"B": small_result}, tmp_path)
-    with xr.open_dataset(tmp_path / "results.nc", group="b", engine="h5netcdf") as data:
+    with xr.open_dataset(tmp_path / "results.nc", group="b", engine="netcdf4") as data:
         assert data.sizes["time"] == small_result.sizes["time"]
     assert sorted(path.name for path in tmp_path.iterdir()) == ["results.nc", "summary.csv"]
 

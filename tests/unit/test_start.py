@@ -32,7 +32,7 @@ def law(x):
     return math.exp(x) * (2.0 * x + 1.0 / 3.0)
 """
 COMPILE = "from law_of_a_wheel import law; print(law(0.7).hex())"
-HEAVY = ("scipy.signal", "scipy.stats", "scipy.optimize", "scipy.spatial", "matplotlib", "h5py")
+HEAVY = ("scipy.signal", "scipy.stats", "scipy.optimize", "scipy.spatial", "matplotlib", "netCDF4")
 
 
 def law_of():
