@@ -90,7 +90,9 @@ ATTRIBUTES = {
     "steps": "steps taken, halved ones included",
     "newton_iterations": "iterations of Newton's method in all",
     "state_determinations": "state determinations of all bearings",
-    "tangents": "tangents made",
+    "tangents": "tangents made of all unknowns of the bearings",
+    "shared_tangents": "tangents of the unknowns that bearings share alone, in models of many "
+    "(theory, 5.11)",
     "halvings": "steps halved by adaptive substepping",
     "modes": "modes or vectors of the structure over held bearings",
     "reduction_runs": 'runs of `method="reduced"`; only of those',

@@ -13,15 +13,15 @@ from frames.assembly.few_modes import few_modes
 from frames.assembly.natural_modes import UnstableError, natural_modes
 from frames.assembly.ritz import RitzSpace
 from frames.model.components import bearing_axial_stiffness
+from frames.model.frame_data import FrameData
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.gravity import GravityState, at_rest, gravity, prepare
 from frames.statics.springs import spring_matrix
-from lir_element.argument_checks import require_choice
+from lir_element.argument_checks import require_choice, require_type
 from lir_element.tables import html_table, text_table
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
-    from frames.model.frame_data import FrameData
 
 
 BearingStiffness = Literal["sliding", "sticking", "fixed"]
@@ -108,6 +108,7 @@ def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "slidin
     if count < 1:
         message = f"count = {count} must be at least 1"
         raise ModelError(message)
+    require_type("frame", frame, FrameData, "a Frame")
     require_choice("bearings", bearings, ("sliding", "sticking", "fixed"), error=ModelError)
     state = _at_rest(frame)
     system = state.system
