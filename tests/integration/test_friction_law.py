@@ -93,6 +93,7 @@ def shaking(dt: float = 0.005, end: float = 1.8) -> GroundMotion:
 # --------------------------------------------------------------------------------- the table
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("law", [LAW, ExponentialByTable(0.065, 0.0325, 15.0), LAW.scaled(1.2)])
 def test_kernels_follow_the_law_at_all_speeds(law: FrictionLaw) -> None:
     values, p = law.kernel_values(), device(law).to_record()[0]
@@ -223,6 +224,7 @@ def test_tangent_is_the_derivative(level: Any) -> None:
     assert scale > 0.2 * by_speed  # the law's slope is in it
 
 
+@pytest.mark.quick
 def test_cyclic_force_is_that_of_the_pendulum_in_closed_form() -> None:
     """W tan(theta + atan m), sin(theta) = u / L, m = mu (R1 + R2) / L at the speed R theta'.
 

@@ -82,6 +82,7 @@ def without_geometric_stiffness(monkeypatch):
     )
 
 
+@pytest.mark.quick
 def test_the_same_building_built_here(ops, run, monkeypatch):
     """All periods, and a history with rim contact, slip and uneven axial forces."""
     without_geometric_stiffness(monkeypatch)

@@ -103,6 +103,7 @@ def test_near_the_rims_counts_where_more_is_left_out(share, mattered):
     assert not found(run(at, features=Features(rims=False)))["rims"].mattered
 
 
+@pytest.mark.quick
 def test_rims_that_were_met():
     data = run(device(capacity=0.08))
     finding = found(data)["rims"]
@@ -372,6 +373,7 @@ def test_audit_survives_a_file(tmp_path):
     assert sum("left out" in line for line in lines) == 3
 
 
+@pytest.mark.quick
 def test_missing_features_are_marked():
     features = Features(rims=False, interface=False)
     data = run(device(capacity=0.08), features=features)

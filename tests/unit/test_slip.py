@@ -35,6 +35,7 @@ def turned(x: float, y: float, angle: float) -> tuple[float, float]:
     return c * x - s * y, s * x + c * y
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, u_y=st.floats(1e-5, 1e-2))
 def test_never_beyond_the_cone(
@@ -46,6 +47,7 @@ def test_never_beyond_the_cone(
     assert out[6] >= 0.0  # slipped part
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, turn=ANGLE)
 def test_isotropy(
@@ -70,6 +72,7 @@ def test_isotropy(
     assert_allclose(k_2, r @ k_1 @ r.T, rtol=0.0, atol=limit)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_elastic_plastic_by_hand(sign: float) -> None:
     """Elastic up to u_y, then z on the circle in the direction of the trial value."""
@@ -83,6 +86,7 @@ def test_elastic_plastic_by_hand(sign: float) -> None:
     assert_allclose([k_11, k_12, k_21, k_22], expected, rtol=1e-13, atol=0.0)
 
 
+@pytest.mark.quick
 @given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP)
 def test_large_exponent_is_elastic_plastic(
     size: float, angle: float, d_1: float, d_2: float
@@ -95,6 +99,7 @@ def test_large_exponent_is_elastic_plastic(
     assert_allclose(smooth[6], plastic[6], rtol=0.0, atol=1e-4 * U_Y)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(size=st.floats(0.0, 0.999), angle=ANGLE, d_1=STEP, d_2=STEP)
 def test_derivative(
@@ -184,6 +189,7 @@ def test_bouc_wen_is_its_rate_law(eta: float, seed: int, sign: float) -> None:
     assert_allclose(extrapolated, exact, rtol=0.0, atol=1e-4)  # second order is left
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_bouc_wen_along_a_line(sign: float) -> None:
     """Closed form for eta = 1, monotonic: z = 1 - exp(-w / u_y); unloading is elastic."""
@@ -213,6 +219,7 @@ def rubbed(law: FrictionLaw) -> Props:
     return bearing.to_record()[0]
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("speed", [0.0, 1e-4, 0.02, 0.1, 0.5, 3.0])
 def test_friction_is_equation_one(speed: float) -> None:
     """mu = f_max - (f_max - f_min) exp(-alpha v), the numerical example's parameters."""
@@ -225,6 +232,7 @@ def test_friction_is_equation_one(speed: float) -> None:
     assert_allclose(slope, (at[1] - at[0]) / (2.0 * h), rtol=1e-7, atol=1e-11)
 
 
+@pytest.mark.quick
 def test_friction_of_coulomb() -> None:
     coulomb, level = rubbed(CoulombFriction(0.066)), rubbed(VelocityFriction(0.066, 0.046, 0.0))
     assert_allclose(coefficient(coulomb, 0, 0.3), (0.066, 0.0), rtol=0.0, atol=0.0)
@@ -234,6 +242,7 @@ def test_friction_of_coulomb() -> None:
 # ------------------------------------------------------------------------------- contact
 
 
+@pytest.mark.quick
 def test_contact_by_hand() -> None:
     """k pen + c (pen - pen_old) / dt; static without the damper; open: nothing."""
     assert_allclose(
@@ -249,6 +258,7 @@ def test_contact_by_hand() -> None:
         assert kelvin_voigt(gap, 1e-3, 1e8, 4e5, 0.01) == (0.0, 0.0, 0.0)
 
 
+@pytest.mark.quick
 @given(
     gap=st.floats(-1e-2, 1e-2),
     old=st.floats(0.0, 1e-2),
@@ -264,6 +274,7 @@ def test_contact_never_pulls(gap: float, old: float, k: float, c: float, dt: flo
     assert (force > 0.0) == (slope > 0.0) or force == 0.0
 
 
+@pytest.mark.quick
 @given(old=st.floats(0.0, 1e-2), k=st.floats(1e6, 1e9), c=st.floats(0.0, 1e7))
 def test_contact_is_continuous(old: float, k: float, c: float) -> None:
     """No jump from open to closed, at impact (old = 0) or not: the slope bounds the change."""
@@ -275,6 +286,7 @@ def test_contact_is_continuous(old: float, k: float, c: float) -> None:
     assert kelvin_voigt(1e-12, 0.0, k, c, dt)[0] <= (k + c / dt) * 1e-12 * (1.0 + 1e-9)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(
     size=st.floats(0.0, 1.0),
@@ -321,6 +333,7 @@ def test_derivative_half_a_step_ahead(
     assert_allclose(found, expected, rtol=0.0, atol=limit)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("steps", [32, 128])  # a step of 16 and of 4 yield displacements
 def test_direction_on_a_circle(steps: int) -> None:
     """At the end of a step z has the direction that the rate law has then, on a circle too."""
@@ -344,6 +357,7 @@ def test_direction_on_a_circle(steps: int) -> None:
     assert abs(lags["ahead"] - exact) < 0.12 * half
 
 
+@pytest.mark.quick
 def test_speed_at_the_end() -> None:
     """Exact for speeds that change linearly; never negative; plain without a step before."""
     assert speed_at_end(0.0, 0.01, 1e-3, 0.01, 0.5)[0] == 0.0
@@ -358,6 +372,7 @@ def test_speed_at_the_end() -> None:
     assert speed_at_end(1e-5, 0.01, 5e-3, 0.01, 0.5) == (0.0, 0.0)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(
     size=st.floats(0.0, 1.0),
@@ -393,6 +408,7 @@ def test_never_beyond_the_cone_under_a_changing_force(
         assert kept == (1.0, 0.0)
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("share", [0.0, 0.5])
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @pytest.mark.parametrize("seed", range(12))
@@ -422,6 +438,7 @@ def test_derivative_by_the_axial_force(seed: int, bouc_wen: int, eta: float, sha
     assert by_push[6] == 0.0  # an axial force gives sliding no speed
 
 
+@pytest.mark.quick
 def test_store_takes_up_the_work() -> None:
     """Stuck under any axial force: what friction takes is stored, whatever the axial force does.
 
