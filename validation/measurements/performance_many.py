@@ -26,7 +26,6 @@ CASES = (
     (10, "reduced", 4.0),
     (16, "direct", 4.0),
     (16, "reduced", 4.0),
-    (32, "reduced", 1.0),
 )
 """Bearings along each side, method, duration [s]."""
 
