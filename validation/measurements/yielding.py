@@ -305,7 +305,8 @@ def main(given: Sequence[str] | None = None) -> int:
     run = partial(perform, seed=options.seed)
     for number, entry, how in in_children(run, range(options.count), options.workers, LIMIT):
         if how:
-            lost.append(f"{number} ({random_yielding(options.seed, number)[3]}): {how}")
+            why = f"not done within {LIMIT:g} s" if how == "hang" else how
+            lost.append(f"{number} ({random_yielding(options.seed, number)[3]}): {why}")
         else:
             found.append(entry)
     found.sort(key=lambda entry: int(entry["number"]))
