@@ -9,7 +9,7 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from frames.assembly.natural_modes import NaturalModes, UnstableError, natural_modes, weakest
-from frames.assembly.sparse_solver import Factors
+from frames.assembly.sparse_solver import Factors, positive_factors
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
@@ -43,7 +43,9 @@ def few_modes(k: SparseMatrix, m: SparseMatrix, count: int) -> NaturalModes:
     UnstableError
         If the stiffness is not positive definite.
     """
-    factors = _positive(k)
+    factors = positive_factors(k)
+    if factors is None:
+        raise UnstableError(weakest(k.toarray()))
     massive = int(np.count_nonzero(abs(m).sum(axis=1)))
     if 2 * (count + _MORE) >= massive:
         return natural_modes(k.toarray(), m.toarray(), count)
@@ -57,16 +59,6 @@ def few_modes(k: SparseMatrix, m: SparseMatrix, count: int) -> NaturalModes:
     if _count_below(k, m, _gap_after(omega2, count)) != _found_below(omega2, count):
         return natural_modes(k.toarray(), m.toarray(), count)
     return NaturalModes(omega2[:count], shapes[:, :count], np.zeros((k.shape[0], 0)))
-
-
-def _positive(k: SparseMatrix) -> Factors:
-    try:
-        factors = Factors(k)
-    except RuntimeError as error:
-        raise UnstableError(weakest(k.toarray())) from error
-    if not factors.is_positive:
-        raise UnstableError(weakest(k.toarray()))
-    return factors
 
 
 def _gap_after(omega2: FloatArray, count: int) -> float:

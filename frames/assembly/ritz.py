@@ -25,7 +25,7 @@ from frames.assembly.basis import (
 from frames.assembly.coordinates import Basis
 from frames.assembly.matrix_damping import couples_massless, with_matrix_damping
 from frames.assembly.natural_modes import symmetric
-from frames.assembly.sparse_solver import Factors
+from frames.assembly.sparse_solver import Factors, positive_factors
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
@@ -220,11 +220,8 @@ def _factors(
     # The stiffness over held bearings, factorised; None where nothing is left.
     if not inner.shape[0]:
         return None
-    try:
-        factors = Factors(inner)
-    except RuntimeError:
-        factors = None
-    if factors is not None and factors.is_positive:
+    factors = positive_factors(inner)
+    if factors is not None:
         return factors
     build_basis(system, geometric, damping)  # names the culprit
     message = (

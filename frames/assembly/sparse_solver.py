@@ -37,15 +37,30 @@ class Factors:
     @property
     def is_positive(self) -> bool:
         """Whether the matrix is positive definite: by the signs of its pivots (Sylvester)."""
-        same = bool((self._factors.perm_r == self._factors.perm_c).all())
-        return same and bool((self._factors.U.diagonal() > 0.0).all())
+        pivots = self._pivots
+        return pivots is not None and bool((pivots > 0.0).all())
 
     @property
     def negative(self) -> int:
         """Number of negative eigenvalues, that of negative pivots (Sylvester); -1 if unknown."""
+        pivots = self._pivots
+        return -1 if pivots is None else int(np.count_nonzero(pivots < 0.0))
+
+    @property
+    def _pivots(self) -> FloatArray | None:
+        # None where rows were exchanged: then they are not those of the symmetric matrix.
         same = bool((self._factors.perm_r == self._factors.perm_c).all())
-        return int(np.count_nonzero(self._factors.U.diagonal() < 0.0)) if same else -1
+        return np.asarray(self._factors.U.diagonal()) if same else None
 
     def solve(self, right: FloatArray) -> FloatArray:
         """Solve for right-hand sides (n,) or (n, m)."""
         return np.asarray(self._factors.solve(np.asarray(right, dtype=np.float64)))
+
+
+def positive_factors(matrix: SparseMatrix) -> Factors | None:
+    """Return the factors of a symmetric matrix (n, n); None if it is not positive definite."""
+    try:
+        factors = Factors(matrix)
+    except RuntimeError:
+        return None
+    return factors if factors.is_positive else None
