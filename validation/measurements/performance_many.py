@@ -5,18 +5,10 @@ Ten storeys as in the benchmark's case d, under the strong part of its motion, w
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
-from frames import RayleighDamping, modes, time_history
-from lir_element import CoulombFriction
-from validation.cases import example_bearing
-from validation.claims.opensees_building import FAR, RATIO
-from validation.measurements.benchmark_models import strong
-from validation.measurements.opensees_cost import slender_frame
-
-if TYPE_CHECKING:
-    from frames import Frame
+from frames import time_history
+from validation.measurements.benchmark_models import Structure, strong
 
 STOREYS, STEP = 10, 0.01  # -, s
 CASES = (
@@ -30,23 +22,12 @@ CASES = (
 """Bearings along each side, method, duration [s]."""
 
 
-def building(side: int) -> Frame:
-    """Return ten storeys on `side` by `side` bearings, each of them made for the mean load."""
-    bearing = example_bearing(friction=CoulombFriction(0.065))
-    bays = (side - 1, side - 1)
-    frame = slender_frame(bays, STOREYS, bearing)
-    weight = sum(float(mass[2]) for mass in frame.masses.values()) * frame.gravity
-    load = weight / len(frame.bearings)
-    frame = slender_frame(bays, STOREYS, replace(bearing, design_load=load))
-    frame.set_damping(RayleighDamping(RATIO, (FAR, float(modes(frame, 1, "fixed").periods[0]))))
-    return frame
-
-
 def many_rows() -> list[str]:
     """Return a row a case: unknowns, vectors, microseconds a step, milliseconds a second."""
     rows = []
     for side, method, duration in CASES:
-        frame = building(side)
+        one = Structure(f"{side**2} bearings", "d", (side - 1, side - 1), STOREYS)
+        frame = one.frame(one.bearing())
         data = time_history(
             frame, strong(duration), duration=duration, dt=STEP, method=cast("Any", method)
         )
