@@ -282,8 +282,8 @@ def _bent_rims(data: xr.Dataset, bent: FloatArray) -> str:
         who = ", ".join(str(name) for name in broken[:_NAMED])
         more = f" and {broken.size - _NAMED} more" if broken.size > _NAMED else ""
         return (
-            f"; a rim broke of {who}{more}: the slider went on over the flange, on the same sphere, "
-            "and nothing holds it there"
+            f"; a rim broke of {who}{more}: the slider went on over the flange, on the same "
+            "sphere, and nothing holds it there"
         )
     k = int(np.argmax(bent))
     if not bent[k] > 0.0:

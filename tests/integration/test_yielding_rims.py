@@ -4,15 +4,27 @@ from __future__ import annotations
 
 import math
 import warnings
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from frames import GroundMotion, lumped_mass, time_history
+from frames import (
+    Finding,
+    GroundMotion,
+    Recording,
+    audit,
+    load,
+    lumped_mass,
+    save,
+    shear_building,
+    time_history,
+)
 from lir_element import AnalysisWarning, DesignWarning, Element, LIRBearing
 from lir_element.kernels.rim import bend, bent, press_rim
+from lir_element.opensees import builtin_commands
 
 MASS = 1e5
 WEIGHT = MASS * 9.80665
@@ -34,12 +46,12 @@ def bearing(interface_friction: float = math.inf, **changes: Any) -> LIRBearing:
     )
 
 
-def pushed(device: LIRBearing, scale: float = 1.0, level: str = "pendulum") -> Any:
+def pushed(device: LIRBearing, scale: float = 1.0, level: str = "pendulum", **options: Any) -> Any:
     """A mass that a pulse throws at the rims, at an angle of 31 degrees."""
     pulse = np.where(np.arange(0.0, 2.0, 0.005) < 0.6, -1.5 * scale, 0.0)
     motion = GroundMotion(x=pulse, y=0.6 * pulse, dt=0.005)
     frame = lumped_mass(device, MASS)
-    return time_history(frame, motion, dt=1e-3, level=level)
+    return time_history(frame, motion, dt=1e-3, level=level, **options)
 
 
 # ------------------------------------------------------------------------------------ the law
@@ -252,6 +264,71 @@ def test_a_broken_rim_ends_the_run_or_lets_the_slider_on_the_flange(level: str) 
     short = pushed(bearing(**weak, flange=0.03), 1.6, level)
     assert short.attrs["status"] == "rim_overrun"
     assert "beyond a broken rim, flange 0.03 m" in short.attrs["message"]
+
+
+# ------------------------------------------------------------------------------------ what is told
+
+
+def test_what_rims_did_is_told_by_any_recording(tmp_path: Path) -> None:
+    """By the whole record, by peaks alone, by a file; a rim that never yields is not spoken of."""
+    device = bearing()
+    whole = pushed(device)
+    assert "1 of them yielded, by up to" in rims_finding(whole).sentence
+    assert not rims_finding(whole).doubtful
+    most = float(whole["rim_plastic"].max())
+    assert f"{1e3 * most:.3g} mm (bearing, " in rims_finding(whole).sentence
+    for recording in (Recording(every=None), Recording(every=50, channels=("axial_force",))):
+        thin = pushed(device, recording=recording)
+        assert float(thin["reached_rim_plastic"].max()) == pytest.approx(most, rel=1e-12)
+        assert rims_finding(thin).sentence == rims_finding(whole).sentence
+    save(whole, tmp_path / "run.nc")
+    kept = load(tmp_path / "run.nc")
+    assert_array_equal(kept["rim_plastic"], whole["rim_plastic"])
+    assert float(kept["rim_yield_force"][0]) == FORCE
+    assert "yielded" not in rims_finding(pushed(bearing(rim_yield_force=math.inf))).sentence
+
+
+@pytest.mark.parametrize("level", ["pendulum", "contact"])
+def test_a_broken_rim_asks_to_be_looked_at(level: str) -> None:
+    broken = bearing(rim_yield_force=0.4 * WEIGHT, rim_overrun=0.01, flange=0.25)
+    for recording in (None, Recording(every=None)):
+        found = rims_finding(pushed(broken, 1.6, level, recording=recording))
+        assert "a rim broke of bearing" in found.sentence
+        assert found.doubtful
+
+
+def rims_finding(data: Any) -> Finding:
+    return next(found for found in audit(data) if found.feature == "rims")
+
+
+def test_bearings_of_one_building_have_rims_of_their_own() -> None:
+    """One of four bearings has weak rims: it alone is bent, the others' runs are theirs."""
+    frame = shear_building(
+        bearing(rim_yield_force=math.inf), 1e5, 1e8, storeys=2, base_mass=1e5, plan=(1, 6.0)
+    )
+    names = list(frame.bearings)
+    mixed = frame.with_bearings({names[0]: bearing(rim_yield_force=2e5)})
+    pulse = np.where(np.arange(0.0, 1.2, 0.005) < 0.6, -2.0, 0.0)
+    data = time_history(mixed, GroundMotion(x=pulse, dt=0.005))
+    assert data.attrs["status"] == "ok"
+    plastic = data["rim_plastic"].isel(time=-1).max("surface").to_numpy()
+    assert plastic[0] > 1e-4
+    assert_array_equal(plastic[1:], 0.0)
+    assert "1 of them yielded" in rims_finding(data).sentence
+
+
+def test_elements_of_opensees_that_know_no_such_rims_refuse_them() -> None:
+    with pytest.raises(ValueError, match=r"does not know rim_yield_force.*bearing_element"):
+        builtin_commands("TripleFrictionPendulum", 1, 1, 2, bearing(), WEIGHT)
+    with pytest.raises(ValueError, match="does not know flange"):
+        builtin_commands(
+            "TripleFrictionPendulum",
+            1,
+            1,
+            2,
+            bearing(rim_yield_force=math.inf, flange=0.1),
+            WEIGHT,
+        )
 
 
 @pytest.mark.parametrize(
