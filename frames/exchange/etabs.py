@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from frames.exchange.account import Account
 from frames.exchange.building import Building
 from frames.exchange.e2k_text import read_e2k
+from frames.exchange.etabs_groups import read_groups
 from frames.exchange.etabs_links import EtabsLinks
 from frames.exchange.etabs_loads import read_loads
 from frames.exchange.etabs_objects import Objects
@@ -75,6 +76,7 @@ def read_etabs(
     objects = Objects(tables, building)
     objects.read()
     EtabsLinks(tables, building, objects).read()
+    read_groups(tables, building)
     read_loads(tables, building)
     for name, count in tables.unread().items():
         if name in REFUSED:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
 from frames.exchange.building import AreaSection, Building, FrameSection, Material, Modifiers
+from frames.exchange.filled_sections import SHAPES, filled_section
 from frames.exchange.section_shapes import section_by_shape, with_constants
 from frames.exchange.tables import Row
 from lir_element.units import STANDARD_GRAVITY
@@ -129,6 +130,9 @@ def read_properties(
     for (name,), row in given.items():
         if name in frames:
             building.sections[name] = _section(row, name, building, constants.get(name))
+    filled = [s.name for s in building.sections.values() if s.shape.strip().lower() in SHAPES]
+    what = "filled tubes, as sections of steel by moduli, with the weight of both materials"
+    building.account.read_as("FRAME SECTIONS", what, [n for n in filled if n not in constants])
     building.account.read_as("FRAME SECTIONS", "with the constants given", list(constants))
     building.account.read("FRAME SECTIONS", "cross-sections in use", len(building.sections))
     idle = [name for (name,) in given if name not in frames]
@@ -192,6 +196,14 @@ def _section(
             width=sizes[1] or sizes[0],
             modifiers=modifiers,
         )
+    if shape.strip().lower() in SHAPES:
+        fill = row.text("FILLMATERIAL", "")
+        if fill not in building.materials:
+            msg = f'FILLMATERIAL "{fill}" of section "{name}" is not defined'
+            raise row.error(msg)
+        steel, inside = building.materials[material], building.materials[fill]
+        found = filled_section(row, name, sizes, steel, inside)
+        return replace(found, modifiers=found.modifiers.times(modifiers))
     poisson = building.materials[material].poisson_ratio
     found = section_by_shape(row, name, material, shape, sizes, poisson)
     return FrameSection(**{**vars(found), "modifiers": modifiers})
