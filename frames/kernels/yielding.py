@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
 _MOST = 40  # iterations over the loose parts
 _HELD = 1e-25  # m/N: flexibility of a deformation that supports hold, or round-off of it
+_ROUND_OFF = 8.0 * 2.0**-52  # of a deformation: it is not known better (a choice)
 _CLOSER = 1e-3  # of the tolerance of the whole: what parts may lack
 _TRIES = 12  # of a step of Newton's method
 _WORTH = 2.0  # tries that new factors are worth
@@ -133,7 +134,8 @@ def try_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElemen
             size = max(size, gap * parts.stiff[i])
         else:
             own = parts.pool[row_of(model, run, parts, i), i]
-            if own > _HELD:
+            gap -= _ROUND_OFF * (abs(parts.linear[i]) + abs(parts.d[i])) * parts.scale[i]
+            if own > _HELD and gap > 0.0:
                 size = max(size, gap / own)
     return size
 
