@@ -310,11 +310,13 @@ class Frame(FrameEditor):
         Raises
         ------
         ModelError
-            If the frame has superelements, nonlinear links, plastic hinges, or something else that
-            the tables cannot hold; the message names it.
+            If the frame has superelements other than shells of an imported model, nonlinear links,
+            plastic hinges, or something else that the tables cannot hold; the message names it.
 
         Notes
         -----
+        Shells are areas, one for each element, without mass: read them again with `mesh` no shorter
+        than their sides.
         Weights of masses and members are loads of joints, as here, not self weight. A link has the
         radius, Q/W by the speed and the axial stiffness of its bearing
         (`frames.exchange.pendulum_link.pendulum_link`). Rims, interface and slip have no link:
