@@ -243,6 +243,7 @@ class Frame(FrameEditor):
         base_diaphragm: bool = True,
         decimal: Literal[".", ","] = ".",
         sections: Mapping[str, Section] | None = None,
+        library: str | Path | Sequence[str | Path] = (),
         name: str | None = None,
     ) -> Self:
         """Read an ETABS model, and put it on bearings; docs/exchange.md says what is read and how.
@@ -257,6 +258,9 @@ class Frame(FrameEditor):
             Constants of frame sections that the file has by the name of a catalogue alone, or in
             place of its own: {"W24X55": Section(...)}, local z along axis 2. Materials and
             modifiers are those of the file.
+        library : str, Path or sequence of them
+            Files of the program that have sections by their names ("AISC14.xml", among its
+            property libraries): constants of those that the model only names.
 
         Returns
         -------
@@ -276,7 +280,9 @@ class Frame(FrameEditor):
         from frames.exchange.options import Options
 
         options = Options(bearing, at, loads, mass, mesh, base_rotations, base_diaphragm)
-        building = read_etabs(path, allow=allow, decimal=decimal, sections=sections)
+        building = read_etabs(
+            path, allow=allow, decimal=decimal, sections=sections, library=library
+        )
         return cls._of(building, options, name)
 
     @classmethod
