@@ -243,6 +243,7 @@ class Frame(FrameEditor):
         base_diaphragm: bool = True,
         decimal: Literal[".", ","] = ".",
         sections: Mapping[str, Section] | None = None,
+        library: str | Path | Sequence[str | Path] = (),
         name: str | None = None,
     ) -> Self:
         """Read an ETABS model, and put it on bearings; docs/exchange.md says what is read and how.
@@ -257,6 +258,9 @@ class Frame(FrameEditor):
             Constants of frame sections that the file has by the name of a catalogue alone, or in
             place of its own: {"W24X55": Section(...)}, local z along axis 2. Materials and
             modifiers are those of the file.
+        library : str, Path or sequence of them
+            Files of the program that have sections by their names ("AISC14.xml", among its
+            property libraries): constants of those that the model only names.
 
         Returns
         -------
@@ -276,7 +280,9 @@ class Frame(FrameEditor):
         from frames.exchange.options import Options
 
         options = Options(bearing, at, loads, mass, mesh, base_rotations, base_diaphragm)
-        building = read_etabs(path, allow=allow, decimal=decimal, sections=sections)
+        building = read_etabs(
+            path, allow=allow, decimal=decimal, sections=sections, library=library
+        )
         return cls._of(building, options, name)
 
     @classmethod
@@ -310,11 +316,13 @@ class Frame(FrameEditor):
         Raises
         ------
         ModelError
-            If the frame has superelements, nonlinear links, plastic hinges, or something else that
-            the tables cannot hold; the message names it.
+            If the frame has superelements other than shells of an imported model, nonlinear links,
+            plastic hinges, or something else that the tables cannot hold; the message names it.
 
         Notes
         -----
+        Shells are areas, one for each element, without mass: read them again with `mesh` no shorter
+        than their sides.
         Weights of masses and members are loads of joints, as here, not self weight. A link has the
         radius, Q/W by the speed and the axial stiffness of its bearing
         (`frames.exchange.pendulum_link.pendulum_link`). Rims, interface and slip have no link:

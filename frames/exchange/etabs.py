@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from frames.exchange.account import Account
 from frames.exchange.building import Building
 from frames.exchange.e2k_text import read_e2k
+from frames.exchange.etabs_groups import read_groups
 from frames.exchange.etabs_links import EtabsLinks
 from frames.exchange.etabs_loads import read_loads
 from frames.exchange.etabs_objects import Objects
 from frames.exchange.etabs_properties import read_properties, read_stories
+from frames.exchange.section_library import read_libraries
 from frames.exchange.tables import Decimal, Tables
 from frames.exchange.units import FORCES, LENGTHS, Units, units_of
 
@@ -40,6 +42,7 @@ def read_etabs(
     allow: Collection[str] = (),
     decimal: Decimal = ".",
     sections: Mapping[str, Section] | None = None,
+    library: str | Path | Sequence[str | Path] = (),
 ) -> Building:
     """Read an ETABS model.
 
@@ -53,6 +56,8 @@ def read_etabs(
         Decimal sign of the file: that of the Windows that wrote it.
     sections : mapping of str to Section, optional
         Constants of sections that the file has by the name of a catalogue alone.
+    library : str, Path or sequence of them
+        Property files of the program that have such sections by their names, AISC14.xml.
 
     Returns
     -------
@@ -71,10 +76,11 @@ def read_etabs(
     version = program[0].text("VERSION", "") if program else ""
     building = Building(file.stem, "ETABS", version, _units(tables), account)
     read_stories(tables, building)
-    read_properties(tables, building, sections)
+    read_properties(tables, building, sections, read_libraries(library))
     objects = Objects(tables, building)
     objects.read()
     EtabsLinks(tables, building, objects).read()
+    read_groups(tables, building)
     read_loads(tables, building)
     for name, count in tables.unread().items():
         if name in REFUSED:

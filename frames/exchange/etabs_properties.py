@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
 from frames.exchange.building import AreaSection, Building, FrameSection, Material, Modifiers
+from frames.exchange.filled_sections import SHAPES, filled_section
+from frames.exchange.section_library import Shape
 from frames.exchange.section_shapes import section_by_shape, with_constants
 from frames.exchange.tables import Row
 from lir_element.units import STANDARD_GRAVITY
@@ -96,7 +98,10 @@ def read_stories(tables: Tables, building: Building) -> None:
 
 
 def read_properties(
-    tables: Tables, building: Building, constants: Mapping[str, Section] | None = None
+    tables: Tables,
+    building: Building,
+    constants: Mapping[str, Section] | None = None,
+    library: Mapping[str, Shape] | None = None,
 ) -> None:
     """Read materials, and the sections that objects have.
 
@@ -108,6 +113,8 @@ def read_properties(
         It is added to.
     constants : mapping of str to Section, optional
         Constants in place of those of the file, by name of a section.
+    library : mapping of str to Shape, optional
+        Constants of shapes that the file names alone, by label.
 
     Raises
     ------
@@ -121,14 +128,23 @@ def read_properties(
     frames = {row.text("SECTION", "") for row in tables.rows("LINEASSIGN")}
     areas = {row.text("SECTION", "") for row in tables.rows("AREAASSIGN")}
     given = merged(tables.rows("FRAMESECTION"), "Section")
-    constants = constants or {}
+    constants, named = constants or {}, []
     wrong = [name for name in constants if (name,) not in given or name not in frames]
     if wrong:
         message = f'sections: no frame of {building.account.file} has a section "{wrong[0]}"'
         raise ModelError(message)
     for (name,), row in given.items():
         if name in frames:
-            building.sections[name] = _section(row, name, building, constants.get(name))
+            kept = _named(row, constants.get(name), library)
+            named += [name] if isinstance(kept, Shape) else []
+            building.sections[name] = _section(row, name, building, kept)
+    if library and not named:
+        message = f"library: no frame of {building.account.file} has a section that it names"
+        raise ModelError(message)
+    building.account.read_as("FRAME SECTIONS", "with the constants of the library", named)
+    filled = [s.name for s in building.sections.values() if s.shape.strip().lower() in SHAPES]
+    what = "filled tubes, as sections of steel by moduli, with the weight of both materials"
+    building.account.read_as("FRAME SECTIONS", what, [n for n in filled if n not in constants])
     building.account.read_as("FRAME SECTIONS", "with the constants given", list(constants))
     building.account.read("FRAME SECTIONS", "cross-sections in use", len(building.sections))
     idle = [name for (name,) in given if name not in frames]
@@ -160,9 +176,16 @@ def _material(row: Row, name: str, building: Building) -> Material:
     return Material(name, modulus, 0.5 * modulus / (1.0 + poisson), poisson, density, weight)
 
 
-def _section(
-    row: Row, name: str, building: Building, constants: Section | None = None
-) -> FrameSection:
+def _named(
+    row: Row, constants: Section | None, library: Mapping[str, Shape] | None
+) -> Section | Shape | None:
+    # Constants from elsewhere: those given, and of what the file only names, of the library.
+    if constants is not None or row.has("AREA", "I33", "I22"):
+        return constants
+    return (library or {}).get(row.text("SHAPE", "").strip().upper())
+
+
+def _section(row: Row, name: str, building: Building, kept: Section | Shape | None) -> FrameSection:
     one = building.units.length
     material, shape = row.text("MATERIAL", ""), row.text("SHAPE", "General")
     if material not in building.materials:
@@ -175,26 +198,43 @@ def _section(
         row.number("TW", row.number("TF", 0.0)) * one,
     )
     modifiers = factors(row, SECTION_FACTORS)
-    if constants is not None:
-        return replace(with_constants(name, material, shape, constants), modifiers=modifiers)
+    if isinstance(kept, Shape):
+        return _by_constants(kept.row, kept.length, name, material, shape, modifiers)
+    if kept is not None:
+        return replace(with_constants(name, material, shape, kept), modifiers=modifiers)
     if row.has("AREA", "I33", "I22"):
-        return FrameSection(
-            name=name,
-            material=material,
-            shape=shape,
-            area=row.number("AREA") * one**2,
-            torsion=row.number("TORSION", 0.0) * one**4,
-            inertia_33=row.number("I33") * one**4,
-            inertia_22=row.number("I22") * one**4,
-            shear_2=row.number("AS2", 0.0) * one**2 or math.inf,
-            shear_3=row.number("AS3", 0.0) * one**2 or math.inf,
-            depth=sizes[0],
-            width=sizes[1] or sizes[0],
-            modifiers=modifiers,
-        )
+        return _by_constants(row, one, name, material, shape, modifiers)
+    if shape.strip().lower() in SHAPES:
+        fill = row.text("FILLMATERIAL", "")
+        if fill not in building.materials:
+            msg = f'FILLMATERIAL "{fill}" of section "{name}" is not defined'
+            raise row.error(msg)
+        steel, inside = building.materials[material], building.materials[fill]
+        found = filled_section(row, name, sizes, steel, inside)
+        return replace(found, modifiers=found.modifiers.times(modifiers))
     poisson = building.materials[material].poisson_ratio
     found = section_by_shape(row, name, material, shape, sizes, poisson)
-    return FrameSection(**{**vars(found), "modifiers": modifiers})
+    return replace(found, modifiers=modifiers)
+
+
+def _by_constants(
+    row: Row, one: float, name: str, material: str, shape: str, modifiers: Modifiers
+) -> FrameSection:
+    depth = row.number("D", 0.0) * one
+    return FrameSection(
+        name=name,
+        material=material,
+        shape=shape,
+        area=row.number("AREA") * one**2,
+        torsion=row.number("TORSION", 0.0) * one**4,
+        inertia_33=row.number("I33") * one**4,
+        inertia_22=row.number("I22") * one**4,
+        shear_2=row.number("AS2", 0.0) * one**2 or math.inf,
+        shear_3=row.number("AS3", 0.0) * one**2 or math.inf,
+        depth=depth,
+        width=row.number("B", 0.0) * one or depth,
+        modifiers=modifiers,
+    )
 
 
 def _shell(row: Row, name: str, building: Building) -> AreaSection:

@@ -12,8 +12,6 @@ from frames.exchange.building import Modifiers
 from frames.model.sections import Section
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from frames._types import FloatArray
     from frames.exchange.building import Building, FrameObject, LineLoad
     from frames.exchange.stations import Divided
@@ -214,16 +212,3 @@ def _resultant(one: Divided, load: LineLoad, a: float, b: float, at: FloatArray)
         force = weight * (b - a) * one.length * _size(load, share)
         found += np.concatenate([force, np.cross(one.at(share) - at, force)])
     return found
-
-
-def member_masses(building: Building, divided: list[Divided]) -> Iterator[tuple[str, float]]:
-    """Yield the own mass of frame objects, half of each member's to each of its nodes [kg]."""
-    for one in divided:
-        given = one.frame
-        section = building.sections[given.section]
-        matter = building.materials[given.material or section.material]
-        factor = section.modifiers.times(given.modifiers).mass
-        whole = matter.density * section.area * factor * one.length
-        for place, share in enumerate(np.diff(one.shares)):
-            for node in one.nodes[place : place + 2]:
-                yield node, 0.5 * float(share) * whole

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import sparse
 
 from frames._errors import ModelError
-from frames.model.part_elements import WithoutForces, no_elements
+from frames.model.part_elements import ShellElement, WithoutForces, no_elements
 from frames.opensees.model import read_model
 from lir_element.argument_checks import listed
 from lir_element.opensees import opensees
@@ -69,12 +69,16 @@ def add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
             stiffness = sparse.csr_array(stiffness + _part(ops, building, part, points, index))
     finally:
         ops.wipe()
+    shells = [
+        ShellElement(area, nodes, *shell_numbers(building, building.areas[area]))
+        for area, nodes in mesh.elements
+    ]
     frame.add_superelement(
         "shells",
         names,
         stiffness,
         sparse.csr_array(stiffness.shape),
-        elements=no_elements(_told(mesh)),
+        elements=no_elements(_told(mesh), shells),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from copy import copy
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -69,8 +70,15 @@ class Slabs:
         self.frame, self.building = frame, building
         self._around = members_at(frame.members)
         self._levels = _by_level(frame)
+        self._plans: dict[int, tuple[list[str], FloatArray]] = {}
         self._unit: dict[str, list[PanelLoads] | None] = {}
         self.at_corners: dict[str, None] = {}  # in the order of the loads
+
+    def onto(self, frame: FrameEditor) -> Slabs:
+        """Return slabs that put loads on a copy of the frame, their panels found once for both."""
+        found = copy(self)
+        found.frame, found.at_corners = frame, {}
+        return found
 
     def add(self, area: AreaObject, load: FloatArray, case: str) -> None:
         """Add a load on an area.
@@ -103,10 +111,8 @@ class Slabs:
 
     def _put(self, part: PanelLoads, size: float, case: str) -> None:
         for member, load in part.members:
-            start, end = size * np.array(load.start), size * np.array(load.end)
-            self.frame.add_tapered_load(
-                member, start.tolist(), end.tolist(), load.a, load.b, case=case
-            )
+            start, end = ([size * q for q in ends] for ends in (load.start, load.end))
+            self.frame.add_tapered_load(member, start, end, load.a, load.b, case=case)
         for node, forces in part.nodes:
             self.frame.add_load(node, (size * forces).tolist(), case=case)
 
@@ -136,13 +142,12 @@ class Slabs:
 
     def _faces(self, area: AreaObject, points: FloatArray) -> list[list[str]]:
         # Panels between the members within the area; the area itself where they do not fill it.
-        level = self._levels.get(round(float(points[0, 2]) / _FLAT), {})
+        height = round(float(points[0, 2]) / _FLAT)
+        level = self._levels.get(height, {})
         low, high = points[:, :2].min(axis=0) - _FLAT, points[:, :2].max(axis=0) + _FLAT
-        plan: dict[str, FloatArray] = {}
-        for name in level:
-            place = np.array(self.frame.nodes[name].position[:2])
-            if (place >= low).all() and (place <= high).all() and _within(place, points[:, :2]):
-                plan[name] = place
+        names, places = self._plan(height)
+        near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
+        plan = {names[k]: places[k] for k in near if _within(places[k], points[:, :2])}
         links = {name: [o for o in level[name] if o in plan] for name in plan}
         faces = _faces_of(plan, links)
         whole = area_normal(points)[1]
@@ -150,6 +155,15 @@ class Slabs:
         if len(faces) < 2 or abs(size - whole) > 1e-6 * whole:
             return [list(area.joints)]
         return [_corners(face, plan) for face in faces]
+
+    def _plan(self, height: int) -> tuple[list[str], FloatArray]:
+        # Nodes of a level that members join, and where they are in plan (n, 2).
+        if height not in self._plans:
+            names = list(self._levels.get(height, {}))
+            nodes = self.frame.nodes
+            places = np.array([nodes[name].position[:2] for name in names]).reshape(-1, 2)
+            self._plans[height] = names, places
+        return self._plans[height]
 
 
 def _by_level(frame: FrameEditor) -> dict[int, dict[str, list[str]]]:

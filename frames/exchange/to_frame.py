@@ -80,8 +80,8 @@ def fill(frame: FrameEditor, building: Building, options: Options) -> None:
     Links(frame, building, places).add()
     add_constraints(frame, building, places, options)
     loading = Loading(building, {one.frame.name: one for one in divided}, mesh)
-    _add_masses(frame, building, loading, source, under_loads(divided, joints))
     slabs = Slabs(frame, building)
+    _add_masses(frame, building, loading, slabs, source, under_loads(divided, joints))
     loading.put(frame, slabs, factors, own=False)
     _add_levels(frame, building, places)
     note_members(building, sections, divided)
@@ -285,6 +285,7 @@ def _add_masses(
     frame: FrameEditor,
     building: Building,
     loading: Loading,
+    slabs: Slabs,
     source: MassSource,
     between: dict[str, list[tuple[str, float]]],
 ) -> None:
@@ -293,7 +294,7 @@ def _add_masses(
     shares = {name: 1.0 for name, share in source.patterns.items() if share}
     loading.put(
         scratch,
-        Slabs(scratch, building),
+        slabs.onto(scratch),
         {name: (1.0, name) for name in shares},
         own=source.elements,
     )

@@ -8,7 +8,9 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.exchange.etabs_places import EtabsPlaces
+from frames.exchange.write_materials import MATERIALS
 from frames.exchange.write_sap2000 import Writer
+from frames.exchange.write_shells import shell_lines
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -57,6 +59,7 @@ class EtabsWriter:
     def text(self) -> str:
         """Return the text; `names` is complete then."""
         force, length, heat = (word.strip().upper() for word in f"{self.words}, C".split(",")[:3])
+        shells = shell_lines(self.frame, self._rows, self.places)
         parts: dict[str, list[str]] = {
             "PROGRAM INFORMATION": ['PROGRAM  "ETABS"  VERSION "20.2.0"'],
             "CONTROLS": [f'UNITS  "{force}"  "{length}"  "{heat}"', "PREFERENCE  MERGETOL 0.0001"],
@@ -64,13 +67,16 @@ class EtabsWriter:
             "DIAPHRAGM NAMES": self._kinds(),
             "MATERIAL PROPERTIES": self._materials(),
             "FRAME SECTIONS": self._sections(),
+            **{word: shells[word] for word in ("SLAB PROPERTIES", "WALL PROPERTIES")},
             "LINK PROPERTIES": self._link_properties(),
             "POINT SPRING PROPERTIES": self._point_springs(),
             "POINT COORDINATES": self.places.points(),
             "LINE CONNECTIVITIES": self._connectivities(),
+            "AREA CONNECTIVITIES": shells["AREA CONNECTIVITIES"],
             "LINK CONNECTIVITIES": self._links(),
             "POINT ASSIGNS": self._point_assigns(),
             "LINE ASSIGNS": self._line_assigns(),
+            "AREA ASSIGNS": shells["AREA ASSIGNS"],
             "LINK ASSIGNS": self._link_assigns(),
         }
         parts |= self._loads()
@@ -104,7 +110,7 @@ class EtabsWriter:
 
     def _materials(self) -> list[str]:
         lines = []
-        for row in self._table("MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"):
+        for row in self._table(MATERIALS):
             head = f"MATERIAL  {_quoted(row['Material'])}"
             lines.append(
                 f'{head}  TYPE "Other"  WEIGHTPERVOLUME 0  MASSPERVOLUME {row["UnitMass"]!r}'

@@ -12,7 +12,9 @@ from frames.exchange.geometry import frame_axes
 from frames.exchange.units import units_of
 from frames.exchange.write_links import LinkWriter
 from frames.exchange.write_loads import LoadWriter
+from frames.exchange.write_materials import MATERIALS, material_row
 from frames.exchange.write_s2k_text import text_of as text_of
+from frames.exchange.write_shells import shell_parts, shell_tables
 from frames.model.axes import default_up
 from frames.model.components import DOFS
 
@@ -60,9 +62,9 @@ class Writer:
         self._refuse()
 
     def _refuse(self) -> None:
-        frame = self.frame
+        frame, shells = self.frame, {part.name for part in shell_parts(self.frame)}
         for word, group in (
-            ("superelements", frame.superelements),
+            ("superelements", [name for name in frame.superelements if name not in shells]),
             ("nonlinear links", frame.links),
             ("plastic hinges", frame.hinges),
         ):
@@ -95,7 +97,8 @@ class Writer:
         }
         loads = LoadWriter(self.frame, self.units, self._true)
         links = LinkWriter(self.frame, self.displacement, self.units)
-        for part in (self._joints(), self._members(), loads.tables(), links.tables()):
+        shells = shell_tables(self.frame, self.units, self.program)
+        for part in (self._joints(), self._members(), shells, loads.tables(), links.tables()):
             for name, rows in part.items():
                 found.setdefault(name, []).extend(rows)
         return {name: rows for name, rows in found.items() if rows}
@@ -142,7 +145,7 @@ class Writer:
         found: Tables = {
             name: []
             for name in (
-                "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES",
+                MATERIALS,
                 "FRAME SECTION PROPERTIES 01 - GENERAL",
                 "CONNECTIVITY - FRAME",
                 "FRAME SECTION ASSIGNMENTS",
@@ -160,7 +163,7 @@ class Writer:
             key = (section.elastic_modulus, section.shear_modulus, section.density)
             if key not in materials:
                 materials[key] = f"M{len(materials) + 1}"
-                rows = found["MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"]
+                rows = found[MATERIALS]
                 rows.append(self._material(materials[key], key, member.name))
             if section not in sections:
                 sections[section] = f"S{len(sections) + 1}"
@@ -180,15 +183,7 @@ class Writer:
                 f"{poisson:g}, {self.program} needs one in (-1, 0.5]: give another shear_modulus"
             )
             raise ModelError(message)
-        units = self.units
-        return {
-            "Material": name,
-            "UnitWeight": 0.0,  # weights are loads of joints, as here
-            "UnitMass": density / units.density,
-            "E1": modulus / units.stress,
-            "G12": shear / units.stress,
-            "U12": poisson,
-        }
+        return material_row(name, modulus, poisson, density, self.units)
 
     def _section(self, name: str, material: str, section: Section) -> dict[str, Value]:
         one = self.units.length

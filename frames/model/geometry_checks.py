@@ -142,17 +142,18 @@ def member_offsets(
 
 def member_ends(nodes: Nodes, member: Member) -> tuple[FloatArray, FloatArray]:
     """Return the ends of a member (3,) [m]: its nodes and its offsets from them."""
-    first, second = (
-        np.add(nodes[node].position, offset)
-        for node, offset in zip((member.i, member.j), member.offsets, strict=True)
-    )
-    return first, second
+    found = []
+    for name, (dx, dy, dz) in zip((member.i, member.j), member.offsets, strict=True):
+        node = nodes[name]
+        found.append(np.array((node.x + dx, node.y + dy, node.z + dz)))
+    return found[0], found[1]
 
 
 def member_span(nodes: Nodes, member: Member, a: float, b: float | None) -> tuple[float, float]:
     """Return a part of a member from `a` to `b` [m], None its end, or raise if it is not on it."""
     first, second = member_ends(nodes, member)
-    length = float(np.linalg.norm(second - first))
+    along = second - first
+    length = math.sqrt(along @ along)
     owner = f'a load on member "{member.name}"'
     start = require_finite(f"a [m] of {owner}", a, error=ModelError)
     end = length if b is None else require_finite(f"b [m] of {owner}", b, error=ModelError)

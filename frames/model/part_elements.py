@@ -27,6 +27,23 @@ class WithoutForces(NamedTuple):
     why: str
 
 
+class ShellElement(NamedTuple):
+    """A shell element of one isotropic material, without mass and load."""
+
+    area: str
+    """What it is a part of, "W1-Story2"."""
+    nodes: tuple[str, ...]
+    """Three or four nodes in order."""
+    elastic_modulus: float
+    """Of its membrane [Pa]."""
+    poisson_ratio: float
+    """[-]."""
+    thickness: float
+    """[m]."""
+    bending: float
+    """Modulus of its plate over that of its membrane [-]."""
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class PartElements:
     """Straight elements between two nodes of a superelement: a part of it, whose forces are told.
@@ -46,6 +63,8 @@ class PartElements:
         What loads along the element add in its middle to the mean of both ends [N, N m].
     without : tuple of WithoutForces
         What else the superelement holds.
+    shells : tuple of ShellElement
+        Shells that are all of the superelement's stiffness; none where they are not, or not known.
     """
 
     names: tuple[str, ...] = ()
@@ -54,19 +73,23 @@ class PartElements:
     rest: FloatArray
     middle: FloatArray
     without: tuple[WithoutForces, ...] = ()
+    shells: tuple[ShellElement, ...] = ()
 
     def scaled(self, factor: float) -> PartElements:
         """Return the same under permanent loads multiplied by a factor [-]."""
         return replace(self, rest=factor * self.rest, middle=factor * self.middle)
 
 
-def no_elements(without: Iterable[WithoutForces] = ()) -> PartElements:
-    """Return a superelement's elements where none is known by itself."""
+def no_elements(
+    without: Iterable[WithoutForces] = (), shells: Iterable[ShellElement] = ()
+) -> PartElements:
+    """Return a superelement's elements where no line element is known by itself."""
     return PartElements(
         rows=np.zeros((0, 12, 12)),
         rest=np.zeros((0, 12)),
         middle=np.zeros((0, 6)),
         without=tuple(without),
+        shells=tuple(shells),
     )
 
 

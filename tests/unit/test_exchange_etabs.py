@@ -206,6 +206,17 @@ def test_bearings_stand_under_the_supports(tmp_path: Path) -> None:
     assert_allclose(whole.check().weight - frame.check().weight, 0.3 * live, rtol=1e-9)
 
 
+def test_bearings_stand_under_the_points_of_groups(tmp_path: Path) -> None:
+    lines = [f'  GROUP "{g}"  POINT "{k}"  "Base"' for k, g in ((1, "IN"), (2, "IN"), (4, "OUT"))]
+    lines += ['  GROUP "IN"  LINE "C1"  "Story1"', '  GROUP "IN"  AREA "F1"  "Story1"']
+    path = written(tmp_path, with_lines(*lines))
+    other = bearing_for(900e3)
+    frame = Frame.from_etabs(path, {"IN": BEARING, "OUT": other})
+    types = {name: part.bearing for name, part in frame.bearings.items()}
+    assert types == {"bearing-1-Base": BEARING, "bearing-2-Base": BEARING, "bearing-4-Base": other}
+    assert len(frame.fixed_dofs["3-Base"]) == 6
+
+
 def test_mutated_files_end_in_models_or_messages(tmp_path: Path) -> None:
     for seed in range(250):
         rng = random.Random(seed)  # noqa: S311

@@ -92,6 +92,28 @@ def test_friction_isolators_are_bearings_of_their_radius_and_friction(
     assert "friction isolators, as DCFP of the same radius" in str(frame.imported)
 
 
+def test_bearings_stand_where_groups_say(tmp_path: Path) -> None:
+    lines = ['  GROUP "All"', '  GROUP "CORE"  COLOR "Red"', '  GROUP "CORE" LINK "K1"']
+    lines += ['  GROUP "CORE"  LINK "K4"', '  GROUP "EDGE"  POINT "1"  "Story1"']
+    lines += ['  GROUP "ODD"  POINT "1"', '  GROUP "ODD"  LINK "K9"']
+    path = model(tmp_path, isolator(), [*LINKS, *lines])
+    core = bearing_for(900e3)
+    frame = Frame.from_etabs(path, {"CORE": core})
+    assert [name for name, part in frame.bearings.items() if part.bearing == core] == ["K1", "K4"]
+    assert frame.imported is not None
+    assert frame.imported.groups == {
+        "All": (),
+        "CORE": ("K1", "K4"),
+        "EDGE": ("1-Story1",),
+        "ODD": (),
+    }
+    assert "on lines of another form: bearings are not placed by them: ODD" in str(frame.imported)
+    with pytest.raises(
+        ModelError, match=r'"EDGE" of model.e2k has no restrained joint and no link'
+    ):
+        Frame.from_etabs(path, core, at=["EDGE"])
+
+
 def test_half_of_a_link_s_weight_and_mass_is_at_each_of_its_joints(tmp_path: Path) -> None:
     free = [line.replace("MASS 0.5 WEIGHT 4.9", "MASS 0 WEIGHT 0") for line in isolator()]
     without = Frame.from_etabs(model(tmp_path, free, LINKS))
@@ -115,7 +137,11 @@ def test_a_given_bearing_stands_in_place_of_links_whatever_their_words(tmp_path:
 def test_points_stand_on_links(tmp_path: Path) -> None:
     spring = '  POINTSPRING  "S1"  STIFFNESSOPTION "LINKS"  LINKPROP "FP"  AXIALDIR "Z"  ANGLE 0'
     assign = '  POINTASSIGN  "{k}"  "Base"  SPRINGPROP "S1"'
-    path = model(tmp_path, [*isolator(), spring], [], assign=assign)
+    group = '  GROUP "ISO"  POINT "3"  "Base"'
+    path = model(tmp_path, [*isolator(), spring], [group], assign=assign)
+    other = bearing_for(900e3)
+    named = Frame.from_etabs(path, {"ISO": other}).bearings
+    assert [name for name, part in named.items() if part.bearing == other] == ["link-3-Base"]
     frame = Frame.from_etabs(path)
     assert list(frame.bearings) == [f"link-{k}-Base" for k in range(1, 5)]
     assert not frame.springs

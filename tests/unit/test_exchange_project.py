@@ -13,6 +13,7 @@ from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
 from frames.design.project.structure_statement import structure_rows
 from tests import etabs_models, sap2000_models
+from tests.unit.test_exchange_etabs_links import LINKS, isolator, model
 
 
 def project(tmp_path: Path, structure: str) -> ProjectInputs:
@@ -110,3 +111,14 @@ def test_types_of_bearings_by_groups_of_the_model(tmp_path: Path) -> None:
     assert device.frictions[0].f_max == 0.07
     with pytest.raises(ProjectError, match="no column with a bearing"):
         typed("RIM").types()
+
+
+def test_types_of_bearings_by_groups_of_links(tmp_path: Path) -> None:
+    parts = project(tmp_path, 'kind = "etabs"\nfile = "model.e2k"\nbearings_at = ["FP"]')
+    groups = ['  GROUP "CORE"  LINK "K1"', '  GROUP "CORE"  LINK "K3"']
+    model(tmp_path, isolator(), [*LINKS, *groups])
+    own = '[bearings.inner]\ncolumns = ["CORE"]\nfriction = 0.07\n\n[bounds]'
+    path = tmp_path / "project.toml"
+    path.write_text(path.read_text(encoding="utf-8").replace("[bounds]", own, 1), encoding="utf-8")
+    parts = ProjectInputs(read_project(path), tmp_path)
+    assert list(parts.types().values()) == ["inner", "standard", "inner", "standard"]

@@ -123,7 +123,7 @@ def columns_by_type(chosen: Mapping[str, str]) -> dict[str, list[str]]:
 
 
 def _named(column: str, kind: str, frame: Frame) -> list[str]:
-    # The bearings of a column, or of a group of the SAP2000 model that the frame was read from.
+    # The bearings of a column, or of a group of the model that the frame was read from.
     groups = {} if frame.imported is None else frame.imported.groups
     own = {column, f"bearing-{column}"} & set(frame.bearings)
     if own or column not in groups:
@@ -132,7 +132,7 @@ def _named(column: str, kind: str, frame: Frame) -> list[str]:
         except ProjectError as cause:
             msg = f"[bearings.{kind}] columns: {cause}"
             raise ProjectError(msg) from None
-    found = [f"bearing-{label}" for label in groups[column]]
+    found = [name for label in groups[column] for name in (f"bearing-{label}", label)]
     standing = [name for name in found if name in frame.bearings]
     if not standing:
         msg = f"[bearings.{kind}] columns: no joint or link of the group {column} has a bearing"

@@ -271,7 +271,8 @@ def _imported(given: ImportedModel, bearing: LIRBearing, name: str, folder: Path
     read: Callable[..., Frame] = Frame.from_sap2000
     if given.kind == "etabs":
         shapes = {k: named_section(v, column=False).section for k, v in given.sections.items()}
-        read = partial(Frame.from_etabs, sections=shapes)
+        library = [folder / file for file in given.library]
+        read = partial(Frame.from_etabs, sections=shapes, library=library)
     return read(
         path,
         bearing,

@@ -166,12 +166,16 @@ class ImportedModel(Table):
     base_diaphragm: bool = True
     decimal: Literal[".", ","] = "."
     sections: dict[str, SectionTable] = Field(default_factory=dict)
+    library: tuple[Path, ...] = ()
 
     @model_validator(mode="after")
     def _sections_of_etabs(self) -> Self:
-        if self.sections and self.kind != "etabs":
-            msg = "sections gives constants that a file of ETABS lacks; those of SAP2000 have them"
-            raise ValueError(msg)
+        for word, given in (("sections", self.sections), ("library", self.library)):
+            if given and self.kind != "etabs":
+                msg = (
+                    f"{word} gives constants that a file of ETABS lacks; those of SAP2000 have them"
+                )
+                raise ValueError(msg)
         return self
 
 

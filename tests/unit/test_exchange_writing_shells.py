@@ -1,0 +1,123 @@
+"""Walls and slabs of shells written for SAP2000 and ETABS and read again are alike."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.sparse import csr_matrix
+
+from frames import Frame, ModelError
+from frames.assembly.assemble import assemble
+from frames.demo import bearing_for
+from frames.model.part_elements import no_elements
+from lir_element.opensees import opensees
+from tests import etabs_models
+from tests.fixed_base import periods, reactions
+
+MESH = 2.5
+CASES = {"D": 1.0, "L": 1.0}
+
+
+def walls(tmp_path: Path, **more: object) -> Frame:
+    """Return a building with walls, a wall softer in bending and one stiffer, from ETABS' text."""
+    text = etabs_models.building(bays=(2, 1), storeys=1, walls=True)
+    soft = 'AREAASSIGN  "W1"  "Story1"  SECTION "WALL"'
+    assert soft in text
+    factors = "  ".join(f"PROPMODM{d} 0.25" for d in ("11", "22", "12"))
+    text = text.replace(soft, f"{soft}  {factors}", 1)
+    stiff = 'AREAASSIGN  "W4"  "Story1"  SECTION "WALL"'
+    assert stiff in text
+    factors = "  ".join(f"PROPMODF{d} 0.35" for d in ("11", "22", "12"))
+    path = tmp_path / "walls.e2k"
+    path.write_text(text.replace(stiff, f"{stiff}  {factors}", 1), encoding="utf-8")
+    opensees().wipe()
+    return Frame.from_etabs(path, mesh=MESH, **more)  # type: ignore[arg-type]
+
+
+def same(one: Frame, two: Frame, names: dict[str, str] | None = None) -> None:
+    first, second = assemble(one), assemble(two)
+    kinds = ("D1-Story1-Story1", "D1-Story1")  # what ETABS' text calls the diaphragm
+    labels = [label.replace(*kinds) for label in second.dof_labels]
+    order = []
+    for label in first.dof_labels:
+        node, dof = label.rsplit(" ", 1)
+        order.append(labels.index(f"{(names or {}).get(node, node)} {dof}"))
+    assert sorted(order) == list(range(len(labels)))
+    for word in ("stiffness", "mass"):
+        left, right = csr_matrix(getattr(first, word)), csr_matrix(getattr(second, word))
+        assert abs(left - right[order][:, order]).max() <= 1e-12 * abs(left).max()
+    assert_allclose(second.load[order], first.load, atol=1e-12 * np.abs(first.load).max())
+
+
+@pytest.mark.parametrize("units", ["KN, m, C", "Kip, in, F"])
+def test_walls_come_back_as_they_were(tmp_path: Path, units: str) -> None:
+    frame = walls(tmp_path)
+    shells = frame.superelements["shells"].elements.shells
+    assert_allclose(sorted({shell.bending for shell in shells}), [0.25, 1.0 / 0.35])
+    tables, text = tmp_path / "again.s2k", tmp_path / "again.e2k"
+    frame.to_sap2000(tables, units=units)
+    names = frame.to_etabs(text, units=units)
+    back = Frame.from_sap2000(tables, mesh=MESH, loads=CASES)
+    same(frame, back)
+    assert_allclose(periods(back, 6), periods(frame, 6), rtol=1e-9)
+    for node, forces in reactions(back).items():
+        expected = reactions(frame)[node]
+        assert_allclose(forces, expected, atol=1e-9 * np.abs(frame.check().weight))
+    other = Frame.from_etabs(text, mesh=MESH, loads=CASES)
+    same(frame, other, names)
+    assert "PANEL  4" in text.read_text(encoding="utf-8")
+    assert 'OBJMESHTYPE "NOAUTOMESH"' in text.read_text(encoding="utf-8")
+    assert tables.read_text(encoding="utf-8").count("NumJoints=4") == len(shells)
+
+
+def test_a_semirigid_floor_on_bearings_comes_back(tmp_path: Path) -> None:
+    opensees().wipe()
+    text = etabs_models.building(bays=(1, 1), storeys=1).replace("TYPE RIGID", "TYPE SEMIRIGID")
+    path = tmp_path / "floor.e2k"
+    path.write_text(text, encoding="utf-8")
+    frame = Frame.from_etabs(path, bearing_for(400e3), mesh=MESH)
+    again = tmp_path / "again.s2k"
+    frame.to_sap2000(again, displacement=0.2)
+    back = Frame.from_sap2000(again, mesh=MESH, loads=CASES)
+    assert list(back.bearings) == list(frame.bearings)
+    one, two = (part.superelements["shells"].stiffness for part in (frame, back))
+    assert frame.superelements["shells"].nodes == back.superelements["shells"].nodes
+    assert abs(one - two).max() <= 1e-12 * abs(one).max()
+    names = frame.to_etabs(tmp_path / "again.e2k", displacement=0.2)
+    assert "FLOOR  4" in (tmp_path / "again.e2k").read_text(encoding="utf-8")
+    assert set(names) >= set(frame.nodes)
+
+
+def test_shells_that_would_be_read_otherwise_are_refused(tmp_path: Path) -> None:
+    frame = walls(tmp_path)
+    shell = frame.superelements["shells"].elements.shells[0]
+    frame.add_diaphragm("odd", list(shell.nodes[:2]))
+    frame.to_sap2000(tmp_path / "fine.s2k")
+    floor = Frame("floor")
+    for k, (x, y) in enumerate(((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0))):
+        floor.add_node(str(k), x, y, 0.0)
+    floor.add_superelement(
+        "plate",
+        list("0123"),
+        np.eye(24),
+        np.zeros((24, 24)),
+        elements=no_elements(shells=[shell._replace(nodes=tuple("0123"))]),
+    )
+    floor.add_diaphragm("deck", list("0123"))
+    with pytest.raises(ModelError, match=r'lies within the rigid diaphragm "deck", where SAP2000'):
+        floor.to_sap2000(tmp_path / "model.s2k")
+    heavy = Frame("heavy")
+    for k, node in enumerate(floor.nodes.values()):
+        heavy.add_node(str(k), *node.position)
+    heavy.add_superelement(
+        "plate",
+        list("0123"),
+        np.eye(24),
+        np.eye(24),
+        elements=floor.superelements["plate"].elements,
+    )
+    with pytest.raises(ModelError, match=r'has superelements \("plate"\), which are not written'):
+        heavy.to_etabs(tmp_path / "model.e2k")
