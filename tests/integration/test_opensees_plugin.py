@@ -121,7 +121,8 @@ def test_mass_under_a_pulse_moves_as_in_frames(
     force = ours["bearing_force"].isel(bearing=0).to_numpy()
     assert ours["rim_force"].max() > 5e4
     assert (ours["interface_slip_size"].max() > 0.02) is not plain
-    assert ("rim_plastic" in ours and ours["rim_plastic"].max() > 2e-3) is (strength == 6e4)
+    bent = float(ours["rim_plastic"].max()) if "rim_plastic" in ours else 0.0
+    assert (bent > 2e-3) is (strength == 6e4)
     count = len(moved)
     for mine, theirs in ((track.displacement, moved), (track.force, force)):
         for axis in range(3):
