@@ -29,6 +29,9 @@ class Field(NamedTuple):
 HEAT_PARTS = 14
 """Parts that decay at rates of their own, whose sum is the temperature of a contact."""
 
+RIM_DIRECTIONS = 8
+"""Directions of a plate in which the plastic deformation of its rim is kept."""
+
 FRICTION_TABLE = 259
 """Entries of a surface's friction over speed: a reference speed, then share and slope at each knot
 (129 of them)."""
@@ -63,6 +66,9 @@ PROPS_FIELDS = (
     Field("rim_stiffness", "N/m", "k_r", "radial stiffness of a rim"),
     Field("rim_damping", "N s/m", "c_r", "radial damping of a rim"),
     Field("rim_overrun", "m", "", "deformation of a rim at which it fails: the slider overruns it"),
+    Field("rim_yield_force", "N", "P_y", "force at which a rim yields; infinite: it never does"),
+    Field("rim_hardening", "N/m", "H", "force that a rim gains by plastic deformation"),
+    Field("flange", "m", "", "way to slide on beyond a broken rim; 0: the bearing fails with it"),
     Field("slip_capacity", "m", "s_max", "interface slip that the sliders' overlap supports"),
     Field("torsion_lever", "m", "", "torque of friction about the axis over friction force"),
     Field("torsion_yield", "rad", "", "elastic twist before torsional slip"),
@@ -106,8 +112,12 @@ STATE_FIELDS = (
     Field("sliding_speed", "m/s", "v", "sliding speed: bottom, top", (2,)),
     Field("eccentricity", "m", "d", "radial sliding in the plane of the plate: bottom, top", (2,)),
     Field("offset", "m", "e", "of the pressure between sliders that are bodies from their axes"),
-    Field("rim_closure", "m", "g", "deformation of the rim: bottom, top", (2,)),
+    Field("rim_closure", "m", "g", "elastic deformation of the rim: bottom, top", (2,)),
     Field("rim_force", "N", "P", "radial rim force: bottom, top", (2,)),
+    Field("rim_flow", "m", "", "plastic deformation of the rim in the step: bottom, top", (2,)),
+    Field("rim_bent", "m", "g_p", "plastic deformation where the rim presses: bottom, top", (2,)),
+    Field("rim_plastic", "m", "", "the largest so far, infinite of a broken rim", (2,)),
+    Field("rim_dent", "m", "", "the same by direction", (2, RIM_DIRECTIONS)),
     Field("twist", "rad", "psi", "relative rotation about the vertical axis"),
     Field("twist_hysteresis", "-", "z_t", "hysteretic variable of the torsional friction"),
     Field("torque", "N m", "T", "torsional friction moment"),
@@ -219,7 +229,10 @@ WORK_FIELDS = (
     Field("rim", "N", "P", "rim force", _W_PAIR),
     Field("stiff_rim", "N/m", "", "its derivative", _W_PAIR),
     Field("rim_scale", "-", "", "share of the rim forces that counts, as `scale` for friction"),
-    Field("rim_closure", "m", "g", "rim deformation", _W_PAIR),
+    Field("rim_closure", "m", "g", "elastic rim deformation", _W_PAIR),
+    Field("rim_bent", "m", "g_p", "plastic deformation of the rim before the step", _W_PAIR),
+    Field("rim_slant", "m", "", "its derivative by the angle, where force follows it", _W_PAIR),
+    Field("rim_flow", "m", "", "plastic deformation in the step", _W_PAIR),
     Field("residual", "N m", "", "equilibrium of the slider", _W_PAIR),
     Field("jacobian", "N m", "", "its derivative by a turn of the axis", (2, 2)),
     Field("g", "N", "g", "force on the top sphere's centre, axes of the bottom plate", _W_VECTOR),
@@ -276,8 +289,11 @@ BODY_FIELDS = (
     Field("spin_rate", "rad/s2", "", "angular acceleration, global axes", (3, 3)),
     Field("parts", "N, N m", "", "forces on node i, sliders, node j by origin", (7, 24)),
     Field("rim_gap", "m", "", "approach to the rim, negative when open: bottom, top", (2,)),
-    Field("rim_closure", "m", "g", "deformation of the rim: bottom, top", (2,)),
+    Field("rim_closure", "m", "g", "elastic deformation of the rim: bottom, top", (2,)),
     Field("rim_force", "N", "P", "radial rim force: bottom, top", (2,)),
+    Field("rim_flow", "m", "", "plastic deformation of the rim in the step: bottom, top", (2,)),
+    Field("rim_bent", "m", "g_p", "plastic deformation where the rim presses: bottom, top", (2,)),
+    Field("rim_dent", "m", "", "the same all around, by direction", (2, RIM_DIRECTIONS)),
 )
 
 TOUCH_FIELDS = (

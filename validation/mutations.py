@@ -21,7 +21,10 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from queue import SimpleQueue
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 ROOT = Path(__file__).resolve().parents[1]
 LIST = Path(__file__).with_suffix(".toml")
@@ -97,28 +100,65 @@ def noticed(mutation: Mutation, copy: Path) -> str:
     RuntimeError
         If the tests could not be run.
     """
-    path = copy / mutation.file
-    sound = path.read_text(encoding="utf-8")
-    path.write_text(sound.replace(mutation.old, mutation.new), encoding="utf-8")
+    sound = (copy / mutation.file).read_text(encoding="utf-8")
+    wrong = sound.replace(mutation.old, mutation.new).encode()
+    return first_failure(mutation.file, wrong, mutation.tests, copy)
+
+
+def first_failure(
+    file: str, wrong: bytes, tests: Sequence[str], copy: Path, longest: float | None = None
+) -> str:
+    """Run tests with another content of a file and return the one that failed, "" if none did.
+
+    Parameters
+    ----------
+    file : str
+        The file; what it held is put back.
+    wrong : bytes
+        What it holds meanwhile.
+    tests : sequence of str
+        Files or names of tests, each run by itself until one fails.
+    copy : Path
+        Of `copied`.
+    longest : float, optional
+        Time that each may take [s]; one that takes longer counts as failed.
+
+    Returns
+    -------
+    str
+        Name of the test.
+
+    Raises
+    ------
+    RuntimeError
+        If the tests could not be run.
+    """
+    path = copy / file
+    sound = path.read_bytes()
+    path.write_bytes(wrong)
     try:
-        for tests in mutation.tests:
-            call = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", tests]
-            ran = subprocess.run(  # noqa: S603
-                call,
-                cwd=copy,
-                capture_output=True,
-                text=True,
-                check=False,
-                env={**os.environ, "PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1"},
-            )
-            if ran.returncode == _CAUGHT:
-                named = re.search(r"^(?:FAILED|ERROR) (\S+)", ran.stdout, re.MULTILINE)
-                return named[1] if named else tests
+        for test in tests:
+            call = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", test]
+            try:
+                ran = subprocess.run(  # noqa: S603
+                    call,
+                    cwd=copy,
+                    capture_output=True,
+                    text=True,
+                    check=False,
+                    timeout=longest,
+                    env={**os.environ, "PYTHONPATH": str(copy), "PYTHONDONTWRITEBYTECODE": "1"},
+                )
+            except subprocess.TimeoutExpired:
+                return f"{test} (longer than {longest:g} s)"
+            named = re.search(r"^(?:FAILED|ERROR) (\S+)", ran.stdout, re.MULTILINE)
+            if ran.returncode == _CAUGHT or (ran.returncode and named):
+                return named[1] if named else test
             if ran.returncode:
-                msg = f"{tests}: pytest ended with {ran.returncode}: {ran.stdout[-2000:]}"
+                msg = f"{test}: pytest ended with {ran.returncode}: {ran.stdout[-2000:]}"
                 raise RuntimeError(msg)
     finally:
-        path.write_text(sound, encoding="utf-8")
+        path.write_bytes(sound)
     return ""
 
 

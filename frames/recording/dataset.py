@@ -22,10 +22,10 @@ from lir_element.results.dataset import (
     device_variables,
     labelled,
     some_bodies,
-    temperature_variables,
 )
 from lir_element.results.deferred import deferred
 from lir_element.results.eccentricity import interface_eccentricity
+from lir_element.results.optional_variables import optional_variables
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -87,7 +87,7 @@ def build_dataset(
     variables = bearing_variables("time", states[:count], velocity, kept=kept)
     if state.contacts is not None:
         variables |= some_bodies("time", state.contacts.row, states[:count], bodies[:count])
-    variables |= temperature_variables("time", states[:count], state.model.props)
+    variables |= optional_variables("time", states[:count], state.model.props)
     node = ("time", "node", "dof")
     variables |= _own(once(state, "devices", lambda: _device_variables(system)))
     more, names = part_variables(system.parts, frame, out, count)

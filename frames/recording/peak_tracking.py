@@ -193,6 +193,7 @@ class PeakTracker:
         self._devices = devices
         self._shape = shape and shape._replace(**{k: getattr(shape, k).copy() for k in own})
         self._reached = nothing_reached(len(devices.records), shape)
+        self._bent = np.zeros(len(devices.records))
 
     def take(self, states: Records, out: Output, ground: Ground, first: int, last: int) -> None:
         """Take up rows first <= k < last of what was recorded, which follow those before."""
@@ -203,6 +204,7 @@ class PeakTracker:
                 self._devices, self._shape, self._reached, states, out, ground, first, last
             )
         peak_of_bearings(self._devices, self._reached, states, out, first, last)
+        self._bent = states["rim_plastic"][last - 1].max(axis=-1)
 
     def reached(self) -> dict[str, Extreme]:
         """Return what was reached, by quantity."""
@@ -231,7 +233,8 @@ class PeakTracker:
         r = self._reached
         names = ("sliding_work", "sliding_work_lower", "uplifts")
         found = {name: np.array(r.total[k]) for k, name in enumerate(names)}
-        return found | {"time_lifted": r.lifted[:, 0].copy(), "slip_loose": r.loose[:, 0].copy()}
+        found |= {"time_lifted": r.lifted[:, 0].copy(), "slip_loose": r.loose[:, 0].copy()}
+        return found | {"rim_plastic": self._bent}
 
 
 def _nodes_dofs(nodes: IntArray, dofs: int) -> IntArray:

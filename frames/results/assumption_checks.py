@@ -24,6 +24,8 @@ from lir_element.tables import html_table
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from frames._types import FloatArray
+
 NEAR = 0.95
 """Share of a limit at which it counts as reached in a run that left out something else as well."""
 
@@ -66,6 +68,9 @@ EDGE = 0.5
 TURNED = 0.05
 """Plastic rotation from which on a hinge is doubtful [rad]: compact members of steel begin to lose
 strength at 4 to 11 yield rotations (ASCE/SEI 41-17, chapter 9), others before."""
+
+_NAMED = 3
+"""Bearings that a sentence names."""
 
 _ASKING = frozenset({"full_contact", "slip_stability"})
 
@@ -265,7 +270,29 @@ def _rims(data: xr.Dataset, out: bool) -> Finding:
     if out or not met.values.any():
         text = f"reached {_share(share)} of the displacement capacity"
         return _finding("rims", out, out and mattered, share, text)
-    return _finding("rims", out, True, share, f"met by {_by_whom(met)}")
+    bent = total(data, "rim_plastic")
+    text = f"met by {_by_whom(met)}{_bent_rims(data, bent)}"
+    return replace(_finding("rims", out, True, share, text), doubtful=bool(np.isinf(bent).any()))
+
+
+def _bent_rims(data: xr.Dataset, bent: FloatArray) -> str:
+    names = data["bearing"].to_numpy()
+    broken = names[np.isinf(bent)]
+    if broken.size:
+        who = ", ".join(str(name) for name in broken[:_NAMED])
+        more = f" and {broken.size - _NAMED} more" if broken.size > _NAMED else ""
+        return (
+            f"; a rim broke of {who}{more}: the slider went on over the flange, on the same "
+            "sphere, and nothing holds it there"
+        )
+    k = int(np.argmax(bent))
+    if not bent[k] > 0.0:
+        return ""
+    share = bent[k] / float(data["rim_overrun"][k])
+    return (
+        f"; {int((bent > 0.0).sum())} of them yielded, by up to {1e3 * bent[k]:.3g} mm "
+        f"({names[k]}, {_share(share)} of the deformation at which it breaks)"
+    )
 
 
 def _interface(data: xr.Dataset, out: bool) -> Finding:

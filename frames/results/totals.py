@@ -105,6 +105,16 @@ def _slip_loose(data: xr.Dataset, first: int, last: int) -> FloatArray:
     return np.asarray((changes * loose).sum(axis=0))
 
 
+def _rim_plastic(data: xr.Dataset, first: int, last: int) -> FloatArray:
+    # What it grew by; a rim that breaks has no end of it, once.
+    if "rim_plastic" not in data:
+        return np.zeros(data.sizes["bearing"])
+    largest = of_bearings(data, "rim_plastic", "surface").max(axis=-1)
+    before = largest[first - 1] if first > 0 else np.zeros(largest.shape[1])
+    gone = np.isinf(before)
+    return np.where(gone, 0.0, largest[last - 1] - np.where(gone, 0.0, before))
+
+
 TOTALS: dict[str, Total] = {
     "sliding_work": Total(
         (), "N m/s", "sum over steps and surfaces: load, friction at high speed, speed", _work
@@ -125,6 +135,12 @@ TOTALS: dict[str, Total] = {
         "m",
         "growth of the interface slip while the axial force was at most 1 % of that at rest",
         _slip_loose,
+    ),
+    "rim_plastic": Total(
+        _B,
+        "m",
+        "largest plastic deformation of a rim; infinite once it is broken",
+        _rim_plastic,
     ),
 }
 """Sums over the steps by name."""

@@ -64,9 +64,17 @@ class LIRBearing(Specification):
     rim_stiffness, rim_damping : float, optional
         Of a rim in radial direction [N/m, N s/m]. Default: a tenth of the axial stiffness, and
         10 % of critical damping.
+    rim_yield_force : float
+        Radial force at which a rim yields [N]; default: it never does. What presses on it goes no
+        further but for its hardening, and its plastic deformation stays where it was pressed.
+    rim_hardening : float
+        Stiffness of a rim that yields over its elastic stiffness [-], above 0 and below 1.
     rim_overrun : float, optional
-        Deformation of a rim beyond which it counts as failed [m]: the bearing fails.
-        Default: a tenth of the slider's radius.
+        Deformation of a rim, plastic deformation included, beyond which it counts as failed [m]:
+        the bearing fails. Default: a tenth of the slider's radius.
+    flange : float, optional
+        Way that the slider slides on over the plate beyond the place of a rim that has failed, on
+        the same sphere [m]; the bearing fails at its end. Default: none, it fails with the rim.
     slip_capacity : float, optional
         Interface slip beyond which the sliders' overlap no longer carries [m]: the bearing fails.
         Default: the slider's radius (39 % of the area still overlaps).
@@ -248,6 +256,10 @@ class LIRBearing(Specification):
             "interface_yield": self.interface_yield_displacement,
             "axial_floor": 1e-3 * options["design_load"],
             "rim_displacement": self.rim_displacement,
+            "rim_yield_force": self.rim_yield_force,
+            "flange": self.flange or 0.0,
+            "rim_hardening": options["rim_stiffness"]
+            * (self.rim_hardening / (1.0 - self.rim_hardening)),
             "torsion_lever": 2.0 / 3.0 * self.slider_radius * self.torsional_friction,
             "torsion_yield": self.yield_displacement / (2.0 / 3.0 * self.slider_radius),
             "slider_radius": self.slider_radius,

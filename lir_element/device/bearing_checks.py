@@ -27,12 +27,16 @@ if TYPE_CHECKING:
 LARGEST_SINE = 0.95
 """Of the slider's tilt at the rim; the kernels stop at 72 degrees."""
 
+LEAST_HARDENING = 1e-4
+"""Of a rim that yields: with none the force would not tell how far it goes (a choice)."""
+
 _OPTIONAL = (
     ("axial_stiffness", "N/m"),
     ("axial_damping", "N s/m"),
     ("rim_stiffness", "N/m"),
     ("rim_damping", "N s/m"),
     ("rim_overrun", "m"),
+    ("flange", "m"),
     ("slip_capacity", "m"),
     ("design_load", "N"),
 )
@@ -118,6 +122,33 @@ def require_constant_friction(bearing: Specification, words: tuple[str, str]) ->
             msg = (
                 f"{words[0]} {name}: take {words[1]}, or a bearing without, "
                 f"dataclasses.replace(bearing, {name}=None)"
+            )
+            raise ValueError(msg)
+
+
+def require_lasting_rims(bearing: Specification, words: tuple[str, str]) -> None:
+    """Refuse a bearing whose rims yield, or break and let the slider go on.
+
+    Parameters
+    ----------
+    bearing : Specification
+        The device.
+    words : (str, str)
+        As of `require_constant_friction`.
+
+    Raises
+    ------
+    ValueError
+        If it has such rims.
+    """
+    for name, value, none in (
+        ("rim_yield_force", bearing.rim_yield_force, "math.inf"),
+        ("flange", bearing.flange or math.inf, "None"),
+    ):
+        if math.isfinite(value) and math.isfinite(bearing.lateral_capacity):
+            msg = (
+                f"{words[0]} {name}: take {words[1]}, or a bearing without, "
+                f"dataclasses.replace(bearing, {name}={none})"
             )
             raise ValueError(msg)
 
@@ -259,6 +290,14 @@ def _check_rims(bearing: Specification) -> None:
             )
             raise ValueError(msg)
     _refuse_overlap(bearing)
+    require_positive("rim_yield_force", bearing.rim_yield_force, "N", infinite=True)
+    share = require_positive("rim_hardening", bearing.rim_hardening, "-")
+    if not LEAST_HARDENING <= share < 1.0:
+        msg = (
+            f"rim_hardening = {share:g} [-] must be from {LEAST_HARDENING:g} to below 1: it is the "
+            "stiffness of a rim that yields over its elastic one, some 0.005 of steel"
+        )
+        raise ValueError(msg)
 
 
 def _refuse_overlap(bearing: Specification) -> None:

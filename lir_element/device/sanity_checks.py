@@ -257,6 +257,7 @@ def _of_rims(bearing: Specification) -> list[str]:
                 f"{name} = {options[name]:g} m, for a slider of radius {edge:g} m: "
                 f"{meant(options[name], 'm', units, 0.0, 2.0 * edge)} if that is not meant"
             )
+    found += _of_rim_yield(bearing)
     strength = options["rim_stiffness"] * options["rim_overrun"]
     if strength < 0.02 * options["design_load"] and math.isfinite(bearing.lateral_capacity):
         least = 0.1 * options["design_load"] / options["rim_overrun"]
@@ -265,6 +266,26 @@ def _of_rims(bearing: Specification) -> list[str]:
             f"{options['rim_overrun']:g} m: the rim gives way at {strength:.3g} N, the design load "
             f"is {options['design_load']:.3g} N: "
             f"{meant(options['rim_stiffness'], 'N/m', STIFFNESSES, least, 200.0 * least)}"
+        )
+    return found
+
+
+def _of_rim_yield(bearing: Specification) -> list[str]:
+    force, options = bearing.rim_yield_force, bearing.resolved()
+    if math.isinf(force) or math.isinf(bearing.lateral_capacity):
+        return []
+    load, elastic = options["design_load"], force / options["rim_stiffness"]
+    found = []
+    if not 0.02 * load <= force <= 100.0 * load:
+        found.append(
+            f"rim_yield_force = {force:g} N, the design load is {load:.3g} N: "
+            f"{meant(force, 'N', FORCES, 0.02 * load, 100.0 * load)}"
+        )
+    if elastic >= options["rim_overrun"]:
+        found.append(
+            f"rim_yield_force = {force:g} N is reached at {elastic:.3g} m, rim_overrun = "
+            f"{options['rim_overrun']:g} m: the rim fails before it yields; raise rim_overrun to "
+            "the deformation at which it breaks, or leave rim_yield_force out"
         )
     return found
 

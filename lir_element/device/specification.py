@@ -32,7 +32,10 @@ class Specification:
     axial_damping: float | None = None
     rim_stiffness: float | None = None
     rim_damping: float | None = None
+    rim_yield_force: float = math.inf
+    rim_hardening: float = 0.005
     rim_overrun: float | None = None
+    flange: float | None = None
     slip_capacity: float | None = None
     design_load: float | None = None
     yield_displacement: float = 0.25e-3

@@ -19,9 +19,9 @@ from lir_element.results.dataset import (
     labelled,
     package_version,
     some_bodies,
-    temperature_variables,
 )
 from lir_element.results.eccentricity import interface_eccentricity
+from lir_element.results.optional_variables import optional_variables
 
 if TYPE_CHECKING:
     from lir_element.layout import Records
@@ -95,7 +95,7 @@ class BearingRecording:
         variables["static_axial_force"] = labelled(
             ("bearing",), self._loads, "N", "axial force when the recording began"
         )
-        variables |= temperature_variables("time", states, props)
+        variables |= optional_variables("time", states, props)
         with_points = np.array([bearing.level == "contact" for bearing in self._bearings])
         if with_points.any():
             place = np.where(with_points, np.arange(len(parts)), -1)

@@ -53,9 +53,10 @@ DEVICE = (
 TABLE = ("friction_table",)
 PRESSURE = ("pressure_rate", "pressure_load")
 SOFTENING = ("softening_scale", "softening_rate", "softening_rest")
-"""The same of bearings whose friction is read from a table, depends on pressure, on temperature."""
+RIMS = ("rim_yield_force", "rim_hardening", "rim_stiffness", "rim_overrun", "flange")
+"""The same of bearings whose friction is read from a table, depends on pressure, on temperature,
+and of those whose rims yield."""
 
-CONTACTS = (*SURFACES, "interface")
 BODY_NAMES = ("bottom_slider", "top_slider", "top_plate")
 
 
@@ -191,36 +192,6 @@ def _works(step: str, states: Records, own: Callable[[Floats], Floats]) -> dict[
     }
 
 
-def temperature_variables(step: str, states: Records, props: Records) -> dict[str, xr.Variable]:
-    """Return the temperatures of the contacts, NaN for bearings that are not heated.
-
-    Parameters
-    ----------
-    step : str
-        Name of the first dimension, 'time' or 'step'.
-    states, props : records, shape (n_steps, n_bearings), (n_bearings,)
-        Committed states, and properties.
-
-    Returns
-    -------
-    dict
-        Variables by name; nothing where no bearing is heated. Dimension 'contact' is bottom, top,
-        interface.
-    """
-    if not props["heats"].any():
-        return {}
-    values = np.where(props["heats"][:, None] == 1, states["temperature"], np.nan)
-    return {
-        "contact": xr.Variable(("contact",), list(CONTACTS)),
-        "temperature": labelled(
-            (step, "bearing", "contact"),
-            values,
-            "degC",
-            "temperature of what each contact slides on, at its middle",
-        ),
-    }
-
-
 def body_variables(step: str, bodies: Records, displacement: Floats) -> dict[str, xr.Variable]:
     """Return places and rotations of the bodies of a bearing with contact points.
 
@@ -293,6 +264,8 @@ def device_variables(records: Records) -> dict[str, xr.Variable]:
     names += TABLE if records["friction_table"].any() else ()
     names += PRESSURE if records["pressure_rate"].any() else ()
     names += SOFTENING if records["softens"].any() else ()
+    yields = np.isfinite(records["rim_yield_force"]) | (records["flange"] > 0.0)
+    names += RIMS if yields.any() else ()
     for name in names:
         field = PROPS_BY_NAME[name]
         dims = ("bearing", "surface", "knot")[: 1 + len(field.shape)]

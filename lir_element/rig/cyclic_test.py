@@ -28,8 +28,8 @@ from lir_element.results.dataset import (
     labelled,
     report,
     require_on_failure,
-    temperature_variables,
 )
+from lir_element.results.optional_variables import optional_variables
 from lir_element.rig.rigid_rig import drive_path
 from lir_element.units import FORCES, meant
 
@@ -132,7 +132,7 @@ def cyclic_test(
     velocities = np.zeros((reached, 1, 3))
     velocities[:, 0, :2] = v_out[:reached]
     variables = bearing_variables("step", out[:reached, None], velocities)
-    variables |= temperature_variables("step", out[:reached, None], props)
+    variables |= optional_variables("step", out[:reached, None], props)
     variables["time"] = labelled(("step",), out["time"][:reached], "s", "time")
     if contacts is not None:
         variables |= body_variables(

@@ -27,7 +27,10 @@ TERMS = {
     "axial_damping": "axial damping of the slider",
     "rim_stiffness": "radial stiffness of a restraining rim",
     "rim_damping": "radial damping of a restraining rim",
+    "rim_yield_force": "radial force at which a restraining rim yields",
+    "rim_hardening": "stiffness of a yielding rim over the elastic one",
     "rim_overrun": "rim deformation at restrainer failure",
+    "flange": "way beyond a broken restraining rim",
     "slip_capacity": "interface slip at the end of the overlap",
     "design_load": "axial load that defaults refer to",
     "yield_displacement": "elastic displacement before sliding, concave surfaces",
@@ -50,6 +53,7 @@ _ENDLESS = {
     "interface_friction": "rigid slider",
     "capacity": "no restraining rims",
     "rims": "no restraining rims",
+    "rim_yield_force": "elastic",
     "rim_overrun": "no failure modelled",
     "slip_capacity": "no end modelled",
 }
@@ -61,7 +65,13 @@ _SHOWN = {
     "kg/m3": ("kg/m³", 1.0),
     "kg m2": ("kg m²", 1.0),
 }
-_ONLY_WITH = {"bouc_wen_exponent": ("friction_law", "bouc-wen")}
+
+
+def _applies(name: str, bearing: LIRBearing) -> bool:
+    # Whether a field says something of a bearing.
+    if name == "bouc_wen_exponent":
+        return bearing.friction_law == "bouc-wen"
+    return name != "rim_hardening" or math.isfinite(bearing.rim_yield_force)
 
 
 def device_table(bearing: LIRBearing) -> Table:
@@ -91,10 +101,7 @@ def device_table(bearing: LIRBearing) -> Table:
     resolved = bearing.resolved()
     for field in fields(bearing):
         name, value, origin = field.name, getattr(bearing, field.name), "given"
-        other, needed = _ONLY_WITH.get(name, ("", None))
-        if (value is None and name not in resolved) or (
-            other and getattr(bearing, other) != needed
-        ):
+        if (value is None and name not in resolved) or not _applies(name, bearing):
             continue
         if value is None:
             value, origin = resolved[name], "default"

@@ -25,6 +25,11 @@ FIELDS = (
     "axial_damping",
     "rim_stiffness",
     "rim_damping",
+    "rim_yield_force",
+    "rim_overrun",
+    "flange",
+    "slip_capacity",
+    "slider_radius",
     "yield_displacement",
     "interface_yield_displacement",
 )

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.friction_law import coefficient
+from lir_element.kernels.rim import bent, keep_dents, press_rim
 from lir_element.kernels.slip import (
     friction_map,
     kelvin_voigt,
@@ -204,17 +205,33 @@ def rim(p: Props, side: int, w: Scratch, old: Bodies, new: Bodies, dt: float) ->
     """
     x, y = w.d[0], w.d[1]
     size = math.sqrt(x * x + y * y)
-    push, stiff, closure = kelvin_voigt(
-        size - p.rim_displacement[side], old.rim_closure[side], p.rim_stiffness, p.rim_damping, dt
+    gap, bent_by, slant = size - p.rim_displacement[side], 0.0, 0.0
+    yields = p.rim_yield_force < math.inf or p.flange > 0.0
+    if yields and gap > 0.0:
+        bent_by, slant = bent(old.rim_dent[side], x, y)
+    push, stiff, closure, flow = press_rim(
+        gap - bent_by,
+        old.rim_closure[side],
+        p.rim_stiffness,
+        p.rim_damping,
+        dt,
+        p.rim_yield_force + p.rim_hardening * bent_by,
+        p.rim_hardening,
     )
-    new.rim_gap[side] = size - p.rim_displacement[side]
+    if flow > 0.0:  # what it flows makes up for where it was bent less
+        slant = 0.0
+    if yields:
+        deformed = closure + bent_by + flow if closure > 0.0 else 0.0
+        keep_dents(p, old.rim_dent[side], new.rim_dent[side], x, y, flow, deformed)
+    new.rim_gap[side] = gap - bent_by - flow
     new.rim_closure[side], new.rim_force[side] = closure, push
+    new.rim_flow[side], new.rim_bent[side] = flow, bent_by + flow
     if push == 0.0:
         return
     e_1, e_2 = x / size, y / size
-    hoop = push / size
+    hoop, along = push / size, stiff * slant / size
     w.normal[0], w.normal[1] = -push * e_1, -push * e_2  # (7.3)
-    w.slope[0, 0] = -stiff * e_1 * e_1 - hoop * e_2 * e_2
-    w.slope[1, 1] = -stiff * e_2 * e_2 - hoop * e_1 * e_1
-    w.slope[0, 1] = (hoop - stiff) * e_1 * e_2
-    w.slope[1, 0] = w.slope[0, 1]
+    w.slope[0, 0] = -stiff * e_1 * e_1 - hoop * e_2 * e_2 - along * e_1 * e_2
+    w.slope[1, 1] = -stiff * e_2 * e_2 - hoop * e_1 * e_1 + along * e_1 * e_2
+    w.slope[0, 1] = (hoop - stiff) * e_1 * e_2 + along * e_1 * e_1
+    w.slope[1, 0] = (hoop - stiff) * e_1 * e_2 - along * e_2 * e_2

@@ -21,7 +21,9 @@ from lir_element.kernels.contact.places import (
 )
 from lir_element.kernels.pendulum.trial import SMALLEST_COSINE, is_finite, keep_works, limit_status
 from lir_element.kernels.pendulum.work import store_law, taken
+from lir_element.kernels.rim import largest_dent
 from lir_element.kernels.slip import open_work, stored, surplus
+from lir_element.layout import RIM_DIRECTIONS
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
@@ -53,7 +55,7 @@ def fill_state(s: BodyStep, old: State, new: State, u: Floats) -> None:
     set_slip(p, c, w, old, new)
     set_averages(c, s.points, s.touch_new, new)
     new.offset = pressure_offset(p, s.points, s.touch_new)
-    set_surfaces(p, c, w, bodies, new)
+    set_surfaces(p, c, w, bodies, old, new)
     new.twist = u[11] - u[5]
     new.twist_hysteresis = 0.0
     new.spin = old.spin
@@ -163,7 +165,7 @@ def pressure_offset(p: Props, points: Records, touch: Records) -> float:
 
 
 @kernel
-def set_surfaces(p: Props, c: Sliders, w: Scratch, bodies: Bodies, new: State) -> None:
+def set_surfaces(p: Props, c: Sliders, w: Scratch, bodies: Bodies, old: State, new: State) -> None:
     """Set sliding on both surfaces, and the rims."""
     for side in range(2):
         body, carrier = (1, 0) if side == 0 else (2, 3)
@@ -178,6 +180,14 @@ def set_surfaces(p: Props, c: Sliders, w: Scratch, bodies: Bodies, new: State) -
         new.eccentricity[side] = math.sqrt(d[0] * d[0] + d[1] * d[1])
         new.rim_closure[side] = bodies.rim_closure[side]
         new.rim_force[side] = bodies.rim_force[side]
+        new.rim_flow[side], new.rim_bent[side] = bodies.rim_flow[side], bodies.rim_bent[side]
+        if p.rim_yield_force < math.inf or p.flange > 0.0:
+            dents = bodies.rim_dent[side]
+            for a in range(RIM_DIRECTIONS):
+                new.rim_dent[side, a] = dents[a]
+            new.rim_plastic[side] = largest_dent(
+                old.rim_plastic[side], dents, bodies.rim_bent[side]
+            )
 
 
 @kernel
@@ -282,6 +292,8 @@ def points_defect(s: BodyStep) -> float:
     for k in range(2):
         if b_old.rim_force[k] == 0.0 and b_new.rim_force[k] == 0.0:
             continue  # a rim at infinity among them
+        if b_old.rim_dent[k, 0] == math.inf:  # broken in the step before: what it held is lost
+            continue
         approach = b_new.rim_gap[k] - b_old.rim_gap[k]
         push_old, push = b_old.rim_force[k], b_new.rim_force[k]
         closure_old, closure = b_old.rim_closure[k], b_new.rim_closure[k]

@@ -11,6 +11,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
+from lir_element.kernels.rim import bent
 from lir_element.layout import SPIN_BALANCE
 
 if TYPE_CHECKING:
@@ -118,6 +119,11 @@ def one_sided(p: Props, old: State) -> float:
     radius = 0.5 * (p.radius[0] + p.radius[1])
     rocks = 4.0 / 3.0 * (radius / p.slider_radius) ** 2 * p.rim_stiffness / p.axial_stiffness
     gap = p.rim_displacement[1 - first] - old.eccentricity[1 - first]
+    if p.rim_yield_force < math.inf or p.flange > 0.0:
+        if first == 0:
+            gap += bent(old.rim_dent[1], old.axis_top[0], old.axis_top[1])[0]
+        else:
+            gap += bent(old.rim_dent[0], -old.axis[0], -old.axis[1])[0]
     return min((1.0 + p.rim_stiffness * max(gap, 0.0) / push) / (1.0 + rocks), 1.0)
 
 

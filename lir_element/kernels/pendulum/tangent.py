@@ -46,7 +46,7 @@ def top_rates(
     if w.n_hor[1] > 0.0:
         hoop = (w.b_top[0] * y_1 + w.b_top[1] * y_2 + w.b_top[2] * y_3) / w.n_hor[1]
     return (
-        p.radius[1] * radial,
+        p.radius[1] * radial - w.rim_slant[1] * hoop,
         v[1] * w.r_top[2] - v[2] * w.r_top[1] + w.b_top[0] * hoop,
         v[2] * w.r_top[0] - v[0] * w.r_top[2] + w.b_top[1] * hoop,
         v[0] * w.r_top[1] - v[1] * w.r_top[0] + w.b_top[2] * hoop,
@@ -73,8 +73,8 @@ def rim_rates(
     p_11, p_12, p_21, p_22 = 0.0, 0.0, 0.0, 0.0
     if w.stiff_rim[0] > 0.0:
         u_1, u_2 = w.unit[0, 0], w.unit[0, 1]
-        rate = p.radius[0] * w.n[2] * (u_1 * e_1 + u_2 * e_2)
         hoop = (u_1 * e_2 - u_2 * e_1) / w.n_hor[0]
+        rate = p.radius[0] * w.n[2] * (u_1 * e_1 + u_2 * e_2) - w.rim_slant[0] * hoop
         radial = w.stiff_rim[0] * rate * w.n[2] - w.rim[0] * tilt
         p_11 = p.radius[0] * (radial * u_1 - w.rim[0] * w.n[2] * hoop * u_2)
         p_12 = p.radius[0] * (radial * u_2 + w.rim[0] * w.n[2] * hoop * u_1)

@@ -22,6 +22,7 @@ from lir_element.kernels.pendulum.string import (
     set_axis,
     static_speeds,
 )
+from lir_element.kernels.rim import keep_dents, largest_dent
 from lir_element.kernels.slip import friction_map
 
 if TYPE_CHECKING:
@@ -154,6 +155,13 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.slid[k] = w.slid[k]
         new.rim_closure[k] = w.rim_closure[k]
         new.rim_force[k] = w.rim_scale * w.rim[k]
+        new.rim_flow[k], new.rim_bent[k] = w.rim_flow[k], w.rim_bent[k] + w.rim_flow[k]
+        if p.rim_yield_force < math.inf or p.flange > 0.0:
+            way = -1.0 if k == 0 else 1.0  # from the plate's middle to the slider
+            x, y, pressed = way * w.unit[k, 0], way * w.unit[k, 1], w.rim_closure[k] > 0.0
+            deformed = w.rim_closure[k] + new.rim_bent[k] if pressed else 0.0
+            keep_dents(p, old.rim_dent[k], new.rim_dent[k], x, y, w.rim_flow[k], deformed)
+            new.rim_plastic[k] = largest_dent(old.rim_plastic[k], new.rim_dent[k], new.rim_bent[k])
         for a in range(2):
             new.hysteresis[k, a] = w.z[k, a]
             new.friction_force[k, a] = w.n_pos * w.phi[k, a]
@@ -168,8 +176,12 @@ def limit_status(p: Props, new: State) -> int:
     """
     if new.axial_force > 0.0 and new.slip[0] ** 2 + new.slip[1] ** 2 > p.slip_capacity**2:
         return _SLIP_EXCEEDED
-    if max(new.rim_closure[0], new.rim_closure[1]) > p.rim_overrun:
-        return _RIM_OVERRUN
+    for k in range(2):
+        if p.flange > 0.0:
+            if new.eccentricity[k] > p.rim_displacement[k] + p.flange:
+                return _RIM_OVERRUN
+        elif new.rim_closure[k] + new.rim_bent[k] > p.rim_overrun:
+            return _RIM_OVERRUN
     return _OK
 
 

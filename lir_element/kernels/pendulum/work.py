@@ -60,7 +60,9 @@ def contact_defect(p: Props, old: State, new: State) -> float:
     for k in range(2):
         if old.rim_force[k] == 0.0 and new.rim_force[k] == 0.0:
             continue
-        radial = new.eccentricity[k] - old.eccentricity[k]
+        if old.rim_dent[k, 0] == math.inf:  # broken in the step before: what it held is lost
+            continue
+        radial = new.eccentricity[k] - old.eccentricity[k] - new.rim_flow[k]
         before, after = old.rim_closure[k], new.rim_closure[k]
         defect += open_work(old.rim_force[k], new.rim_force[k], radial, after - before)
         work = 0.5 * (rim_work(p, old, old, new, k) + rim_work(p, new, old, new, k))

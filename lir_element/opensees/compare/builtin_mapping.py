@@ -9,7 +9,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lir_element.argument_checks import require_positive
-from lir_element.device.bearing_checks import TO_OPENSEES, require_constant_friction
+from lir_element.device.bearing_checks import (
+    TO_OPENSEES,
+    require_constant_friction,
+    require_lasting_rims,
+)
 from lir_element.device.friction import CoulombFriction, VelocityFriction
 
 if TYPE_CHECKING:
@@ -114,6 +118,7 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
         )
         raise ValueError(msg)
     require_constant_friction(bearing, TO_OPENSEES)
+    require_lasting_rims(bearing, TO_OPENSEES)
     radii, laws, length = bearing.radii, laws_of_opensees(bearing), bearing.effective_radius
     least = min(law.f_min for law in laws)
     if least <= 0.0:

@@ -15,7 +15,11 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from lir_element.argument_checks import require_choice, require_non_negative, require_positive
 from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.device.bearing_checks import TO_OPENSEES, require_constant_friction
+from lir_element.device.bearing_checks import (
+    TO_OPENSEES,
+    require_constant_friction,
+    require_lasting_rims,
+)
 from lir_element.opensees.compare.builtin_mapping import laws_of_opensees
 from lir_element.opensees.library import opensees
 
@@ -358,6 +362,7 @@ def _check(bearing: LIRBearing, directions: object, restoring: str) -> None:
         raise ValueError(msg)
     require_choice("restoring", restoring, ("series", "across"))
     require_constant_friction(bearing, TO_OPENSEES)
+    require_lasting_rims(bearing, TO_OPENSEES)
     laws_of_opensees(bearing)
     if bearing.interface_friction <= bearing.effective_friction:
         msg = (

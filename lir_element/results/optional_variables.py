@@ -1,0 +1,61 @@
+"""Variables of what only some bearings have: temperatures of their contacts, rims that yield."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from lir_element.results.dataset import SURFACES, labelled
+
+if TYPE_CHECKING:
+    from lir_element.layout import Records
+
+CONTACTS = (*SURFACES, "interface")
+
+
+def optional_variables(step: str, states: Records, props: Records) -> dict[str, xr.Variable]:
+    """Return temperatures, and deformations of rims that yield; nothing of bearings without.
+
+    Parameters
+    ----------
+    step : str
+        Name of the first dimension, 'time' or 'step'.
+    states, props : records, shape (n_steps, n_bearings), (n_bearings,)
+        Committed states, and properties.
+
+    Returns
+    -------
+    dict
+        Variables by name. Of bearings that are not heated temperatures are NaN; dimension 'contact'
+        is bottom, top, interface. Deformations of rims [m]: 'rim_closure' with its plastic part
+        where a rim presses, 'rim_plastic' the largest plastic deformation so far, infinite once the
+        rim is broken.
+    """
+    found: dict[str, xr.Variable] = {}
+    if props["heats"].any():
+        values = np.where(props["heats"][:, None] == 1, states["temperature"], np.nan)
+        found["contact"] = xr.Variable(("contact",), list(CONTACTS))
+        found["temperature"] = labelled(
+            (step, "bearing", "contact"),
+            values,
+            "degC",
+            "temperature of what each contact slides on, at its middle",
+        )
+    if (np.isfinite(props["rim_yield_force"]) | (props["flange"] > 0.0)).any():
+        surface = (step, "bearing", "surface")
+        elastic = states["rim_closure"]
+        found["rim_closure"] = labelled(
+            surface,
+            np.where(elastic > 0.0, elastic + states["rim_bent"], 0.0),
+            "m",
+            "deformation of each rim, plastic part included",
+        )
+        found["rim_plastic"] = labelled(
+            surface,
+            states["rim_plastic"],
+            "m",
+            "largest plastic deformation of each rim so far; infinite once it is broken",
+        )
+    return found
