@@ -15,7 +15,7 @@ from frames.exchange.etabs_loads import read_loads
 from frames.exchange.etabs_objects import Objects
 from frames.exchange.etabs_properties import read_properties, read_stories
 from frames.exchange.section_library import read_libraries
-from frames.exchange.tables import Decimal, Tables
+from frames.exchange.tables import Decimal, Tables, require_space
 from frames.exchange.units import FORCES, LENGTHS, Units, units_of
 
 if TYPE_CHECKING:
@@ -75,6 +75,8 @@ def read_etabs(
     program = tables.rows("PROGRAM")
     version = program[0].text("VERSION", "") if program else ""
     building = Building(file.stem, "ETABS", version, _units(tables), account)
+    for row in tables.rows("ACTIVEDOF"):
+        require_space(row, row.text("Name", "").upper().split())
     read_stories(tables, building)
     read_properties(tables, building, sections, read_libraries(library))
     objects = Objects(tables, building)

@@ -9,11 +9,11 @@ from frames.exchange.building import (
     RELEASES,
     AreaObject,
     Building,
-    Constraint,
     FrameObject,
     Joint,
     Vector,
 )
+from frames.exchange.etabs_diaphragms import Diaphragms
 from frames.exchange.etabs_properties import (
     OBJECT_FACTORS,
     StoryIndex,
@@ -51,7 +51,7 @@ class Objects:
         self.tables, self.building = tables, building
         self.stories = StoryIndex(building)
         self._points: dict[str, tuple[float, float, float]] = {}
-        self._diaphragms: dict[tuple[str, str], list[str]] = {}
+        self._diaphragms = Diaphragms(tables, building)
         self.on_links: dict[str, Row] = {}
         self._clear: list[str] = []
 
@@ -75,7 +75,7 @@ class Objects:
         self._read_lines()
         self._read_areas()
         self._read_points()
-        self._add_diaphragms()
+        self._diaphragms.add()
         account, building = self.building.account, self.building
         account.read("POINT COORDINATES", "joints", len(building.joints))
         account.read("LINE CONNECTIVITIES", "frame objects by story", len(building.frames))
@@ -211,7 +211,7 @@ class Objects:
             if section and section not in self.building.area_sections:
                 msg = f'SECTION "{section}" of area "{name}" is not defined as SHELLPROP'
                 raise row.error(msg)
-            self._diaphragm(row, joints, story)
+            self._diaphragms.of_area(row, joints, story)
             in_plane, bending = shell_factors(row, "PROPMOD{}{}", self.building)
             self.building.areas[label] = AreaObject(
                 label,
@@ -226,11 +226,6 @@ class Objects:
                 story=story,
             )
 
-    def _diaphragm(self, row: Row, joints: list[str], story: str) -> None:
-        name = row.text("DIAPH", row.text("DIAPHRAGM", ""))
-        if name.upper() not in {"", "DISCONNECTED", "FROMSHELLOBJECT", "NONE"}:
-            self._diaphragms.setdefault((name, story), []).extend(joints)
-
     def _read_points(self) -> None:
         units, building = self.building.units, self.building
         springs = {k[0]: r for k, r in merged(self.tables.rows("POINTSPRING"), "Spring").items()}
@@ -244,7 +239,7 @@ class Objects:
                 raise row.error(msg)
             if words:
                 building.restraints[joint] = tuple(word.lower() for word in words)
-            self._diaphragm(row, [joint], story)
+            self._diaphragms.of_point(row, joint, story)
             name = row.text("SPRINGPROP", "")
             if name and name.upper() != "NONE":
                 stiffness = self._spring(row, springs, name, joint)
@@ -267,19 +262,3 @@ class Objects:
             self.on_links[joint] = given
         scale = [units.line] * 3 + [units.moment] * 3
         return tuple(given.number(dof, 0.0) * s for dof, s in zip(_DOFS, scale, strict=True))
-
-    def _add_diaphragms(self) -> None:
-        kinds = {row.text("Diaphragm"): row for row in self.tables.rows("DIAPHRAGM")}
-        soft = set()
-        for (name, story), joints in self._diaphragms.items():
-            if name not in kinds:
-                continue
-            if "SEMI" in kinds[name].text("TYPE", "RIGID").upper():
-                soft.add(name)
-                continue
-            label = f"{name}-{story}"
-            kept = tuple(dict.fromkeys(joints))
-            self.building.constraints[label] = Constraint(label, "diaphragm", kept)
-        account = self.building.account
-        account.read("DIAPHRAGM NAMES", "rigid diaphragms by story", len(self.building.constraints))
-        account.read_as("DIAPHRAGM NAMES", "semi-rigid diaphragms, by their shells", sorted(soft))

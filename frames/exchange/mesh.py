@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.exchange.building import AreaObject
+    from frames.exchange.interior import Inside
 
 Edge = tuple[str, str]
 
@@ -42,7 +43,9 @@ class Mesh:
         return found
 
 
-def mesh_areas(areas: Sequence[AreaObject], points: Points, size: float) -> Mesh:
+def mesh_areas(
+    areas: Sequence[AreaObject], points: Points, size: float, inside: Inside | None = None
+) -> Mesh:
     """Divide areas into elements, and add their nodes to the points.
 
     Parameters
@@ -53,6 +56,8 @@ def mesh_areas(areas: Sequence[AreaObject], points: Points, size: float) -> Mesh
         All nodes [m]; those of the mesh are added.
     size : float
         Longest side of an element [m], as far as corners and joints on edges allow.
+    inside : Inside, optional
+        Joints within areas which the mesh has to meet.
 
     Returns
     -------
@@ -71,7 +76,8 @@ def mesh_areas(areas: Sequence[AreaObject], points: Points, size: float) -> Mesh
                 "of 3 and 4 are read: divide it, or give it a rigid diaphragm"
             )
             raise ModelError(message)
-    cuts = _cuts(areas, points, size)
+    inside = inside or {}
+    cuts = _cuts(areas, points, size, inside)
     joints = set(points)
     names = {edge: _names(edge, shares, points) for edge, shares in cuts.items()}
     mesh = Mesh()
@@ -79,8 +85,14 @@ def mesh_areas(areas: Sequence[AreaObject], points: Points, size: float) -> Mesh
         mesh.between |= {node: edge for node in along if node not in joints}
     for area in areas:
         if len(area.joints) == 4:
-            _quad(area, names, cuts, points, mesh)
+            _quad(area, names, cuts, points, mesh, list(inside.get(area.name, ())))
             continue
+        if area.name in inside:
+            message = (
+                f'{area.place}: joint "{next(iter(inside[area.name]))}" lies within the triangle '
+                f'"{area.name}", whose shell would not meet it: divide it into quadrilaterals'
+            )
+            raise ModelError(message)
         divided = [edge for edge in _edges(area) if len(names[_key(edge)]) > 2]
         if divided:
             message = (
@@ -102,11 +114,22 @@ def _key(edge: Edge) -> Edge:
     return edge if edge[0] < edge[1] else (edge[1], edge[0])
 
 
-def _cuts(areas: Sequence[AreaObject], points: Points, size: float) -> dict[Edge, list[float]]:
+def _cuts(
+    areas: Sequence[AreaObject], points: Points, size: float, inside: Inside
+) -> dict[Edge, list[float]]:
     # Shares of each edge's length, from its first joint by name, at which it is divided.
     edges = list(dict.fromkeys(_key(edge) for area in areas for edge in _edges(area)))
     found = _joints_on(edges, points)
     quads = [area for area in areas if len(area.joints) == 4]
+    for area in quads:
+        a, b, _, d = area.joints
+        for place in inside.get(area.name, {}).values():
+            for edge, share in zip(((a, b), (a, d)), place, strict=True):
+                key = _key(edge)
+                new = share if edge == key else 1.0 - share
+                least = ON_LINE / math.dist(points[a], points[edge[1]])
+                if min(abs(new - old) for old in found[key]) > least:
+                    found[key] = sorted([*found[key], new])
     _spread(quads, found)
     cells: dict[Edge, list[int]] = {}
     for edge, shares in found.items():
@@ -214,6 +237,7 @@ def _quad(
     cuts: dict[Edge, list[float]],
     points: Points,
     mesh: Mesh,
+    inside: list[str],
 ) -> None:
     a, b, c, d = area.joints
     bottom, top = _along((a, b), names), _along((d, c), names)
@@ -228,9 +252,10 @@ def _quad(
             elif column in {0, len(u) - 1}:
                 grid[row][column] = (left if column == 0 else right)[row]
             else:
-                name = f"{area.name}~{row}~{column}"
                 x, y, z = _bilinear(corners, u[column], v[row]).tolist()
-                points[name] = (x, y, z)
+                meets = (j for j in inside if math.dist(points[j], (x, y, z)) <= ON_LINE)
+                name = next(meets, f"{area.name}~{row}~{column}")
+                points.setdefault(name, (x, y, z))
                 grid[row][column] = name
     for row in range(len(v) - 1):
         for column in range(len(u) - 1):

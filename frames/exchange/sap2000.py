@@ -12,7 +12,7 @@ from frames.exchange.s2k_text import read_s2k
 from frames.exchange.sap2000_loads import read_loads
 from frames.exchange.sap2000_objects import read_objects
 from frames.exchange.sap2000_properties import read_properties
-from frames.exchange.tables import Decimal, Tables
+from frames.exchange.tables import ACTIVE, Decimal, Tables, require_space
 from frames.exchange.units import FORCES, LENGTHS, Units, units_of
 
 _BOOKS = {".xlsx", ".xlsm"}
@@ -128,13 +128,7 @@ def _units(tables: Tables) -> tuple[Units, str]:
 
 def _refuse_plane(tables: Tables) -> None:
     for row in tables.rows("ACTIVE DEGREES OF FREEDOM"):
-        idle = [name for name in ("UX", "UY", "UZ", "RX", "RY", "RZ") if not row.yes(name)]
-        if idle:
-            message = (
-                f"{', '.join(idle)} is not active: bearings move in all directions; make the model "
-                "one in space (Analyze > Set Analysis Options)"
-            )
-            raise row.error(message)
+        require_space(row, {name for name in ACTIVE if row.yes(name)})
 
 
 def _judge_rest(tables: Tables, account: Account) -> None:

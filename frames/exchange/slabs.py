@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
+from frames.exchange.enclosed import FLAT, Levels, level_of
 from frames.exchange.geometry import area_normal
 from frames.model.components import FloorLoad
 from frames.model.floors import floor_panel, members_at, panel_loads
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from frames.model.editing import FrameEditor
     from frames.model.floors import PanelLoads
 
-_FLAT = 1e-3
 _PANEL = "panel"
 
 
@@ -70,7 +70,8 @@ class Slabs:
         self.frame, self.building = frame, building
         self._around = members_at(frame.members)
         self._levels = _by_level(frame)
-        self._plans: dict[int, tuple[list[str], FloatArray]] = {}
+        joined = [name for level in self._levels.values() for name in level]
+        self._joined = Levels({name: frame.nodes[name].position for name in joined})
         self._unit: dict[str, list[PanelLoads] | None] = {}
         self.at_corners: dict[str, None] = {}  # in the order of the loads
 
@@ -123,7 +124,7 @@ class Slabs:
 
     def _unit_loads(self, area: AreaObject) -> list[PanelLoads] | None:
         points = self._points(area)
-        if np.ptp(points[:, 2]) > _FLAT:
+        if np.ptp(points[:, 2]) > FLAT:
             return None
         section = self.building.area_sections.get(area.section)
         span = None
@@ -142,12 +143,8 @@ class Slabs:
 
     def _faces(self, area: AreaObject, points: FloatArray) -> list[list[str]]:
         # Panels between the members within the area; the area itself where they do not fill it.
-        height = round(float(points[0, 2]) / _FLAT)
-        level = self._levels.get(height, {})
-        low, high = points[:, :2].min(axis=0) - _FLAT, points[:, :2].max(axis=0) + _FLAT
-        names, places = self._plan(height)
-        near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
-        plan = {names[k]: places[k] for k in near if _within(places[k], points[:, :2])}
+        level = self._levels.get(level_of(float(points[0, 2])), {})
+        plan = self._joined.within(points)
         links = {name: [o for o in level[name] if o in plan] for name in plan}
         faces = _faces_of(plan, links)
         whole = area_normal(points)[1]
@@ -156,43 +153,17 @@ class Slabs:
             return [list(area.joints)]
         return [_corners(face, plan) for face in faces]
 
-    def _plan(self, height: int) -> tuple[list[str], FloatArray]:
-        # Nodes of a level that members join, and where they are in plan (n, 2).
-        if height not in self._plans:
-            names = list(self._levels.get(height, {}))
-            nodes = self.frame.nodes
-            places = np.array([nodes[name].position[:2] for name in names]).reshape(-1, 2)
-            self._plans[height] = names, places
-        return self._plans[height]
-
 
 def _by_level(frame: FrameEditor) -> dict[int, dict[str, list[str]]]:
     # Nodes and their neighbours along horizontal members, by elevation.
     found: dict[int, dict[str, list[str]]] = {}
     for member in frame.members.values():
         first, last = frame.nodes[member.i], frame.nodes[member.j]
-        if abs(first.z - last.z) <= _FLAT:
-            level = found.setdefault(round(first.z / _FLAT), {})
+        if abs(first.z - last.z) <= FLAT:
+            level = found.setdefault(level_of(first.z), {})
             level.setdefault(member.i, []).append(member.j)
             level.setdefault(member.j, []).append(member.i)
     return found
-
-
-def _within(place: FloatArray, outline: FloatArray) -> bool:
-    # Inside a polygon, or within a millimetre of its edges.
-    inside = False
-    for a, b in zip(outline, np.roll(outline, -1, axis=0), strict=True):
-        way, apart = b - a, place - a
-        length = float(np.hypot(*way))
-        if length > 0.0:
-            along = float(apart @ way) / length
-            beside = abs(float(way[0] * apart[1] - way[1] * apart[0])) / length
-            if beside <= _FLAT and -_FLAT <= along <= length + _FLAT:
-                return True
-        if (a[1] > place[1]) != (b[1] > place[1]):
-            cut = a[0] + (place[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
-            inside ^= bool(place[0] < cut)
-    return inside
 
 
 def _faces_of(plan: dict[str, FloatArray], links: dict[str, list[str]]) -> list[list[str]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from typing import Literal, TypeAlias
 
 from frames._errors import ModelError
@@ -13,6 +13,9 @@ Value: TypeAlias = str | float | bool
 
 Decimal: TypeAlias = Literal[".", ","]
 """The decimal sign of a file, which is that of the Windows that wrote it."""
+
+ACTIVE = ("UX", "UY", "UZ", "RX", "RY", "RZ")
+"""Displacements of a joint that a model may have."""
 
 _YES = {"yes": True, "true": True, "no": False, "false": False}
 
@@ -230,3 +233,14 @@ def by_name(rows: Sequence[Row], field: str) -> dict[str, Row]:
             raise row.error(message)
         found[name] = row
     return found
+
+
+def require_space(row: Row, active: Collection[str]) -> None:
+    """Raise unless all displacements are active in a model, "UX" to "RZ"."""
+    idle = [dof for dof in ACTIVE if dof not in active]
+    if idle:
+        message = (
+            f"{', '.join(idle)} is not active: bearings move in all directions; make the model "
+            "one in space (Analyze > Set Analysis Options)"
+        )
+        raise row.error(message)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from frames._errors import ModelError
 from frames.exchange.area_loads import OWN_MASS, Loading
 from frames.exchange.building import MassSource
+from frames.exchange.choose_shells import choose_shells, meet_joints
 from frames.exchange.links import Links
 from frames.exchange.members import Sections, add_members
 from frames.exchange.mesh import Mesh, mesh_areas
@@ -18,7 +19,7 @@ from frames.exchange.supports import Places, add_constraints, add_supports, by_e
 from frames.model.applied_loads import applied_loads, load_masses
 
 if TYPE_CHECKING:
-    from frames.exchange.building import AreaObject, Building
+    from frames.exchange.building import Building
     from frames.exchange.options import Options
     from frames.exchange.stations import Divided, Points
     from frames.model.editing import FrameEditor
@@ -56,6 +57,7 @@ def fill(frame: FrameEditor, building: Building, options: Options) -> None:
     places = Places(building, options)
     factors = permanent(building, options)
     source = _source(building, options)
+    shells = choose_shells(building)
     points = _points(building)
     if not points:
         message = (
@@ -63,7 +65,8 @@ def fill(frame: FrameEditor, building: Building, options: Options) -> None:
             "the whole model"
         )
         raise ModelError(message)
-    mesh = mesh_areas(_shells(building), points, options.mesh)
+    inside = meet_joints(building, shells, points)
+    mesh = mesh_areas(shells, points, options.mesh, inside)
     at_loads: dict[str, list[float]] = {}
     for load in building.line_loads:
         if load.point and (load.pattern in factors or load.pattern in source.patterns):
@@ -167,28 +170,6 @@ def _source(building: Building, options: Options) -> MassSource:
         message = f'mass: "{unknown[0]}" is no load pattern of {building.account.file}: {some}'
         raise ModelError(message)
     return MassSource(elements=False, added=True, patterns=dict(options.mass))
-
-
-def _shells(building: Building) -> list[AreaObject]:
-    # Areas whose stiffness counts: all but those that lie in a rigid diaphragm.
-    sets = [set(c.joints) for c in building.constraints.values() if c.kind == "diaphragm"]
-    found, flat = [], []
-    for area in building.areas.values():
-        section = building.area_sections.get(area.section)
-        if section is None or section.kind == "none":
-            continue
-        heights = [building.joints[name].z for name in area.joints]
-        level = max(heights) - min(heights) < 1e-3
-        if (level and any(set(area.joints) <= joints for joints in sets)) or (
-            level and section.kind == "membrane" and section.one_way
-        ):
-            flat.append(area.name)
-        else:
-            found.append(area)
-    what = "slabs in rigid diaphragms, by their loads and masses alone: their bending is not stiff"
-    weight, stiffness = Shares(building).of(flat)
-    building.account.read_as("areas", what, flat, weight, stiffness)
-    return found
 
 
 def _points(building: Building) -> Points:

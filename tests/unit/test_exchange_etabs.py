@@ -97,6 +97,7 @@ BAD = {
         re.sub(r"^  (LINE|AREA|POINT)(ASSIGN|LOAD) .*\n", "", TEXT, flags=re.MULTILINE),
         r"has no frame, area or link, and nothing on a joint",
     ),
+    "plane": (with_lines('  ACTIVEDOF "UX UZ RY"'), r'table "MORE": UY, RX, RZ is not active: bea'),
     "quote": (changed('SECTION "COL"', 'SECTION "COL'), r"a quotation mark is not closed"),
 }
 

@@ -1,0 +1,142 @@
+"""Areas over several bays: what they enclose is in their diaphragm, and met by their mesh."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.sparse import csr_matrix
+
+from frames import Frame, ModelError
+from frames.assembly.assemble import assemble
+from frames.exchange.interior import joints_within
+from lir_element.opensees import opensees
+from tests import etabs_models, sap2000_models
+
+PARTS = etabs_models.building(bays=(2, 2), storeys=1)
+
+
+def whole(text: str = PARTS) -> str:
+    """Return the text with one floor over all bays, whose corners are points 1, 3, 9 and 7."""
+    text = re.sub(r'  (AREA|AREAASSIGN|AREALOAD) +"F[245]".*\n?', "", text)
+    floor = '  AREA "F1"  FLOOR  4  "1"  "3"  "9"  "7"  0  0  0  0'
+    return re.sub(r'  AREA "F1"  FLOOR.*', floor, text, count=1)
+
+
+def frame_of(tmp_path: Path, text: str, **more: object) -> Frame:
+    path = tmp_path / "model.e2k"
+    path.write_text(text, encoding="utf-8")
+    opensees().wipe()
+    return Frame.from_etabs(path, mesh=2.6, **more)  # type: ignore[arg-type]
+
+
+def same(one: Frame, two: Frame) -> None:
+    # nodes by their places: those of a mesh have other names
+    names = {tuple(np.round(n.position, 6)): name for name, n in two.nodes.items()}
+    other = {name: names[tuple(np.round(n.position, 6))] for name, n in one.nodes.items()}
+    assert len(other) == len(two.nodes)
+    first, second = assemble(one), assemble(two)
+    labels = list(second.dof_labels)
+    order = []
+    for label in first.dof_labels:
+        node, dof = label.rsplit(" ", 1)
+        order.append(labels.index(f"{other.get(node, node)} {dof}"))
+    assert len(order) == len(labels)
+    for word in ("stiffness", "mass"):
+        left, right = (csr_matrix(getattr(system, word)) for system in (first, second))
+        assert abs(left - right[order][:, order]).max() <= 1e-9 * abs(left).max()
+    assert_allclose(second.load[order], first.load, atol=1e-9 * np.abs(first.load).max())
+
+
+def test_a_floor_over_all_bays_is_that_of_its_parts(tmp_path: Path) -> None:
+    frame = frame_of(tmp_path, whole())
+    assert set(frame.diaphragms["D1-Story1"].nodes) == {f"{k}-Story1" for k in range(1, 10)}
+    same(frame, frame_of(tmp_path, PARTS))
+
+
+def test_a_semirigid_floor_meets_the_columns_within_it(tmp_path: Path) -> None:
+    soft = whole().replace("TYPE RIGID", "TYPE SEMIRIGID")
+    frame = frame_of(tmp_path, soft)
+    assert "joints within shells, met by their mesh: 5-Story1" in str(frame.imported)
+    assert "5-Story1" in frame.superelements["shells"].nodes
+    same(frame, frame_of(tmp_path, PARTS.replace("TYPE RIGID", "TYPE SEMIRIGID")))
+
+
+def test_disconnected_joints_are_in_no_diaphragm(tmp_path: Path) -> None:
+    lines = [f'  POINTASSIGN  "{k}"  "Story1"  DIAPH "DISCONNECTED"' for k in (5, 8)]
+    text = whole().replace("$ POINT ASSIGNS", "\n".join(["$ POINT ASSIGNS", *lines]), 1)
+    text = text.replace("$ POINT ASSIGNS", '$ POINT ASSIGNS\n  POINTASSIGN "2" "Story1" DIAPH "D2"')
+    text = text.replace('DIAPHRAGM "D1"', 'DIAPHRAGM "D2"  TYPE RIGID\n  DIAPHRAGM "D1"', 1)
+    frame = frame_of(tmp_path, text)
+    inside = {f"{k}-Story1" for k in (1, 3, 4, 6, 7, 9)}
+    assert set(frame.diaphragms["D1-Story1"].nodes) == inside
+
+
+def test_decks_in_no_diaphragm_are_refused_or_rigid(tmp_path: Path) -> None:
+    deck = 'SHELLPROP  "SLAB"  PROPTYPE  "Slab"  MATERIAL "C30"  MODELINGTYPE "ShellThin"'
+    assert deck in PARTS
+    one_way = deck.replace("ShellThin", "Membrane") + '  ONEWAYLOADDIST "Yes"'
+    tied = whole().replace(deck, one_way, 1)
+    loose = tied.replace('DIAPH "D1"', "", 1)
+    with pytest.raises(ModelError, match=r'one-way decks.*F1-Story1.*allow=\["loose decks"\]'):
+        frame_of(tmp_path, loose)
+    frame = frame_of(tmp_path, loose, allow=["loose decks"])
+    nodes = set(frame_of(tmp_path, tied).diaphragms["D1-Story1"].nodes)
+    assert set(frame.diaphragms["decks-1"].nodes) == nodes
+    assert "taken as rigid in their plane; accepted by allow" in str(frame.imported)
+
+
+def test_shares_of_a_joint_are_those_of_the_bilinear_surface() -> None:
+    corners = {
+        "a": (0.0, 0.0, 1.0),
+        "b": (6.0, 0.0, 1.0),
+        "c": (5.0, 4.0, 1.0),
+        "d": (1.0, 3.0, 1.0),
+    }
+    u, v = 0.3, 0.7
+    weights = ((1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v)
+    place = sum(w * np.array(p) for w, p in zip(weights, corners.values(), strict=True))
+    x, y, z = place.tolist()
+    area = sap2000_area("F", "abcd")
+    points = {**corners, "in": (x, y, z), "above": (x, y, z + 0.1), "out": (9.0, 1.0, 1.0)}
+    points |= {"edge": (3.0, 0.0, 1.0), "beside": (3.0, 5e-4, 1.0)}
+    found = joints_within([area], points)["F"]
+    assert list(found) == ["in"]
+    assert_allclose(found["in"], (u, v), rtol=1e-9)
+
+
+def sap2000_area(name: str, joints: str) -> object:
+    from frames.exchange.building import AreaObject
+
+    return AreaObject(name, tuple(joints), "", "here")
+
+
+def test_a_triangle_does_not_meet_a_joint_within_it(tmp_path: Path) -> None:
+    text = whole().replace("TYPE RIGID", "TYPE SEMIRIGID")
+    floor = 'FLOOR  4  "1"  "3"  "9"  "7"  0  0  0  0'
+    text = text.replace(floor, 'FLOOR  3  "1"  "3"  "10"  0  0  0')
+    text = text.replace("\n\n$ LINE CONN", '\n  POINT "10"  5.0 20.0\n\n$ LINE CONN', 1)
+    with pytest.raises(ModelError, match=r'joint "5-Story1" lies within the triangle "F1-Story1"'):
+        frame_of(tmp_path, text)
+
+
+def test_areas_of_sap2000_touch_joints_at_corners_and_edges_alone(tmp_path: Path) -> None:
+    tables = sap2000_models.building(bays=(2, 2), storeys=1)
+    del tables["CONSTRAINT DEFINITIONS - DIAPHRAGM"], tables["JOINT CONSTRAINT ASSIGNMENTS"]
+    joints = {k: 9 + k for k in (1, 3, 9, 7)}
+    area = {"Area": "S10", "NumJoints": 4}
+    area |= {f"Joint{k}": j for k, j in enumerate(joints.values(), start=1)}
+    tables["CONNECTIVITY - AREA"] = [area]
+    for table in ("AREA SECTION ASSIGNMENTS", "AREA LOADS - UNIFORM"):
+        tables[table] = [row | {"Area": "S10"} for row in tables[table][:1]]
+    path = tmp_path / "model.s2k"
+    path.write_text(sap2000_models.text(tables), encoding="utf-8")
+    opensees().wipe()
+    frame = Frame.from_sap2000(path, mesh=2.6)
+    assert "joints within shells that do not touch them, as in the program: 14" in str(
+        frame.imported
+    )
+    assert "14" not in frame.superelements["shells"].nodes
