@@ -10,6 +10,8 @@ import pandas as pd
 from frames.risk.fragility.runs import outcome_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray as xr
 
 ROWS = ("model", "parameter_set", "motion", "scale")
@@ -20,13 +22,15 @@ ENDS = ("status", "message", "doubts", "seconds_loop")
 """Columns that tell how a run ended; `OUTCOME` stands before them."""
 
 
-def run_table(data: xr.Dataset) -> pd.DataFrame:
+def run_table(data: xr.Dataset, parameters: Sequence[str]) -> pd.DataFrame:
     """Return the runs that are done as a table.
 
     Parameters
     ----------
     data : xarray.Dataset
         Of a campaign.
+    parameters : sequence of str
+        Names of its parameters.
 
     Returns
     -------
@@ -35,9 +39,7 @@ def run_table(data: xr.Dataset) -> pd.DataFrame:
     """
     done = np.flatnonzero(data["done"].to_numpy())
     own = data.isel(run=done)
-    given = [str(name) for name in own.coords if own[name].dims == ("run",)]
-    apart = {*ROWS, "run", "done", "motion_digest"}
-    names = [*(name for name in ROWS if name in given), *(n for n in given if n not in apart)]
+    names = [name for name in (*ROWS, *parameters) if name in own.coords]
     columns: dict[str, Any] = {name: own[name].to_numpy() for name in names}
     columns[OUTCOME] = [outcome_of(str(status)) for status in own["status"].to_numpy()]
     columns |= {name: own[name].to_numpy() for name in ENDS}

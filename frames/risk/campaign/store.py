@@ -338,7 +338,7 @@ class CampaignStore:
         CampaignError
             If there is no store.
         """
-        return run_table(self.results())
+        return run_table(self.results(), list(self.plan()["parameters"]))
 
     def histories(self, run: int) -> xr.Dataset:
         """Return the recorded histories of a run.
