@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from lir_element.device.friction import VelocityFriction as VelocityFriction
     from lir_element.device.heating import FrictionHeating as FrictionHeating
     from lir_element.device.heating import PressureDependence as PressureDependence
+    from lir_element.device.ring_strength import ring_strength as ring_strength
     from lir_element.element import Element as Element
     from lir_element.errors import AnalysisError as AnalysisError
     from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
@@ -39,4 +40,5 @@ __all__ = [
     "RunStatus",
     "VelocityFriction",
     "cyclic_test",
+    "ring_strength",
 ]

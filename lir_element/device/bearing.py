@@ -65,7 +65,8 @@ class LIRBearing(Specification):
         Of a rim in radial direction [N/m, N s/m]. Default: a tenth of the axial stiffness, and
         10 % of critical damping.
     rim_yield_force : float
-        Radial force at which a rim yields [N]; default: it never does. What presses on it goes no
+        Radial force at which a rim yields [N], by tests or `ring_strength`; default: it never does.
+        What presses on it goes no
         further but for its hardening, and its plastic deformation stays where it was pressed.
     rim_hardening : float
         Stiffness of a rim that yields over its elastic stiffness [-], above 0 and below 1.

@@ -22,7 +22,7 @@ from frames import (
     shear_building,
     time_history,
 )
-from lir_element import AnalysisWarning, DesignWarning, Element, LIRBearing
+from lir_element import AnalysisWarning, DesignWarning, Element, LIRBearing, ring_strength
 from lir_element.kernels.rim import bend, bent, press_rim
 from lir_element.opensees import builtin_commands
 
@@ -329,6 +329,21 @@ def test_elements_of_opensees_that_know_no_such_rims_refuse_them() -> None:
             bearing(rim_yield_force=math.inf, flange=0.1),
             WEIGHT,
         )
+
+
+def test_the_strength_of_a_ring() -> None:
+    """A slender wall bends: M_p / a; a squat one shears off: V_p; both at once by hand."""
+    steel = {"arc": 0.3, "yield_stress": 345e6}
+    slender = ring_strength(thickness=0.002, height=0.2, **steel)
+    assert slender == pytest.approx(345e6 * 0.3 * 0.002**2 / 4 / 0.1, rel=1e-6)
+    squat = ring_strength(thickness=0.03, height=0.04, lever=1e-5, **steel)
+    assert squat == pytest.approx(345e6 * 0.3 * 0.03 / math.sqrt(3.0), rel=1e-3)
+    # P a / M_p = 8/9 and (P / V_p)^4 = 1/9 sum to 1 at t = 3 a / 2
+    assert ring_strength(thickness=0.03, height=0.04, **steel) == pytest.approx(1.035e6, rel=1e-9)
+    with pytest.raises(ValueError, match=r"lever = 0.05 m is above the ring"):
+        ring_strength(thickness=0.03, height=0.04, lever=0.05, **steel)
+    with pytest.raises(ValueError, match=r"arc = 0"):
+        ring_strength(thickness=0.03, height=0.04, arc=0.0, yield_stress=345e6)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,65 @@
+"""The strength of a restraining rim by its geometry and steel."""
+
+from __future__ import annotations
+
+import math
+
+from scipy.optimize import brentq
+
+from lir_element.argument_checks import require_positive
+
+
+def ring_strength(
+    *, thickness: float, height: float, arc: float, yield_stress: float, lever: float | None = None
+) -> float:
+    """Return the radial force at which the foot of a restraining ring yields through.
+
+    The part of the ring that the slider presses is a cantilever on the plate: a section of width
+    `arc` and depth `thickness` under the moment ``P lever`` and the shear force ``P``, with
+    ``M / M_p + (V / V_p)^4 = 1`` for both together. What the ring bears as a hoop is left out.
+
+    Parameters
+    ----------
+    thickness, height : float
+        Of the ring's wall in radial direction, and its height above the plate [m].
+    arc : float
+        Length of the ring along its circumference that bears the force [m]: where the slider
+        touches it, and what spreads to the sides down to its foot.
+    yield_stress : float
+        Of the steel, or of the weld at the foot if that is less [Pa].
+    lever : float, optional
+        Height of the force above the foot [m]. Default: half of the ring's height.
+
+    Returns
+    -------
+    float
+        Force [N], for `LIRBearing.rim_yield_force`.
+
+    Raises
+    ------
+    ValueError
+        If a value is not positive, or the lever exceeds the height.
+
+    Notes
+    -----
+    Source: D. C. Drucker (1956), The effect of shear on the plastic bending of beams, J. Appl.
+    Mech. 23, 509; ``M_p = f_y b t^2 / 4``, ``V_p = f_y b t / sqrt(3)``.
+
+    Examples
+    --------
+    >>> from lir_element import ring_strength
+    >>> force = ring_strength(thickness=0.03, height=0.04, arc=0.3, yield_stress=345e6)
+    >>> round(force / 1e3)  # kN
+    1035
+    """
+    given = {"thickness": thickness, "height": height, "arc": arc}
+    for name, value in given.items():
+        require_positive(name, value, "m")
+    require_positive("yield_stress", yield_stress, "Pa")
+    arm = 0.5 * height if lever is None else require_positive("lever", lever, "m")
+    if arm > height:
+        msg = f"lever = {arm:g} m is above the ring, height = {height:g} m: it ends there"
+        raise ValueError(msg)
+    bending = yield_stress * arc * thickness**2 / 4.0 / arm
+    shear = yield_stress * arc * thickness / math.sqrt(3.0)
+    return float(brentq(lambda p: p / bending + (p / shear) ** 4 - 1.0, 0.0, min(bending, shear)))
