@@ -357,7 +357,7 @@ def test_a_parameter_that_has_the_name_of_a_result_is_refused(tmp_path: Path) ->
         return structure()
 
     sample = full_grid({"energy": [1.0]})
-    with pytest.raises(CampaignError, match='"energy" has the name of a result'):
+    with pytest.raises(CampaignError, match='"energy" has the name of a result or column'):
         Campaign(model, PULSES, store=tmp_path / "store", sample=sample).run()
     assert list(tmp_path.iterdir()) == []
 
@@ -425,6 +425,44 @@ def test_rows_without_a_mark_are_empty(tmp_path: Path) -> None:
     assert data["model"].to_numpy().astype(str).dtype.kind == "U"
     assert data["quantity"].to_numpy().astype(str).dtype.kind == "U"
     assert data["status"].to_numpy().astype(str)[0] == "ok"
+
+
+def test_one_table_has_every_run_with_its_units(tmp_path: Path) -> None:
+    """Of the campaign and of what is opened; batches without a mark are not in it."""
+    campaign = small(tmp_path / "store")
+    data = campaign.run()
+    table = campaign.to_dataframe()
+    assert list(table.columns[:6]) == [
+        "model", "parameter_set", "motion", "scale", "radius", "friction",
+    ]  # fmt: skip
+    assert table.index.tolist() == list(range(16))
+    for name, by_bearing in (
+        ("bearing displacement", "reached_displacement"),
+        ("interface slip", "reached_slip"),
+        ("rim force", "reached_rim_force"),
+    ):
+        expected = data[by_bearing].to_numpy().reshape(16, -1).max(axis=1)
+        np.testing.assert_array_equal(table[name], expected)
+        assert table.attrs["units"][name] == data[by_bearing].attrs["units"]
+    runs = IntensityRuns.from_dataset(data, PULSES, Intensity(kind="scale"), parameters="all")
+    for name in ("outcome", "status", "message", "motion", "scale", "base shear over weight"):
+        assert table[name].tolist() == runs.table[name].tolist(), name
+    assert table["radius"].tolist() == data["radius"].to_numpy().tolist()
+    assert set(table.columns[11:]) <= table.attrs["units"].keys()
+    assert table.attrs["source"] == data.attrs["source"]
+    next((tmp_path / "store").rglob("000002.json")).unlink()
+    part = open_campaign(tmp_path / "store").to_dataframe()
+    assert part.equals(table[table.index // 3 != 2])
+
+
+@pytest.mark.parametrize("name", ["scale", "parameter_set", "outcome"])
+def test_a_parameter_has_no_name_of_a_column(tmp_path: Path, name: str) -> None:
+    def made(parameters: dict[str, float]) -> Frame:
+        return lumped_mass(BEARING, parameters[name])
+
+    sample = full_grid({name: [5e4, 6e4]})
+    with pytest.raises(CampaignError, match=f'"{name}" has the name of a result or column'):
+        Campaign(made, PULSES, store=tmp_path / "store", sample=sample).run()
 
 
 def test_fragility_takes_the_motions_that_were_run_and_one_design(tmp_path: Path) -> None:

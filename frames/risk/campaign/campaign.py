@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
+    import pandas as pd
     import xarray as xr
 
     from frames.motion.ground_motion import GroundMotion
@@ -232,6 +233,10 @@ class Campaign:
     def results(self) -> xr.Dataset:
         """Return what the runs reached so far: `CampaignStore.results`."""
         return self.store.results()
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return the runs that are done as a table: `CampaignStore.to_dataframe`."""
+        return self.store.to_dataframe()
 
     def status(self) -> CampaignStatus:
         """Return how far the campaign is: `CampaignStore.status`."""

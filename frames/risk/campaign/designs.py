@@ -29,7 +29,6 @@ FIELDS = (
     "rim_overrun",
     "flange",
     "slip_capacity",
-    "slider_radius",
     "yield_displacement",
     "interface_yield_displacement",
 )

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames.risk._errors import CampaignError
+from frames.risk.campaign.run_table import OUTCOME
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
     from frames.risk.campaign.plan import Plan
 
-_ROWS = {"run", "model", "motion", "scale"}
+_ROWS = {"run", "model", "motion", "scale", "parameter_set"}
 """Coordinates of a row, besides its parameters."""
 
 _TIMINGS = {"seconds_loop"}
@@ -61,9 +62,10 @@ def lay_out(where: Path, plan: Plan, layout: xr.Dataset) -> None:
 
     labels = {str(name): layout[name] for name in layout.coords if "run" not in layout[name].dims}
     planned = _planned(plan)
-    taken = (planned.keys() - _ROWS) & {*map(str, layout.variables), "done"}
+    names = () if plan.sample is None else plan.sample.names
+    taken = {*names} & {*map(str, layout.variables), *_ROWS, "done", "motion_digest", OUTCOME}
     if taken:
-        msg = f'the parameter "{min(taken)}" has the name of a result: give it another'
+        msg = f'the parameter "{min(taken)}" has the name of a result or column: give it another'
         raise CampaignError(msg)
     group = zarr.create_group(where)
     group.attrs["results"] = [str(name) for name in layout.data_vars]

@@ -21,10 +21,12 @@ from frames.risk.campaign.lock import locked
 from frames.risk.campaign.opened_store import opened, results_of
 from frames.risk.campaign.plan import listed
 from frames.risk.campaign.plan_description import FORMAT, READABLE, SOURCES, TAKEN_OVER, unlike
+from frames.risk.campaign.run_table import run_table
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    import pandas as pd
     import xarray as xr
 
     from frames.risk.campaign.batches import Batch
@@ -318,6 +320,26 @@ class CampaignStore:
             done[number * plan["batch"] : (number + 1) * plan["batch"]] = True
         return results_of(self.path / _RUNS, plan, done)
 
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return the runs that are done as a table, also while the campaign runs.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row a run that is done, by its number: model, parameter_set, motion, scale, the
+            parameters; outcome (as `IntensityRuns` has it), status, message, doubts, seconds_loop;
+            and a column a quantity of `frames.peaks`, SI, NaN where a structure has none or the run
+            reached nothing. `attrs["units"]` has the units by column, but for parameters, which are
+            what the bearing's fields or the function take; the other attributes are those of
+            `results()`.
+
+        Raises
+        ------
+        CampaignError
+            If there is no store.
+        """
+        return run_table(self.results(), list(self.plan()["parameters"]))
+
     def histories(self, run: int) -> xr.Dataset:
         """Return the recorded histories of a run.
 
@@ -400,7 +422,7 @@ def open_campaign(path: str | Path) -> CampaignStore:
     Returns
     -------
     CampaignStore
-        With `results()`, `status()`, `histories(run)` and `digest()`.
+        With `results()`, `to_dataframe()`, `status()`, `histories(run)` and `digest()`.
 
     Raises
     ------
