@@ -1,4 +1,4 @@
-"""Golden review: thirteen projects run by `lir run`, every number recomputed without the package.
+"""Golden review: fourteen projects run by `lir run`, every number recomputed without the package.
 
     python -m validation.golden_review [FOLDER] [--only 01 05]
 
@@ -82,8 +82,9 @@ def prepared(project: Path, folder: Path) -> Path:
     shutil.rmtree(own, ignore_errors=True)
     own.mkdir(parents=True)
     shutil.copy(project, own / "project.toml")
-    for script in project.parent.glob("*.py"):
-        shutil.copy(script, own)
+    for pattern in ("*.py", "*.e2k"):  # models
+        for model in project.parent.glob(pattern):
+            shutil.copy(model, own)
     _script("ground.py", own)
     return own
 

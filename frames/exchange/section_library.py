@@ -60,10 +60,11 @@ def _read(path: Path) -> dict[str, Shape]:
     rows = _Entries(path.name)
     try:
         rows.parse(content)
-    except expat.ExpatError as cause:
+    except (expat.ExpatError, LookupError, ValueError) as cause:  # of these, encodings
+        where = f", line {cause.lineno}" if isinstance(cause, expat.ExpatError) else ""
         message = (
-            f"{path.name}, line {cause.lineno}: {expat.ErrorString(cause.code)}; it must be whole, "
-            "as XML: name a property file of ETABS or SAP2000, AISC14.xml"
+            f"{path.name}{where}: {cause}; it must be whole, as XML: name a property file of ETABS "
+            "or SAP2000, AISC14.xml"
         )
         raise ModelError(message) from cause
     words = rows.control.text("LENGTH_UNITS", "") if rows.control else ""

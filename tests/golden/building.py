@@ -2,6 +2,7 @@
 
 import math
 
+import imported
 from reading import GRAVITY
 
 DENSITY = {"S": 7850.0, "A": 7850.0, "C": 2500.0}  # kg/m3, by the first letter of a grade
@@ -42,9 +43,9 @@ def cases(project):
     return dead, (storeys + 1) * plan * loads.get("live", 0.0), plan * loads.get("snow", 0.0)
 
 
-def combined(project):
-    """Return the vertical load of each combination [N]."""
-    each, found = cases(project), {}
+def combined(project, each):
+    """Return the vertical load of each combination [N] of dead load, live load and snow."""
+    found = {}
     vertical = 0.2 * project.file["spectrum"].get("s_ms", 0.0)
     if project.code != "ASCE 7-22":
         vertical = 0.0
@@ -55,8 +56,20 @@ def combined(project):
     return found
 
 
+def totals(project):
+    """Return the vertical load of each combination [N] where loads are by cases, else nothing."""
+    if "loads" in project.file:
+        return combined(project, cases(project))
+    if project.file["structure"]["kind"] == "etabs":
+        dead, live, _ = imported.model(project).cases()
+        return combined(project, (dead, live, 0.0))
+    return {}
+
+
 def compare(project, tally):
     """Hold the weight that the bearings carry, and the seismic mass, against the count."""
+    if project.file["structure"]["kind"] == "etabs":
+        imported.compare(project, tally, totals(project)["average"])
     if "loads" not in project.file or "bays" not in project.file["structure"]:
         return
     structure = project.file["structure"]
@@ -69,7 +82,7 @@ def compare(project, tally):
     if given is not None:
         shares = given.get("dead", 1.0), given.get("live", 0.0), given.get("snow", 0.0)
     carried = float(project.governing["weight"])
-    tally.same(name, "average combination", carried, combined(project)["average"])
+    tally.same(name, "average combination", carried, combined(project, cases(project))["average"])
     dead, live, snow = cases(project)
     mass = (shares[0] * dead + shares[1] * live + shares[2] * snow) / GRAVITY
     for axis in (0, 1, 2):

@@ -98,8 +98,8 @@ def dead_shares(project):
     floors carry alike.
     """
     given = project.file["spectrum"]
-    if "loads" in project.file:
-        totals = building.combined(project)
+    totals = building.totals(project)
+    if totals:
         return tuple(totals[name] / totals["average"] for name in ("maximum", "minimum"))
     if "s_ms" in given:
         part = 0.2 * given["s_ms"]
@@ -117,7 +117,7 @@ class System:
         self.y = np.array([float(row["y [m]"]) for row in rows])
         self.names = [row["bearing"] for row in rows]
         own = G * statics["node_mass"][:, 0].sum()  # the mass that loads are
-        self.W = own if "loads" in project.file else self.P.sum()
+        self.W = own if building.totals(project) else self.P.sum()
         each = [project.devices[name] for name in project.types]
         self.L = np.array([b.L for b in each])
         self.capacity = np.array([b.capacity for b in each])

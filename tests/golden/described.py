@@ -2,6 +2,8 @@
 
 import math
 
+import imported
+
 STEELS = {"S": 210, "A": 200}  # GPa, by the first letter of a grade
 COMBINATIONS = {  # of dead load, live load and snow, without S_MS
     "ASCE 7-22": {"average": (1.0, 0.5, 0.0), "maximum": (1.2, 1.0, 0.15), "minimum": (0.9, 0, 0)},
@@ -14,6 +16,12 @@ LIVE_MASS = {"ASCE 7-22": 0.0, "EN 1998": 0.3, "NCh2745": 0.25}
 def compare(project, rows, tally):
     """Hold each row of the report's table against the file."""
     wanted = described(project)
+    told = imported_rows(project)
+    own = [(row[0], row[1]) for row in rows if row[0] in {key for key, _ in told}]
+    for k, (one, other) in enumerate(zip(own, told, strict=False)):
+        tally.words("tables of the report", f"of the structure: import {k}", one, other)
+    tally.words("tables of the report", "rows of the import", len(own), len(told))
+    rows = [row for row in rows if (row[0], row[1]) not in own]
     found = {row[0]: row[1] for row in rows}
     for key, text in found.items():
         if key not in wanted:
@@ -34,7 +42,9 @@ def described(project):
     found = {"structure": f"{kind}, {len(levels) - 1} storeys on {count} bearings"}
     if len(levels) > 1:
         found["height above the base"] = f"{levels[-1] - levels[0]:.4g} m"
-    if kind == "opensees":
+    if kind == "etabs":
+        found["import"] = f"of {given['file']}"
+    if kind in {"opensees", "etabs"}:
         return found
     sides = [n * w for n, w in zip(given["bays"], given["bay_width"], strict=True)]
     found["plan"] = " x ".join(f"{side:.4g}" for side in sides) + " m"
@@ -53,6 +63,12 @@ def described(project):
         found["loaded area"] = f"base to {last} {math.prod(sides):.5g} m2"
         found |= loaded(loads, project)
     return found
+
+
+def imported_rows(project):
+    """Return the rows of what became of a model's file."""
+    is_imported = project.file["structure"]["kind"] == "etabs"
+    return imported.model(project).told() if is_imported else []
 
 
 def modulus(material):

@@ -24,8 +24,10 @@ RUN = {
     "11-en-types": ("lower", "upper"),
     "12-nch-types": ("lower",),
     "13-asce-types": ("upper",),
+    "14-asce-etabs": ("lower",),
 }
-"""A frame of members, a stick, and frames with loads by area, types of bearings and moved masses;
+"""A frame of members, a stick, frames with loads by area, types of bearings and moved masses, and a
+model of ETABS;
 three codes, means and largest, with the bounds that are run here, the frames at the level that is
 soonest done; `make nightly` runs these as they are, with all bounds, and one of EN 1998 with seven
 motions, `validation.golden_review` all projects."""
@@ -44,7 +46,7 @@ LEAST = {
 """Numbers of values that each project of three bounds compares at least: a comparison that is
 skipped is seen."""
 SHARE = {"01-asce-frame": 2 / 3, "09-nch-shear": 1 / 3, "11-en-types": 0.4}
-SHARE |= {"12-nch-types": 0.2, "13-asce-types": 0.2}
+SHARE |= {"12-nch-types": 0.2, "13-asce-types": 0.2, "14-asce-etabs": 0.15}
 """Of these, of the projects as they are run here."""
 OF_TYPES = {"moved masses: raises of each way": 280, "loads and masses, by hand": 4}
 """Of what projects with types of bearings alone have."""
@@ -177,6 +179,22 @@ CHANGED = {  # file, what is changed, to what, in which category it is seen, and
             "lower displacement",
         ),
     ],
+    "14-asce-etabs": [
+        (
+            "report.html",
+            r"frame objects by story \(33\)",
+            "frame objects by story (34)",
+            "tables of the report",
+            "import",
+        ),
+        (
+            "bearings.csv",
+            r"^(bearing-1-Base,(?:[^,]*,)*?)(\d{6}\.\d+)",
+            r"\g<1>100000.0",
+            "equivalent-linear",
+            "lower",
+        ),
+    ],
 }
 Reviewed = Callable[[str], tuple[Path, Review]]
 OWN = {
@@ -188,6 +206,7 @@ OWN = {
     "forces",
     "ground",
     "histories",
+    "imported",
     "motions",
     "reading",
     "report",
@@ -256,11 +275,11 @@ def test_the_recomputation_imports_nothing_of_the_package():
 
 def test_there_are_projects_of_three_codes_and_kinds():
     texts = [path.read_text(encoding="utf-8") for path in projects()]
-    assert len(texts) == 13
-    for key in ("code", "kind"):
+    assert len(texts) == 14
+    for key, kinds in (("code", 3), ("kind", 4)):
         found = [re.search(rf'^{key} = "(.*)"', text, re.M)[1] for text in texts]
-        assert all(found.count(word) >= 2 for word in set(found))
-        assert len(set(found)) == 3
+        assert all(found.count(word) >= 2 for word in set(found) - {"etabs"})
+        assert len(set(found)) == kinds
 
 
 @pytest.mark.slow

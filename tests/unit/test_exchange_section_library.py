@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import random
 from pathlib import Path
 
 import pytest
@@ -75,6 +77,7 @@ def test_a_tube_has_its_depth_for_insertion_points(tmp_path: Path) -> None:
 
 BAD = {
     "cut": (FILE[:400], r"AISC14.xml, line \d+: .*; it must be whole, as XML"),
+    "encoding": (FILE.replace("utf-8", "utf-88", 1), r"AISC14.xml: unknown encoding: utf-88; it"),
     "other": ("<html></html>", r"is no property file of ETABS or SAP2000: it begins with PROPERTY"),
     "units": (FILE.replace("<LENGTH_UNITS>in", "<LENGTH_UNITS>ell"), r"LENGTH_UNITS of MM, CM, M"),
     "number": (
@@ -91,6 +94,18 @@ def test_bad_libraries_are_refused(tmp_path: Path, name: str) -> None:
     model, file = files(tmp_path, library=library)
     with pytest.raises(ModelError, match=message):
         Frame.from_etabs(model, library=file)
+
+
+def test_mutated_libraries_end_in_shapes_or_messages(tmp_path: Path) -> None:
+    path = tmp_path / "library.xml"
+    for seed in range(500):
+        rng = random.Random(seed)  # noqa: S311
+        letters = list(FILE)
+        for _ in range(rng.randint(1, 4)):
+            letters[rng.randrange(len(letters))] = rng.choice('<>&x0"/\0\n')
+        path.write_text("".join(letters), encoding="utf-8")
+        with contextlib.suppress(ModelError):
+            assert all(isinstance(label, str) for label in read_libraries(path))
 
 
 def test_a_library_that_nothing_needs_is_refused(tmp_path: Path) -> None:
