@@ -29,8 +29,9 @@ class Field(NamedTuple):
 HEAT_PARTS = 14
 """Parts that decay at rates of their own, whose sum is the temperature of a contact."""
 
-RIM_DIRECTIONS = 8
-"""Directions of a plate in which the plastic deformation of its rim is kept."""
+RIM_WAVES = 4
+"""Waves around a plate in which the plastic deformation of its rim is kept: a mean, then cosines,
+then sines."""
 
 FRICTION_TABLE = 259
 """Entries of a surface's friction over speed: a reference speed, then share and slope at each knot
@@ -117,7 +118,7 @@ STATE_FIELDS = (
     Field("rim_flow", "m", "", "plastic deformation of the rim in the step: bottom, top", (2,)),
     Field("rim_bent", "m", "g_p", "plastic deformation where the rim presses: bottom, top", (2,)),
     Field("rim_plastic", "m", "", "the largest so far, infinite of a broken rim", (2,)),
-    Field("rim_dent", "m", "", "the same by direction", (2, RIM_DIRECTIONS)),
+    Field("rim_dent", "m", "", "the same all around, in waves", (2, 2 * RIM_WAVES + 1)),
     Field("twist", "rad", "psi", "relative rotation about the vertical axis"),
     Field("twist_hysteresis", "-", "z_t", "hysteretic variable of the torsional friction"),
     Field("torque", "N m", "T", "torsional friction moment"),
@@ -293,7 +294,7 @@ BODY_FIELDS = (
     Field("rim_force", "N", "P", "radial rim force: bottom, top", (2,)),
     Field("rim_flow", "m", "", "plastic deformation of the rim in the step: bottom, top", (2,)),
     Field("rim_bent", "m", "g_p", "plastic deformation where the rim presses: bottom, top", (2,)),
-    Field("rim_dent", "m", "", "the same all around, by direction", (2, RIM_DIRECTIONS)),
+    Field("rim_dent", "m", "", "the same all around, in waves", (2, 2 * RIM_WAVES + 1)),
 )
 
 TOUCH_FIELDS = (

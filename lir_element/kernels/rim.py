@@ -2,8 +2,8 @@
 
 The rim is an elastic-plastic spring with hardening in radial direction, beside a damper that acts
 on its elastic part alone: what presses on it never exceeds what it bears. Plastic deformation
-stays where the slider pressed: it is kept in eight directions of the plate, between which it runs
-smoothly (docs/theory.md, section 3). A rim without end of strength is the contact of Eq. (2).
+stays where the slider pressed, kept in waves around the plate (docs/theory.md, section 3). A rim
+without end of strength is the contact of Eq. (2).
 """
 
 from __future__ import annotations
@@ -13,26 +13,12 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.slip import kelvin_voigt
-from lir_element.layout import RIM_DIRECTIONS
+from lir_element.layout import RIM_WAVES
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props
 
-_BETWEEN = 2.0 * math.pi / RIM_DIRECTIONS  # rad, from one direction to the next
-
-
-@kernel
-def between(x: float, y: float) -> tuple[int, int, float, float]:
-    """Return the neighbours of a direction, and share and quarter turn of the way to the second.
-
-    The share is ``sin^2`` of that turn: with the first one's ``cos^2`` it sums to 1.
-    """
-    place = math.atan2(y, x) / _BETWEEN
-    first = math.floor(place)
-    turn = 0.5 * math.pi * (place - first)
-    share = math.sin(turn) ** 2
-    i = int(first) % RIM_DIRECTIONS
-    return i, (i + 1) % RIM_DIRECTIONS, share, turn
+_SHARES = (70.0 / 256.0, 112.0 / 256.0, 56.0 / 256.0, 16.0 / 256.0, 2.0 / 256.0)  # of cos^8(a / 2)
 
 
 @kernel
@@ -43,31 +29,41 @@ def bent(dent: Floats, x: float, y: float) -> tuple[float, float]:
     """
     if dent[0] == math.inf:
         return math.inf, 0.0
-    i, j, share, turn = between(x, y)
-    steep = 0.5 * math.pi * math.sin(2.0 * turn) / _BETWEEN
-    return (1.0 - share) * dent[i] + share * dent[j], steep * (dent[j] - dent[i])
+    size = math.sqrt(x * x + y * y)
+    u, v = x / size, y / size
+    cos, sin, total, slant = 1.0, 0.0, dent[0], 0.0
+    for k in range(1, RIM_WAVES + 1):
+        cos, sin = cos * u - sin * v, sin * u + cos * v
+        a, b = dent[k], dent[RIM_WAVES + k]
+        total += a * cos + b * sin
+        slant += k * (b * cos - a * sin)
+    return max(total, 0.0), slant
 
 
 @kernel
 def bend(dent: Floats, x: float, y: float, flow: float) -> None:
-    """Add the plastic deformation `flow` in the direction (x, y); it spreads to its neighbours."""
-    i, j, share, _ = between(x, y)
-    size = (1.0 - share) ** 2 + share**2
-    dent[i] += flow * (1.0 - share) / size
-    dent[j] += flow * share / size
+    """Add the plastic deformation `flow` in the direction (x, y), less to its sides (3.12)."""
+    size = math.sqrt(x * x + y * y)
+    u, v = x / size, y / size
+    cos, sin = 1.0, 0.0
+    dent[0] += flow * _SHARES[0]
+    for k in range(1, RIM_WAVES + 1):
+        cos, sin = cos * u - sin * v, sin * u + cos * v
+        dent[k] += flow * _SHARES[k] * cos
+        dent[RIM_WAVES + k] += flow * _SHARES[k] * sin
 
 
 @kernel
 def keep_dents(
     p: Props, old: Floats, new: Floats, x: float, y: float, flow: float, deformed: float
 ) -> None:
-    """Set the dents (8,) of a rim from those before the step; a rim pressed too far is broken."""
-    for a in range(RIM_DIRECTIONS):
+    """Set the dents of a rim from those before the step; a rim pressed too far is broken."""
+    for a in range(old.shape[0]):
         new[a] = old[a]
     if flow > 0.0:
         bend(new, x, y, flow)
     if p.flange > 0.0 and deformed > p.rim_overrun:
-        for a in range(RIM_DIRECTIONS):
+        for a in range(old.shape[0]):
             new[a] = math.inf
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from lir_element import RunStatus
 from validation.fuzzing.buildings import try_building
+from validation.fuzzing.rims import with_yielding_rims
 from validation.fuzzing.scenes import random_scene
 from validation.fuzzing.trial import try_scene
 
@@ -23,6 +24,8 @@ HARD = (342, 533, 962, 1044, 1086, 1657, 2639, 3728)
 """Found once: one bearing of a grid with contact points, seen in
 a mirror; Newton's method that tells east from north; friction that owes work; a mass that nothing
 holds against a twist; sliders of a bearing that has lifted."""
+BENT = (8, 20, 35, 43, 53, 55, 61, 63, 70, 71, 85, 98, 101, 115, 123, 126, 127, 138, 155, 171)
+"""Whose rims, given a strength, yield; those of 71 and 101 break."""
 FAILURES = {status.name.lower() for status in RunStatus} - {"ok"}
 
 
@@ -37,6 +40,18 @@ FAILURES = {status.name.lower() for status in RunStatus} - {"ok"}
 def test_completes_or_reports(number):
     again = number % AGAIN == 0 and random_scene(SEED, number).level == "pendulum"
     report = try_scene(SEED, number, again=again or number in HARD, finer=False)
+    assert report.findings == [], report.scene
+    assert report.outcome in {"ok", *FAILURES}, report.message
+
+
+@pytest.mark.parametrize(
+    "number",
+    [*BENT, *(pytest.param(one, marks=pytest.mark.nightly) for one in range(172, NIGHTLY))],
+)
+def test_with_rims_that_yield(number):
+    report = try_scene(
+        SEED, number, again=number in BENT[::4], finer=False, change=with_yielding_rims
+    )
     assert report.findings == [], report.scene
     assert report.outcome in {"ok", *FAILURES}, report.message
 

@@ -17,6 +17,8 @@ from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.scenes import random_scene
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import xarray as xr
 
     from frames import Frame
@@ -54,7 +56,13 @@ def run(
 
 
 def try_scene(
-    seed: int, number: int, *, level: str | None = None, again: bool = True, finer: bool = True
+    seed: int,
+    number: int,
+    *,
+    level: str | None = None,
+    again: bool = True,
+    finer: bool = True,
+    change: Callable[[Scene], Scene] | None = None,
 ) -> Report:
     """Run a test case with all its checks.
 
@@ -68,6 +76,8 @@ def try_scene(
         Whether it is run again, turned, mirrored.
     finer : bool
         Whether chosen steps are compared with finer ones.
+    change : callable, optional
+        What makes another test case of it.
 
     Returns
     -------
@@ -78,6 +88,7 @@ def try_scene(
     with warnings.catch_warnings(record=True) as doubts:
         warnings.simplefilter("always")
         scene = random_scene(seed, number, level)
+        scene = scene if change is None else change(scene)
     report = Report(number, scene.describe(), scene.model, scene.level)
     try:
         model, data, caught = run(scene, scene.motion)

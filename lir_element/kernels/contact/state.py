@@ -23,7 +23,6 @@ from lir_element.kernels.pendulum.trial import SMALLEST_COSINE, is_finite, keep_
 from lir_element.kernels.pendulum.work import store_law, taken
 from lir_element.kernels.rim import largest_dent
 from lir_element.kernels.slip import open_work, stored, surplus
-from lir_element.layout import RIM_DIRECTIONS
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
@@ -183,7 +182,7 @@ def set_surfaces(p: Props, c: Sliders, w: Scratch, bodies: Bodies, old: State, n
         new.rim_flow[side], new.rim_bent[side] = bodies.rim_flow[side], bodies.rim_bent[side]
         if p.rim_yield_force < math.inf or p.flange > 0.0:
             dents = bodies.rim_dent[side]
-            for a in range(RIM_DIRECTIONS):
+            for a in range(dents.shape[0]):
                 new.rim_dent[side, a] = dents[a]
             new.rim_plastic[side] = largest_dent(
                 old.rim_plastic[side], dents, bodies.rim_bent[side]
