@@ -155,7 +155,8 @@ def first_failure(
             if ran.returncode == _CAUGHT or (ran.returncode and named):
                 return named[1] if named else test
             if ran.returncode:
-                msg = f"{test}: pytest ended with {ran.returncode}: {ran.stdout[-2000:]}"
+                said = (ran.stdout + ran.stderr)[-2000:]
+                msg = f"{test}: pytest ended with {ran.returncode}: {said}"
                 raise RuntimeError(msg)
     finally:
         path.write_bytes(sound)

@@ -51,7 +51,7 @@ def _run(found: Campaign, workers: int | None) -> None:
 
 
 def _write(found: Campaign, file: Path, *, figures: bool) -> None:
-    from frames.risk.campaign.file import fragility_in
+    from frames.risk.campaign.file import comparison_in, fragility_in, scaled_to
     from frames.risk.campaign.page import write_page  # with figures
 
     asked = fragility_in(file)
@@ -61,6 +61,8 @@ def _write(found: Campaign, file: Path, *, figures: bool) -> None:
         file.read_text(encoding="utf-8"),
         limits=() if asked is None else asked.limits(),
         intensity=None if asked is None else asked.measured(),
+        scaled=scaled_to(file),
+        comparison=comparison_in(file),
         figures=figures,
     )
     say(f"page {written[0]}, tables {', '.join(path.name for path in written[1:])}")

@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from validation.measurements.mutants import Mutant, Tried, drawn, sites, tried
+from validation.measurements.mutants import Mutant, Tried, drawn, require_sound, sites, tried
 from validation.mutations import ROOT
 
 SOURCE = '''"""1 + 1."""
@@ -82,6 +82,8 @@ def test_the_same_seed_draws_the_same_errors() -> None:
 def test_what_cannot_be_drawn_is_told() -> None:
     with pytest.raises(ValueError, match=r"gone\.py is not in"):
         drawn(["gone.py"], 1, 1)
+    with pytest.raises(ValueError, match="count = 0 must be at least 1"):
+        drawn(["lir_element/kernels/slip.py"], 0, 1)
     with pytest.raises(ValueError, match="count = 10000 is more than the"):
         drawn(["lir_element/kernels/slip.py"], 10000, 1)
 
@@ -113,3 +115,12 @@ def test_what_takes_too_long_counts_as_noticed(tmp_path) -> None:
     assert endless in sites(source.encode(), "counts.py")
     found = tried(endless, ["test_counts.py"], [], tmp_path, 4.0)
     assert found.before == "test_counts.py (longer than 4 s)"
+
+
+def test_tests_that_fail_without_an_error_are_refused(tmp_path) -> None:
+    """They would notice each."""
+    (tmp_path / "test_wrong.py").write_text("def test_wrong():\n    assert not __file__\n")
+    with pytest.raises(ValueError, match="test_wrong fails without an error: give tests that"):
+        require_sound("test_wrong.py", ["test_wrong.py"], tmp_path, 60.0)
+    with pytest.raises(RuntimeError, match=r"test_gone\.py: pytest ended with 4"):
+        require_sound("test_wrong.py", ["test_gone.py"], tmp_path, 60.0)

@@ -204,13 +204,16 @@ def drawn(files: Sequence[str], count: int, seed: int, root: Path = ROOT) -> lis
     Raises
     ------
     ValueError
-        If a file is not there, or there are fewer lines than errors.
+        If a file is not there, none are asked for, or there are fewer lines than errors.
     """
     lines: dict[tuple[str, int], list[Mutant]] = {}
     for path in _modules(files, root):
         name = path.relative_to(root).as_posix()
         for one in sites(path.read_bytes(), name):
             lines.setdefault((name, one.line), []).append(one)
+    if count < 1:
+        msg = f"count = {count} must be at least 1"
+        raise ValueError(msg)
     if count > len(lines):
         msg = f"count = {count} is more than the {len(lines)} lines where an error is possible"
         raise ValueError(msg)
@@ -276,6 +279,33 @@ def tried(
     return Tried(mutant, first, then)
 
 
+def require_sound(file: str, tests: Sequence[str], copy: Path, longest: float) -> None:
+    """Require that tests pass without an error: else they would notice whatever is put in.
+
+    Parameters
+    ----------
+    file : str
+        Any file of the copy.
+    tests : sequence of str
+        Files or names of tests.
+    copy : Path
+        Of `validation.mutations.copied`.
+    longest : float
+        Time that each of them may take [s].
+
+    Raises
+    ------
+    ValueError
+        If one fails or takes longer.
+    RuntimeError
+        If they cannot be run.
+    """
+    sound = (copy / file).read_bytes()
+    if failed := first_failure(file, sound, list(dict.fromkeys(tests)), copy, longest):
+        msg = f"{failed} fails without an error: give tests that pass, or a larger --longest"
+        raise ValueError(msg)
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Draw errors, print what became of each and return 1 if one is lost."""
     parser = argparse.ArgumentParser(prog="python -m validation.measurements.mutants")
@@ -291,10 +321,14 @@ def main(arguments: list[str] | None = None) -> int:
     with tempfile.TemporaryDirectory() as folder:
         copy, kernels = copied(Path(folder) / "copy"), Path(folder) / "kernels"
         os.environ["LIR_CACHE_DIR"] = str(kernels)  # of the tests, which get this environment
+        kernels.mkdir()
+        require_sound(given[0].file, (*chosen.before, *chosen.now), copy, chosen.longest)
+        kept = set(kernels.iterdir())
         for mutant in given:
             found.append(tried(mutant, chosen.before, chosen.now, copy, chosen.longest))
-            shutil.rmtree(kernels, ignore_errors=True)
             print(found[-1].line(), flush=True)
+            for compiled in set(kernels.iterdir()) - kept:
+                shutil.rmtree(compiled, ignore_errors=True)
     lost = sum(one.is_lost for one in found)
     before, now = sum(bool(one.before) for one in found), sum(bool(one.now) for one in found)
     print(f"{len(found)} errors: {before} noticed before, {now} of these now, {lost} lost")

@@ -6,7 +6,6 @@ factors common to all are intensities.
 
 from __future__ import annotations
 
-import math
 import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -16,7 +15,6 @@ import numpy as np
 from frames import MotionWarning
 from frames.demo import bearing_for
 from frames.design import MotionSet
-from frames.design.hazard.damping_factors import damping_factor
 from frames.design.hazard.fema_records import RECORD_SETS
 from frames.risk import (
     Campaign,
@@ -28,6 +26,7 @@ from frames.risk import (
     compare_fragility,
     fragility_of,
 )
+from frames.risk.campaign.comparison import filling_intensity
 from frames.risk.fragility.resampling import RESAMPLES
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import (
@@ -157,23 +156,13 @@ def runs_of(data: xr.Dataset, motions: Mapping[str, GroundMotion], device: str) 
 def considered() -> float:
     """Return the Sa of the maximum considered earthquake that fills the capacity [m/s2].
 
-    Its displacement by ASCE 7-22, equation 17.5-1, on the nominal bearing is the capacity: the
-    one-second spectrum ``S_M1 / T`` that this needs, at the period of the intensity.
-
     Returns
     -------
     float
         Of 5 % damping, at 3 s.
     """
-    bearing = bearing_for(1000e3)
-    displacement = bearing.lateral_capacity
-    friction, length = bearing.effective_friction, bearing.effective_radius
-    stiffness = 1.0 / length + friction / displacement  # over the weight, 1/m
-    period = 2.0 * math.pi / math.sqrt(STANDARD_GRAVITY * stiffness)
-    damping = 2.0 / math.pi * friction / (friction + displacement / length)
-    factor = damping_factor("ASCE 7-22", damping)
     assert INTENSITY.period is not None
-    return displacement * 4.0 * math.pi**2 * factor / (period * INTENSITY.period)
+    return filling_intensity(bearing_for(1000e3), INTENSITY.period)
 
 
 def curves_of(runs: Mapping[str, IntensityRuns], limit: LimitState, resamples: int) -> Curves:

@@ -3,168 +3,43 @@
 from __future__ import annotations
 
 import tomllib
+import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, Literal, Self, TypeVar, get_type_hints
+from typing import TYPE_CHECKING, Any
 
-from pydantic import Field, create_model, model_validator
+from pydantic import create_model
 from scipy import stats
 
+from frames._errors import MotionWarning
 from frames.design.codes.load_rules import LOADS_OF_ASCE
-from frames.design.project.derived import DerivedTable, Table
+from frames.design.project.derived import DerivedTable
 from frames.design.project.extensions import load_extensions
 from frames.design.project.inputs import bearing_of, frame_of, in_section, motions_of
-from frames.design.project.quantities import Length, Ratio, SpeedRate, Time, quantity
 from frames.design.project.reading import read_file
-from frames.design.project.schema import (
-    Bearing,
-    LoadsTable,
-    MotionSource,
-    Structure,
-    bearing_table,
-)
+from frames.design.project.schema import Bearing, bearing_table
 from frames.design.project.structure_loads import loads_of
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
-from frames.risk.campaign.designs import names_of
-from frames.risk.campaign.file_fragility import FragilityTable
+from frames.risk.campaign.comparison import DeviceComparison, filling_intensity
+from frames.risk.campaign.file_schema import CampaignFile, Range, parameters_of
 from frames.risk.campaign.sampling import Choice, full_grid, latin_hypercube, sobol_sample
-from lir_element.device.friction import CoulombFriction, unit_of
+from lir_element.device.friction import CoulombFriction
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from frames.frame import Frame
+    from frames.motion.ground_motion import GroundMotion
+    from frames.risk.campaign.file_fragility import FragilityTable
     from frames.risk.campaign.sampling import ParameterSample
+    from frames.risk.fragility.intensity import Intensity
     from lir_element import FrictionLaw
-
-T = TypeVar("T")
 
 WEIGHS = {"D": 1.0, "L": 0.5, "S": 0.0}
 """Shares of dead load, live load and snow that buildings of campaigns carry [-]."""
 
 STORE = "results"
 """Folder of the results beside the file, if nothing is said: the file's name and this."""
-
-
-class CampaignTable(Table):
-    """``[campaign]``: its name, plain bearings beside, Python files with friction laws."""
-
-    name: str = Field(min_length=1)
-    devices: tuple[Literal["LIR-DCFP", "DCFP"], ...] = Field(default=("LIR-DCFP",), min_length=1)
-    extensions: tuple[str, ...] = ()
-    batch: int | None = Field(default=None, ge=1)
-
-
-class CampaignMotions(MotionSource):
-    """``[motions]``: the records, and the factors that each is run at."""
-
-    scales: tuple[float, ...] = Field(default=(1.0,), min_length=1)
-
-
-class Sampling(Table):
-    """``[sample]``: how sets of parameters are chosen."""
-
-    kind: Literal["grid", "latin hypercube", "sobol"]
-    size: int | None = Field(default=None, ge=1)
-    seed: int = Field(default=0, ge=0)
-
-    @model_validator(mode="after")
-    def _size_of_its_kind(self) -> Self:
-        if (self.kind == "grid") != (self.size is None):
-            needs = "has the size of its values: leave size out"
-            msg = f'"{self.kind}" ' + (needs if self.kind == "grid" else "needs a size")
-            raise ValueError(msg)
-        return self
-
-
-class Range(Table, Generic[T]):
-    """Values of a parameter, or bounds between which it is distributed."""
-
-    values: tuple[T, ...] | None = Field(default=None, min_length=1)
-    low: T | None = None
-    high: T | None = None
-    distribution: Literal["uniform", "loguniform", "normal"] = "uniform"
-    mean: T | None = None
-    deviation: T | None = None
-
-    @model_validator(mode="after")
-    def _one_way(self) -> Self:
-        bounds = (self.low, self.high)
-        if (self.values is None) == (None in bounds) or (self.values and any(bounds)):
-            msg = 'needs values = [...], or low and high: {low = "1.5 m", high = "2.5 m"}'
-            raise ValueError(msg)
-        if (self.distribution == "normal") != (self.mean is not None) or (
-            (self.mean is None) != (self.deviation is None)
-        ):
-            msg = 'mean and deviation go with distribution = "normal", both; low and high cut it'
-            raise ValueError(msg)
-        return self
-
-
-class Parameters(Table):
-    """``[parameters]``: what of the bearings is varied; fields of their law by `parameters_of`."""
-
-    radius: Range[Length] | None = None
-    slider_height: Range[Length] | None = None
-    slider_radius: Range[Length] | None = None
-    capacity: Range[Length] | None = None
-    friction: Range[Ratio] | None = None
-    f_max: Range[Ratio] | None = None
-    f_min: Range[Ratio] | None = None
-    rate: Range[SpeedRate] | None = None
-    interface_friction: Range[Ratio] | None = None
-
-
-class CampaignAnalysis(Table):
-    """``[analysis]``: how time histories are run."""
-
-    level: Literal["pendulum", "contact"] = "pendulum"
-    dt: Time | None = None
-    duration: Time | None = None
-    workers: int | None = Field(default=None, ge=1)
-
-
-class CampaignFile(Table):
-    """A whole file."""
-
-    campaign: CampaignTable
-    structure: Structure
-    loads: LoadsTable | None = None
-    bearing: Bearing
-    motions: CampaignMotions
-    parameters: Parameters | None = None
-    sample: Sampling | None = None
-    analysis: CampaignAnalysis = CampaignAnalysis()
-    fragility: FragilityTable | None = None
-
-    @model_validator(mode="after")
-    def _both_or_none(self) -> Self:
-        if (self.parameters is None) != (self.sample is None):
-            msg = "[parameters] and [sample] belong together: give both, or neither"
-            raise ValueError(msg)
-        return self
-
-
-def parameters_of(law: type[FrictionLaw]) -> type[Parameters]:
-    """Return the keys of ``[parameters]`` for bearings with a friction law.
-
-    Parameters
-    ----------
-    law : type
-        The class of the law; its fields that are numbers are keys, with their units.
-
-    Returns
-    -------
-    type
-        `Parameters` and these keys.
-    """
-    hints = get_type_hints(law)
-    keys: dict[str, Any] = {
-        name: (Range[quantity(unit_of(law, name))] | None, None)  # type: ignore[misc]
-        for name in names_of(law)
-        if hints[name] is float
-    }
-    return create_model("Parameters", __base__=Parameters, __doc__=Parameters.__doc__, **keys)
 
 
 def _read(path: Path) -> CampaignFile:
@@ -215,26 +90,30 @@ def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campa
     whole = Path(path)
     file = _read(whole)
     folder = whole.resolve().parent
-    bearing, name = bearing_of(file.bearing), file.campaign.name
-    loads = loads_of(file.loads, LOADS_OF_ASCE)
-    frame = in_section("structure", lambda: frame_of(file.structure, bearing, name, folder, loads))
-    if frame.load_cases:
-        frame = frame.combined(WEIGHS)
+    frame = _frame(file, whole)
     given = file.analysis
     return in_section(
         "campaign",
         lambda: Campaign(
-            _devices(frame, file.campaign.devices),
-            motions_of(file.motions, folder),
+            _devices(frame, file),
+            _motions(file, folder),
             store=whole.with_name(f"{whole.stem}-{STORE}") if store is None else store,
             sample=in_section("sample", lambda: _sample(file)),
-            scales=file.motions.scales,
+            scales=file.motions.intensities or file.motions.scales,
             batch=file.campaign.batch,
             level=given.level,
             dt=given.dt,
             duration=given.duration,
         ),
     )
+
+
+def _frame(file: CampaignFile, path: Path) -> Frame:
+    # The structure on the bearings of the file.
+    bearing, name, folder = bearing_of(file.bearing), file.campaign.name, path.resolve().parent
+    loads = loads_of(file.loads, LOADS_OF_ASCE)
+    frame = in_section("structure", lambda: frame_of(file.structure, bearing, name, folder, loads))
+    return frame.combined(WEIGHS) if frame.load_cases else frame
 
 
 def workers_of(path: str | Path) -> int | None:
@@ -247,7 +126,54 @@ def fragility_in(path: str | Path) -> FragilityTable | None:
     return _read(Path(path)).fragility
 
 
-def _devices(frame: Frame, devices: tuple[str, ...]) -> dict[str, Frame]:
+def scaled_to(path: str | Path) -> Intensity | None:
+    """Return the measure that a campaign's file scales the motions to; None: they are as read."""
+    file = _read(Path(path))
+    if not file.motions.intensities or file.fragility is None:
+        return None
+    return file.fragility.measured()
+
+
+def comparison_in(path: str | Path) -> DeviceComparison | None:
+    """Return what a campaign's file compares; None without ``[compare]``."""
+    whole = Path(path)
+    file = _read(whole)
+    if file.compare is None:
+        return None
+    bearing, asked = bearing_of(file.bearing), file.compare
+    measure = None if file.fragility is None else file.fragility.measured()
+    filling = asked.maximum_considered is None and measure is not None and measure.kind == "Sa"
+    considered = asked.maximum_considered
+    if filling and measure is not None and measure.period is not None:
+        considered = filling_intensity(bearing, measure.period)
+    frame = _frame(file, whole)
+    return DeviceComparison(
+        frames=in_section("compare", lambda: _devices(frame, file)),
+        groups=asked.made().groups(),
+        collapse=asked.collapse(),
+        considered=considered,
+        filling=filling,
+    )
+
+
+def _motions(file: CampaignFile, folder: Path) -> Mapping[str, GroundMotion]:
+    # With their tail; where intensities are given, of an intensity of 1.
+    found: Mapping[str, GroundMotion] = motions_of(file.motions, folder)
+    tail = file.motions.tail
+    if tail is not None:
+        found = {name: motion.with_tail(tail) for name, motion in found.items()}
+    if not file.motions.intensities or file.fragility is None:
+        return found
+    measure = file.fragility.measured()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MotionWarning)  # none is run at an intensity of 1
+        return {name: each.scaled(1.0 / measure.of(each)) for name, each in found.items()}
+
+
+def _devices(frame: Frame, file: CampaignFile) -> dict[str, Frame]:
+    if file.compare is not None:
+        return file.compare.made().frames(frame)
+    devices = file.campaign.devices
     plain = {name: link.bearing.as_dcfp() for name, link in frame.bearings.items()}
     both = {"LIR-DCFP": frame, "DCFP": frame.with_bearings(plain)}
     return {name: both[name] for name in devices}

@@ -11,6 +11,7 @@ import pandas as pd
 from frames.design.report.page import Picture, Table, page_table, page_template, picture
 from frames.design.report.tables import in_mm_and_kn
 from frames.risk._errors import FragilityError
+from frames.risk.campaign.page_comparison import Fitted, compared
 from frames.risk.campaign.plot_response import response_by_factor
 from frames.risk.campaign.response import failure_table, response_table, runs_by_model
 from frames.risk.fragility.of_runs import fragility_of
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames.risk.campaign.campaign import Campaign
+    from frames.risk.campaign.comparison import DeviceComparison
     from frames.risk.fragility.curve import Fragility
     from frames.risk.fragility.intensity import Intensity
     from frames.risk.fragility.limit_state import LimitState
@@ -39,6 +41,8 @@ def write_page(
     *,
     limits: Sequence[LimitState] = (),
     intensity: Intensity | None = None,
+    scaled: Intensity | None = None,
+    comparison: DeviceComparison | None = None,
     figures: bool = True,
 ) -> list[Path]:
     """Write what a campaign gave, as a page and tables beside it.
@@ -48,13 +52,18 @@ def write_page(
     campaign : Campaign
         It has been run.
     path : Path
-        The page; tables have its name and "-response.csv", "-failures.csv", "-fragility.csv".
+        The page; tables have its name and "-response.csv", "-failures.csv", "-fragility.csv", and
+        of a comparison "-devices.csv", "-ratios.csv", "-margins.csv".
     source : str
         Text of the campaign's file.
     limits : sequence of LimitState
         Fragility curves are fitted to these.
     intensity : Intensity, optional
         What they are over; the factor on the motions if None.
+    scaled : Intensity, optional
+        What the motions are scaled to, an intensity of 1, so that factors are intensities.
+    comparison : DeviceComparison, optional
+        Which devices are compared.
     figures : bool
         Whether the page has figures.
 
@@ -66,21 +75,29 @@ def write_page(
     data = campaign.results()
     models = runs_by_model(data, campaign.motions)
     responses, failures = response_table(models), failure_table(models)
-    measured = runs_by_model(data, campaign.motions, intensity) if limits else {}
-    curves, fragility = _curves(measured, limits)
+    asked = [*limits, *([] if comparison is None else [comparison.collapse])]
+    measured = runs_by_model(data, campaign.motions, intensity) if asked else {}
+    curves, fragility = _curves(measured, asked)
+    axis = _axis(scaled)
+    fitted = Fitted(measured, models, asked, curves, fragility)
+    devices = None
+    if comparison is not None:
+        devices = compared(comparison, fitted, CONFIDENCE, axis, figures=figures)
+    drawn = figures and devices is None
     page = page_template("campaign.html.j2", "frames.risk.campaign").render(
         name=campaign.store.path.name,
         status=campaign.status(),
-        planned=page_table(_planned(campaign, data), ""),
+        planned=page_table(_planned(campaign, data, axis), ""),
         failures=page_table(failures.set_index("structure"), "structure")
         if len(failures)
         else None,
-        responses=[_in_words(in_mm_and_kn(one), name) for name, one in _parts(responses)],
+        responses=[_in_words(in_mm_and_kn(one), f"{axis}, {n}") for n, one in _parts(responses)],
         fragility=page_table(fragility, "structure and limit state") if len(fragility) else None,
+        compared=devices,
         confidence=f"{100.0 * CONFIDENCE:g} %",
         several_sets=campaign.sets > 1,
-        response_pictures=_responses(models) if figures else [],
-        fragility_pictures=_fragility(curves) if figures else [],
+        response_pictures=_responses(models, axis) if drawn else [],
+        fragility_pictures=_fragility(curves) if drawn else [],
         figures=figures,
         store=str(campaign.store.path),
         digest=campaign.digest(),
@@ -88,22 +105,30 @@ def write_page(
         source=source,
         written=f"{datetime.now(tz=UTC):%Y-%m-%d %H:%M} UTC, lir-dcfp {package_version()}",
     )
-    texts = {path: page, path.with_name(f"{path.stem}-response.csv"): responses.to_csv(index=False)}
-    texts[path.with_name(f"{path.stem}-failures.csv")] = failures.to_csv(index=False)
-    if limits:
-        texts[path.with_name(f"{path.stem}-fragility.csv")] = fragility.to_csv()
+    tables = {"response": responses.to_csv(index=False), "failures": failures.to_csv(index=False)}
+    if asked:
+        tables["fragility"] = fragility.to_csv()
+    if devices is not None:
+        tables |= {name: table.to_csv() for name, table in devices.files.items()}
+    texts = {path: page}
+    texts |= {path.with_name(f"{path.stem}-{name}.csv"): text for name, text in tables.items()}
     for file, text in texts.items():
         file.write_text(text, encoding="utf-8")
     return list(texts)
 
 
-def _planned(campaign: Campaign, data: xr.Dataset) -> pd.DataFrame:
+def _axis(scaled: Intensity | None) -> str:
+    # What the factors on the motions are.
+    return "factor on the motions" if scaled is None else f"{scaled.label} [{scaled.unit}]"
+
+
+def _planned(campaign: Campaign, data: xr.Dataset, axis: str) -> pd.DataFrame:
     # What was run, in words.
     plan: dict[str, Any] = campaign.store.plan()
     rows = {
         "structures": ", ".join(plan["models"]),
         "motions": f"{len(plan['motions'])}: {', '.join(plan['motions'])}",
-        "factors on the motions": ", ".join(f"{scale:g}" for scale in plan["scales"]),
+        axis: ", ".join(f"{scale:g}" for scale in plan["scales"]),
     }
     for name in plan["parameters"]:
         values = np.unique(data[name].to_numpy())
@@ -124,7 +149,7 @@ def _planned(campaign: Campaign, data: xr.Dataset) -> pd.DataFrame:
 
 def _in_words(response: pd.DataFrame, name: str) -> Table:
     # An infinite demand is that of a bearing that failed.
-    table = page_table(response, f"factor, {name}")
+    table = page_table(response, name)
     rows = [["failed" if cell == "inf" else cell for cell in row] for row in table.rows]
     return table._replace(rows=rows)
 
@@ -164,9 +189,9 @@ def _curves(
     return found, pd.DataFrame.from_dict(rows, orient="index")
 
 
-def _responses(models: Mapping[str, IntensityRuns]) -> list[Picture]:
-    title = "Responses over the factor on the motions, and runs that failed"
-    return [picture(title, response_by_factor(models))]
+def _responses(models: Mapping[str, IntensityRuns], axis: str) -> list[Picture]:
+    title = f"Responses over {axis}, and runs that failed"
+    return [picture(title, response_by_factor(models, axis=axis))]
 
 
 def _fragility(curves: Mapping[str, Mapping[str, Fragility]]) -> list[Picture]:

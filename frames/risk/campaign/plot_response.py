@@ -25,13 +25,17 @@ _PANELS = 4  # of responses, at most; the last panel has the shares
 _LINE = 0.42  # share of the place of a factor that bars take
 
 
-def response_by_factor(models: Mapping[str, IntensityRuns]) -> Figure:
+def response_by_factor(
+    models: Mapping[str, IntensityRuns], *, axis: str = "factor on the motions"
+) -> Figure:
     """Draw what structures reached over the factor on the motions, and how many runs failed.
 
     Parameters
     ----------
     models : mapping of str to IntensityRuns
         Of `runs_by_model`; six at most are drawn.
+    axis : str
+        What the factor on the motions is.
 
     Returns
     -------
@@ -47,6 +51,7 @@ def response_by_factor(models: Mapping[str, IntensityRuns]) -> Figure:
     figure, panels = ps.panels_of(len(titles) + 2, 2, 2.0, share=False)
     for panel, quantity in zip(panels, titles, strict=False):
         _response(panel, shown, quantity, units[quantity])
+        ps.caption(panel, x=axis)
     for panel, outcome, title in zip(
         panels[len(titles) :],
         (FAILURE, UNKNOWN),
@@ -54,6 +59,7 @@ def response_by_factor(models: Mapping[str, IntensityRuns]) -> Figure:
         strict=True,
     ):
         _shares(panel, shown, outcome, title)
+        ps.caption(panel, x=axis)
     handles: list[Artist] = [
         Line2D([], [], label=name, **ps.line_of(k)) for k, name in enumerate(shown)
     ]
@@ -101,7 +107,7 @@ def _response(panel: Axes, models: Mapping[str, IntensityRuns], quantity: str, u
             markersize=5.0,
         )
     panel.set_ylim(0.0, 1.15 * factor * largest or 1.0)
-    ps.caption(panel, x="factor on the motions", title=f"{quantity} [{text}]")
+    ps.caption(panel, title=f"{quantity} [{text}]")
 
 
 def _shares(panel: Axes, models: Mapping[str, IntensityRuns], outcome: str, title: str) -> None:
@@ -117,4 +123,4 @@ def _shares(panel: Axes, models: Mapping[str, IntensityRuns], outcome: str, titl
         panel.bar(places, shares, **look)
     panel.set_xticks(range(len(every)), [f"{scale:g}" for scale in every])
     panel.set_ylim(0.0, 100.0)
-    ps.caption(panel, x="factor on the motions", title=title)
+    ps.caption(panel, title=title)

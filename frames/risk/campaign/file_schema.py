@@ -1,0 +1,180 @@
+"""The keys of a campaign's file, and what of them belongs together."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, Self, TypeVar, get_type_hints
+
+from pydantic import Field, create_model, model_validator
+
+from frames.design.project.derived import Table
+from frames.design.project.quantities import Acceleration, Length, Ratio, SpeedRate, Time, quantity
+from frames.design.project.schema import Bearing, LoadsTable, MotionSource, Structure
+from frames.risk.campaign.designs import names_of
+from frames.risk.campaign.file_compare import GEOMETRY, CompareTable
+from frames.risk.campaign.file_fragility import FragilityTable
+from lir_element.device.friction import unit_of
+
+if TYPE_CHECKING:
+    from lir_element import FrictionLaw
+
+T = TypeVar("T")
+
+_IN_G = "Sa", "PGA"  # measures that are accelerations
+
+
+class CampaignTable(Table):
+    """``[campaign]``: its name, plain bearings beside, Python files with friction laws."""
+
+    name: str = Field(min_length=1)
+    devices: tuple[Literal["LIR-DCFP", "DCFP"], ...] = Field(default=("LIR-DCFP",), min_length=1)
+    extensions: tuple[str, ...] = ()
+    batch: int | None = Field(default=None, ge=1)
+
+
+class CampaignMotions(MotionSource):
+    """``[motions]``: the records, and the factors that each is run at."""
+
+    scales: tuple[float, ...] = Field(default=(1.0,), min_length=1)
+    intensities: tuple[Annotated[Acceleration, Field(gt=0.0)], ...] = ()
+    tail: Annotated[Time, Field(gt=0.0)] | None = None
+
+    @model_validator(mode="after")
+    def _scales_or_intensities(self) -> Self:
+        if self.intensities and "scales" in self.model_fields_set:
+            msg = "has scales and intensities: factors on the motions as they are, or what these "
+            msg += "are scaled to; leave one out"
+            raise ValueError(msg)
+        return self
+
+
+class Sampling(Table):
+    """``[sample]``: how sets of parameters are chosen."""
+
+    kind: Literal["grid", "latin hypercube", "sobol"]
+    size: int | None = Field(default=None, ge=1)
+    seed: int = Field(default=0, ge=0)
+
+    @model_validator(mode="after")
+    def _size_of_its_kind(self) -> Self:
+        if (self.kind == "grid") != (self.size is None):
+            needs = "has the size of its values: leave size out"
+            msg = f'"{self.kind}" ' + (needs if self.kind == "grid" else "needs a size")
+            raise ValueError(msg)
+        return self
+
+
+class Range(Table, Generic[T]):
+    """Values of a parameter, or bounds between which it is distributed."""
+
+    values: tuple[T, ...] | None = Field(default=None, min_length=1)
+    low: T | None = None
+    high: T | None = None
+    distribution: Literal["uniform", "loguniform", "normal"] = "uniform"
+    mean: T | None = None
+    deviation: T | None = None
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Self:
+        bounds = (self.low, self.high)
+        if (self.values is None) == (None in bounds) or (self.values and any(bounds)):
+            msg = 'needs values = [...], or low and high: {low = "1.5 m", high = "2.5 m"}'
+            raise ValueError(msg)
+        if (self.distribution == "normal") != (self.mean is not None) or (
+            (self.mean is None) != (self.deviation is None)
+        ):
+            msg = 'mean and deviation go with distribution = "normal", both; low and high cut it'
+            raise ValueError(msg)
+        return self
+
+
+class Parameters(Table):
+    """``[parameters]``: what of the bearings is varied; fields of their law by `parameters_of`."""
+
+    radius: Range[Length] | None = None
+    slider_height: Range[Length] | None = None
+    slider_radius: Range[Length] | None = None
+    capacity: Range[Length] | None = None
+    friction: Range[Ratio] | None = None
+    f_max: Range[Ratio] | None = None
+    f_min: Range[Ratio] | None = None
+    rate: Range[SpeedRate] | None = None
+    interface_friction: Range[Ratio] | None = None
+
+
+class CampaignAnalysis(Table):
+    """``[analysis]``: how time histories are run."""
+
+    level: Literal["pendulum", "contact"] = "pendulum"
+    dt: Time | None = None
+    duration: Time | None = None
+    workers: int | None = Field(default=None, ge=1)
+
+
+class CampaignFile(Table):
+    """A whole file."""
+
+    campaign: CampaignTable
+    structure: Structure
+    loads: LoadsTable | None = None
+    bearing: Bearing
+    motions: CampaignMotions
+    parameters: Parameters | None = None
+    sample: Sampling | None = None
+    analysis: CampaignAnalysis = CampaignAnalysis()
+    fragility: FragilityTable | None = None
+    compare: CompareTable | None = None
+
+    @model_validator(mode="after")
+    def _intensities_of_a_measure(self) -> Self:
+        measure = None if self.fragility is None else self.fragility.intensity
+        if self.motions.intensities and measure not in _IN_G:
+            msg = 'motions.intensities are accelerations: [fragility] intensity = "Sa" with its '
+            msg += 'period, or "PGA", says of what'
+            raise ValueError(msg)
+        if self.compare is not None and self.compare.maximum_considered and measure not in _IN_G:
+            msg = 'compare.maximum_considered is an acceleration: [fragility] intensity = "Sa" '
+            msg += 'with its period, or "PGA", says of what'
+            raise ValueError(msg)
+        return self
+
+    @model_validator(mode="after")
+    def _compared_alone(self) -> Self:
+        if self.compare is None:
+            return self
+        if "devices" in self.campaign.model_fields_set:
+            msg = "campaign.devices: [compare] has the devices, leave it out"
+            raise ValueError(msg)
+        for name in GEOMETRY:
+            if self.parameters is not None and getattr(self.parameters, name) is not None:
+                msg = f"parameters.{name}: [compare] makes its devices by it, leave it out"
+                raise ValueError(msg)
+        return self
+
+    @model_validator(mode="after")
+    def _both_or_none(self) -> Self:
+        if (self.parameters is None) != (self.sample is None):
+            msg = "[parameters] and [sample] belong together: give both, or neither"
+            raise ValueError(msg)
+        return self
+
+
+def parameters_of(law: type[FrictionLaw]) -> type[Parameters]:
+    """Return the keys of ``[parameters]`` for bearings with a friction law.
+
+    Parameters
+    ----------
+    law : type
+        The class of the law; its fields that are numbers are keys, with their units.
+
+    Returns
+    -------
+    type
+        `Parameters` and these keys.
+    """
+    hints = get_type_hints(law)
+    keys: dict[str, Any] = {
+        name: (Range[quantity(unit_of(law, name))] | None, None)  # type: ignore[misc]
+        for name in names_of(law)
+        if hints[name] is float
+    }
+    return create_model("Parameters", __base__=Parameters, __doc__=Parameters.__doc__, **keys)
