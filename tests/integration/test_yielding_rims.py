@@ -22,6 +22,7 @@ from frames import (
     shear_building,
     time_history,
 )
+from frames.design import impact_checks
 from lir_element import AnalysisWarning, DesignWarning, Element, LIRBearing, ring_strength
 from lir_element.kernels.rim import bend, bent, press_rim
 from lir_element.opensees import builtin_commands
@@ -328,6 +329,20 @@ def test_elements_of_opensees_that_know_no_such_rims_refuse_them() -> None:
             bearing(rim_yield_force=math.inf, flange=0.1),
             WEIGHT,
         )
+
+
+def test_what_stays_bent_is_checked_against_what_a_rim_lasts() -> None:
+    device = bearing()
+    data = pushed(device)
+    title = "plastic deformation of rims"
+    [check] = [one for one in impact_checks(data, lumped_mass(device, MASS)) if one.title == title]
+    assert check.demand == pytest.approx(float(data["rim_plastic"].max()), rel=1e-12)
+    left = 0.05 - FORCE / device.resolved()["rim_stiffness"]
+    assert check.limit == pytest.approx(left, rel=1e-12)
+    assert check.passed
+    strong = bearing(rim_yield_force=math.inf)
+    every = impact_checks(pushed(strong), lumped_mass(strong, MASS))
+    assert title not in {one.title for one in every}
 
 
 def test_the_strength_of_a_ring() -> None:

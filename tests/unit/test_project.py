@@ -666,6 +666,22 @@ def test_limits_are_refused_before_anything_is_run(folder: Path) -> None:
     assert (limits.uplift_gap, limits.rim_height, limits.base_shear) == (0.02, 0.03, 9e6)
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("interface_friction = 0.18", "interface_friction = inf", "is a plain DCFP"),
+        ('capacity = "180 mm"', "capacity = inf", "give the displacement at which they are met"),
+    ],
+)
+def test_devices_that_no_check_judges_are_refused_before_anything_is_run(
+    folder: Path, old: str, new: str, words: str
+) -> None:
+    for command_ in ("check", "run"):
+        done = run(app, [command_, str(changed(folder, old, new))])
+        assert done.exit_code == 2
+        assert words in " ".join(done.stderr.split())
+
+
 def test_check_ends_with_the_documented_codes(folder: Path) -> None:
     """Too little restoring force ends with 1; limits of the procedure that are exceeded do not."""
     done = run(app, ["check", str(folder / "small.toml")])

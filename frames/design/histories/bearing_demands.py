@@ -189,6 +189,7 @@ class BearingDemands:
         """Return the checks of rim force, eccentricity and pressures, where they have limits."""
         found, limits = list[Check](), self.limits
         found += self._against("rim force", "rim_force", "P", "rim_strength", "N")
+        found += self._bent_rims()
         title = "normalised eccentricity e/a"
         found += self._against(
             title, "eccentricity_loaded", "epsilon", "eccentricity", "-", note=self._of_resultants
@@ -202,6 +203,24 @@ class BearingDemands:
         found += self._pressure(title, limits.interface_pressure, self._on_overlap)
         title = "pressure on the liner around its resultant"
         return found + self._pressure(title, limits.liner_pressure, self._on_liners)
+
+    def _bent_rims(self) -> list[Check]:
+        # Of rims that yield: what stays, beside the elastic part under the force that they bear.
+        places = [k for k in self._all if math.isfinite(self._at(k).rim_yield_force)]
+        if not places:
+            return []
+        values = peaks_of_runs(self.data, "rim_plastic")
+
+        def fill(k: int) -> Calculation:
+            options, bearing, t = self._at(k).resolved(), self._at(k), Trace()
+            t.given("P_y", bearing.rim_yield_force, "N")
+            t.given("k_r", options["rim_stiffness"], "N/m")
+            t.given("g_u", options["rim_overrun"], "m", shown="mm", note="at which a rim breaks")
+            self.suite.enter(t, "g_p", values[:, k], "m", "mm", of="rim_plastic")
+            t("g_lim", "g_u - P_y / k_r", "m", shown="mm", source="docs/theory.md (3.11)")
+            return Calculation(t, "g_p", "g_lim")
+
+        return self._worst(f"{NO_CODE} (3.11)", "plastic deformation of rims", fill, places)
 
     def _entered(self, k: int) -> Trace:
         # A bearing's numbers; where friction goes by the pressure, at the forces that runs reached.

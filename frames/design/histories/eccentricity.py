@@ -52,13 +52,15 @@ _RAISED: tuple[tuple[str, str, Literal["factor", "difference"]], ...] = (
     ("floor_plan", "m/s2", "factor"),
     ("slip", "m", "difference"),
     ("rim_force", "N", "difference"),
+    ("rim_plastic", "m", "difference"),
     ("eccentricity_loaded", "-", "difference"),
     ("axial_tension", "N", "difference"),
     ("displacement_left", "m", "difference"),
     ("slip_left", "m", "difference"),
 )
 """Quantities that moved masses raise: by a factor, or, where what begins at a threshold may be
-nothing while the masses are where they are, by a difference."""
+nothing while the masses are where they are, by a difference. Of rims none of which yields nothing
+is said."""
 
 
 def raises_of(
@@ -299,6 +301,8 @@ def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple
         for name, _, _ in _RAISED:
             if f"reached_{name}" in data and f"reached_{name}" in there:
                 pair = [_largest(each, name, suite) for each, suite in compared]
+                if name == "rim_plastic" and not any(pair):
+                    continue
                 found[name, way] = (pair[0], pair[1], motions)
     return found, "; ".join(failed)
 

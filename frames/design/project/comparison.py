@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import pandas as pd
 
-from frames.design._errors import ProjectError
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.demand_table import envelope_said, void_said
 from frames.design.histories.suite import peaks_of_runs
@@ -186,12 +185,6 @@ def compare_project(
         After Ctrl-C, with the runs of one device that were complete.
     """
     known = preliminary(parts)
-    if all(link.bearing.is_dcfp for link in known.frame.bearings.values()):
-        msg = (
-            "[bearing] interface_friction = inf is a plain DCFP, which is compared with itself: "
-            "give the interface a friction, `lir design` proposes one"
-        )
-        raise ProjectError(msg)
     runs = {
         device: histories_at_levels(parts, frame, known.motions, progress)
         for device, frame in _frames_of(known.frame).items()

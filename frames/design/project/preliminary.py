@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -111,6 +112,7 @@ def _made(parts: ProjectInputs) -> Preliminary:
     parts.limits(), parts.rules()  # refused before anything is run
     _warn(file_doubts(parts.file))
     frame, spectrum = parts.frame(), parts.spectrum()
+    _refuse_other_devices(frame)
     system = parts.system(parts.loaded_frame() if frame.load_cases else frame, spectrum)
     _warn(wind_doubts(parts.file, system, parts.bounds()))
     above = parts.superstructure(frame)
@@ -132,6 +134,24 @@ def _made(parts: ProjectInputs) -> Preliminary:
         moved=moved_frames(parts, frame),
         types=parts.types(),
     )
+
+
+def _refuse_other_devices(frame: Frame) -> None:
+    # What the checks of the bearings themselves cannot judge once all is run.
+    for name, link in frame.bearings.items():
+        if link.bearing.is_dcfp:
+            msg = (
+                f"interface_friction = inf of {name} is a plain DCFP, and the checks and the "
+                "report are those of a LIR-DCFP: give the interface a friction, `lir design` "
+                "proposes one; `lir compare` runs the plain DCFP of the same plates beside it"
+            )
+            raise ProjectError(msg)
+        if math.isinf(link.bearing.lateral_capacity):
+            msg = (
+                f"capacity = inf of {name}: the checks and the report are those of a bearing with "
+                "restraining rims; give the displacement at which they are met"
+            )
+            raise ProjectError(msg)
 
 
 def moved_frames(parts: ProjectInputs, frame: Frame) -> dict[str, Frame]:
