@@ -13,7 +13,7 @@ import pytest
 
 from frames import GroundMotion, lumped_mass
 from frames.batch.cases import BatchProgress
-from frames.risk import Campaign, CampaignError, full_grid
+from frames.risk import Campaign, CampaignError, Measure, full_grid
 from lir_element import CoulombFriction, LIRBearing
 from tests.patience import patience
 
@@ -50,7 +50,9 @@ def small(store: Path, sets: int = 12) -> Campaign:
     )
     pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.01, name="pulse")
     sample = full_grid({"friction": np.linspace(0.04, 0.08, sets)})
-    return Campaign(lumped_mass(bearing, 5e4), pulse, store=store, batch=2, sample=sample)
+    end = {"end": Measure(lambda data: data["base_shear"].isel(time=-1, axis=0), "N")}
+    frame = lumped_mass(bearing, 5e4)
+    return Campaign(frame, pulse, store=store, batch=2, sample=sample, measures=end)
 
 
 def test_workers_that_are_slow_or_killed_change_nothing(tmp_path: Path, cluster: Any) -> None:

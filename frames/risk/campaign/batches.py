@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -13,8 +13,10 @@ import numpy as np
 from frames.batch.cases import NOT_BUILT
 from frames.batch.time_histories import time_histories
 from frames.frame import Frame
+from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.designs import with_parameters
+from frames.risk.campaign.measures import evaluate, with_room
 from lir_element.errors import AnalysisError, AnalysisWarning
 
 if TYPE_CHECKING:
@@ -25,7 +27,7 @@ if TYPE_CHECKING:
     from frames._types import IntArray
     from frames.batch.cases import BatchProgress
     from frames.motion.ground_motion import GroundMotion
-    from frames.recording.recording import Recording
+    from frames.risk.campaign.measures import Measure
     from frames.risk.campaign.plan import Plan
 
 REFUSED = ValueError, ArithmeticError, AnalysisError
@@ -70,6 +72,8 @@ class Work:
         Of `time_histories`.
     record : Recording or None
         Which histories are kept.
+    measures : mapping of str to Measure
+        Own measures by name.
     """
 
     plan: Plan
@@ -77,6 +81,12 @@ class Work:
     motions: Mapping[str, GroundMotion]
     options: Mapping[str, Any]
     record: Recording | None
+    measures: Mapping[str, Measure] = field(default_factory=dict)
+
+    @property
+    def read(self) -> Recording | None:
+        """Which histories a run forms: those that are kept, or all for own measures."""
+        return self.record or (Recording() if self.measures else None)
 
     def build(self, name: str, k: int) -> Frame:
         """Return a model with set `k` of the parameters."""
@@ -125,7 +135,8 @@ class Work:
             if not found:
                 msg = f"no model can be set up; the first: {first}"
                 raise CampaignError(msg)
-            layout = _untimed(time_histories(found, motion, record=self.record, **brief))
+            layout = _untimed(time_histories(found, motion, record=self.read, **brief))
+            layout = with_room(layout, self.measures)
             return Reference(found, layout.drop_dims(["time", "step"], errors="ignore"))
 
 
@@ -162,7 +173,7 @@ def compute(
             if isinstance(found, str):
                 arrays["status"][at], arrays["message"][at] = NOT_BUILT, found
             else:
-                _put(arrays, at, found, layout)
+                _put(arrays, at, evaluate(found, work.measures, places), layout)
                 if work.record is not None:
                     histories.append(_recorded(found, layout, places))
     texts = [str(w.message) for w in heard if not issubclass(w.category, AnalysisWarning)]
@@ -214,17 +225,18 @@ class _Runs:
 
     def _histories(self, frames: dict[str, Frame], rows: dict[str, list[int]]) -> xr.Dataset:
         runs = [(key, self._work.plan.run(row)) for key, own in rows.items() for row in own]
-        return _untimed(
+        data = _untimed(
             time_histories(
                 {key: frames[key] for key in rows},
                 {run.motion: self._work.motions[run.motion] for _, run in runs},
                 cases=[(key, run.motion, run.scale) for key, run in runs],
-                record=self._work.record,
+                record=self._work.read,
                 workers=self._workers,
                 progress=self._told,
                 **self._work.options,
             )
         )
+        return with_room(data, self._work.measures)
 
 
 def _extra(data: xr.Dataset, layout: xr.Dataset) -> str:

@@ -15,6 +15,7 @@ from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.batches import Reference, Work, compute
 from frames.risk.campaign.cluster import over_cluster
+from frames.risk.campaign.measures import Measure, checked_measures
 from frames.risk.campaign.packages import lacking_packages
 from frames.risk.campaign.plan import Plan
 from frames.risk.campaign.plan_description import described
@@ -58,10 +59,13 @@ class Campaign:
         Factors on the motions [-]; 1 if None.
     record : Recording, optional
         Histories to be kept besides what is reached.
+    measures : dict of str to Measure, optional
+        Own numbers of each run by name: functions of its histories, which stand among the
+        quantities of the results then. NaN where a run stopped early.
     batch : int, optional
         Runs of a batch, the least that is computed and written at once. None: an eighth of all,
-        at least 16 and at most 512, with histories 16; of a results database that is there, its
-        own.
+        at least 16 and at most 512, with histories or own measures 16; of a results database that
+        is there, its own.
     duration, dt, level, integrator, spectral_radius, tolerance, features
         As for `time_histories`, the same for all runs.
 
@@ -96,6 +100,7 @@ class Campaign:
         sample: ParameterSample | None = None,
         scales: float | Sequence[float] | None = None,
         record: Recording | None = None,
+        measures: dict[str, Measure] | None = None,
         batch: int | None = None,
         duration: float | None = None,
         dt: float | None = None,
@@ -110,6 +115,7 @@ class Campaign:
             raise ImportError(lacking)
         require_type("sample", sample, (ParameterSample, type(None)), "a ParameterSample")
         require_type("record", record, (Recording, type(None)), "a Recording, or None")
+        own = checked_measures(measures)
         structures, grounds = _named(models), named_motions(motions)
         one = {name: None for name in (next(iter(structures)),)}
         first = next(iter(grounds))
@@ -129,9 +135,9 @@ class Campaign:
             plan = replace(plan, batch=whole("batch", batch, 1))
         elif self.store.exists:
             plan = replace(plan, batch=int(self.store.plan()["batch"]))
-        elif record is None:
+        elif record is None and not own:
             plan = replace(plan, batch=min(max(plan.runs // PARTS, FEWEST), MOST))
-        self._work = Work(plan, structures, grounds, options, record)
+        self._work = Work(plan, structures, grounds, options, record, own)
 
     def __repr__(self) -> str:
         """Return the results database and the number of runs."""
@@ -175,8 +181,8 @@ class Campaign:
         ------
         CampaignError
             If the results database was planned otherwise, or begun by other sources of the package
-            (each difference is named), or is in use, no model
-            can be set up, or the cluster is lost.
+            (each difference is named), or is in use, no model can be set up, an own measure fails,
+            or the cluster is lost.
         OSError
             If the results database cannot be written. What was done before stays.
         KeyboardInterrupt

@@ -58,6 +58,7 @@ def described(work: Work, reference: Reference) -> dict[str, Any]:
     properties: dict[str, Any] = {}
     for name, frame in frames.items():
         properties |= bearing_properties(name, frame)
+    measures = {name: f"{own.digest()} [{own.unit}]" for name, own in work.measures.items()}
     return {
         "format": FORMAT,
         "program": package_version(),
@@ -75,7 +76,7 @@ def described(work: Work, reference: Reference) -> dict[str, Any]:
         "record": str(work.record) if work.record else "what was reached",
         "provenance": provenance()
         | ({} if plan.sample is None else {"sample": plan.sample.origin or "given"}),
-    }
+    } | ({"measures": measures} if measures else {})
 
 
 def unlike(stored: Mapping[str, Any], given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
