@@ -112,8 +112,7 @@ class Slabs:
 
     def _put(self, part: PanelLoads, size: float, case: str) -> None:
         for member, load in part.members:
-            start, end = ([size * q for q in ends] for ends in (load.start, load.end))
-            self.frame.add_tapered_load(member, start, end, load.a, load.b, case=case)
+            self.frame._put_on_member(member, load.scaled(size, case))
         for node, forces in part.nodes:
             self.frame.add_load(node, (size * forces).tolist(), case=case)
 

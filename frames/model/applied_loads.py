@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
 
 from frames._errors import ModelError
 from frames.model.components import TaperedLoad
 from frames.model.floors import members_at, panel_loads
-from frames.model.geometry_checks import member_ends
+from frames.model.geometry_checks import member_points
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -148,5 +147,4 @@ def _along_members(frame: FrameData, applied: AppliedLoads) -> Iterator[tuple[st
 
 
 def _length(frame: FrameData, member: Member) -> float:
-    start, end = member_ends(frame.nodes, member)
-    return float(np.linalg.norm(end - start))
+    return math.dist(*member_points(frame.nodes, member))

@@ -80,6 +80,12 @@ class TaperedLoad:
     end: Vector
     case: str
 
+    def scaled(self, factor: float, case: str) -> TaperedLoad:
+        """Return the load times a factor, of another case."""
+        (u, v, w), (x, y, z) = self.start, self.end
+        start, end = (factor * u, factor * v, factor * w), (factor * x, factor * y, factor * z)
+        return TaperedLoad(self.a, self.b, start, end, case)
+
 
 @dataclass(frozen=True)
 class FloorLoad:

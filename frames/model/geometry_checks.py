@@ -140,20 +140,22 @@ def member_offsets(
     return found[0], found[1]
 
 
+def member_points(nodes: Nodes, member: Member) -> tuple[Vector, Vector]:
+    """Return the ends of a member [m]: its nodes and its offsets from them."""
+    i, j = nodes[member.i], nodes[member.j]
+    (x, y, z), (dx, dy, dz) = member.offsets
+    return (i.x + x, i.y + y, i.z + z), (j.x + dx, j.y + dy, j.z + dz)
+
+
 def member_ends(nodes: Nodes, member: Member) -> tuple[FloatArray, FloatArray]:
-    """Return the ends of a member (3,) [m]: its nodes and its offsets from them."""
-    found = []
-    for name, (dx, dy, dz) in zip((member.i, member.j), member.offsets, strict=True):
-        node = nodes[name]
-        found.append(np.array((node.x + dx, node.y + dy, node.z + dz)))
-    return found[0], found[1]
+    """Return the same as arrays (3,)."""
+    first, second = member_points(nodes, member)
+    return np.array(first), np.array(second)
 
 
 def member_span(nodes: Nodes, member: Member, a: float, b: float | None) -> tuple[float, float]:
     """Return a part of a member from `a` to `b` [m], None its end, or raise if it is not on it."""
-    first, second = member_ends(nodes, member)
-    along = second - first
-    length = math.sqrt(along @ along)
+    length = math.dist(*member_points(nodes, member))
     owner = f'a load on member "{member.name}"'
     start = require_finite(f"a [m] of {owner}", a, error=ModelError)
     end = length if b is None else require_finite(f"b [m] of {owner}", b, error=ModelError)

@@ -193,6 +193,10 @@ class FrameLoader(FrameData):
         )
         start, end = member_span(self._nodes, self._members[member], a, b)
         load = TaperedLoad(start, end, tuple(first), tuple(second), new_name(case, (), "load case"))
+        self._put_on_member(member, load)
+
+    def _put_on_member(self, member: str, load: TaperedLoad) -> None:
+        # A load that is known to be one of this member.
         self._tapered_loads[member] = (*self._tapered_loads.get(member, ()), load)
 
     def add_floor_load(
