@@ -23,6 +23,7 @@ from frames.risk import (
     sobol_sample,
 )
 from frames.risk.campaign import packages, plan_description
+from frames.risk.campaign.campaign import usual_batch
 from frames.risk.campaign.designs import with_parameters
 from frames.risk.campaign.lock import locked
 from frames.risk.campaign.plan import Plan, differences
@@ -174,7 +175,7 @@ def test_the_digest_is_that_of_the_runs_alone(tmp_path: Path) -> None:
 def test_a_batch_that_was_damaged_is_found(tmp_path: Path) -> None:
     campaign = small(tmp_path / "store")
     campaign.run()
-    chunk = tmp_path / "store/runs.zarr/reached_displacement/c/2/0"
+    chunk = tmp_path / "store/runs.zarr/reached_displacement/c.2.0"
     assert chunk.is_file()
     chunk.unlink()
     with pytest.raises(CampaignError, match=r"batch 2 is not as it was written: remove .*000002"):
@@ -368,6 +369,27 @@ def test_a_batch_is_an_eighth_within_bounds(tmp_path: Path) -> None:
         for n in (2, 30, 1000)
     ]
     assert sizes == [16, 30, 512]
+    assert usual_batch(200_000) == 512
+    assert usual_batch(1_000_000) == 1954  # 512 batches
+
+
+def test_chunks_are_files_without_folders_and_older_ones_are_read(tmp_path: Path) -> None:
+    campaign = small(tmp_path / "store")
+    campaign.run(workers=1)
+    folders = [p for p in (tmp_path / "store/runs.zarr").rglob("*") if p.is_dir()]
+    assert len(folders) == len(list((tmp_path / "store/runs.zarr").glob("*/zarr.json")))
+    before, digest = campaign.results().load(), campaign.digest()
+    for array in (tmp_path / "store/runs.zarr").glob("*/zarr.json"):
+        text = array.read_text()
+        assert '"separator": "."' in text
+        array.write_text(text.replace('"separator": "."', '"separator": "/"'))
+        for chunk in array.parent.glob("c.*"):
+            older = array.parent / chunk.name.replace(".", "/")
+            older.parent.mkdir(parents=True, exist_ok=True)
+            chunk.rename(older)
+    opened = open_campaign(tmp_path / "store")
+    assert opened.results().identical(before)
+    assert opened.digest() == digest
 
 
 def test_progress_counts_the_runs_of_this_call(tmp_path: Path) -> None:

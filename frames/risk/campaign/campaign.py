@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -38,6 +39,14 @@ if TYPE_CHECKING:
 FEWEST, MOST, PARTS = 16, 512, 8
 """Runs of a batch if nothing is said: a part of all, within bounds; with histories the fewest."""
 
+BATCHES = 512
+"""Where batches of the most runs would be more than this, they have more runs: each is files."""
+
+
+def usual_batch(runs: int) -> int:
+    """Return how many runs a batch of a campaign of `runs` has, if nothing is said."""
+    return min(max(runs // PARTS, FEWEST), max(MOST, math.ceil(runs / BATCHES)))
+
 
 class Campaign:
     """Many time histories in a database on disk, which can be stopped at any moment and resumed.
@@ -64,8 +73,8 @@ class Campaign:
         quantities of the results then. NaN where a run stopped early.
     batch : int, optional
         Runs of a batch, the least that is computed and written at once. None: an eighth of all,
-        at least 16 and at most 512, with histories or own measures 16; of a results database that
-        is there, its own.
+        at least 16 and at most 512, or 512 batches; with histories or own measures 16; of a
+        results database that is there, its own.
     duration, dt, level, integrator, spectral_radius, tolerance, features
         As for `time_histories`, the same for all runs.
 
@@ -136,7 +145,7 @@ class Campaign:
         elif self.store.exists:
             plan = replace(plan, batch=int(self.store.plan()["batch"]))
         elif record is None and not own:
-            plan = replace(plan, batch=min(max(plan.runs // PARTS, FEWEST), MOST))
+            plan = replace(plan, batch=usual_batch(plan.runs))
         self._work = Work(plan, structures, grounds, options, record, own)
 
     def __repr__(self) -> str:

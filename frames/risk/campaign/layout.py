@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 _ROWS = {"run", "model", "motion", "scale", "parameter_set"}
 """Coordinates of a row, besides its parameters."""
 
+_FLAT: Any = {"name": "default", "separator": "."}
+"""Chunks of an array are files beside one another: no folder for each batch."""
+
 _TIMINGS = {"seconds_loop"}
 """What no run has twice."""
 
@@ -78,6 +81,7 @@ def lay_out(where: Path, plan: Plan, layout: xr.Dataset) -> None:
             chunks=(plan.batch, *(max(size, 1) for size in variable.shape[1:])),
             dtype="string" if is_text else "float64",
             fill_value="" if is_text else np.nan,
+            chunk_key_encoding=_FLAT,
             dimension_names=tuple(map(str, variable.dims)),
             attributes=dict(variable.attrs),
         )
@@ -110,6 +114,7 @@ def _fill(group: Any, name: str, dims: tuple[str, ...], values: Any, attrs: Any)
         chunks=tuple(max(size, 1) for size in values.shape),
         dtype="string" if is_text else values.dtype,
         fill_value="" if is_text else 0,
+        chunk_key_encoding=_FLAT,
         dimension_names=dims,
         attributes=dict(attrs),
     )
