@@ -223,7 +223,7 @@ def figure_of(found: Found) -> Figure:
         panel.axvline(found["considered"], color=ps.GREY, linewidth=0.7, linestyle=":")
         panel.set_ylim(0.0, 1.02)
         ps.caption(panel, title=plan, x="Sa(3 s) [m/s2]")
-        panel.legend(fontsize="x-small", loc="lower right")
+    ps.add_legend(figure, panels[0].get_lines()[:-1], columns=3)
     ps.caption(panels[0], y="probability of collapse [-]")
     return figure
 
