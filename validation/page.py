@@ -254,8 +254,10 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.measurements.worked_building`), "
                 "[yielding_comparison.md](yielding_comparison.md), buildings that yield on four "
                 "systems (`python -m validation.measurements.yielding_comparison`), "
-                "and [study.md](study.md), the records of FEMA P695 on four devices "
-                "(`python -m validation.measurements.study`).",
+                "[study.md](study.md), the records of FEMA P695 on four devices "
+                "(`python -m validation.measurements.study`), "
+                "and [study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "
+                "and break (`python -m validation.measurements.study_rims`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '
                 "It prints its results as figures; no data of them is published, so the claims check what "
                 "its text states, and closed forms. What the tests demand besides is listed in the "

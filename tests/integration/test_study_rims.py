@@ -1,0 +1,61 @@
+"""The study of rims that yield: its devices are of equal plan, its page is that of its numbers."""
+
+import json
+import math
+
+import pytest
+
+from validation.measurements.study_rims import NAME, OURS, PLAINS, page
+from validation.measurements.study_rims_runs import ENDLESS, KINDS, LIMITS, MORE, devices, dish
+from validation.measurements.study_runs import COLLAPSE, considered
+from validation.page import FOLDER
+
+
+def test_devices_are_of_equal_plan_and_load():
+    """Under each place all devices of a plan need one dish, and refer to one load."""
+    every = devices()
+    assert len(every) == len(KINDS) == len({kind.name for kind in KINDS})
+    for wider in (False, True):
+        own = [every[kind.name].bearings for kind in (*PLAINS[wider], *OURS[wider])]
+        for place in own[0]:
+            dishes = {round(dish(bearings[place].bearing), 9) for bearings in own}
+            loads = {
+                round(bearings[place].bearing.resolved()["design_load"], 3) for bearings in own
+            }
+            assert len(dishes) == len(loads) == 1
+    smaller, larger = (every[PLAINS[wider][0].name].bearings for wider in (False, True))
+    for place, link in smaller.items():
+        assert dish(larger[place].bearing) - dish(link.bearing) == pytest.approx(2.0 * MORE)
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
+def test_rims_are_as_strong_as_they_are_called(kind):
+    for link in devices()[kind.name].bearings.values():
+        bearing, options = link.bearing, link.bearing.resolved()
+        assert bearing.is_dcfp is kind.plain
+        if kind.strength is None:
+            assert math.isinf(bearing.rim_yield_force)
+            assert options["rim_overrun"] == ENDLESS
+        else:
+            assert bearing.rim_yield_force == kind.strength * options["design_load"]
+        if kind.wider and not kind.plain:
+            other = devices()[OURS[False][0].name].bearings
+            sliders = {round(each.bearing.slider_radius, 6) for each in other.values()}
+            assert round(bearing.slider_radius - MORE * kind.wider_sliders, 6) in sliders
+
+
+def test_the_page_is_that_of_its_numbers():
+    stored = json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8"))
+    text = (FOLDER / f"{NAME}.md").read_text(encoding="utf-8")
+    assert text == page(stored)
+    assert stored["considered"] == pytest.approx(considered())
+    assert stored["cost"]["runs"] == len(KINDS) * stored["records"] * 8
+    for kind in KINDS:
+        assert sum(stored["statuses"][kind.name].values()) == stored["records"] * 8
+        curve = stored["limits"][COLLAPSE.name][kind.name]
+        if "median" in curve:
+            ratio = curve["median"][0] / stored["considered"]
+            assert stored["margins"][kind.name][0] == pytest.approx(ratio)
+            assert f"| {ratio:.2f} (" in text
+    for limit in LIMITS:
+        assert limit.name in text
