@@ -45,15 +45,16 @@ def frame_axes(start: Point, end: Point, angle: float = 0.0) -> FloatArray:
         Rows are the unit vectors 1, 2, 3 in global components.
     """
     along = np.subtract(end, start)
-    first = along / np.linalg.norm(along)
+    first = along / math.sqrt(along @ along)
     upright = math.hypot(first[0], first[1]) < VERTICAL_SINE
     guide = np.array([1.0, 0.0, 0.0] if upright else [0.0, 0.0, 1.0])
     second = guide - (guide @ first) * first
-    second /= np.linalg.norm(second)
-    third = np.cross(first, second)
+    second /= math.sqrt(second @ second)
+    (a, b, c), (x, y, z) = first.tolist(), second.tolist()
+    third = np.array((b * z - c * y, c * x - a * z, a * y - b * x))
     if angle:
-        c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-        second, third = c * second + s * third, c * third - s * second
+        cos, sin = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+        second, third = cos * second + sin * third, cos * third - sin * second
     return np.stack([first, second, third])
 
 
@@ -73,9 +74,10 @@ def area_normal(points: FloatArray) -> tuple[FloatArray, float]:
         Its area.
     """
     centre = points.mean(axis=0)
-    apart = points - centre
-    twice = np.cross(apart, np.roll(apart, -1, axis=0)).sum(axis=0)
-    size = float(np.linalg.norm(twice))
+    x, y, z = (points - centre).T
+    u, v, w = (np.concatenate((each[1:], each[:1])) for each in (x, y, z))
+    twice = np.array((y @ w - z @ v, z @ u - x @ w, x @ v - y @ u))
+    size = math.sqrt(twice @ twice)
     return (twice / size if size > 0.0 else twice), 0.5 * size
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
-from frames.model.axes import default_up, local_axes
+from frames.model.axes import local_axes
 from frames.model.components import (
     RELEASABLE,
     Diaphragm,
@@ -100,15 +100,15 @@ def member_up(
             "give shorter offsets, as vectors from node to end in global axes [m]"
         )
         raise ModelError(message)
-    given = None
-    if up is not None:
-        given = require_vector(f'up of member "{name}"', up, 3, error=ModelError)
+    if up is None:  # the default is never along the member
+        return None
+    given = require_vector(f'up of member "{name}"', up, 3, error=ModelError)
     try:
-        local_axes(start, end, default_up(start, end) if given is None else given[None, :])
+        local_axes(start, end, given[None, :])
     except ModelError as cause:
         message = f'member "{name}" has no local axes: {cause}'
         raise ModelError(message) from cause
-    return None if given is None else (float(given[0]), float(given[1]), float(given[2]))
+    return float(given[0]), float(given[1]), float(given[2])
 
 
 def member_offsets(

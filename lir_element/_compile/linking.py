@@ -9,9 +9,7 @@ only with a version that is known to have it (`jit.py`).
 
 from __future__ import annotations
 
-import gc
 import weakref
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import llvmlite.binding as llvm
@@ -23,11 +21,12 @@ from numba.core.registry import CPUDispatcher
 from numba.core.runtime import rtsys
 from numba.core.types.misc import unliteral
 
+from lir_element._compile.collection import without_collection
 from lir_element._compile.front_end import shortened
 from lir_element._compile.lowering import KernelPipeline
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
+    from collections.abc import Callable
 
 
 class PartLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
@@ -221,7 +220,7 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no typ
             before = self._compiler.as_part
             self._compiler.as_part = self._cache.as_part = as_part
             try:
-                with _without_collection(), shortened(self.typingctx):
+                with without_collection(), shortened(self.typingctx):
                     return super().compile(sig)
             finally:
                 self._compiler.as_part = self._cache.as_part = before
@@ -232,24 +231,6 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no typ
             self.overloads[tuple(cres.signature.args)] = cres
         else:
             super().add_overload(cres)
-
-
-@contextmanager
-def _without_collection() -> Generator[None]:
-    """Keep Python from looking for garbage in what the compiler still needs: an eighth of its time.
-
-    Yields
-    ------
-    None
-        While it does not look.
-    """
-    looks = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if looks:
-            gc.enable()
 
 
 def rebuilt_part(

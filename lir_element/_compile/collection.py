@@ -1,0 +1,28 @@
+"""Python's search for garbage, held back where there is none among very many objects."""
+
+from __future__ import annotations
+
+import gc
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Generator
+
+
+@contextmanager
+def without_collection() -> Generator[None]:
+    """Keep Python from looking for garbage in what is still needed.
+
+    Yields
+    ------
+    None
+        While it does not look.
+    """
+    looks = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if looks:
+            gc.enable()
