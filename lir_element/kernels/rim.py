@@ -30,6 +30,8 @@ def bent(dent: Floats, x: float, y: float) -> tuple[float, float]:
     if dent[0] == math.inf:
         return math.inf, 0.0
     size = math.sqrt(x * x + y * y)
+    if size == 0.0:  # in the middle: no rim is near
+        return 0.0, 0.0
     u, v = x / size, y / size
     cos, sin, total, slant = 1.0, 0.0, dent[0], 0.0
     for k in range(1, RIM_WAVES + 1):

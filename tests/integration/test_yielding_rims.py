@@ -94,6 +94,7 @@ def test_a_dent_stays_where_it_was_pressed(angle: float) -> None:
         steep = -2e-2 * math.cos(0.5 * off) ** 7 * math.sin(0.5 * off)
         assert slant == pytest.approx(steep, abs=1e-16)
     assert bent(dent, -x, -y)[0] < 1e-17
+    assert bent(dent, 0.0, 0.0) == (0.0, 0.0)  # a slider in the middle is near no rim
 
 
 # --------------------------------------------------------------------------- one push, one impact

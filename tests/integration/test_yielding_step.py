@@ -15,8 +15,8 @@ HINGES = {
 }
 
 
-def histories(dt):
-    """Return bearing displacements and plastic rotations of a damped frame every 10 ms."""
+def hinged_frame():
+    """Return a frame of two storeys with hinges, on bearings without rims."""
     on = LIRBearing(
         radius=1.5,
         slider_height=0.25,
@@ -25,7 +25,12 @@ def histories(dt):
         friction=CoulombFriction(0.1),
         interface_friction=0.16,
     )
-    frame = moment_frame((1, 1), 2, bearing=on, hinges=HINGES, floor_load=3000.0)
+    return moment_frame((1, 1), 2, bearing=on, hinges=HINGES, floor_load=3000.0)
+
+
+def histories(dt):
+    """Return bearing displacements and plastic rotations of a damped frame every 10 ms."""
+    frame = hinged_frame()
     t = np.arange(0.0, 3.0, 0.01)
     shape = 2.2 * np.exp(-(((t - 2.2) / 1.5) ** 2))
     motion = GroundMotion(
@@ -53,15 +58,7 @@ def test_a_tiny_step_finds_its_equilibrium():
 
     Their own flexibility at such a step is 1e-13 m/N, so round-off looks like a lack of 1 mN.
     """
-    on = LIRBearing(
-        radius=1.5,
-        slider_height=0.25,
-        slider_radius=0.3,
-        capacity=math.inf,
-        friction=CoulombFriction(0.1),
-        interface_friction=0.16,
-    )
-    frame = moment_frame((1, 1), 2, bearing=on, hinges=HINGES, floor_load=3000.0)
+    frame = hinged_frame()
     ends = frame.levels[0].nodes[0], frame.levels[1].nodes[-1]
     for way in (1.0, -1.0):
         law = Tie(stiffness=2e7, yield_force=5e4, hardening=0.01)
