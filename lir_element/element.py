@@ -278,11 +278,11 @@ def limit_detail(props: Records, state: Records, index: int) -> str:
         limit = float(props["slip_capacity"][index])
         return f"slip {slip:.4g} m, slip_capacity {limit:.4g} m"
     if status is RunStatus.RIM_OVERRUN:
-        closure = float((state["rim_closure"] + state["rim_bent"])[index].max())
-        beyond = state["eccentricity"][index] - props["rim_displacement"][index]
-        if float(props["flange"][index]) > 0.0:
-            way = float(props["flange"][index])
+        way = float(props["flange"][index])
+        if way > 0.0:
+            beyond = state["eccentricity"][index] - props["rim_displacement"][index]
             return f"slid {float(beyond.max()):.4g} m beyond a broken rim, flange {way:.4g} m"
+        closure = float((state["rim_closure"] + state["rim_bent"])[index].max())
         limit = float(props["rim_overrun"][index])
         return f"rim deformation {closure:.4g} m, rim_overrun {limit:.4g} m"
     return ""

@@ -66,8 +66,8 @@ class LIRBearing(Specification):
         10 % of critical damping.
     rim_yield_force : float
         Radial force at which a rim yields [N], by tests or `ring_strength`; default: it never does.
-        What presses on it goes no
-        further but for its hardening, and its plastic deformation stays where it was pressed.
+        What presses on it goes no further but for its hardening, and its plastic deformation stays
+        where it was pressed.
     rim_hardening : float
         Stiffness of a rim that yields over its elastic stiffness [-], above 0 and below 1.
     rim_overrun : float, optional

@@ -22,6 +22,12 @@ _SHARES = (70.0 / 256.0, 112.0 / 256.0, 56.0 / 256.0, 16.0 / 256.0, 2.0 / 256.0)
 
 
 @kernel
+def gives_way(p: Props) -> bool:
+    """Return whether rims yield, or break and let the slider go on."""
+    return bool(p.rim_yield_force < math.inf or p.flange > 0.0)
+
+
+@kernel
 def bent(dent: Floats, x: float, y: float) -> tuple[float, float]:
     """Return the plastic deformation of a rim in the direction (x, y), its change by the angle.
 
@@ -57,14 +63,17 @@ def bend(dent: Floats, x: float, y: float, flow: float) -> None:
 
 @kernel
 def keep_dents(
-    p: Props, old: Floats, new: Floats, x: float, y: float, flow: float, deformed: float
+    p: Props, old: Floats, new: Floats, x: float, y: float, flow: float, closure: float, here: float
 ) -> None:
-    """Set the dents of a rim from those before the step; a rim pressed too far is broken."""
+    """Set the dents of a rim from those before the step; a rim pressed too far is broken.
+
+    `closure` is its elastic deformation, `here` the plastic one where it is pressed.
+    """
     for a in range(old.shape[0]):
         new[a] = old[a]
     if flow > 0.0:
         bend(new, x, y, flow)
-    if p.flange > 0.0 and deformed > p.rim_overrun:
+    if p.flange > 0.0 and closure > 0.0 and closure + here > p.rim_overrun:
         for a in range(old.shape[0]):
             new[a] = math.inf
 
@@ -94,3 +103,29 @@ def press_rim(
         return force, slope, closure, 0.0
     flow = (force - strength) / (slope + hardening)
     return strength + hardening * flow, slope * hardening / (slope + hardening), gap - flow, flow
+
+
+@kernel
+def meet_rim(
+    p: Props, dent: Floats, gap: float, x: float, y: float, closure_old: float, dt: float
+) -> tuple[float, float, float, float, float, float]:
+    """Return what `press_rim` does of a rim with dents in the direction (x, y), and these.
+
+    `gap` is the way beyond the rim as it was built. The last two are its plastic deformation before
+    the step, and how that changes by the angle, as far as the force follows it.
+    """
+    before, slant = 0.0, 0.0
+    if gap > 0.0 and gives_way(p):
+        before, slant = bent(dent, x, y)
+    force, slope, closure, flow = press_rim(
+        gap - before,
+        closure_old,
+        p.rim_stiffness,
+        p.rim_damping,
+        dt,
+        p.rim_yield_force + p.rim_hardening * before,
+        p.rim_hardening,
+    )
+    if flow > 0.0:  # what it flows makes up for where it was bent less
+        slant = 0.0
+    return force, slope, closure, flow, before, slant

@@ -257,6 +257,11 @@ def some_bodies(
     return variables
 
 
+def rims_give_way(props: Records) -> bool:
+    """Return whether rims of any bearing yield, or break and let the slider go on."""
+    return bool((np.isfinite(props["rim_yield_force"]) | (props["flange"] > 0.0)).any())
+
+
 def device_variables(records: Records) -> dict[str, xr.Variable]:
     """Return what a Dataset keeps of the bearings' properties `records` (n_bearings,)."""
     variables = {}
@@ -264,8 +269,7 @@ def device_variables(records: Records) -> dict[str, xr.Variable]:
     names += TABLE if records["friction_table"].any() else ()
     names += PRESSURE if records["pressure_rate"].any() else ()
     names += SOFTENING if records["softens"].any() else ()
-    yields = np.isfinite(records["rim_yield_force"]) | (records["flange"] > 0.0)
-    names += RIMS if yields.any() else ()
+    names += RIMS if rims_give_way(records) else ()
     for name in names:
         field = PROPS_BY_NAME[name]
         dims = ("bearing", "surface", "knot")[: 1 + len(field.shape)]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from lir_element.results.dataset import SURFACES, labelled
+from lir_element.results.dataset import SURFACES, labelled, rims_give_way
 
 if TYPE_CHECKING:
     from lir_element.layout import Records
@@ -43,7 +43,7 @@ def optional_variables(step: str, states: Records, props: Records) -> dict[str, 
             "degC",
             "temperature of what each contact slides on, at its middle",
         )
-    if (np.isfinite(props["rim_yield_force"]) | (props["flange"] > 0.0)).any():
+    if rims_give_way(props):
         surface = (step, "bearing", "surface")
         elastic = states["rim_closure"]
         found["rim_closure"] = labelled(

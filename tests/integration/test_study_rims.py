@@ -5,8 +5,9 @@ import math
 
 import pytest
 
+from frames.risk.campaign.compared_devices import dish_diameter
 from validation.measurements.study_rims import NAME, OURS, PLAINS, page
-from validation.measurements.study_rims_runs import ENDLESS, KINDS, LIMITS, MORE, devices, dish
+from validation.measurements.study_rims_runs import ENDLESS, KINDS, LIMITS, MORE, devices
 from validation.measurements.study_runs import COLLAPSE, considered
 from validation.page import FOLDER
 
@@ -18,14 +19,16 @@ def test_devices_are_of_equal_plan_and_load():
     for wider in (False, True):
         own = [every[kind.name].bearings for kind in (*PLAINS[wider], *OURS[wider])]
         for place in own[0]:
-            dishes = {round(dish(bearings[place].bearing), 9) for bearings in own}
+            dishes = {round(dish_diameter(bearings[place].bearing), 9) for bearings in own}
             loads = {
                 round(bearings[place].bearing.resolved()["design_load"], 3) for bearings in own
             }
             assert len(dishes) == len(loads) == 1
     smaller, larger = (every[PLAINS[wider][0].name].bearings for wider in (False, True))
     for place, link in smaller.items():
-        assert dish(larger[place].bearing) - dish(link.bearing) == pytest.approx(2.0 * MORE)
+        assert dish_diameter(larger[place].bearing) - dish_diameter(link.bearing) == pytest.approx(
+            2.0 * MORE
+        )
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)

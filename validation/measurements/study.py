@@ -130,15 +130,20 @@ def study(sets: Sets, store: Path, workers: int, scales: Sequence[float]) -> dic
     return found_of(runs.results(), sets) | {"cost": cost}
 
 
-def main(given: Sequence[str] | None = None) -> None:
-    """Run the campaign, and write the page."""
-    parser = argparse.ArgumentParser(prog="python -m validation.measurements.study")
+def options_of(name: str, given: Sequence[str] | None) -> argparse.Namespace:
+    """Return the options of a study's command: store, workers, again."""
+    parser = argparse.ArgumentParser(prog=f"python -m validation.measurements.{name}")
     parser.add_argument("--store", type=Path, help="a folder for the runs, kept")
     parser.add_argument("--workers", type=int, default=1, help="runs at a time")
     parser.add_argument(
         "--again", action="store_true", help="run nothing: write the page from its JSON"
     )
-    options = parser.parse_args(given)
+    return parser.parse_args(given)
+
+
+def main(given: Sequence[str] | None = None) -> None:
+    """Run the campaign, and write the page."""
+    options = options_of("study", given)
     if options.again:
         found = json.loads((FOLDER / "study.json").read_text(encoding="utf-8"))
         if options.store:  # fitted anew; cost and halved steps are those of the run

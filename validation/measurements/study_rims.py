@@ -8,7 +8,6 @@ The campaign can be stopped; the same command goes on with its store. Needs the 
 
 from __future__ import annotations
 
-import argparse
 import json
 import tempfile
 from pathlib import Path
@@ -18,7 +17,7 @@ from frames.design import MotionSet
 from frames.plots import plot_style as ps
 from frames.risk import open_campaign
 from frames.risk.fragility.resampling import RESAMPLES
-from validation.measurements.study import performed
+from validation.measurements.study import options_of, performed
 from validation.measurements.study_rims_runs import BREAKS, KINDS, LIMITS, Kind, campaign, found_of
 from validation.measurements.study_runs import COLLAPSE, INTENSITY, normalised
 from validation.page import DPI, FOLDER, table
@@ -238,13 +237,7 @@ def write(found: Found, folder: Path = FOLDER) -> None:
 
 def main(given: Sequence[str] | None = None) -> None:
     """Run the campaign, and write the page."""
-    parser = argparse.ArgumentParser(prog="python -m validation.measurements.study_rims")
-    parser.add_argument("--store", type=Path, help="a folder for the runs, kept")
-    parser.add_argument("--workers", type=int, default=1, help="runs at a time")
-    parser.add_argument(
-        "--again", action="store_true", help="run nothing: write the page from its JSON"
-    )
-    options = parser.parse_args(given)
+    options = options_of(NAME, given)
     if options.again:
         write(json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8")))
         return

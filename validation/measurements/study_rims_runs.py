@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from frames.risk import Campaign, LimitState, collapse_margin_ratio
+from frames.risk.campaign.compared_devices import dish_diameter
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.study_runs import (
     COLLAPSE,
@@ -79,11 +80,6 @@ LIMITS = (
 )
 
 
-def dish(bearing: LIRBearing) -> float:
-    """Return the diameter of the dish that a bearing needs [m]."""
-    return 2.0 * (bearing.rim_displacement[0] + bearing.slider_radius)
-
-
 def bearing_of(own: LIRBearing, kind: Kind) -> LIRBearing:
     """Return a bearing of the smaller plan as one of a kind: its dish is what the plan allows."""
     slider = own.slider_radius + (MORE * kind.wider_sliders if kind.wider else 0.0)
@@ -151,7 +147,9 @@ def found_of(
         },
         "bent": {name: float((bent[model == name] > 0.0).mean()) for name in runs},
         "dishes": {
-            name: sorted({round(dish(link.bearing), 4) for link in frame.bearings.values()})
+            name: sorted(
+                {round(dish_diameter(link.bearing), 4) for link in frame.bearings.values()}
+            )
             for name, frame in models.items()
         },
         "capacities": {

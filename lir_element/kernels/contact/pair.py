@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.friction_law import coefficient
-from lir_element.kernels.rim import bent, keep_dents, press_rim
+from lir_element.kernels.rim import gives_way, keep_dents, meet_rim
 from lir_element.kernels.slip import (
     friction_map,
     kelvin_voigt,
@@ -205,24 +205,13 @@ def rim(p: Props, side: int, w: Scratch, old: Bodies, new: Bodies, dt: float) ->
     """
     x, y = w.d[0], w.d[1]
     size = math.sqrt(x * x + y * y)
-    gap, bent_by, slant = size - p.rim_displacement[side], 0.0, 0.0
-    yields = p.rim_yield_force < math.inf or p.flange > 0.0
-    if yields and gap > 0.0:
-        bent_by, slant = bent(old.rim_dent[side], x, y)
-    push, stiff, closure, flow = press_rim(
-        gap - bent_by,
-        old.rim_closure[side],
-        p.rim_stiffness,
-        p.rim_damping,
-        dt,
-        p.rim_yield_force + p.rim_hardening * bent_by,
-        p.rim_hardening,
+    gap = size - p.rim_displacement[side]
+    push, stiff, closure, flow, bent_by, slant = meet_rim(
+        p, old.rim_dent[side], gap, x, y, old.rim_closure[side], dt
     )
-    if flow > 0.0:  # what it flows makes up for where it was bent less
-        slant = 0.0
-    if yields:
-        deformed = closure + bent_by + flow if closure > 0.0 else 0.0
-        keep_dents(p, old.rim_dent[side], new.rim_dent[side], x, y, flow, deformed)
+    if gives_way(p):
+        dents, before = new.rim_dent[side], old.rim_dent[side]
+        keep_dents(p, before, dents, x, y, flow, closure, bent_by + flow)
     new.rim_gap[side] = gap - bent_by - flow
     new.rim_closure[side], new.rim_force[side] = closure, push
     new.rim_flow[side], new.rim_bent[side] = flow, bent_by + flow

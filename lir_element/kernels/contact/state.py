@@ -21,7 +21,7 @@ from lir_element.kernels.contact.places import (
 )
 from lir_element.kernels.pendulum.trial import SMALLEST_COSINE, is_finite, keep_works, limit_status
 from lir_element.kernels.pendulum.work import store_law, taken
-from lir_element.kernels.rim import largest_dent
+from lir_element.kernels.rim import gives_way, largest_dent
 from lir_element.kernels.slip import open_work, stored, surplus
 
 if TYPE_CHECKING:
@@ -180,7 +180,7 @@ def set_surfaces(p: Props, c: Sliders, w: Scratch, bodies: Bodies, old: State, n
         new.rim_closure[side] = bodies.rim_closure[side]
         new.rim_force[side] = bodies.rim_force[side]
         new.rim_flow[side], new.rim_bent[side] = bodies.rim_flow[side], bodies.rim_bent[side]
-        if p.rim_yield_force < math.inf or p.flange > 0.0:
+        if gives_way(p):
             dents = bodies.rim_dent[side]
             for a in range(dents.shape[0]):
                 new.rim_dent[side, a] = dents[a]

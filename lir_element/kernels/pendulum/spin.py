@@ -11,7 +11,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
-from lir_element.kernels.rim import bent
+from lir_element.kernels.rim import bent, gives_way
 from lir_element.layout import SPIN_BALANCE
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ def one_sided(p: Props, old: State) -> float:
     radius = 0.5 * (p.radius[0] + p.radius[1])
     rocks = 4.0 / 3.0 * (radius / p.slider_radius) ** 2 * p.rim_stiffness / p.axial_stiffness
     gap = p.rim_displacement[1 - first] - old.eccentricity[1 - first]
-    if p.rim_yield_force < math.inf or p.flange > 0.0:
+    if gives_way(p):
         if first == 0:
             gap += bent(old.rim_dent[1], old.axis_top[0], old.axis_top[1])[0]
         else:

@@ -27,7 +27,7 @@ from lir_element._compile.jit import inlined, kernel
 from lir_element.kernels.friction_law import lowered_near
 from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
 from lir_element.kernels.pendulum.spin import turn_with_sliders
-from lir_element.kernels.rim import bent, press_rim
+from lir_element.kernels.rim import meet_rim
 from lir_element.kernels.rotation import turn_matrix
 from lir_element.kernels.slip import (
     friction_step,
@@ -305,21 +305,15 @@ def rims(p: Props, old: State, w: Work) -> None:
     w.n_hor[0], w.n_hor[1] = math.sqrt(bottom), math.sqrt(top)  # (1.8)
     for k in range(2):
         gap = -math.inf if away else p.radius[k] * w.n_hor[k] - p.rim_displacement[k]
-        w.rim_bent[k], w.rim_slant[k] = 0.0, 0.0
-        if gap > 0.0 and (p.rim_yield_force < math.inf or p.flange > 0.0):
-            x, y = (-w.n[0], -w.n[1]) if k == 0 else (y_1, y_2)  # where the slider is
-            w.rim_bent[k], w.rim_slant[k] = bent(old.rim_dent[k], x, y)
-        w.rim[k], w.stiff_rim[k], w.rim_closure[k], w.rim_flow[k] = press_rim(
-            gap - w.rim_bent[k],
-            old.rim_closure[k],
-            p.rim_stiffness,
-            p.rim_damping,
-            w.dt,
-            p.rim_yield_force + p.rim_hardening * w.rim_bent[k],
-            p.rim_hardening,
-        )
-        if w.rim_flow[k] > 0.0:  # what it flows makes up for where it was bent less
-            w.rim_slant[k] = 0.0
+        x, y = (-w.n[0], -w.n[1]) if k == 0 else (y_1, y_2)  # where the slider is
+        (
+            w.rim[k],
+            w.stiff_rim[k],
+            w.rim_closure[k],
+            w.rim_flow[k],
+            w.rim_bent[k],
+            w.rim_slant[k],
+        ) = meet_rim(p, old.rim_dent[k], gap, x, y, old.rim_closure[k], w.dt)
     if not (w.rim_closure[0] > 0.0 or w.rim_closure[1] > 0.0):
         return
     for k in range(2):

@@ -22,7 +22,7 @@ from lir_element.kernels.pendulum.string import (
     set_axis,
     static_speeds,
 )
-from lir_element.kernels.rim import keep_dents, largest_dent
+from lir_element.kernels.rim import gives_way, keep_dents, largest_dent
 from lir_element.kernels.slip import friction_map
 
 if TYPE_CHECKING:
@@ -156,12 +156,12 @@ def set_state(p: Props, old: State, w: Work, new: State) -> None:
         new.rim_closure[k] = w.rim_closure[k]
         new.rim_force[k] = w.rim_scale * w.rim[k]
         new.rim_flow[k], new.rim_bent[k] = w.rim_flow[k], w.rim_bent[k] + w.rim_flow[k]
-        if p.rim_yield_force < math.inf or p.flange > 0.0:
+        if gives_way(p):
             way = -1.0 if k == 0 else 1.0  # from the plate's middle to the slider
-            x, y, pressed = way * w.unit[k, 0], way * w.unit[k, 1], w.rim_closure[k] > 0.0
-            deformed = w.rim_closure[k] + new.rim_bent[k] if pressed else 0.0
-            keep_dents(p, old.rim_dent[k], new.rim_dent[k], x, y, w.rim_flow[k], deformed)
-            new.rim_plastic[k] = largest_dent(old.rim_plastic[k], new.rim_dent[k], new.rim_bent[k])
+            x, y = way * w.unit[k, 0], way * w.unit[k, 1]
+            before, dents, here = old.rim_dent[k], new.rim_dent[k], new.rim_bent[k]
+            keep_dents(p, before, dents, x, y, w.rim_flow[k], w.rim_closure[k], here)
+            new.rim_plastic[k] = largest_dent(old.rim_plastic[k], dents, here)
         for a in range(2):
             new.hysteresis[k, a] = w.z[k, a]
             new.friction_force[k, a] = w.n_pos * w.phi[k, a]
