@@ -255,9 +255,9 @@ def index(folder: Path = FOLDER) -> str:
                 "[yielding_comparison.md](yielding_comparison.md), buildings that yield on four "
                 "systems (`python -m validation.measurements.yielding_comparison`), "
                 "[study.md](study.md), the records of FEMA P695 on four devices "
-                "(`python -m validation.measurements.study`), "
+                "(`python -m validation.study.records`), "
                 "and [study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "
-                "and break (`python -m validation.measurements.study_rims`).",
+                "and break (`python -m validation.study.rims`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '
                 "It prints its results as figures; no data of them is published, so the claims check what "
                 "its text states, and closed forms. What the tests demand besides is listed in the "

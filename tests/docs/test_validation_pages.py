@@ -79,7 +79,8 @@ def test_the_index_is_that_of_the_pages():
 @pytest.mark.parametrize("name", MEASUREMENTS)
 def test_measurements_are_in_the_index(name):
     assert f"({name}.md)" in text_of("README")
-    assert re.search(rf"python -m validation\.(measurements\.)?{name}\b", text_of(name))
+    command = name.replace("study_", "study.")
+    assert re.search(rf"python -m validation\.(measurements\.)?{command}\b", text_of(name))
 
 
 def test_pages_and_figures_belong_to_claims():

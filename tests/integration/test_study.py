@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from frames import GroundMotion, ductility, time_histories, time_history
-from validation.measurements.study import study
-from validation.measurements.study_figures import figures
-from validation.measurements.study_page import page
-from validation.measurements.study_runs import (
+from validation.measurements.yielding_runs import RIMS, WIDE
+from validation.page import FOLDER
+from validation.study.records import study
+from validation.study.records_figures import figures
+from validation.study.records_page import page
+from validation.study.records_runs import (
     ALL,
     COLLAPSE,
     DEVICES,
@@ -23,8 +25,6 @@ from validation.measurements.study_runs import (
     normalised,
     yield_rotations,
 )
-from validation.measurements.yielding_runs import RIMS, WIDE
-from validation.page import FOLDER
 
 
 def pulse(period):

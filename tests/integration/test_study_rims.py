@@ -6,10 +6,10 @@ import math
 import pytest
 
 from frames.risk.campaign.compared_devices import dish_diameter
-from validation.measurements.study_rims import NAME, OURS, PLAINS, page
-from validation.measurements.study_rims_runs import ENDLESS, KINDS, LIMITS, MORE, devices
-from validation.measurements.study_runs import COLLAPSE, considered
 from validation.page import FOLDER
+from validation.study.records_runs import COLLAPSE, considered
+from validation.study.rims import NAME, OURS, PLAINS, page
+from validation.study.rims_runs import ENDLESS, KINDS, LIMITS, MORE, devices
 
 
 def test_devices_are_of_equal_plan_and_load():

@@ -107,6 +107,7 @@ FLOORS = (
     "validation.fuzzing",
     "validation.claims",
     "validation.measurements",
+    "validation.study",
 )
 
 

@@ -1,6 +1,6 @@
 """LIR-DCFP and DCFP of equal plan whose rims have a strength: devices, runs and numbers.
 
-The building, intensities and limit states are those of `study_runs`, the records the far-field set.
+The building, intensities and limit states are those of `records_runs`, the records the far-field set.
 """
 
 from __future__ import annotations
@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from frames.risk import Campaign, LimitState, collapse_margin_ratio
 from frames.risk.campaign.compared_devices import dish_diameter
 from lir_element.units import STANDARD_GRAVITY
-from validation.measurements.study_runs import (
+from validation.measurements.yielding_runs import LIR, RIMS, model_of, structures
+from validation.study.records_runs import (
     COLLAPSE,
     SCALES,
     STEP,
@@ -21,7 +22,6 @@ from validation.measurements.study_runs import (
     numbers_of,
     runs_of,
 )
-from validation.measurements.yielding_runs import LIR, RIMS, model_of, structures
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 
 from frames.plots import plot_style as ps
 from lir_element.units import STANDARD_GRAVITY
-from validation.measurements.study_runs import ALL, DEVICES, LIMITS, SLIP
+from validation.study.records_runs import ALL, DEVICES, LIMITS, SLIP
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -9,8 +9,10 @@ import numpy as np
 from frames.demo import bearing_for
 from frames.design.hazard.fema_records import RECORD_SETS
 from lir_element.units import STANDARD_GRAVITY
-from validation.measurements.study_figures import CURVES, FLOOR, MEDIANS, SHOWN
-from validation.measurements.study_runs import (
+from validation.measurements.yielding_runs import LIR, RIMS, TAIL, WIDE, bearings_of
+from validation.page import table
+from validation.study.records_figures import CURVES, FLOOR, MEDIANS, SHOWN
+from validation.study.records_runs import (
     ALL,
     COLLAPSE,
     DEVICES,
@@ -25,8 +27,6 @@ from validation.measurements.study_runs import (
     margin,
     yield_rotations,
 )
-from validation.measurements.yielding_runs import LIR, RIMS, TAIL, WIDE, bearings_of
-from validation.page import table
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -84,7 +84,7 @@ def _introduction(found: Found) -> str:
     scales = ", ".join(f"{scale:g}" for scale in found["scales"])
     cost = found["cost"]
     return (
-        "Written by `python -m validation.measurements.study` "
+        "Written by `python -m validation.study.records` "
         f"({cost['date']}, {cost['machine']}). Auad, Castaldo and Almazan (2022) asked what the "
         "LIR-DCFP does to the reliability of a building that yields. This study asks the same with "
         "the building, the bearings and the time histories of this project; it does not repeat "

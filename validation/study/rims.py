@@ -1,6 +1,6 @@
 """LIR-DCFP and DCFP of equal plan whose rims have a strength: writes docs/validation/study_rims.md.
 
-    python -m validation.measurements.study_rims --store rim-runs
+    python -m validation.study.rims --store rim-runs
 
 The campaign can be stopped; the same command goes on with its store. Needs the extras "campaign",
 "fema" and "fragility".
@@ -17,10 +17,10 @@ from frames.design import MotionSet
 from frames.plots import plot_style as ps
 from frames.risk import open_campaign
 from frames.risk.fragility.resampling import RESAMPLES
-from validation.measurements.study import options_of, performed
-from validation.measurements.study_rims_runs import BREAKS, KINDS, LIMITS, Kind, campaign, found_of
-from validation.measurements.study_runs import COLLAPSE, INTENSITY, normalised
 from validation.page import DPI, FOLDER, table
+from validation.study.records import options_of, performed
+from validation.study.records_runs import COLLAPSE, INTENSITY, normalised
+from validation.study.rims_runs import BREAKS, KINDS, LIMITS, Kind, campaign, found_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -69,7 +69,7 @@ def _introduction(found: Found) -> str:
         wider: 1e3 * max(found["capacities"][kinds[0].name]) for wider, kinds in PLAINS.items()
     }
     return (
-        f"Written by `python -m validation.measurements.study_rims` ({found['cost']['date']}, "
+        f"Written by `python -m validation.study.rims` ({found['cost']['date']}, "
         f"{found['cost']['machine']}). In [study.md](study.md) the rims of the DCFP break at several "
         "times the load that the bearing carries, and its comparison of collapse rests on that. Here "
         "rims have a strength: they yield at 0.5, 1 or 2 times the design load W of their bearing and "
@@ -237,7 +237,7 @@ def write(found: Found, folder: Path = FOLDER) -> None:
 
 def main(given: Sequence[str] | None = None) -> None:
     """Run the campaign, and write the page."""
-    options = options_of(NAME, given)
+    options = options_of("rims", given)
     if options.again:
         write(json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8")))
         return
