@@ -21,6 +21,8 @@ MEASUREMENTS = (
     "slip",
     "study",
     "study_rims",
+    "study_buildings",
+    "study_motions",
     "level_doubts",
     "worked_building",
     "yielding",
