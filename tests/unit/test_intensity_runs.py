@@ -70,12 +70,39 @@ def test_intensities_of_a_pair() -> None:
     assert SCALE.of(motion) == 1.0
 
 
+def test_the_average_of_a_spectrum_is_the_root_of_a_product() -> None:
+    time = 0.01 * np.arange(400)
+    x = np.sin(2.0 * np.pi * time)
+    motion = GroundMotion(x=x, y=0.4 * x[::-1], dt=0.01)
+    average = Intensity(kind="Sa_avg", periods=[0.5, 1.0, 2.0], damping=0.1)
+    each = [Intensity(kind="Sa", period=t, damping=0.1).of(motion) for t in (0.5, 1.0, 2.0)]
+    assert average.of(motion) == pytest.approx((each[0] * each[1] * each[2]) ** (1.0 / 3.0))
+    assert average.of(motion.scaled(2.5)) == pytest.approx(2.5 * average.of(motion))
+    assert average.unit == "m/s2"
+    assert average.label == "Sa_avg(3 periods from 0.5 to 2 s, 10 %), RotD50"
+    assert average.periods == (0.5, 1.0, 2.0)
+    assert average == Intensity(kind="Sa_avg", periods=np.array([0.5, 1.0, 2.0]), damping=0.1)
+    assert average != Intensity(kind="Sa_avg", periods=[0.5, 1.1, 2.0], damping=0.1)
+
+
+@pytest.mark.parametrize(
+    "periods", [(), [1.0], [2.0, 1.0], [0.0, 1.0], [1.0, math.nan], [[1.0, 2.0]], [1.0, 1.0]]
+)
+def test_periods_of_an_average_rise(periods: object) -> None:
+    with pytest.raises(FragilityError, match="two or more that rise"):
+        Intensity(kind="Sa_avg", periods=periods)  # type: ignore[arg-type]
+
+
 def test_intensities_that_make_no_sense_are_refused() -> None:
     silent = GroundMotion(x=[0.0, 1.0, 0.0], y=[0.0, 0.0, 0.0], dt=0.1)
     with pytest.raises(FragilityError, match="period"):
         Intensity(kind="Sa")
     with pytest.raises(FragilityError, match="only kind"):
         Intensity(kind="PGA", period=1.0)
+    with pytest.raises(FragilityError, match="only kind"):
+        Intensity(kind="Sa_avg", periods=[1.0, 2.0], period=1.0)
+    with pytest.raises(FragilityError, match="leave them out"):
+        Intensity(kind="Sa", period=1.0, periods=[1.0, 2.0])
     with pytest.raises(FragilityError, match="measure"):
         Intensity(kind="PGA", measure="mean")
     with pytest.raises(FragilityError, match="leave it out"):
