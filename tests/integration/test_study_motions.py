@@ -17,11 +17,13 @@ from validation.study.buildings_runs import BUILDINGS, SCALES, building
 from validation.study.motions_numbers import first_over, of_seconds
 from validation.study.motions_page import NAME, csv_tables, page
 from validation.study.motions_runs import (
+    ANGLE_SCALES,
     ANGLES,
     MAIN_SCALES,
     PULSE_SCALES,
     PULSES,
     SECONDS,
+    TRIED,
     After,
     Pulse,
     followed,
@@ -32,7 +34,7 @@ from validation.study.motions_runs import (
     vertical_over_horizontal,
     without_vertical,
 )
-from validation.study.paired import KINDS, LIMITS, WEAK, on_devices
+from validation.study.paired import LIMITS, WEAK, on_devices
 from validation.study.records_runs import INTENSITY
 
 
@@ -141,16 +143,19 @@ def test_the_page_is_that_of_its_numbers():
     assert (FOLDER / f"{NAME}.md").read_text(encoding="utf-8") == page(stored)
     for name, text in csv_tables(stored).items():
         assert (FOLDER / "tables" / name).read_text(encoding="utf-8") == text
-    records, devices = stored["records"], len(KINDS)
+    records, devices = stored["records"], len(TRIED)
     assert stored["cost"]["runs"] == (
-        records * (devices * len(ANGLES) * len(SCALES) + 2 * len(SECONDS) * len(MAIN_SCALES))
+        records * devices * len(SCALES)
+        + records * devices * (len(ANGLES) - 1) * len(ANGLE_SCALES)
+        + records * devices * len(SECONDS) * len(MAIN_SCALES)
         + devices * len(PULSES) * len(PULSE_SCALES)
         + 2 * devices * sum(row[3] + row[4] for row in _flat(stored))
     )
     for limit in LIMITS:
         for own in stored["angles"]["limits"][limit.name].values():
-            for name in KINDS:
-                assert sum(row[3] + row[4] for row in own["shares"][name]) == records * len(SCALES)
+            for name in TRIED:
+                known = sum(row[3] + row[4] for row in own["shares"][name])
+                assert known == records * len(ANGLE_SCALES)
     for own in stored["seconds"].values():
         for rows in own.values():
             for row in rows:

@@ -14,17 +14,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from frames.design import MotionSet
+from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
 from validation.study.buildings_figures import figures
-from validation.study.buildings_numbers import facts_of, numbers_of
+from validation.study.buildings_numbers import facts_of, numbers_of, tried
 from validation.study.buildings_page import NAME, csv_tables, page
-from validation.study.buildings_runs import BUILDINGS, SCALES, building, yield_rotations
+from validation.study.buildings_runs import (
+    BUILDINGS,
+    SCALES,
+    building,
+    records_for,
+    yield_rotations,
+)
+from validation.study.device_runs import best_devices
 from validation.study.paired import (
     joined,
     on_devices,
     performed_each,
     rounded,
     table_of,
+    told_of,
     write_part,
 )
 from validation.study.records import options_of
@@ -42,17 +51,22 @@ def found_of(store: Path, workers: int) -> dict[str, Any]:
     """Run what is not done, and return what the page says of it."""
     motions = normalised(MotionSet.fema_p695(RECORDS))
     found: dict[str, Any] = {"records": len(motions), "considered": considered(), "buildings": {}}
+    found["lir"] = told_of(best_devices()[LIR])
     costs = []
     for one in BUILDINGS:
-        frames = {frame.name: frame for frame in on_devices(building(one)).values()}
-        data, cost = performed_each(frames, motions, store, SCALES, workers)
+        every = on_devices(building(one))
+        frames = {every[device].name: every[device] for device in tried(one)}
+        own = records_for(one, motions)
+        data, cost = performed_each(frames, own, store, SCALES, workers)
         costs.append(cost)
         yields = yield_rotations(one)
         runs = {
-            name.removeprefix(f"{one.name}, "): table_of(each, motions, yields)
+            name.removeprefix(f"{one.name}, "): table_of(each, own, yields)
             for name, each in data.items()
         }
-        found["buildings"][one.name] = {"facts": facts_of(one)} | numbers_of(runs)
+        found["buildings"][one.name] = {"facts": facts_of(one), "records": len(own)} | numbers_of(
+            runs
+        )
     return found | {"cost": joined(costs)}
 
 

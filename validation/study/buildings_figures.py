@@ -11,7 +11,7 @@ from scipy.stats import norm
 from frames.plots import plot_style as ps
 from validation.study.buildings_numbers import LIR
 from validation.study.buildings_runs import SCALES
-from validation.study.paired import KINDS, LIMITS, OTHERS
+from validation.study.paired import DEVICES, LIMITS, OTHERS
 from validation.study.records_runs import COLLAPSE
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 CURVES_FIGURE, RATIOS_FIGURE = "study_buildings-collapse.png", "study_buildings-ratios.png"
 MARKERS = "osd"
 DODGE = 0.14
+COLUMNS = 3
 
 
 def figures(found: Found) -> dict[str, Figure]:
@@ -32,13 +33,13 @@ def figures(found: Found) -> dict[str, Figure]:
 
 
 def _curves(found: Found) -> Figure:
-    figure = ps.new_figure(5.0)
-    grid = ps.grid_of(figure, 2, 3, share_x=True, share_y=True)
-    panels = [panel for row in grid for panel in row]
+    figure, panels = ps.panels_of(len(found["buildings"]), COLUMNS, 2.2)
     at = np.linspace(0.05, 1.1 * SCALES[-1], 80)
     for panel, (name, own) in zip(panels, found["buildings"].items(), strict=True):
         collapse = own["limits"][COLLAPSE.name]
-        for k, device in enumerate(KINDS):
+        for k, device in enumerate(DEVICES):
+            if device not in own["statuses"]:
+                continue
             look, drawn = ps.line_of(k), collapse["drawn"][device]
             if drawn is not None:
                 panel.plot(at, norm.cdf(np.log(at / drawn[0]) / drawn[1]), **look)
@@ -49,13 +50,13 @@ def _curves(found: Found) -> Figure:
         panel.axvline(found["considered"], color=ps.GREY, linewidth=0.7, linestyle=":")
         panel.set_ylim(-0.02, 1.03)
         ps.caption(panel, title=name)
-    for row in grid:
-        ps.caption(row[0], y="probability of collapse [-]")
-    for panel in grid[1]:
-        ps.caption(panel, x="Sa(3 s) [m/s2]")
+    for panel in panels[::COLUMNS]:
+        ps.caption(panel, y="probability of collapse [-]")
+    for panel in panels[-COLUMNS:]:
+        ps.close_column(panel, "Sa(3 s) [m/s2]", is_last=True)
     handles = [
         Line2D([], [], label=name, marker=MARKERS[k], markersize=3.5, **ps.line_of(k))
-        for k, name in enumerate(KINDS)
+        for k, name in enumerate(DEVICES)
     ]
     ps.add_legend(figure, handles, columns=3, title="Dotted: maximum considered earthquake")
     return figure
@@ -85,6 +86,7 @@ def _ratios(found: Found) -> Figure:
                 )
         panel.axhline(1.0, color=ps.GREY, linewidth=0.8)
         panel.set_xticks(range(len(names)), [name.replace(" storeys, ", "\n") for name in names])
+        panel.set_xlim(-0.5, len(names) - 0.5)
         ps.caption(panel, title=limit.name)
     for row in grid:
         ps.caption(row[0], y="ratio of medians [-]")

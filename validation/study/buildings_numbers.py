@@ -10,11 +10,21 @@ import numpy as np
 from frames.risk import LimitState
 from frames.risk.fragility.runs import COMPLETE, FAILURE
 from lir_element.units import STANDARD_GRAVITY
-from validation.study.buildings_runs import HEIGHT, SPAN, Building, building, period, strength
+from validation.measurements.yielding_runs import LIR
+from validation.study.buildings_runs import (
+    ALL_RECORDS,
+    HEIGHT,
+    SPAN,
+    Building,
+    building,
+    period,
+    strength,
+)
 from validation.study.paired import (
-    KINDS,
+    DEVICES,
     LIMITS,
     OTHERS,
+    STRONG,
     curve_of,
     median_of,
     ratio_of,
@@ -31,9 +41,8 @@ if TYPE_CHECKING:
 
     Runs = Mapping[str, IntensityRuns]
 
-LIR = next(iter(KINDS))
-RESAMPLES = 200
-"""Of the intervals."""
+RESAMPLES, FEW_RESAMPLES = 200, 100
+"""Of the intervals by limit state, and of those by definition of collapse."""
 
 FLOOR, UPLIFT = 2.0 * STANDARD_GRAVITY, 0.05
 """Floor acceleration [m/s2] and uplift [m] that may count as collapse."""
@@ -94,6 +103,11 @@ DEFINITIONS = (
 )
 
 
+def tried(one: Building) -> tuple[str, ...]:
+    """Return the devices on which a building is run."""
+    return tuple(each for each in DEVICES if each != STRONG or one in ALL_RECORDS)
+
+
 def facts_of(one: Building) -> dict[str, float]:
     """Return what a building is: period, strength, slenderness, loads, sliders."""
     frame = building(one)
@@ -107,6 +121,7 @@ def facts_of(one: Building) -> dict[str, float]:
         "least load": float(min(loads)),
         "largest load": float(max(loads)),
         "least slider": min(each.slider_radius for each in bearings),
+        "slider height": bearings[0].slider_height,
         "largest slider": max(each.slider_radius for each in bearings),
     }
 
@@ -139,7 +154,7 @@ def numbers_of(runs: Runs) -> dict[str, Any]:
         counts = {}
         for name, each in runs.items():
             own, limit = definition.of(each)
-            curves[name] = curve_of(own, limit, RESAMPLES)
+            curves[name] = curve_of(own, limit, FEW_RESAMPLES)
             over = own.exceeded(limit)
             counts[name] = [int(np.nansum(over)), int(np.isfinite(over).sum())]
         definitions[definition.name] = _compared(curves) | {"counts": counts}
@@ -156,7 +171,10 @@ def _compared(curves: Mapping[str, Curve | str]) -> dict[str, Any]:
     return {
         "medians": {name: median_of(curve) for name, curve in curves.items()},
         "why": {name: curve for name, curve in curves.items() if isinstance(curve, str)},
-        "ratios": {other: ratio_of(curves[LIR], curves[other]) for other in OTHERS},
+        "ratios": {
+            other: ratio_of(curves[LIR], curves[other]) if other in curves else None
+            for other in OTHERS
+        },
     }
 
 

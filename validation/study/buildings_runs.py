@@ -24,6 +24,7 @@ from validation.measurements.yielding_runs import (
 )
 
 if TYPE_CHECKING:
+    from frames import GroundMotion
     from lir_element import LIRBearing
 
     Place = tuple[int, int]
@@ -42,6 +43,10 @@ BOX, SHAPE = (0.50, 0.030), (0.65, 0.25, 0.022, 0.013)
 
 SCALES = (1.2, 1.6, 2.0, 2.6, 3.3, 4.2)
 """Intensities of the stripes [m/s2]."""
+
+ALL_RECORDS = ((3, FRAMES), (3, WALLS), (6, FRAMES))
+"""Buildings that are run under all records, and with rims that never break, too; of the others,
+which cost most, every second record and two devices."""
 
 LENGTH, THICKNESS = 3.0, 0.30
 """Of a wall [m]."""
@@ -83,6 +88,11 @@ def steps() -> tuple[Structure, ...]:
         weak,
     )
     return structures()["light"], structures()["demo"], heavy
+
+
+def records_for(one: Building, motions: Mapping[str, GroundMotion]) -> dict[str, GroundMotion]:
+    """Return the records under which a building is run: all, or every second."""
+    return dict(list(motions.items())[:: 1 if one in ALL_RECORDS else 2])
 
 
 def step_of(storey: int, storeys: int) -> Structure:

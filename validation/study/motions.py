@@ -17,17 +17,20 @@ from typing import TYPE_CHECKING, Any
 
 from frames.design import MotionSet
 from frames.risk.fragility.resampling import RESAMPLES
+from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
 from validation.study.buildings_runs import BUILDINGS, SCALES, building, yield_rotations
+from validation.study.device_runs import best_devices
 from validation.study.motions_figures import figures
 from validation.study.motions_numbers import of_angles, of_pulses, of_seconds, of_vertical
 from validation.study.motions_page import NAME, csv_tables, page
 from validation.study.motions_runs import (
-    AFTER_DEVICES,
+    ANGLE_SCALES,
     ANGLES,
     MAIN_SCALES,
     PULSE_SCALES,
     SECONDS,
+    TRIED,
     VERTICAL_SCALES,
     followed,
     pulses,
@@ -38,11 +41,13 @@ from validation.study.motions_runs import (
     without_vertical,
 )
 from validation.study.paired import (
+    at_scales,
     joined,
     on_devices,
     performed_each,
     rounded,
     table_of,
+    told_of,
     write_part,
 )
 from validation.study.records import options_of
@@ -51,7 +56,7 @@ from validation.study.records_runs import considered, normalised
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from frames import Frame, GroundMotion
+    from frames import GroundMotion
     from frames.risk import IntensityRuns
 
     Found = Mapping[str, Any]
@@ -70,18 +75,10 @@ class Runner:
         self.costs: list[dict[str, Any]] = []
 
     def runs(
-        self,
-        name: str,
-        motions: Mapping[str, GroundMotion],
-        scales: Sequence[float],
-        devices: Sequence[str] = (),
+        self, name: str, motions: Mapping[str, GroundMotion], scales: Sequence[float]
     ) -> dict[str, IntensityRuns]:
-        """Return the runs of a campaign by device; all devices where none is named."""
-        frames: dict[str, Frame] = {
-            f"{BASE.name}, {device}": frame
-            for device, frame in self._frames.items()
-            if not devices or device in devices
-        }
+        """Return the runs of a campaign by device."""
+        frames = {self._frames[device].name: self._frames[device] for device in TRIED}
         data, cost = performed_each(frames, motions, self._store / name, scales, self._workers)
         self.costs.append(cost)
         return {
@@ -93,14 +90,16 @@ class Runner:
 def found_of(runner: Runner, folder: Path) -> dict[str, Any]:
     """Run what is not done, and return what the page says of it."""
     motions = normalised(MotionSet.fema_p695(RECORDS))
-    angles = {
-        angle: runner.runs(f"angle-{angle}", turned(motions, angle), SCALES) for angle in ANGLES
+    base = runner.runs("base", motions, SCALES)
+    angles = {0: {name: at_scales(runs, ANGLE_SCALES) for name, runs in base.items()}} | {
+        angle: runner.runs(f"angle-{angle}", turned(motions, angle), ANGLE_SCALES)
+        for angle in ANGLES[1:]
     }
     after = {
         each.name: {
             name: runs.table
             for name, runs in runner.runs(
-                f"after-{k}", followed(motions, each), MAIN_SCALES, AFTER_DEVICES
+                f"after-{k}", followed(motions, each), MAIN_SCALES
             ).items()
         }
         for k, each in enumerate(SECONDS)
@@ -115,10 +114,11 @@ def found_of(runner: Runner, folder: Path) -> dict[str, Any]:
     )
     return {
         "records": len(motions),
+        "lir": told_of(best_devices()[LIR]),
         "considered": considered(),
         "angles": of_angles(angles, RESAMPLES),
         "seconds": of_seconds(
-            {name: runs.table for name, runs in angles[0].items()},
+            {name: runs.table for name, runs in base.items()},
             after,
             {each.name: each for each in SECONDS},
         ),

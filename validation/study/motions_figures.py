@@ -8,15 +8,14 @@ from matplotlib.lines import Line2D
 
 from frames.plots import plot_style as ps
 from validation.study.motions_runs import (
-    AFTER_DEVICES,
     MAIN_SCALES,
     PERIOD_RATIOS,
     PHASES,
     PULSE_SCALES,
     PULSE_STEP,
+    TRIED,
     Pulse,
 )
-from validation.study.paired import KINDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -38,7 +37,7 @@ def _seconds(found: Found) -> Figure:
     figure = ps.new_figure(3.2)
     (panels,) = ps.grid_of(figure, 1, len(found["seconds"]), share_x=True, share_y=True)
     for panel, (second, own) in zip(panels, found["seconds"].items(), strict=True):
-        for k, name in enumerate(AFTER_DEVICES):
+        for k, name in enumerate(TRIED):
             look = ps.line_of(k)
             rows = own[name]
             at = [row["scale"] for row in rows]
@@ -52,7 +51,7 @@ def _seconds(found: Found) -> Figure:
     ps.caption(panels[0], y="collapse in the second [%]")
     handles = [
         Line2D([], [], label=name, marker=MARKERS[k], markersize=4.0, **ps.line_of(k))
-        for k, name in enumerate(AFTER_DEVICES)
+        for k, name in enumerate(TRIED)
     ]
     handles.append(
         Line2D([], [], label="intact, second alone", color=ps.GREY, linestyle=":", linewidth=0.8)
@@ -71,7 +70,7 @@ def _pulses(found: Found) -> Figure:
     (panels,) = ps.grid_of(figure, 1, len(PHASES), share_x=True, share_y=True)
     top = PULSE_STEP * PULSE_SCALES[-1]
     for panel, kind in zip(panels, PHASES, strict=True):
-        for k, name in enumerate(KINDS):
+        for k, name in enumerate(TRIED):
             look = ps.line_of(k)
             rows = [found["pulses"][name][Pulse(ratio, kind).name] for ratio in PERIOD_RATIOS]
             at = [top if row["high"] is None else row["high"] for row in rows]
@@ -90,7 +89,7 @@ def _pulses(found: Found) -> Figure:
     ps.caption(panels[0], y="first collapse, Sa(3 s) [m/s2]")
     handles = [
         Line2D([], [], label=name, marker=MARKERS[k], markersize=4.5, **ps.line_of(k))
-        for k, name in enumerate(KINDS)
+        for k, name in enumerate(TRIED)
     ]
     ps.add_legend(figure, handles, columns=3)
     return figure

@@ -9,24 +9,22 @@ from validation.measurements.yielding_runs import LIR, TAIL
 from validation.page import table
 from validation.study.motions_figures import PULSES_FIGURE, SHOCKS_FIGURE
 from validation.study.motions_runs import (
-    AFTER_DEVICES,
     GAMMA,
     LARGEST_FACTOR,
     PHASES,
     PULSE_SCALES,
     PULSE_STEP,
     PULSES,
+    TRIED,
     isolated_period,
 )
 from validation.study.paired import (
-    KINDS,
     LIMITS,
-    OTHERS,
-    STRONG,
     WEAK,
     as_csv,
     cost_line,
     of_three,
+    told_lir,
 )
 from validation.study.records_runs import COLLAPSE, INTENSITY
 
@@ -76,8 +74,9 @@ def _introduction(found: Found) -> str:
     return (
         f"Written by `python -m validation.study.motions` ({cost['date']}, {cost['machine']}). "
         "[study_buildings.md](study_buildings.md) has the devices, the building of three storeys with "
-        f"frames that stands here on each of them, and the limit states: {LIR}, {WEAK}, {STRONG}, of "
-        "equal plan. Here the motions change: records turned in plan, records with a vertical component, "
+        f"frames that stands here on each of them, and the limit states: {LIR} "
+        f"{told_lir(found['lir'])} and {WEAK}, of equal plan. "
+        "Here the motions change: records turned in plan, records with a vertical component, "
         "a second shock after the first, and pulses of one period each. Intensities are "
         f"{INTENSITY.label} in m/s2; all devices meet the same motions. A failed bearing counts as "
         "collapse, a failed analysis as unknown."
@@ -131,7 +130,7 @@ def _verdict_seconds(found: Found) -> str:
     words = []
     for second in found["seconds"]:
         shares = []
-        for name in AFTER_DEVICES:
+        for name in TRIED:
             fallen, known, *_ = _totals(found, second, name)
             shares.append(f"{name} {fallen} of {known}")
         words.append(f"{second}: {', '.join(shares)}")
@@ -157,17 +156,17 @@ def _verdict_vertical(found: Found) -> str:
 
 
 def _verdict_pulses(found: Found) -> str:
-    ahead = {name: 0 for name in OTHERS}
+    ahead = {name: 0 for name in TRIED[1:]}
     behind = dict(ahead)
     for pulse in PULSES:
         own = _begins(found, LIR, pulse.name)
-        for name in OTHERS:
+        for name in TRIED[1:]:
             other = _begins(found, name, pulse.name)
             ahead[name] += own > other
             behind[name] += own < other
     words = [
         f"at a higher intensity than on the {name} in {ahead[name]}, at a lower one in {behind[name]}"
-        for name in OTHERS
+        for name in TRIED[1:]
     ]
     return (
         f"Of {len(PULSES)} pulses collapse begins on the {LIR} {'; '.join(words)} (steps of "
@@ -188,16 +187,16 @@ def _angles(found: Found) -> str:
             failed = [
                 f"{sum(row[1] for row in own['shares'][name])}, "
                 f"{sum(row[2] for row in own['shares'][name])}"
-                for name in KINDS
+                for name in TRIED
             ]
-            medians = [of_three(own["medians"][name]) for name in KINDS]
+            medians = [of_three(own["medians"][name]) for name in TRIED]
             rows.append([limit.name, angle, *medians, *failed, of_three(own["ratio"])])
     runs = sum(row[3] + row[4] for row in own["shares"][LIR])
     head = [
         "limit state",
         "angle [deg]",
-        *(f"{name}, median [m/s2]" for name in KINDS),
-        *(f"{name}, runs over the limit, of them bearings failed" for name in KINDS),
+        *(f"{name}, median [m/s2]" for name in TRIED),
+        *(f"{name}, runs over the limit, of them bearings failed" for name in TRIED),
         f"{LIR} over {WEAK}",
     ]
     return (
@@ -311,14 +310,14 @@ def _pulses(found: Found) -> str:
     rows = []
     for pulse in PULSES:
         cells = []
-        for name in KINDS:
+        for name in TRIED:
             row = found["pulses"][name][pulse.name]
             if row["high"] is None:
                 cells.append(f"above {row['low']:.2f}")
             else:
                 again = f"; {row['again']} above hold" if row["again"] else ""
                 cells.append(f"{row['high']:.2f} `{row['status']}`{again}")
-        begins = [_begins(found, name, pulse.name) for name in KINDS]
+        begins = [_begins(found, name, pulse.name) for name in TRIED]
         period = pulse.ratio * isolated_period()
         rows.append(
             [
@@ -335,8 +334,8 @@ def _pulses(found: Found) -> str:
         "T_p / T_iso",
         "T_p [s]",
         f"velocity at collapse of the {LIR} [m/s]",
-        *(f"{name}: first collapse [m/s2], end of that run" for name in KINDS),
-        *(f"{LIR} over {name}" for name in OTHERS),
+        *(f"{name}: first collapse [m/s2], end of that run" for name in TRIED),
+        *(f"{LIR} over {name}" for name in TRIED[1:]),
     ]
     return (
         "Pulses of Mavroeidis and Papageorgiou in closed form along x, "
@@ -365,7 +364,7 @@ def csv_tables(found: Found) -> dict[str, str]:
         [limit, angle, name, *(own["medians"][name] or [None] * 3)]
         for limit, each in found["angles"]["limits"].items()
         for angle, own in each.items()
-        for name in KINDS
+        for name in TRIED
     ]
     seconds = [
         [second, name, row["scale"], row["motions"], row["survived"], row["known"], row["collapsed"],
@@ -378,7 +377,7 @@ def csv_tables(found: Found) -> dict[str, str]:
         [each.kind, each.ratio, each.ratio * isolated_period(), name, row["low"], row["high"],
          row["status"], row["again"], found["velocities"][each.name]]
         for each in PULSES
-        for name in KINDS
+        for name in TRIED
         for row in [found["pulses"][name][each.name]]
     ]  # fmt: skip
     vertical = [

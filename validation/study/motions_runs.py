@@ -28,10 +28,14 @@ if TYPE_CHECKING:
 ANGLES = (0, 30, 60)
 """By which records are turned [degrees]: the building is its own image after a quarter turn."""
 
-MAIN_SCALES = (1.6, 2.0, 2.6)
+ANGLE_SCALES = (2.0, 2.6, 3.3)
+"""Intensities of records that are turned [m/s2]: of `SCALES`, those around collapse."""
+
+MAIN_SCALES = (2.0, 2.6)
 """Intensities of mainshocks [m/s2]."""
 
-AFTER_DEVICES = (LIR, WEAK)
+TRIED = (LIR, WEAK)
+"""Devices of this part."""
 
 
 class After(NamedTuple):
@@ -52,7 +56,8 @@ LARGEST_FACTOR = 5.0
 """On records with a vertical component, at `FACTOR_AT`: more is another earthquake."""
 
 FACTOR_AT = 2.0
-VERTICAL_SCALES = (1.2, 1.6, 2.0, 2.6, 3.3)
+VERTICAL_SCALES = (2.0, 2.6, 3.3)
+"""Intensities of records with a vertical component [m/s2]."""
 
 PERIOD_RATIOS = (0.5, 0.65, 0.8, 1.0, 1.25, 1.6, 2.0)
 """Periods of pulses over that of the bearings [-]."""

@@ -1,7 +1,7 @@
 """The devices that the parts on buildings and motions compare, on equal terms, and their runs.
 
-All are made of one bearing of the smaller plan that is sized for its load: the LIR-DCFP and the
-DCFPs of the larger plan, whose dishes are 60 mm larger in radius (`rims_runs`).
+All are made of bearings of the smaller plan that are sized for their loads, and have dishes that
+are 60 mm larger in radius (`rims_runs`): the LIR-DCFP is the best that the search of devices found.
 """
 
 from __future__ import annotations
@@ -26,12 +26,14 @@ from frames.risk.fragility.runs import FAILURE, UNKNOWN
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import LIR
 from validation.page import DPI, FOLDER
+from validation.study.device_runs import Device, best_devices, reach_of
+from validation.study.device_runs import bearing_of as best_of
 from validation.study.records import performed
 from validation.study.records_runs import COLLAPSE, STEP
-from validation.study.rims_runs import Kind, bearing_of
+from validation.study.rims_runs import MORE, Kind, bearing_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
     from pathlib import Path
 
     import pandas as pd
@@ -45,12 +47,9 @@ if TYPE_CHECKING:
     Curve = Fragility | CollapseFragility
 
 WEAK, STRONG = "DCFP, rims of 1 W", "DCFP, rims that never break"
-KINDS = {
-    LIR: Kind(False, True, 0.5, 0.16, None),
-    WEAK: Kind(True, True, 0.0, 0.0, 1.0),
-    STRONG: Kind(True, True, 0.0, 0.0, None),
-}
-OTHERS = (WEAK, STRONG)
+PLAIN = {WEAK: Kind(True, True, 0.0, 0.0, 1.0), STRONG: Kind(True, True, 0.0, 0.0, None)}
+OTHERS = tuple(PLAIN)
+DEVICES = (LIR, *OTHERS)
 LIMITS = (
     LimitState.drift(0.02),
     LimitState("ductility 4", "ductility", 4.0),
@@ -64,24 +63,65 @@ WEIGHED = 0.9
 """Confidence of intervals [-]."""
 
 
-def makers() -> dict[str, Callable[[LIRBearing], LIRBearing]]:
-    """Return the devices: functions of a LIR-DCFP of the smaller plan."""
+def lir_device(own: Iterable[LIRBearing]) -> Device:
+    """Return the best LIR-DCFP for a building: all sliders as wide as the widest.
 
-    def maker(kind: Kind) -> Callable[[LIRBearing], LIRBearing]:
-        return lambda own: bearing_of(own.as_dcfp() if kind.plain else own, kind)
+    Parameters
+    ----------
+    own : iterable of LIRBearing
+        The building's bearings of the smaller plan.
 
-    return {name: maker(kind) for name, kind in KINDS.items()}
+    Returns
+    -------
+    Device
+        Interface and rims are those of `best_devices`; the plan is the building's own.
+    """
+    bearings = list(own)
+    widest = max(each.slider_radius for each in bearings)
+    plan = 2.0 * (bearings[0].rim_displacement[0] + widest + MORE)
+    return best_devices()[LIR]._replace(plan=plan, least=widest)
+
+
+def devices_of(own: Mapping[str, LIRBearing]) -> dict[str, dict[str, LIRBearing]]:
+    """Return each device's bearings by name.
+
+    Parameters
+    ----------
+    own : mapping of str to LIRBearing
+        LIR-DCFPs of the smaller plan.
+
+    Returns
+    -------
+    dict of str to dict
+        By device.
+    """
+    best = lir_device(own.values())
+    reach = reach_of(best, own.values())
+    found = {LIR: {name: best_of(each, best, reach) for name, each in own.items()}}
+    for device, kind in PLAIN.items():
+        found[device] = {name: bearing_of(each.as_dcfp(), kind) for name, each in own.items()}
+    return found
 
 
 def on_devices(frame: Frame) -> dict[str, Frame]:
     """Return a building on LIR-DCFPs of the smaller plan as the same on each device, by device."""
+    own = {name: link.bearing for name, link in frame.bearings.items()}
     return {
-        name: frame.with_bearings(
-            {place: make(link.bearing) for place, link in frame.bearings.items()},
-            f"{frame.name}, {name}",
-        )
-        for name, make in makers().items()
+        device: frame.with_bearings(bearings, f"{frame.name}, {device}")
+        for device, bearings in devices_of(own).items()
     }
+
+
+def told_of(device: Device) -> dict[str, Any]:
+    """Return what pages keep of a LIR-DCFP: friction of its interface, strength of its rims."""
+    return {"interface": device.interface, "strength": device.strength}
+
+
+def told_lir(told: Mapping[str, Any]) -> str:
+    """Return in brackets what `told_of` keeps."""
+    strength = told["strength"]
+    rims = "never break" if strength is None else f"yield at {strength:g} W"
+    return f"(friction of the interface {told['interface']:.2f}, rims that {rims})"
 
 
 def performed_each(
@@ -155,6 +195,12 @@ def table_of(
     found = IntensityRuns.from_dataset(data, dict(motions), FACTOR)
     table = found.table.assign(ductility=ductilities(data, at_yield))
     return IntensityRuns(table, FACTOR, {**found.units, "ductility": "1"})
+
+
+def at_scales(runs: IntensityRuns, scales: Sequence[float]) -> IntensityRuns:
+    """Return the runs at some of the factors."""
+    table = runs.table[runs.table["scale"].isin(scales)].reset_index(drop=True)
+    return IntensityRuns(table, runs.intensity, runs.units)
 
 
 def curve_of(runs: IntensityRuns, limit: LimitState, resamples: int) -> Curve | str:
