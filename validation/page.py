@@ -258,10 +258,8 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.study.records`), "
                 "[study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "
                 "and break (`python -m validation.study.rims`), "
-                "[study_buildings.md](study_buildings.md), frames and walls of 3, 6 and 9 storeys on "
-                "them (`python -m validation.study.buildings`), "
-                "and [study_motions.md](study_motions.md), records turned, with a vertical component, "
-                "one after another, and pulses (`python -m validation.study.motions`).",
+                "and [study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
+                "(`python -m validation.study.buildings`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '
                 "It prints its results as figures; no data of them is published, so the claims check what "
                 "its text states, and closed forms. What the tests demand besides is listed in the "

@@ -22,7 +22,6 @@ MEASUREMENTS = (
     "study",
     "study_rims",
     "study_buildings",
-    "study_motions",
     "level_doubts",
     "worked_building",
     "yielding",

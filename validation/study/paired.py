@@ -155,16 +155,17 @@ def performed_each(
     for name, frame in frames.items():
         place = store / "".join(c if c.isalnum() else "-" for c in name)
         runs = Campaign({name: frame}, dict(motions), store=place, scales=list(scales), dt=STEP)
-        costs.append(performed(runs, workers))
+        cost = performed(runs, workers)
         found[name] = runs.results()
+        costs.append(cost | {"loop": float(found[name]["seconds_loop"].sum())})
     return found, joined(costs)
 
 
 def joined(costs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """Return what campaigns cost together; each store has its digest."""
-    total = {key: sum(each[key] for each in costs) for key in ("runs", "computed", "clock", "cpu")}
+    total = {key: sum(each[key] for each in costs) for key in ("runs", "loop")}
     digests = [d for each in costs for d in each.get("digests", [each.get("digest")])]
-    last = {key: costs[-1][key] for key in ("workers", "date", "machine")}
+    last = {key: costs[-1][key] for key in ("date", "machine")}
     return total | {"digests": digests} | last
 
 
@@ -270,9 +271,9 @@ def cost_line(cost: Mapping[str, Any]) -> str:
     """Return what campaigns cost, in a sentence, with the digests of their stores."""
     digests = ", ".join(f"`{digest[:16]}`" for digest in cost["digests"])
     return (
-        f"{cost['runs']} histories, {cost['computed']} of them in the last call ({cost['cpu']:.0f} s of "
-        f"processor time with {cost['workers']} workers), in {len(cost['digests'])} results databases, one a "
-        f"building, device and set of motions. Their digests begin with {digests}."
+        f"{cost['runs']} histories; their time loops took {cost['loop']:.0f} s, on processors shared with "
+        f"other work. They are in {len(cost['digests'])} results databases, one a building, device and "
+        f"set of motions, whose digests begin with {digests}."
     )
 
 
