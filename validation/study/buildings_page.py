@@ -128,6 +128,7 @@ def _verdict_definitions(found: Found) -> str:
                 if (ratio := building["definitions"][each.name]["ratios"][other]) is not None
             ]
             for each in DEFINITIONS
+            if each.bearings
         }
         known = {name: values for name, values in own.items() if values}
         low = min(known, key=lambda name: min(known[name]))
@@ -135,7 +136,7 @@ def _verdict_definitions(found: Found) -> str:
         words.append(
             f"over {other} from {min(known[low]):.2f} ({low}) to {max(known[high]):.2f} ({high})"
         )
-    return f"By its definition and the building, ratios of its medians go {'; '.join(words)}."
+    return f"By definition and building the ratio of medians goes {'; '.join(words)}."
 
 
 def _of(names: Sequence[str]) -> str:
@@ -262,8 +263,8 @@ def _uplift(found: Found) -> str:
     return (
         f"Complete runs in which a bearing lifts by more than {1e3 * UPLIFT:g} mm, and the median of the "
         "largest uplift [mm]. Bearings press alone; nothing holds them down, and a bearing that comes down "
-        "again takes the blow. Codes that allow no uplift would refuse the slender buildings on any of "
-        f"these devices.\n\n{table(head, rows)}"
+        "again takes the blow. Codes that allow no uplift would refuse what lifts at their "
+        f"intensity, on any of these devices.\n\n{table(head, rows)}"
     )
 
 
@@ -327,7 +328,7 @@ def _unharmed(found: Found) -> str:
 
 def _limits() -> str:
     return (
-        "One plan of 12 m x 12 m under all heights: nine storeys on it are slender, and lift on every "
+        "One plan of 12 m x 12 m under all heights: high buildings on it are slender, and lift on every "
         "device. Members scale by a rule of three storeys, not by a design; hinges do not degrade, walls "
         "do not yield above their feet nor in shear, and the moment of their feet does not follow the "
         "axial force. Bearings are at the level `pendulum`. "
