@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
     from frames.risk.campaign.measures import Measure
     from frames.risk.campaign.plan import Plan
+    from frames.risk.campaign.reused import KnownRuns
 
 REFUSED = ValueError, ArithmeticError, AnalysisError
 """Why a model may not be built or run: its row has the reason. Whatever else is a mistake."""
@@ -47,6 +48,7 @@ class Batch(NamedTuple):
     arrays: dict[str, Any]  # by name of variable, (runs, ...)
     histories: list[xr.Dataset]
     warnings: list[str]
+    reused: int = 0  # runs that were taken over
 
 
 class Reference(NamedTuple):
@@ -141,7 +143,12 @@ class Work:
 
 
 def compute(
-    work: Work, layout: xr.Dataset, batch: int, workers: int | None, told: Told | None = None
+    work: Work,
+    layout: xr.Dataset,
+    batch: int,
+    workers: int | None,
+    told: Told | None = None,
+    known: KnownRuns | None = None,
 ) -> Batch:
     """Compute a batch.
 
@@ -157,6 +164,8 @@ def compute(
         Runs at a time.
     told : callable, optional
         Hears of each run that is done.
+    known : KnownRuns, optional
+        Runs that are taken over.
 
     Returns
     -------
@@ -166,9 +175,13 @@ def compute(
     rows = work.plan.rows(batch)
     arrays = {str(name): _empty(layout[name], len(rows)) for name in layout.data_vars}
     histories = []
+    missing: Sequence[int] = rows
+    for places, there in known.of(rows) if known is not None else ():
+        _put(arrays, np.array(places) - rows.start, there, layout)
+        missing = sorted(set(missing) - set(places))
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always")
-        for places, found in _Runs(work, layout, workers, told).of(rows):
+        for places, found in _Runs(work, layout, workers, told).of(missing):
             at = np.array(places) - rows.start
             if isinstance(found, str):
                 arrays["status"][at], arrays["message"][at] = NOT_BUILT, found
@@ -178,7 +191,7 @@ def compute(
                     histories.append(_recorded(found, layout, places))
     texts = [str(w.message) for w in heard if not issubclass(w.category, AnalysisWarning)]
     said = [text for text, _ in Counter(texts).most_common(_MOST_WARNINGS)]
-    return Batch(arrays, histories, said)
+    return Batch(arrays, histories, said, len(rows) - len(missing))
 
 
 class _Runs:
