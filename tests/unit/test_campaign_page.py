@@ -164,6 +164,11 @@ def test_the_figure_shows_the_shares_that_failed(runs: dict[str, IntensityRuns])
     [
         ("[fragility]\n", "has no limit state"),
         ('[fragility]\nintensity = "Sa"\ndrift = [0.005]\n', "period goes with intensity"),
+        ('[fragility]\nintensity = "Sa_avg"\ndrift = [0.005]\n', "periods go with intensity"),
+        (
+            '[fragility]\nintensity = "Sa_avg"\nperiods = ["3 s", "1 s"]\ndrift = [0.005]\n',
+            "two or more that rise",
+        ),
         ("[fragility]\ndrift = [0.0]\n", "drift"),
         ("[fragility]\ndisplacement = [0.3]\n", "has no unit"),
         ("[fragility]\ndrifts = [0.005]\n", 'is "drift" meant?'),

@@ -65,9 +65,35 @@ def test_intensities_of_a_pair() -> None:
     assert Intensity(kind="PGV", measure="x").of(motion) == pytest.approx(3.0 / np.pi, rel=1e-3)
     sa = Intensity(kind="Sa", period=0.8, damping=0.1, measure="RotD100")
     assert sa.of(motion) == pair_spectrum(motion, [0.8], 0.1, "RotD100")[0]
+    for period in np.linspace(0.3, 3.0, 40):  # to the last bit: stores of campaigns rest on it
+        each = Intensity(kind="Sa", period=float(period), measure="x")
+        assert each.of(motion) == pair_spectrum(motion, [period], 0.05, "x")[0]
     assert sa.of(motion.scaled(2.5)) == pytest.approx(2.5 * sa.of(motion))
     assert (sa.unit, sa.label) == ("m/s2", "Sa(0.8 s, 10 %), RotD100")
     assert SCALE.of(motion) == 1.0
+
+
+def test_the_average_of_a_spectrum_is_the_root_of_a_product() -> None:
+    time = 0.01 * np.arange(400)
+    x = np.sin(2.0 * np.pi * time)
+    motion = GroundMotion(x=x, y=0.4 * x[::-1], dt=0.01)
+    average = Intensity(kind="Sa_avg", periods=[0.5, 1.0, 2.0], damping=0.1)
+    each = [Intensity(kind="Sa", period=t, damping=0.1).of(motion) for t in (0.5, 1.0, 2.0)]
+    assert average.of(motion) == pytest.approx((each[0] * each[1] * each[2]) ** (1.0 / 3.0))
+    assert average.of(motion.scaled(2.5)) == pytest.approx(2.5 * average.of(motion))
+    assert average.unit == "m/s2"
+    assert average.label == "Sa_avg(3 periods from 0.5 to 2 s, 10 %), RotD50"
+    assert average.periods == (0.5, 1.0, 2.0)
+    assert average == Intensity(kind="Sa_avg", periods=np.array([0.5, 1.0, 2.0]), damping=0.1)
+    assert average != Intensity(kind="Sa_avg", periods=[0.5, 1.1, 2.0], damping=0.1)
+
+
+@pytest.mark.parametrize(
+    "periods", [(), [1.0], [2.0, 1.0], [0.0, 1.0], [1.0, math.nan], [[1.0, 2.0]], [1.0, 1.0]]
+)
+def test_periods_of_an_average_rise(periods: object) -> None:
+    with pytest.raises(FragilityError, match="two or more that rise"):
+        Intensity(kind="Sa_avg", periods=periods)  # type: ignore[arg-type]
 
 
 def test_intensities_that_make_no_sense_are_refused() -> None:
@@ -76,6 +102,10 @@ def test_intensities_that_make_no_sense_are_refused() -> None:
         Intensity(kind="Sa")
     with pytest.raises(FragilityError, match="only kind"):
         Intensity(kind="PGA", period=1.0)
+    with pytest.raises(FragilityError, match="only kind"):
+        Intensity(kind="Sa_avg", periods=[1.0, 2.0], period=1.0)
+    with pytest.raises(FragilityError, match="leave them out"):
+        Intensity(kind="Sa", period=1.0, periods=[1.0, 2.0])
     with pytest.raises(FragilityError, match="measure"):
         Intensity(kind="PGA", measure="mean")
     with pytest.raises(FragilityError, match="leave it out"):

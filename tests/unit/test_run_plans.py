@@ -172,6 +172,20 @@ def test_files_hold_all_of_it(tmp_path: object) -> None:
         load_fragility(path)
 
 
+def test_files_hold_the_periods_of_an_average(tmp_path: object) -> None:
+    path = f"{tmp_path}/kept.json"
+    average = Intensity(kind="Sa_avg", periods=[1.0, 3.0, 9.0])
+    save_fragility(HazardCurve.power(1e-3, 2.0, 0.01, 100.0, intensity=average), path)
+    assert load_fragility(path).intensity == average
+    save_fragility(HazardCurve.power(1e-3, 2.0, 0.01, 100.0, intensity=SA), path)
+    with open(path, encoding="utf-8") as file:
+        content = json.load(file)
+    del content["intensity"]["periods"]  # a file of before there were any
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(content, file)
+    assert load_fragility(path).intensity == SA
+
+
 def test_what_cannot_be_written_is_told(tmp_path: object) -> None:
     curve = lognormal_fragility(2.0, 0.4)
     with pytest.raises(TypeError, match=r"not a Fragility: .*save_fragility"):

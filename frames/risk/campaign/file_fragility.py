@@ -22,8 +22,9 @@ _Accelerations = tuple[Annotated[Acceleration, Field(gt=0.0)], ...]
 class FragilityTable(Table):
     """``[fragility]``: limit states, and the measure that their curves are over."""
 
-    intensity: Literal["scale", "Sa", "PGA", "PGV"] = "scale"
+    intensity: Literal["scale", "Sa", "Sa_avg", "PGA", "PGV"] = "scale"
     period: Time | None = None
+    periods: tuple[Annotated[Time, Field(gt=0.0)], ...] = ()
     measure: str = "RotD50"
     drift: _Ratios = ()
     displacement: _Lengths = ()
@@ -40,6 +41,10 @@ class FragilityTable(Table):
         if (self.intensity == "Sa") != (self.period is not None):
             msg = 'period goes with intensity = "Sa", as period = "3 s": give both, or neither'
             raise ValueError(msg)
+        if (self.intensity == "Sa_avg") != bool(self.periods):
+            msg = 'periods go with intensity = "Sa_avg", as periods = ["0.6 s", "3 s", "9 s"]: '
+            raise ValueError(msg + "give both, or neither")
+        self.measured()  # periods rise
         return self
 
     def limits(self) -> list[LimitState]:
@@ -56,4 +61,6 @@ class FragilityTable(Table):
 
     def measured(self) -> Intensity:
         """Return the intensity measure."""
-        return Intensity(kind=self.intensity, period=self.period, measure=self.measure)
+        return Intensity(
+            kind=self.intensity, period=self.period, measure=self.measure, periods=self.periods
+        )

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_IN_G = "Sa", "PGA"  # measures that are accelerations
+_IN_G = "Sa", "Sa_avg", "PGA"  # measures that are accelerations
 
 
 class CampaignTable(Table):
@@ -129,11 +129,11 @@ class CampaignFile(Table):
         measure = None if self.fragility is None else self.fragility.intensity
         if self.motions.intensities and measure not in _IN_G:
             msg = 'motions.intensities are accelerations: [fragility] intensity = "Sa" with its '
-            msg += 'period, or "PGA", says of what'
+            msg += 'period, "Sa_avg" with its periods, or "PGA", says of what'
             raise ValueError(msg)
         if self.compare is not None and self.compare.maximum_considered and measure not in _IN_G:
             msg = 'compare.maximum_considered is an acceleration: [fragility] intensity = "Sa" '
-            msg += 'with its period, or "PGA", says of what'
+            msg += 'with its period, "Sa_avg" with its periods, or "PGA", says of what'
             raise ValueError(msg)
         return self
 

@@ -142,7 +142,8 @@ def _read(value: Any) -> Any:
     if kind == "mapping":
         return value["values"]
     of: Any = (_KINDS | _PARTS)[kind]
-    own = {field.name: value[field.name] for field in fields(of)}
+    names = [field.name for field in fields(of)]
+    own = {name: value[name] for name in names if name in value}  # files of before lack some
     arrays = {"parameters", "covariance", "resampled", "im", "contribution", "rate"}
     return of(
         **{

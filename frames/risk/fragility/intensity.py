@@ -18,9 +18,11 @@ from lir_element.argument_checks import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from frames.motion.ground_motion import GroundMotion
 
-UNITS = {"PGA": "m/s2", "PGV": "m/s", "Sa": "m/s2", "scale": "-"}
+UNITS = {"PGA": "m/s2", "PGV": "m/s", "Sa": "m/s2", "Sa_avg": "m/s2", "scale": "-"}
 """Kinds of intensity measures, and their units."""
 
 
@@ -44,13 +46,16 @@ class Intensity:
 
     Parameters
     ----------
-    kind : {"Sa", "PGA", "PGV", "scale"}
-        Spectral pseudo-acceleration, peak acceleration or velocity of the ground, or the factor on
-        the motion itself.
+    kind : {"Sa", "Sa_avg", "PGA", "PGV", "scale"}
+        Spectral pseudo-acceleration, the geometric mean of those of several periods, peak
+        acceleration or velocity of the ground, or the factor on the motion itself.
     period : float, optional
         Natural period of Sa [s]; of the isolated structure, as a rule.
+    periods : sequence of float, optional
+        Natural periods of Sa_avg [s], rising, two at least; ten from 0.2 to 3 times that of the
+        structure, equally apart in their logarithms, are usual. Those of the hazard, one by one.
     damping : float
-        Damping of Sa [-].
+        Damping of Sa and Sa_avg [-].
     measure : str
         What is taken of both horizontal components (`pair_spectrum`): "RotD50", "RotD100",
         "geometric mean", "SRSS", "arithmetic mean", "x" or "y". The hazard must be of the same.
@@ -67,12 +72,16 @@ class Intensity:
     >>> motion = GroundMotion(x=[0.0, 2.0, -3.0, 0.0], dt=0.1)
     >>> Intensity(kind="PGA", measure="x").of(motion)
     3.0
+    >>> average = Intensity(kind="Sa_avg", periods=np.geomspace(0.6, 9.0, 10))
+    >>> average.label
+    'Sa_avg(10 periods from 0.6 to 9 s, 5 %), RotD50'
     """
 
-    kind: Literal["Sa", "PGA", "PGV", "scale"] = "Sa"
+    kind: Literal["Sa", "Sa_avg", "PGA", "PGV", "scale"] = "Sa"
     period: float | None = None
     damping: float = 0.05
     measure: str = "RotD50"
+    periods: Sequence[float] = ()
 
     def __post_init__(self) -> None:
         """Check.
@@ -93,6 +102,23 @@ class Intensity:
         elif self.period is not None:
             msg = f'period = {self.period:g} s: only kind="Sa" has one, leave it out'
             raise FragilityError(msg)
+        object.__setattr__(self, "periods", self._checked_periods())
+
+    def _checked_periods(self) -> tuple[float, ...]:
+        given = np.asarray(self.periods, dtype=np.float64)
+        if self.kind != "Sa_avg":
+            if given.size:
+                msg = f'periods = {given.tolist()} s: only kind="Sa_avg" has them, leave them out'
+                raise FragilityError(msg)
+            return ()
+        rising = given.ndim == 1 and len(given) > 1 and bool((np.diff(given) > 0.0).all())
+        if not (rising and np.isfinite(given).all() and given[0] > 0.0):
+            msg = (
+                f"periods = {given.tolist()} s of Sa_avg must be two or more that rise from above "
+                "0, such as numpy.geomspace(0.2 * T, 3.0 * T, 10)"
+            )
+            raise FragilityError(msg)
+        return tuple(float(each) for each in given)
 
     @property
     def unit(self) -> str:
@@ -104,7 +130,13 @@ class Intensity:
         """What it is, in a few words."""
         if self.kind == "scale":
             return "factor on the motion"
-        at = f"({self.period:g} s, {100.0 * self.damping:g} %)" if self.kind == "Sa" else ""
+        at = ""
+        if self.kind == "Sa":
+            at = f"({self.period:g} s, {100.0 * self.damping:g} %)"
+        elif self.kind == "Sa_avg":
+            low, high = self.periods[0], self.periods[-1]
+            count = len(self.periods)
+            at = f"({count} periods from {low:g} to {high:g} s, {100.0 * self.damping:g} %)"
         return f"{self.kind}{at}, {self.measure}"
 
     def of(self, motion: GroundMotion) -> float:
@@ -131,6 +163,9 @@ class Intensity:
             return 1.0
         if self.period is not None:  # of Sa
             found = float(pair_spectrum(motion, [self.period], self.damping, self.measure)[0])
+        elif self.kind == "Sa_avg":
+            each = pair_spectrum(motion, self.periods, self.damping, self.measure)
+            found = float(np.exp(np.log(each).mean())) if each.all() else 0.0
         elif self.kind == "PGA":
             found = float(pair_spectrum(motion, [0.0], 0.0, self.measure)[0])
         else:

@@ -198,6 +198,58 @@ def sobol_indices(
     >>> found.table["first"].idxmax()
     'a'
     """
+    sets = saltelli_sets(distributions, samples, seed)
+    names, d = list(distributions), len(distributions)
+    values = _results(results_of, sets)
+    if not np.ptp(values) > 0.0:
+        msg = f"all {len(values)} results are {values[0]:g}: nothing depends on the parameters"
+        raise FragilityError(msg)
+    table = values.reshape(d + 2, samples)
+    whole = indices_of(table)
+    rng = np.random.default_rng(seed)
+    rng.random(2 * d)  # those of the points
+    again = np.array(
+        [indices_of(table[:, rng.integers(0, samples, samples)]) for _ in range(INTERVAL_RESAMPLES)]
+    )
+    tail = 0.5 * (1.0 - checked_confidence(confidence))
+    low, high = np.quantile(again, [tail, 1.0 - tail], axis=0)
+    shares = {
+        f"{kind}{end}": found[k]
+        for k, kind in enumerate(("first", "total"))
+        for end, found in (("", whole), (", low", low), (", high", high))
+    }
+    return SobolIndices(
+        pd.DataFrame(shares, index=pd.Index(names, name="parameter")),
+        float(table[:2].mean()),
+        float(table[:2].std(ddof=1)),
+        len(values),
+    )
+
+
+def saltelli_sets(
+    distributions: Mapping[str, Any], samples: int, seed: int
+) -> list[dict[str, float]]:
+    """Return the sets of parameters of which Sobol' indices are made.
+
+    Parameters
+    ----------
+    distributions : mapping of str to distribution
+        As for `sobol_indices`.
+    samples : int
+        Samples n, a power of 2.
+    seed : int
+        Seed.
+
+    Returns
+    -------
+    list of dict, n (parameters + 2)
+        A sample A, a sample B, and for each parameter A with this one of B.
+
+    Raises
+    ------
+    FragilityError
+        If an argument is out of its bounds.
+    """
     require_type("samples", samples, int, "a whole number")
     if samples < 2 or samples & (samples - 1):
         msg = f"samples = {samples} must be a power of 2, such as 256"
@@ -219,34 +271,22 @@ def sobol_indices(
     mixed = np.repeat(a[None], d, axis=0)
     mixed[np.arange(d), np.arange(d)] = b
     columns = np.concatenate([a, b, *mixed], axis=1).T
-    values = _results(
-        results_of, [dict(zip(names, map(float, column), strict=True)) for column in columns]
-    )
-    if not np.ptp(values) > 0.0:
-        msg = f"all {len(values)} results are {values[0]:g}: nothing depends on the parameters"
-        raise FragilityError(msg)
-    table = values.reshape(d + 2, samples)
-    whole = _indices(table)
-    again = np.array(
-        [_indices(table[:, rng.integers(0, samples, samples)]) for _ in range(INTERVAL_RESAMPLES)]
-    )
-    tail = 0.5 * (1.0 - checked_confidence(confidence))
-    low, high = np.quantile(again, [tail, 1.0 - tail], axis=0)
-    shares = {
-        f"{kind}{end}": found[k]
-        for k, kind in enumerate(("first", "total"))
-        for end, found in (("", whole), (", low", low), (", high", high))
-    }
-    return SobolIndices(
-        pd.DataFrame(shares, index=pd.Index(names, name="parameter")),
-        float(table[:2].mean()),
-        float(table[:2].std(ddof=1)),
-        len(values),
-    )
+    return [dict(zip(names, map(float, column), strict=True)) for column in columns]
 
 
-def _indices(table: FloatArray) -> FloatArray:
-    # First and total indices (2, d) of results of both samples, and of the mixed ones.
+def indices_of(table: FloatArray) -> FloatArray:
+    """Return first and total indices of the results of `saltelli_sets`.
+
+    Parameters
+    ----------
+    table : ndarray, shape (d + 2, n)
+        Results of A, of B, and of A with one parameter of B after the other.
+
+    Returns
+    -------
+    ndarray, shape (2, d)
+        First and total indices [-].
+    """
     from scipy import stats
 
     found = stats.sobol_indices(

@@ -1,0 +1,138 @@
+"""LIR-DCFPs and DCFPs of equal plan, each at its best: the devices.
+
+The plan is the diameter of the dish under the bearing with the largest slider, ``2 (D R / L + a)``.
+All bearings of a building have the same way to their rims; an interface slips as far as the
+smallest slider lets it, its overlap, for a diaphragm moves all bearings alike.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from validation.measurements.yielding_runs import LIR, RIMS, bearings_of, model_of, structures
+from validation.study.records_runs import STRUCTURE
+from validation.study.rims_runs import BREAKS, ENDLESS, MORE
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from frames import Frame
+    from lir_element import LIRBearing
+
+SOFT = 0.1
+"""Stiffness of soft rims over the default."""
+
+RIM = 1.0
+"""Strength of the rims of the LIR-DCFPs that are searched, over the design load."""
+
+
+class Device(NamedTuple):
+    """A device of a plan: its sliders, its interface, its rims."""
+
+    plan: float  # diameter of the dish under the centre bearing [m]
+    plain: bool
+    more: float = 0.0  # radius that all sliders have more than their load asks [m]
+    least: float = 0.0  # radius that no slider is below [m]
+    interface: float = 0.0  # friction; of plain bearings without meaning
+    strength: float | None = RIM  # of a rim over the design load; None: never yields nor breaks
+    soft: bool = False  # rims of a tenth of the stiffness, which break where the default ones do
+
+    @property
+    def name(self) -> str:
+        """How tables call it."""
+        rims = "rims that never break" if self.strength is None else f"rims of {self.strength:g} W"
+        rims = "soft rims" if self.soft else rims
+        plan = f"{1e3 * self.plan:.0f} mm"
+        if self.plain:
+            return f"DCFP {plan}, {rims}"
+        more = f", sliders {1e3 * self.more:+.0f} mm" if self.more else ""
+        least = f", sliders of at least {1e3 * self.least:.0f} mm" if self.least else ""
+        return f"LIR-DCFP {plan}{more}{least}, mu_h {self.interface:.3f}, {rims}"
+
+
+def own_bearings() -> list[LIRBearing]:
+    """Return the bearings of the study's building, their sliders as their loads ask."""
+    return list(bearings_of(STRUCTURE).values())
+
+
+def slider_of(own: LIRBearing, device: Device) -> float:
+    """Return the radius of the slider that a device has in the place of a bearing [m]."""
+    return max(own.slider_radius + device.more, device.least)
+
+
+def reach_of(device: Device, bearings: Iterable[LIRBearing]) -> float:
+    """Return the way from the centre to the rim in all dishes [m]: what the plan leaves to it."""
+    return 0.5 * device.plan - max(slider_of(own, device) for own in bearings)
+
+
+def bearing_of(own: LIRBearing, device: Device, reach: float) -> LIRBearing:
+    """Return the bearing of a device in the place of one whose slider is as its load asks.
+
+    Parameters
+    ----------
+    own : LIRBearing
+        The bearing there.
+    device : Device
+        The device.
+    reach : float
+        Way from the centre to the rim [m], the same in all dishes.
+
+    Returns
+    -------
+    LIRBearing
+        The bearing; the stiffness and damping of its rims are those of `own`.
+    """
+    options = own.resolved()
+    changes: dict[str, Any] = {
+        "slider_radius": slider_of(own, device),
+        "capacity": reach * own.effective_radius / own.radii[0],
+        "rims": None,
+        "design_load": options["design_load"],
+        "rim_stiffness": options["rim_stiffness"] * (SOFT if device.soft else 1.0),
+        "rim_overrun": ENDLESS if device.strength is None else BREAKS,
+    }
+    if device.soft:
+        changes["rim_overrun"] = options["rim_overrun"]
+    elif device.strength is not None:
+        changes["rim_yield_force"] = device.strength * options["design_load"]
+    if not device.plain:
+        changes["interface_friction"] = device.interface
+    return replace(own, **changes)
+
+
+def frame_of(device: Device) -> Frame:
+    """Return the study's building on a device."""
+    frame = model_of(structures()[STRUCTURE], RIMS if device.plain else LIR)
+    own = {name: link.bearing for name, link in frame.bearings.items()}
+    reach = reach_of(device, own.values())
+    return frame.with_bearings(
+        {name: bearing_of(each, device, reach) for name, each in own.items()}
+    )
+
+
+def plan_of(more: float) -> float:
+    """Return the plan whose dishes exceed those of the study's bearings by a radius [m]."""
+    own = own_bearings()
+    return 2.0 * (own[0].rim_displacement[0] + max(each.slider_radius for each in own) + more)
+
+
+REFERENCE = MORE
+"""Radius by which the dishes of the plan that is the example exceed those of the study [m]."""
+
+
+def best_devices() -> dict[str, Device]:
+    """Return the LIR-DCFP and the DCFPs by their rims of the plan that is the example.
+
+    Returns
+    -------
+    dict of str to Device
+        "LIR-DCFP", and "DCFP, rims of 1 W" and so on: their sliders are as small as the
+        pressure allows, so that all of the plan is way to the rims.
+    """
+    plan = plan_of(REFERENCE)
+    lir = Device(plan, False, least=0.1527, interface=0.20)
+    plain = [Device(plan, True, strength=strength) for strength in (None, 2.0, 1.0, 0.5)]
+    return {LIR: lir} | {
+        each.name.replace(f"DCFP {1e3 * plan:.0f} mm", "DCFP"): each for each in plain
+    }
