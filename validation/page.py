@@ -258,6 +258,8 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.study.records`), "
                 "[study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "
                 "and break (`python -m validation.study.rims`), "
+                "[study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
+                "(`python -m validation.study.buildings`), "
                 "and [study_loss.md](study_loss.md), their expected loss, annual rates at three sites, "
                 "spectral shape and floor spectra (`python -m validation.study.loss`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '

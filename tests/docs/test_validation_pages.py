@@ -22,6 +22,7 @@ MEASUREMENTS = (
     "study",
     "study_loss",
     "study_rims",
+    "study_buildings",
     "level_doubts",
     "worked_building",
     "yielding",
