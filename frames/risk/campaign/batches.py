@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -20,7 +20,7 @@ from frames.risk.campaign.measures import evaluate, with_room
 from lir_element.errors import AnalysisError, AnalysisWarning
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
     import xarray as xr
 
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
     from frames.risk.campaign.measures import Measure
     from frames.risk.campaign.plan import Plan
-    from frames.risk.campaign.reused import KnownRuns
 
 REFUSED = ValueError, ArithmeticError, AnalysisError
 """Why a model may not be built or run: its row has the reason. Whatever else is a mistake."""
@@ -40,6 +39,7 @@ _MOST_WARNINGS = 5
 
 Builder = Callable[[dict[str, float]], Frame]
 Told = Callable[["BatchProgress"], None]
+Known = Callable[[Sequence[int]], "Iterator[tuple[list[int], xr.Dataset]]"]
 
 
 class Batch(NamedTuple):
@@ -148,7 +148,7 @@ def compute(
     batch: int,
     workers: int | None,
     told: Told | None = None,
-    known: KnownRuns | None = None,
+    known: Known | None = None,
 ) -> Batch:
     """Compute a batch.
 
@@ -164,8 +164,8 @@ def compute(
         Runs at a time.
     told : callable, optional
         Hears of each run that is done.
-    known : KnownRuns, optional
-        Runs that are taken over.
+    known : callable, optional
+        Gives those of some rows whose runs are taken over, and their results.
 
     Returns
     -------
@@ -176,7 +176,7 @@ def compute(
     arrays = {str(name): _empty(layout[name], len(rows)) for name in layout.data_vars}
     histories = []
     missing: Sequence[int] = rows
-    for places, there in known.of(rows) if known is not None else ():
+    for places, there in known(rows) if known is not None else ():
         _put(arrays, np.array(places) - rows.start, there, layout)
         missing = sorted(set(missing) - set(places))
     with warnings.catch_warnings(record=True) as heard:

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames.motion.ground_motion import GroundMotion
-    from frames.risk.campaign.batches import Batch, Builder, Told
+    from frames.risk.campaign.batches import Batch, Builder, Known, Told
     from lir_element.device.features import Features
 
 FEWEST, MOST, PARTS = 16, 512, 8
@@ -213,7 +213,7 @@ class Campaign:
         reference = self._work.reference()
         plan = described(self._work, reference)
         stores = [reuse] if isinstance(reuse, (str, Path)) else list(reuse or ())
-        known = KnownRuns(stores, self._work, plan) if stores else None
+        known = KnownRuns(stores, self._work, plan).of if stores else None
         if not self.store.exists:
             self.store.create(self._work.plan, plan, reference.layout)
         with self.store.owned():
@@ -232,7 +232,7 @@ class Campaign:
         counting: _Counting,
         client: Any,
         workers: int | None,
-        known: KnownRuns | None,
+        known: Known | None,
     ) -> Iterator[tuple[int, Batch]]:
         # A cluster computes the batches of which not all is known.
         layout, work, todo = reference.layout, self._work, counting.todo
@@ -302,9 +302,9 @@ class _Counting:
         self._failed += int((status != "ok").sum())
 
 
-def _is_known(rows: Sequence[int], known: KnownRuns | None) -> bool:
+def _is_known(rows: Sequence[int], known: Known | None) -> bool:
     # Whether no run of a batch has to be computed.
-    return known is not None and sum(len(places) for places, _ in known.of(rows)) == len(rows)
+    return known is not None and sum(len(places) for places, _ in known(rows)) == len(rows)
 
 
 def _warn(status: CampaignStatus) -> None:
