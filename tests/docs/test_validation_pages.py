@@ -20,6 +20,7 @@ MEASUREMENTS = (
     "random_scenes",
     "slip",
     "study",
+    "study_loss",
     "study_rims",
     "study_buildings",
     "level_doubts",
