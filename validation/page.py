@@ -260,6 +260,8 @@ def index(folder: Path = FOLDER) -> str:
                 "and break (`python -m validation.study.rims`), "
                 "[study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
                 "(`python -m validation.study.buildings`), "
+                "[study_motions.md](study_motions.md), records turned, with a vertical component, one "
+                "after another, and pulses (`python -m validation.study.motions`), "
                 "and [study_loss.md](study_loss.md), their expected loss, annual rates at three sites, "
                 "spectral shape and floor spectra (`python -m validation.study.loss`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '

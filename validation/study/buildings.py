@@ -31,13 +31,13 @@ from validation.study.paired import (
     joined,
     on_devices,
     performed_each,
-    rounded,
     table_of,
     told_of,
     write_part,
 )
 from validation.study.records import options_of
 from validation.study.records_runs import considered, normalised
+from validation.study.rounded import rounded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

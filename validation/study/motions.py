@@ -16,9 +16,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from frames.design import MotionSet
-from frames.risk.fragility.resampling import RESAMPLES
 from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
+from validation.study.buildings_numbers import RESAMPLES
 from validation.study.buildings_runs import BUILDINGS, SCALES, building, yield_rotations
 from validation.study.device_runs import best_devices
 from validation.study.motions_figures import figures
@@ -45,13 +45,13 @@ from validation.study.paired import (
     joined,
     on_devices,
     performed_each,
-    rounded,
     table_of,
     told_of,
     write_part,
 )
 from validation.study.records import options_of
 from validation.study.records_runs import considered, normalised
+from validation.study.rounded import rounded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

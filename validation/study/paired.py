@@ -253,15 +253,6 @@ def statuses_of(table: pd.DataFrame) -> dict[str, int]:
     return {str(name): int(count) for name, count in table["status"].value_counts().items()}
 
 
-def rounded(value: Any, digits: int = 5) -> Any:
-    """Return a structure of plain values with its numbers rounded, for a small JSON."""
-    if isinstance(value, dict):
-        return {key: rounded(each, digits) for key, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [rounded(each, digits) for each in value]
-    return float(f"{value:.{digits}g}") if isinstance(value, float) else value
-
-
 def of_three(value: Sequence[float] | None) -> str:
     """Return a value with its interval as text; a dash where there is none."""
     return "-" if value is None else "{:.2f} ({:.2f} to {:.2f})".format(*value)
