@@ -125,11 +125,7 @@ def require_constant_friction(bearing: Specification, words: tuple[str, str]) ->
     """
     for name in ("pressure_dependence", "friction_heating"):
         if getattr(bearing, name) is not None:
-            msg = (
-                f"{words[0]} {name}: take {words[1]}, or a bearing without, "
-                f"dataclasses.replace(bearing, {name}=None)"
-            )
-            raise ValueError(msg)
+            raise ValueError(_unknown(name, "None", words))
 
 
 def require_lasting_rims(bearing: Specification, words: tuple[str, str]) -> None:
@@ -152,11 +148,7 @@ def require_lasting_rims(bearing: Specification, words: tuple[str, str]) -> None
         ("flange", bearing.flange or math.inf, "None"),
     ):
         if math.isfinite(value) and math.isfinite(bearing.lateral_capacity):
-            msg = (
-                f"{words[0]} {name}: take {words[1]}, or a bearing without, "
-                f"dataclasses.replace(bearing, {name}={none})"
-            )
-            raise ValueError(msg)
+            raise ValueError(_unknown(name, none, words))
 
 
 def require_no_backup(bearing: Specification, words: tuple[str, str]) -> None:
@@ -175,11 +167,15 @@ def require_no_backup(bearing: Specification, words: tuple[str, str]) -> None:
         If it has a backup.
     """
     if bearing.backup is not None:
-        msg = (
-            f"{words[0]} backup: take {words[1]}, or a bearing without, "
-            "dataclasses.replace(bearing, backup=None)"
-        )
-        raise ValueError(msg)
+        raise ValueError(_unknown("backup", "None", words))
+
+
+def _unknown(name: str, none: str, words: tuple[str, str]) -> str:
+    # Who does not know a property, what does, and the bearing without it.
+    return (
+        f"{words[0]} {name}: take {words[1]}, or a bearing without, "
+        f"dataclasses.replace(bearing, {name}={none})"
+    )
 
 
 def _check_sliders(bearing: Specification) -> None:

@@ -10,7 +10,14 @@ import pytest
 from frames import GroundMotion, lumped_mass, moment_frame, peaks, time_histories, time_history
 from frames.demo import bearing_for
 from frames.risk import Intensity, IntensityRuns, LimitState
-from lir_element import AnalysisError, BackupSupport, CoulombFriction, Element, LIRBearing
+from lir_element import (
+    AnalysisError,
+    BackupSupport,
+    CoulombFriction,
+    Element,
+    LIRBearing,
+    RunStatus,
+)
 from lir_element.units import STANDARD_GRAVITY
 
 LOAD = 150e3
@@ -211,3 +218,48 @@ def test_a_run_that_has_to_raise_does_not_for_a_lost_bearing():
     assert any("went on without it" in str(each.message) for each in told)
     with pytest.raises(AnalysisError):
         mass_on(BEARING, on_failure="raise")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_bearings_that_fail(seed):
+    """Whatever fails, carries and lands: runs end as they may, and energies close."""
+    rng = np.random.default_rng(seed)
+    load = 10.0 ** rng.uniform(5.0, 6.3)
+    bearing = bearing_for(load)
+    backup = BackupSupport(
+        drop=float(rng.choice([0.0, 0.005, 0.02, 0.1, math.inf])),
+        friction=float(rng.choice([0.0, 0.1, 0.3, 0.8])),
+    )
+    bearing = replace(
+        bearing,
+        interface_friction=rng.uniform(0.1, 0.2),
+        capacity=rng.uniform(0.1, 0.3),
+        slip_capacity=bearing.slider_radius * rng.uniform(0.05, 1.0),
+        uplift_capacity=float(rng.choice([0.005, 0.05, math.inf])),
+        backup=backup,
+    )
+    if rng.random() < 0.3:
+        strength = load * rng.uniform(0.2, 1.0)
+        bearing = replace(bearing.as_dcfp(), rim_yield_force=strength, rim_overrun=0.01)
+    t, still = np.arange(0.0, 3.0, 0.01), np.zeros(100)
+    x, y, z = (
+        size * np.sin(2.0 * np.pi * t / rng.uniform(0.8, 3.0)) * np.sin(np.pi * t / 3.0)
+        + 0.3 * size * rng.standard_normal(len(t))
+        for size in rng.uniform((4.0, 0.0, 0.0), (9.0, 6.0, 6.0))
+    )
+    motion = GroundMotion(
+        **{a: np.append(w, still) for a, w in zip("xyz", (x, y, z), strict=True)}, dt=0.01
+    )
+    if rng.random() < 0.5:
+        model = lumped_mass(bearing, mass=load / STANDARD_GRAVITY * rng.uniform(0.3, 1.0))
+    else:
+        model = moment_frame((2, 1), 1, bearing=bearing)
+    data = time_history(model, motion, dt=float(rng.choice([0.002, 0.005, 0.01])))
+    assert RunStatus[data.attrs["status"].upper()] in {
+        RunStatus.OK,
+        RunStatus.BEARING_LOST,
+        RunStatus.SLIP_EXCEEDED,
+        RunStatus.RIM_OVERRUN,
+        RunStatus.UPLIFT_EXCEEDED,
+    }, data.attrs["message"]
+    assert data.attrs.get("energy_error", 0.0) < 1e-3
