@@ -212,6 +212,8 @@ def _angles(found: Found) -> str:
     return (
         "Building and bearings are their own image after a quarter turn, so that angles of 90, 120 and "
         "150 degrees are those of 0, 30 and 60. RotD50 is the same for all. "
+        "Friction and rims are round, and the stiffness of this plan has no direction: only hinges and "
+        "the worst of nine bearings feel the angle. A plan of unequal sides would feel it more. "
         f"{found['records']} records, {runs} runs a device and angle; intervals of 90 %, records "
         f"resampled.\n\n{table(head, rows)}"
     )
@@ -253,7 +255,8 @@ def _seconds(found: Found) -> str:
         "the dents of rims and plastic rotations of the first are what the second meets. The second is "
         "the same record times a factor, or the next record of the set at the same intensity. Under "
         "the same record an intact building is held to be what the first, whole, left standing. "
-        "Medians of what is left are of runs that ended in neither.\n\n" + table(head, rows)
+        "Medians of what is left are of runs that both shocks left standing.\n\n"
+        + table(head, rows)
     )
 
 
@@ -371,7 +374,7 @@ def _quotient(own: Mapping[str, Any], other: Mapping[str, Any]) -> str:
 def _limits(found: Found) -> str:
     return (
         "One building of three storeys, square, with its bearings at the level `pendulum`. The angle is "
-        "tried in three steps. A second shock comes on bearings that nobody looked at: "
+        "tried in three steps. A second shock comes on bearings that were not inspected: "
         "friction does not change with wear or heat, rims are not repaired, hinges do not degrade. The "
         f"vertical component is known from {len(found['three'])} records alone, with the same factor as "
         "the horizontal ones, and the bearing has one axial stiffness. Pulses have no background "
