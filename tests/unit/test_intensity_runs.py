@@ -119,7 +119,7 @@ def test_every_status_has_a_meaning(status: RunStatus) -> None:
     """Only what fails physically is collapse; what is doubtful went to its end."""
     expected = (
         "complete"
-        if status in {RunStatus.OK, RunStatus.INACCURATE}
+        if status in {RunStatus.OK, RunStatus.INACCURATE, RunStatus.BEARING_LOST}
         else "bearing failure"
         if status.is_bearing_failure
         else "numerical failure"
