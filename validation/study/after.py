@@ -17,7 +17,6 @@ from frames.design import MotionSet
 from frames.plots import plot_style as ps
 from frames.risk import open_campaign
 from frames.risk.fragility.resampling import RESAMPLES
-from validation.measurements.yielding_runs import LIR
 from validation.page import DPI, FOLDER, table
 from validation.study.after_runs import (
     DEVICES,
@@ -236,8 +235,7 @@ def figure_of(found: Found) -> Figure:
             )
         panel.axvline(found["considered"], color=ps.GREY, linewidth=0.7, linestyle=":")
         panel.set_ylim(-0.02, 1.02)
-        title = device if device == LIR else device.replace(", rims of", ",\nrims of")
-        ps.caption(panel, title=title, x="Sa(3 s) [m/s2]")
+        ps.caption(panel, title=device, x="Sa(3 s) [m/s2]")
     ps.add_legend(figure, panels[0].get_lines()[:-1], columns=3)
     ps.caption(panels[0], y="share that collapses [-]")
     return figure
