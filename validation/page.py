@@ -260,6 +260,8 @@ def index(folder: Path = FOLDER) -> str:
                 "and break (`python -m validation.study.rims`), "
                 "[study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
                 "(`python -m validation.study.buildings`), "
+                "[study_after.md](study_after.md), a stop that carries on after a bearing's failure "
+                "(`python -m validation.study.after`), "
                 "and [study_loss.md](study_loss.md), expected loss, annual rates at three sites, spectral "
                 "shape and floor spectra (`python -m validation.study.loss`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '

@@ -23,6 +23,7 @@ MEASUREMENTS = (
     "study_loss",
     "study_rims",
     "study_buildings",
+    "study_after",
     "level_doubts",
     "worked_building",
     "yielding",
