@@ -21,6 +21,7 @@ MEASUREMENTS = (
     "slip",
     "study",
     "study_loss",
+    "study_uncertainty",
     "study_rims",
     "study_buildings",
     "study_after",
