@@ -262,8 +262,12 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.study.buildings`), "
                 "[study_motions.md](study_motions.md), records turned, with a vertical component, one "
                 "after another, and pulses (`python -m validation.study.motions`), "
-                "and [study_loss.md](study_loss.md), their expected loss, annual rates at three sites, "
-                "spectral shape and floor spectra (`python -m validation.study.loss`).",
+                "[study_after.md](study_after.md), a stop that carries on after a bearing's failure "
+                "(`python -m validation.study.after`), "
+                "[study_uncertainty.md](study_uncertainty.md), which properties decide "
+                "(`python -m validation.study.uncertainty`), "
+                "and [study_loss.md](study_loss.md), expected loss, annual rates at three sites, spectral "
+                "shape and floor spectra (`python -m validation.study.loss`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '
                 "It prints its results as figures; no data of them is published, so the claims check what "
                 "its text states, and closed forms. What the tests demand besides is listed in the "
