@@ -256,8 +256,10 @@ def index(folder: Path = FOLDER) -> str:
                 "systems (`python -m validation.measurements.yielding_comparison`), "
                 "[study.md](study.md), the records of FEMA P695 on four devices "
                 "(`python -m validation.study.records`), "
-                "and [study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "
-                "and break (`python -m validation.study.rims`).",
+                "[study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "
+                "and break (`python -m validation.study.rims`), "
+                "and [study_device.md](study_device.md), the best LIR-DCFP of a plan and its cost "
+                "(`python -m validation.study.device`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '
                 "It prints its results as figures; no data of them is published, so the claims check what "
                 "its text states, and closed forms. What the tests demand besides is listed in the "

@@ -21,6 +21,7 @@ MEASUREMENTS = (
     "slip",
     "study",
     "study_rims",
+    "study_device",
     "level_doubts",
     "worked_building",
     "yielding",
