@@ -63,7 +63,7 @@ def theory(found: Found) -> str:
         "`(D / L + mu_h) a_min`. A DCFP has the strength of its rims times their deformation instead, "
         "and what its frame takes in yielding.\n\n"
         f"- **Sliders.** By the pressure of the study (28 MPa, 2,000 kN on a radius of 150 mm; "
-        "`lir design` takes 30 MPa) they have {1e3 * smallest:.0f} mm at the "
+        f"`lir design` takes 30 MPa) they have {1e3 * smallest:.0f} mm at the "
         f"corners and {1e3 * largest:.0f} mm in the centre. Larger corner sliders take nothing from "
         "the way to the rims of the centre bearing, which ends the way of all; so all of the same "
         f"radius, {1e3 * largest:.0f} mm, have the slip without its price in displacement (larger "
