@@ -179,7 +179,10 @@ def _took(found: Found) -> str:
     ]
     runs, seconds = (sum(each[key] for each in found["costs"]) for key in ("runs", "seconds"))
     rows.append(["all", str(runs), f"{seconds:.0f}", ""])
-    return table(
+    return (
+        "All numbers are in study_device.json; devices and search as tables in SI units in "
+        f"tables/{NAME}-devices.csv and {NAME}-search.csv.\n\n"
+    ) + table(
         ["campaign", "histories", "time loops [s of processor]", "digest of its results database"],
         rows,
     )
