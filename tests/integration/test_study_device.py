@@ -316,6 +316,18 @@ def test_the_best_device_is_the_better_of_those_tried_at_its_plan(stored):
         assert plan["devices"][LIR]["device"]["interface"] == pytest.approx(best["interface"])
 
 
+def test_the_device_that_other_parts_take_is_that_of_the_page(stored):
+    (found,) = (
+        plan["devices"][LIR]["device"]
+        for plan in stored["plans"]
+        if plan["plan"] == pytest.approx(plan_of(REFERENCE), rel=1e-5)
+    )
+    taken = best_devices()[LIR]
+    assert taken.least == pytest.approx(found["least"], rel=1e-3)
+    assert 0.0 <= found["interface"] - taken.interface < 0.01
+    assert taken.strength == found["strength"]
+
+
 def test_the_table_of_devices_is_that_of_the_page(stored):
     path = FOLDER / "tables" / f"{device_page.NAME}-devices.csv"
     with path.open(encoding="utf-8") as file:

@@ -195,7 +195,7 @@ def soft_device() -> Device:
 
 
 def varied_devices(best: Device) -> dict[str, Device]:
-    """Return a LIR-DCFP with other rims, and one of its plan whose sliders are as their loads ask.
+    """Return a LIR-DCFP with other rims, another interface, and with sliders as their loads ask.
 
     Parameters
     ----------
@@ -205,8 +205,9 @@ def varied_devices(best: Device) -> dict[str, Device]:
     Returns
     -------
     dict of str to Device
-        By what is other. Sliders by load have 60 mm more in radius each, so that all nine dishes
-        are those of the DCFP, and the friction that has the same share of the bound of tipping.
+        By what is other. The interface is beyond what lets sliders tip. Sliders by load have 60 mm
+        more in radius each, so that all nine dishes are those of the DCFP, and the friction that
+        has the same share of the bound of tipping.
     """
     own = own_bearings()[0]
     smallest = min(each.slider_radius for each in own_bearings()) + MORE
@@ -214,6 +215,9 @@ def varied_devices(best: Device) -> dict[str, Device]:
     return {
         "rims of 0.5 W": best._replace(strength=0.5),
         "rims that never break": best._replace(strength=None),
+        "mu_h further above mu_e by half": best._replace(
+            interface=own.effective_friction + 1.5 * share * best.least
+        ),
         "sliders by load, 60 mm more": best._replace(
             least=0.0, more=MORE, interface=own.effective_friction + share * smallest
         ),
@@ -258,8 +262,9 @@ def best_devices() -> dict[str, Device]:
     Returns
     -------
     dict of str to Device
-        "LIR-DCFP", and "DCFP, rims of 1 W" and so on: their sliders are as small as the
-        pressure allows, so that all of the plan is way to the rims.
+        "LIR-DCFP", that of study_device.md with its friction rounded down; and "DCFP, rims of 1 W"
+        and so on: their sliders are as small as the pressure allows, so that all of the plan is way
+        to the rims.
     """
     plan = plan_of(REFERENCE)
     lir = Device(plan, False, least=0.1527, interface=0.20)
