@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from lir_element.device.backup import BackupSupport as BackupSupport
     from lir_element.device.bearing import LIRBearing as LIRBearing
     from lir_element.device.bearing_checks import DesignWarning as DesignWarning
     from lir_element.device.features import Features as Features
@@ -29,6 +30,7 @@ __all__ = [
     "AnalysisError",
     "AnalysisInterrupted",
     "AnalysisWarning",
+    "BackupSupport",
     "CoulombFriction",
     "DesignWarning",
     "Element",

@@ -13,7 +13,7 @@ from lir_element.device.features import Features, apply
 from lir_element.device.friction import least_coefficients
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.kernels import levels
-from lir_element.kernels.pendulum.trial import has_no_state, last_slip
+from lir_element.kernels.pendulum.trial import SNAPS, has_no_state, last_slip
 from lir_element.layout import HEAT_PARTS, STATE, STATE_BY_NAME, WORK, Floats, Records
 
 if TYPE_CHECKING:
@@ -25,9 +25,6 @@ Level = Literal["pendulum", "contact"]
 AnyLevel = Literal["pendulum", "contact", "rigid_body"]
 LEVELS = ("pendulum", "contact")
 ALL_LEVELS = (*LEVELS, "rigid_body")
-
-_SNAPS = 0.97
-"""Of the slip beyond which there is no equilibrium: nearer to it a search that fails has met it."""
 
 
 def initial_state(props: Records) -> Records:
@@ -277,6 +274,10 @@ def limit_detail(props: Records, state: Records, index: int) -> str:
         slip = float(np.hypot(*state["slip"][index]))
         limit = float(props["slip_capacity"][index])
         return f"slip {slip:.4g} m, slip_capacity {limit:.4g} m"
+    if status is RunStatus.UPLIFT_EXCEEDED:
+        opening = float(props["length"][index] - state["string"][index])
+        limit = float(props["uplift_capacity"][index])
+        return f"opening {opening:.4g} m, uplift_capacity {limit:.4g} m"
     if status is RunStatus.RIM_OVERRUN:
         way = float(props["flange"][index])
         if way > 0.0:
@@ -305,7 +306,7 @@ def about_to_snap(props: Records, state: Records) -> tuple[int, str] | None:
     """
     slips = np.hypot(state["slip"][:, 0], state["slip"][:, 1])
     held = np.array([last_slip(p, at) for p, at in zip(props, state, strict=True)])
-    for k in np.flatnonzero(slips > _SNAPS * held):
+    for k in np.flatnonzero(slips > SNAPS * held):
         return int(k), f"slip {slips[k]:.4g} m, no equilibrium beyond {held[k]:.4g} m"
     return None
 

@@ -31,6 +31,8 @@ class RunStatus(IntEnum):
     INTERRUPTED = 11
     INACCURATE = 12
     NO_REST = 13
+    UPLIFT_EXCEEDED = 14
+    BEARING_LOST = 15
 
     @property
     def meaning(self) -> str:
@@ -50,7 +52,13 @@ class RunStatus(IntEnum):
             RunStatus.RIM_OVERRUN,
             RunStatus.SPHERE_EXCEEDED,
             RunStatus.SLIP_UNSTABLE,
+            RunStatus.UPLIFT_EXCEEDED,
         }
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether a run went to its end, whatever is to be said of it."""
+        return self in {RunStatus.OK, RunStatus.INACCURATE, RunStatus.BEARING_LOST}
 
 
 _TEXT = {
@@ -81,6 +89,10 @@ _TEXT = {
         "friction holds, L mu_h + mu_1 R_1 + mu_2 R_2: the bearing failed",
         "use a higher mu_h, or more lateral capacity",
     ),
+    RunStatus.UPLIFT_EXCEEDED: (
+        "the bearing opened further than its parts hold together: the bearing failed",
+        "add weight over the bearing or a device that takes tension, or raise uplift_capacity",
+    ),
     RunStatus.NEWTON_FAILED: (
         "Newton's method did not converge",
         "use a smaller dt; check for a mechanism or a load beyond what the model can carry",
@@ -107,6 +119,10 @@ _TEXT = {
     RunStatus.INACCURATE: (
         "completed, but the results are doubtful",
         "use dt=None or a smaller dt; check the step with half of it",
+    ),
+    RunStatus.BEARING_LOST: (
+        "a bearing failed, and the run went on without it to its end",
+        "look at what carries in its place (bearing_force, backup), or make the bearing larger",
     ),
 }
 

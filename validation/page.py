@@ -258,8 +258,12 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.study.records`), "
                 "[study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "
                 "and break (`python -m validation.study.rims`), "
-                "and [study_device.md](study_device.md), the best LIR-DCFP of a plan and its cost "
-                "(`python -m validation.study.device`).",
+                "[study_device.md](study_device.md), the best LIR-DCFP of a plan and its cost "
+                "(`python -m validation.study.device`), "
+                "[study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
+                "(`python -m validation.study.buildings`), "
+                "and [study_loss.md](study_loss.md), their expected loss, annual rates at three sites, "
+                "spectral shape and floor spectra (`python -m validation.study.loss`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '
                 "It prints its results as figures; no data of them is published, so the claims check what "
                 "its text states, and closed forms. What the tests demand besides is listed in the "

@@ -21,6 +21,9 @@ def campaign(
     store: Annotated[Path | None, typer.Option(help="Folder for the results.")] = None,
     workers: Annotated[int | None, typer.Option(min=1, help="Runs at a time.")] = None,
     figures: Annotated[bool, typer.Option(help="Draw the figures of the page.")] = True,
+    reuse: Annotated[
+        list[Path] | None, typer.Option(help="Results of a campaign whose runs are taken over.")
+    ] = None,
 ) -> None:
     """Run a campaign, or go on with it: models, motions, scales and parameters of a file.
 
@@ -32,15 +35,15 @@ def campaign(
 
         found = read_campaign(file, store=store)
         say(str(found))
-        _run(found, workers or workers_of(file))
+        _run(found, workers or workers_of(file), reuse or [])
         _write(found, file, figures=figures)
         say(f"{found.status()}\nresults in {found.store.path}, digest {found.digest()[:16]}")
 
 
-def _run(found: Campaign, workers: int | None) -> None:
+def _run(found: Campaign, workers: int | None, reuse: list[Path]) -> None:
     # Leaves with the code of what stopped it.
     try:
-        found.run(workers=workers, progress=True)
+        found.run(workers=workers, progress=True, reuse=reuse)
     except KeyboardInterrupt as cause:
         done = found.status() if found.store.exists else "nothing was run"
         say(f"\ninterrupted: {done}; the same command goes on")

@@ -12,6 +12,7 @@ from frames.kernel_data import MOST_HALVINGS
 from frames.kernels.coupling import coupled_load, eliminate_modes
 from frames.kernels.effective import effective, rates_after
 from frames.kernels.energy_balance import add_bearing_energy, add_energy, add_part_energy
+from frames.kernels.failures import ends_run, lose_bearing
 from frames.kernels.nonlinear_works import commit_parts
 from frames.kernels.part_states import set_part_follow
 from frames.kernels.shared_tangent import carry_products
@@ -431,17 +432,27 @@ def try_substep(
     if code != _OK or rough:
         if clock.halvings == _MOST_HALVINGS:
             run.counts[0].cause = code
+            at = run.counts[0].bearing
+            if lose_bearing(model.props, run.old, run.old_words, run.new_words, code, at):
+                clock.kept = 0
+                return _OK
             return _STEP_TOO_SMALL
         halve(run)
         return _OK
     code = limits(run)
     if code != _OK:  # not committed; a coarse step is refined before it counts
         if clock.halvings >= _LIMIT_HALVINGS:
-            clock.time += clock.dt
-            return code
-        halve(run)
-        return _OK
+            at = ends_run(model.props, run.new)
+            if at >= 0:
+                run.counts[0].bearing = at
+                clock.time += clock.dt
+                return run.new[at].status
+        else:
+            halve(run)
+            return _OK
     accept_step(model, run, contacts, parts, settings, ground)
+    if code != _OK:
+        clock.kept = 0
     clock.ticks += ticks
     clock.good += 1
     calm = clock.good >= 2 and clock.share < _CALM

@@ -58,7 +58,7 @@ def add_totals(p: Props, state: State, reached: Reached, k: int, t: float) -> No
         if p.friction_drop[surface] != 0.0:
             lower, _ = lowered(p, surface, speed)
             reached.total[1] += sliding_power(load, lower, speed)
-    lifted = state.axial_force <= 0.0
+    lifted = state.axial_force <= 0.0 and state.failed == 0
     if lifted and reached.lifted[k, 1] == 0.0:
         reached.total[2] += 1.0
     if lifted and reached.last[1] > 0.0:

@@ -130,13 +130,14 @@ def show_bearing(
     ratio = over_static(load, static)
     now.vertical_tension = opposite(ratio)
     now.vertical_change = vertical_change(ratio)
-    now.lifted = is_lifted(ratio)
+    stands = 1.0 * (state.failed == 0)  # a stop that carries nothing is no bearing that lifts off
+    now.lifted = stands * is_lifted(ratio)
     shift_x = by_tilt(p.lever[0], p.lever[1], -u[4], -u[10])
     shift_y = by_tilt(p.lever[0], p.lever[1], u[3], u[9])
     now.centre_shift = in_plan(shift_x, shift_y)
     s = state.slip_total
     now.slip = in_space(s[0], s[1], s[2])
-    now.gap = open_gap(x + shift_x, y + shift_y, u[8] - u[2], p.length, now.slip, load)
+    now.gap = stands * open_gap(x + shift_x, y + shift_y, u[8] - u[2], p.length, now.slip, load)
     for surface in range(2):
         slid = state.slider_displacement[surface]
         now.sliding[surface] = in_plan(slid[0], slid[1])

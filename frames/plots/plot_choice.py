@@ -14,6 +14,7 @@ from frames.model.names import likely
 from frames.plots.plot_style import PALETTE, line_of
 from frames.results.assumption_checks import doubts_of
 from frames.results.recorded import largest_kept, require_steps
+from lir_element.errors import RunStatus
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -248,7 +249,7 @@ def need(data: xr.Dataset, names: Collection[str], why: str) -> None:
 def label_of(name: str, data: xr.Dataset, space: str = " ") -> str:
     """Return the name of a system; after `space`, that it stopped, or what to look at."""
     status = data.attrs.get("status", "ok")
-    if status not in {"ok", "inaccurate"}:
+    if not RunStatus[status.upper()].is_complete:
         end = data.attrs.get("failed_at", float(data["time"][-1]))
         return f"{name}{space}(stopped at {end:.2f} s)"
     if status != "ok":

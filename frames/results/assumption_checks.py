@@ -334,10 +334,10 @@ def _loose_slip(data: xr.Dataset) -> str:
 
 def _uplift(data: xr.Dataset, out: bool) -> Finding:
     least = 0.0 - float(largest(data, "vertical_tension").values.max())
-    if out or least > 0.0:
-        return _finding("uplift", out, least <= 0.0, least, f"smallest N {least:.2f} W")
-    who = _by_whom(largest(data, "lifted"))
-    return _finding("uplift", out, True, least, f"lifted off: {who}")
+    happened = largest(data, "lifted")
+    if out or not (happened.values > 0.0).any():  # the stop of one that failed may carry nothing
+        return _finding("uplift", out, out and least <= 0.0, least, f"smallest N {least:.2f} W")
+    return _finding("uplift", out, True, least, f"lifted off: {_by_whom(happened)}")
 
 
 def _plate_rotation(data: xr.Dataset, out: bool) -> Finding:

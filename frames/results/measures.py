@@ -17,6 +17,7 @@ from frames.results.recorded import (
     require_recorded,
     require_steps,
     require_whole_levels,
+    standing,
 )
 
 if TYPE_CHECKING:
@@ -358,10 +359,11 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
         data[name].transpose("time", "bearing").to_numpy()
         for name in ("interface_slip_size", "axial_force")
     )
+    open_by = on_arrays(open_gap)(
+        across[..., 0], across[..., 1], moves[..., 2], data["length"].to_numpy(), slip, load
+    )
     return xr.DataArray(
-        on_arrays(open_gap)(
-            across[..., 0], across[..., 1], moves[..., 2], data["length"].to_numpy(), slip, load
-        ),
+        standing(data) * open_by,
         dims=("time", "bearing"),
         coords={"time": data["time"], "bearing": data["bearing"]},
         attrs={"units": "m", "long_name": "gap of the axial contact"} | noted(data),

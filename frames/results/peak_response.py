@@ -104,7 +104,8 @@ def left(data: xr.Dataset, name: str) -> FloatArray:
 
 def remaining(data: xr.Dataset, name: str) -> FloatArray:
     """Return the same of a run that went to its end; NaN of one that stopped before."""
-    ended = data.attrs["status"] == "ok"  # one that was interrupted has no time of failure
+    # one that was interrupted has no time of failure
+    ended = data.attrs["status"] in {"ok", "bearing_lost"}
     return left(data, name) * (1.0 if ended else math.nan)
 
 

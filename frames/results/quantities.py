@@ -34,6 +34,7 @@ from frames.results.measures import (
     storey_drift,
     uplift_gap,
 )
+from frames.results.recorded import standing
 from lir_element.kernels import derived
 from lir_element.units import STANDARD_GRAVITY
 
@@ -251,7 +252,7 @@ QUANTITIES: dict[str, Quantity] = {
         _B,
         "1",
         "1: lifted off, first then",
-        lambda d: formed(is_lifted, _vertical_ratio(d)),
+        lambda d: standing(d) * formed(is_lifted, _vertical_ratio(d)),
         by_step=True,
     ),
     "gap": Quantity(

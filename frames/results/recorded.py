@@ -90,3 +90,21 @@ def require_whole_levels(data: xr.Dataset, what: str) -> None:
             f'"{data["level"].to_numpy()[k]}": record all nodes, or all levels'
         )
         raise ValueError(msg)
+
+
+def standing(data: xr.Dataset) -> FloatArray:
+    """Return 1 where a bearing stands, 0 where it has failed and its backup carries.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of a time history.
+
+    Returns
+    -------
+    ndarray, shape (time, bearing) or ()
+        One number where no bearing has a backup.
+    """
+    if "bearing_failed" not in data.variables:
+        return np.ones(())
+    return 1.0 - data.variables["bearing_failed"].transpose("time", "bearing").to_numpy()

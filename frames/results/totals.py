@@ -9,6 +9,7 @@ import numpy as np
 from frames.kernels.quantities import sliding_power
 from frames.peak_data import LOOSE
 from frames.results.quantities import formed, known, of_bearings
+from frames.results.recorded import standing
 from lir_element.kernels.friction_law import fill_left
 from lir_element.layout import FRICTION_TABLE
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from frames._types import FloatArray
+    from frames._types import BoolArray, FloatArray
 
 _B = ("bearing",)
 
@@ -84,8 +85,12 @@ def _work_heated(data: xr.Dataset, first: int, last: int) -> FloatArray:
     return np.asarray((work * speed).sum())
 
 
+def _lifted(data: xr.Dataset) -> BoolArray:
+    return (of_bearings(data, "axial_force") <= 0.0) & (standing(data) > 0.0)
+
+
 def _uplifts(data: xr.Dataset, first: int, last: int) -> FloatArray:
-    lifted = of_bearings(data, "axial_force") <= 0.0
+    lifted = _lifted(data)
     begins = np.concatenate([lifted[:1], lifted[1:] & ~lifted[:-1]])
     return np.asarray(begins[first:last].sum(), dtype=np.float64)
 
@@ -93,7 +98,7 @@ def _uplifts(data: xr.Dataset, first: int, last: int) -> FloatArray:
 def _time_lifted(data: xr.Dataset, first: int, last: int) -> FloatArray:
     first = max(first, 1)
     steps = np.diff(data.variables["time"].to_numpy())[first - 1 : last - 1]
-    lifted = of_bearings(data, "axial_force")[first:last] <= 0.0
+    lifted = _lifted(data)[first:last]
     return np.asarray((steps[:, None] * lifted).sum(axis=0))
 
 

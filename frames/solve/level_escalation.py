@@ -90,7 +90,7 @@ def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) ->
 
 
 def _completes(status: RunStatus) -> bool:
-    return status in {RunStatus.OK, RunStatus.INACCURATE}
+    return status.is_complete
 
 
 def _ended(status: RunStatus, time: float) -> str:

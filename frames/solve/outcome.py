@@ -8,6 +8,7 @@ import numpy as np
 
 from frames.results.assumption_checks import audit_report
 from frames.results.peak_response import largest
+from lir_element.argument_checks import listed
 from lir_element.element import about_to_snap, limit_detail
 from lir_element.errors import RunStatus
 
@@ -132,7 +133,34 @@ def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str])
     where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
         status, detail = evaluated(data)
+        lost = _lost(state)
+        if lost:
+            k, told = lost
+            status = RunStatus.BEARING_LOST
+            detail = f"{told}; {detail}" if detail else told
+            where = f'bearing "{state.system.bearings[k].name}"'
+            return Outcome(status, float(state.run.old["failed_at"][k]), where, detail)
     return Outcome(status, float(state.run.clock["time"][0]), where, detail)
+
+
+def _lost(state: GravityState) -> tuple[int, str] | None:
+    # The first bearing that failed in a run that went on, and what failed in words.
+    states = state.run.old
+    failed = np.flatnonzero(states["failed"])
+    if not len(failed):
+        return None
+    order = failed[np.argsort(states["failed_at"][failed], kind="stable")]
+    told = [
+        f"{state.system.bearings[k].name} at {float(states['failed_at'][k]):.4g} s "
+        f"({RunStatus(int(states['failed'][k])).name.lower()})"
+        for k in order
+    ]
+    text = f"{len(order)} of {len(states)} bearings failed: {listed(told)}"
+    return int(order[0]), text
+
+
+def _opening(state: GravityState, k: int) -> float:
+    return float(state.model.props["length"][k] - state.run.new["string"][k])
 
 
 def _exceeded(state: GravityState, status: RunStatus) -> dict[str, object]:
@@ -143,6 +171,7 @@ def _exceeded(state: GravityState, status: RunStatus) -> dict[str, object]:
     values = {
         RunStatus.SLIP_EXCEEDED: ("slip", np.hypot(*run.new["slip"][k])),
         RunStatus.RIM_OVERRUN: ("rim_force", run.new["rim_force"][k].max()),
+        RunStatus.UPLIFT_EXCEEDED: ("gap", _opening(state, k)),
     }
     if status not in values:
         return {}

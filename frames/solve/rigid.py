@@ -26,7 +26,11 @@ from lir_element.bundles.rigid_data import (
     rigid_setup,
     stable_step,
 )
-from lir_element.device.bearing_checks import AT_RIGID_BODY, require_constant_friction
+from lir_element.device.bearing_checks import (
+    AT_RIGID_BODY,
+    require_constant_friction,
+    require_no_backup,
+)
 from lir_element.element import limit_detail
 from lir_element.errors import RunStatus
 from lir_element.interruptible import interruptible, ready
@@ -112,6 +116,7 @@ def rigid_time_history(
         raise ValueError(msg)
     for link in model.bearings.values():
         require_constant_friction(link.bearing, AT_RIGID_BODY)
+        require_no_backup(link.bearing, AT_RIGID_BODY)
     own_step = min(motion.dt, LARGEST_STEP)
     is_thinned = recording.every is None or recording != Recording(every=recording.every)
     record_every = 1 if is_thinned or recording.every is None else recording.every

@@ -79,6 +79,12 @@ class LIRBearing(Specification):
     slip_capacity : float, optional
         Interface slip beyond which the sliders' overlap no longer carries [m]: the bearing fails.
         Default: the slider's radius (39 % of the area still overlaps).
+    uplift_capacity : float
+        Opening of the contact beyond which slider and plates no longer hold together, such as the
+        height of the rims [m]: the bearing fails. Default: none.
+    backup : BackupSupport, optional
+        What carries after the bearing's failure: an analysis goes on with it. Default: the analysis
+        ends there, as failure of the bearing.
     design_load : float, optional
         Axial load the defaults refer to [N]. Default: 30 MPa on the slider's area.
     yield_displacement, interface_yield_displacement : float
@@ -218,6 +224,20 @@ class LIRBearing(Specification):
         """Return the kernels' properties, a record array of shape (1,)."""
         return self._record.copy()
 
+    def _backup(self, options: dict[str, float]) -> dict[str, object]:
+        # What carries after the bearing's failure.
+        stop = self.backup
+        if stop is None:
+            names = ("goes_on", "backup_friction", "backup_stiffness", "backup_damping")
+            return {**dict.fromkeys(names, 0.0), "backup_drop": math.inf}
+        return {
+            "goes_on": True,
+            "backup_drop": stop.drop,
+            "backup_friction": stop.friction,
+            "backup_stiffness": stop.stiffness or options["axial_stiffness"],
+            "backup_damping": stop.damping or options["axial_damping"],
+        }
+
     def _factors(self, load: float) -> dict[str, object]:
         # Properties of friction that depends on pressure and temperature; zeros without.
         values: dict[str, object] = dict.fromkeys(_FACTORS, 0.0)
@@ -259,6 +279,8 @@ class LIRBearing(Specification):
             "rim_displacement": self.rim_displacement,
             "rim_yield_force": self.rim_yield_force,
             "flange": self.flange or 0.0,
+            "uplift_capacity": self.uplift_capacity,
+            **self._backup(options),
             "rim_hardening": options["rim_stiffness"]
             * (self.rim_hardening / (1.0 - self.rim_hardening)),
             "torsion_lever": 2.0 / 3.0 * self.slider_radius * self.torsional_friction,

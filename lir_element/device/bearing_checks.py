@@ -16,6 +16,7 @@ from lir_element.argument_checks import (
     require_positive,
     require_type,
 )
+from lir_element.device.backup import BackupSupport
 from lir_element.device.friction import FrictionLaw
 from lir_element.device.heating import FrictionHeating, PressureDependence
 from lir_element.device.sanity_checks import refuse_forces, refuse_sizes, sanity_warnings
@@ -82,10 +83,15 @@ def check_bearing(bearing: Specification) -> None:
     for name, kind in (
         ("pressure_dependence", PressureDependence),
         ("friction_heating", FrictionHeating),
+        ("backup", BackupSupport),
     ):
         value = getattr(bearing, name)
         if value is not None:
-            require_type(name, value, kind, f"a {kind.__name__}, such as {kind.__name__}()")
+            example = "drop=0.05" if kind is BackupSupport else ""
+            require_type(
+                name, value, kind, f"a {kind.__name__}, such as {kind.__name__}({example})"
+            )
+    require_positive("uplift_capacity", bearing.uplift_capacity, "m", infinite=True)
     for name in ("torsional_friction", "allow_weak_interface"):
         if not isinstance(getattr(bearing, name), bool):
             msg = f"{name} = {getattr(bearing, name)!r}: choose True or False"
@@ -119,11 +125,7 @@ def require_constant_friction(bearing: Specification, words: tuple[str, str]) ->
     """
     for name in ("pressure_dependence", "friction_heating"):
         if getattr(bearing, name) is not None:
-            msg = (
-                f"{words[0]} {name}: take {words[1]}, or a bearing without, "
-                f"dataclasses.replace(bearing, {name}=None)"
-            )
-            raise ValueError(msg)
+            raise ValueError(_unknown(name, "None", words))
 
 
 def require_lasting_rims(bearing: Specification, words: tuple[str, str]) -> None:
@@ -146,11 +148,34 @@ def require_lasting_rims(bearing: Specification, words: tuple[str, str]) -> None
         ("flange", bearing.flange or math.inf, "None"),
     ):
         if math.isfinite(value) and math.isfinite(bearing.lateral_capacity):
-            msg = (
-                f"{words[0]} {name}: take {words[1]}, or a bearing without, "
-                f"dataclasses.replace(bearing, {name}={none})"
-            )
-            raise ValueError(msg)
+            raise ValueError(_unknown(name, none, words))
+
+
+def require_no_backup(bearing: Specification, words: tuple[str, str]) -> None:
+    """Refuse a bearing whose failure does not end the analysis.
+
+    Parameters
+    ----------
+    bearing : Specification
+        The device.
+    words : (str, str)
+        As of `require_constant_friction`.
+
+    Raises
+    ------
+    ValueError
+        If it has a backup.
+    """
+    if bearing.backup is not None:
+        raise ValueError(_unknown("backup", "None", words))
+
+
+def _unknown(name: str, none: str, words: tuple[str, str]) -> str:
+    # Who does not know a property, what does, and the bearing without it.
+    return (
+        f"{words[0]} {name}: take {words[1]}, or a bearing without, "
+        f"dataclasses.replace(bearing, {name}={none})"
+    )
 
 
 def _check_sliders(bearing: Specification) -> None:

@@ -186,5 +186,11 @@ def apply(features: Features, props: Records, static_load: ArrayLike | None = No
                 "compression under permanent loads; keep vertical_coupling=True"
             )
             raise ValueError(msg)
+        if out["goes_on"].any():
+            msg = (
+                "vertical_coupling = False: a bearing with a backup passes its load on when it "
+                "fails: keep vertical_coupling=True, or take bearings with backup=None"
+            )
+            raise ValueError(msg)
         out["fixed_load"] = load
     return out

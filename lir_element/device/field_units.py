@@ -14,6 +14,7 @@ FIELD_UNITS: dict[str, dict[str, str]] = {
                 "rim_overrun",
                 "flange",
                 "slip_capacity",
+                "uplift_capacity",
                 "yield_displacement",
                 "interface_yield_displacement",
                 "plate_thickness",
@@ -30,6 +31,7 @@ FIELD_UNITS: dict[str, dict[str, str]] = {
         "slider_mass": "kg",
         "slider_inertia": "kg m2",
     },
+    "BackupSupport": {"drop": "m", "stiffness": "N/m", "damping": "N s/m"},
     "PressureDependence": {"reference_pressure": "Pa", "rate": "1/Pa"},
     "FrictionHeating": {
         "conductivity": "W/(m K)",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal, cast
 
 from lir_element.argument_checks import as_number, as_pair
+from lir_element.device.backup import BackupSupport
 from lir_element.device.friction import FrictionLaw
 from lir_element.device.heating import FrictionHeating, PressureDependence
 from lir_element.units import STANDARD_GRAVITY
@@ -37,6 +38,8 @@ class Specification:
     rim_overrun: float | None = None
     flange: float | None = None
     slip_capacity: float | None = None
+    uplift_capacity: float = math.inf
+    backup: BackupSupport | None = None
     design_load: float | None = None
     yield_displacement: float = 0.25e-3
     interface_yield_displacement: float = 0.01e-3

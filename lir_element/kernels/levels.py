@@ -10,6 +10,14 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import expanded, kernel
 from lir_element.bundles.contact_data import BodyStep
+from lir_element.errors import RunStatus
+from lir_element.kernels.backup import (
+    backup_accumulate,
+    backup_defect,
+    backup_tangent,
+    backup_trial,
+    give_up,
+)
 from lir_element.kernels.contact.chord import keep_search
 from lir_element.kernels.contact.condensed import contact_tangent, contact_trial, look_at_committed
 from lir_element.kernels.contact.state import contact_accumulate, points_defect
@@ -21,6 +29,8 @@ from lir_element.kernels.pendulum.work import accumulate, contact_defect
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats, Records, Words
+
+_OK = int(RunStatus.OK)
 
 
 @expanded
@@ -53,6 +63,9 @@ def bearing_trial(
     time: float,
 ) -> int:
     """Determine the state of bearing `k`; returns a RunStatus code."""
+    if old[k].failed != 0:
+        return backup_trial(props[k], old[k], new[k], work[k], u, v, time)
+    new[k].failed = 0
     if contacts is not None:
         at = contacts.row[k]
         if at >= 0:
@@ -71,6 +84,9 @@ def bearing_tangent(
     tangent: Floats,
 ) -> None:
     """Fill the tangent (12, 12) of bearing `k`'s last trial."""
+    if new[k].failed != 0:
+        backup_tangent(props[k], work[k], new[k], tangent)
+        return
     if contacts is not None:
         at = contacts.row[k]
         if at >= 0:
@@ -90,7 +106,14 @@ def bearing_commit(
     contacts: Contacts | None,
     k: int,
 ) -> None:
-    """Accept the trial state of bearing `k`; `heat` as in `heat_parts`."""
+    """Accept the trial state of bearing `k`; `heat` as in `heat_parts`.
+
+    A bearing that goes on after its failure has failed where a limit is exceeded.
+    """
+    if new[k].failed != 0:
+        backup_accumulate(props[k], old[k], new[k])
+        copy_words(new_words[k], old_words[k])
+        return
     if contacts is not None:
         at = contacts.row[k]
         if at >= 0:
@@ -101,11 +124,21 @@ def bearing_commit(
             copy_words(contacts.bodies_new_words[at], contacts.bodies_old_words[at])
             copy_words(contacts.touch_new_words[at], contacts.touch_old_words[at])
             copy_words(new_words[k], old_words[k])
+            leave_failed(props, old, old_words, new_words, k)
             return
     accumulate(props[k], old[k], new[k])
     if props[k].heats:
         heat_up(props[k], heat[k], old[k], new[k])
     copy_words(new_words[k], old_words[k])
+    leave_failed(props, old, old_words, new_words, k)
+
+
+@kernel
+def leave_failed(props: Records, old: Records, old_words: Words, new_words: Words, k: int) -> None:
+    """Leave a bearing that was committed beyond a limit to its backup, if it has one."""
+    if old[k].status != _OK and props[k].goes_on:
+        give_up(props[k], old[k], old[k].status)
+        copy_words(old_words[k], new_words[k])
 
 
 @kernel
@@ -113,6 +146,8 @@ def bearing_defect(
     props: Records, old: Records, new: Records, contacts: Contacts | None, k: int
 ) -> float:
     """Return the energy that bearing `k`'s contacts make or lose in the step by its size."""
+    if new[k].failed != 0:
+        return backup_defect(old[k], new[k])
     if contacts is not None:
         at = contacts.row[k]
         if at >= 0:

@@ -321,7 +321,7 @@ def note_end(data: xr.Dataset, status: RunStatus, time: float, where: str, detai
         message = f"interrupted at t = {time:.6g} s"
     elif status is not RunStatus.OK:
         message = failure_message(status, time, where, detail)
-        if status is not RunStatus.INACCURATE:  # which is complete, and for the user to judge
+        if not status.is_complete:  # else it is for the user to judge
             data.attrs |= {"failed_at": time, "failed_where": where}
     data.attrs |= {"status": status.name.lower(), "message": message}
 

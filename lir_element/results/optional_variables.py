@@ -1,4 +1,4 @@
-"""Variables of what only some bearings have: temperatures of their contacts, rims that yield."""
+"""Variables of what only some bearings have: temperatures, rims that yield, backups."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ CONTACTS = (*SURFACES, "interface")
 
 
 def optional_variables(step: str, states: Records, props: Records) -> dict[str, xr.Variable]:
-    """Return temperatures, and deformations of rims that yield; nothing of bearings without.
+    """Return temperatures, deformations of rims that yield, failures; nothing of bearings without.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def optional_variables(step: str, states: Records, props: Records) -> dict[str, 
         Variables by name. Of bearings that are not heated temperatures are NaN; dimension 'contact'
         is bottom, top, interface. Deformations of rims [m]: 'rim_closure' with its plastic part
         where a rim presses, 'rim_plastic' the largest plastic deformation so far, infinite once the
-        rim is broken.
+        rim is broken. 'bearing_failed' where bearings have backups, 1 from their failure on.
     """
     found: dict[str, xr.Variable] = {}
     if props["heats"].any():
@@ -57,5 +57,12 @@ def optional_variables(step: str, states: Records, props: Records) -> dict[str, 
             states["rim_plastic"],
             "m",
             "largest plastic deformation of each rim so far; infinite once it is broken",
+        )
+    if props["goes_on"].any():
+        found["bearing_failed"] = labelled(
+            (step, "bearing"),
+            (states["failed"] != 0).astype(np.float64),
+            "1",
+            "1 once the bearing has failed: forces are those of its backup, if it has a stop",
         )
     return found

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from frames import GroundMotion, gravity, lumped_mass, time_history
-from lir_element import CoulombFriction, Element
+from lir_element import BackupSupport, CoulombFriction, Element
 from lir_element.opensees import bearing_response
+from lir_element.units import STANDARD_GRAVITY
 from validation.cases import example_bearing
 from validation.measurements.opensees_cost import ours, pulse, slender_frame
 from validation.opensees.frames import add_loads, build
@@ -129,6 +130,31 @@ def test_mass_under_a_pulse_moves_as_in_frames(
             peak = np.abs(theirs[:, axis]).max()
             assert np.abs(mine[:count, axis]).max() == pytest.approx(peak, rel=1e-3)
     assert np.abs(moved - track.displacement[:count]).max() < 1e-4 * np.abs(moved).max()
+
+
+@pytest.mark.filterwarnings("ignore:at t = :lir_element.AnalysisWarning")
+def test_a_failed_bearing_goes_on_with_its_backup(stand: Any) -> None:
+    """It comes down on the stop in OpenSees as in frames, where the last step before is refined."""
+    drop = 0.01
+    backup = BackupSupport(drop=drop, friction=0.3)
+    bearing = replace(stand.DEVICE, slip_capacity=0.01, backup=backup)
+    motion = three_pulses(2.8, dt=0.001).with_tail(1.0)
+    ours = time_history(lumped_mass(bearing, stand.MASS), motion, dt=motion.dt)
+    assert ours.attrs["status"] == "bearing_lost"
+
+    def place(tag: int, i: int, j: int) -> None:
+        stand.put(tag, i, j, bearing)
+
+    track = lumped(place, bearing.height, stand.MASS, motion, motion.dt)
+    moved = ours["bearing_displacement"].isel(bearing=0).to_numpy()
+    last = len(moved) - 1
+    load = stand.MASS * STANDARD_GRAVITY
+    closed = load / bearing.resolved()["axial_stiffness"]
+    assert moved[last, 2] == pytest.approx(-drop - closed, rel=0.01)
+    assert track.displacement[last, 2] == pytest.approx(moved[last, 2], rel=0.01)
+    plane = np.hypot(*(track.displacement[: last + 1] - moved)[:, :2].T)
+    assert plane.max() < 0.02 * np.hypot(*moved[:, :2].T).max()
+    assert np.hypot(*track.force[last, :2]) <= 0.3 * np.abs(track.force[last, 2]) * (1.0 + 1e-9)
 
 
 def three_pulses(peak: float, dt: float) -> GroundMotion:

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from lir_element import (
+    BackupSupport,
     CoulombFriction,
     DesignWarning,
     FrictionHeating,
@@ -452,6 +453,8 @@ def test_equality_and_hash() -> None:
         "rim_yield_force": 1e5,
         "rim_hardening": 0.01,
         "flange": 0.1,
+        "uplift_capacity": 0.02,
+        "backup": BackupSupport(drop=0.05),
         "slip_capacity": 0.05,
         "design_load": 1e5,
         "yield_displacement": 1e-3,
@@ -506,6 +509,8 @@ def test_record_is_complete() -> None:
                 "rim_yield_force": 9e4,
                 "rim_hardening": 0.02,
                 "flange": 0.07,
+                "uplift_capacity": 0.03,
+                "backup": BackupSupport(drop=0.04, friction=0.25, damping=1e4),
                 "slip_capacity": 0.05,
                 "design_load": 2e5,
                 "yield_displacement": 3e-4,
@@ -545,6 +550,12 @@ def test_record_is_complete() -> None:
         "rim_yield_force": 9e4,
         "rim_hardening": 4e7 * 0.02 / 0.98,
         "flange": 0.07,
+        "uplift_capacity": 0.03,
+        "goes_on": 1,
+        "backup_drop": 0.04,
+        "backup_friction": 0.25,
+        "backup_stiffness": 3e8,
+        "backup_damping": 1e4,
         "slip_capacity": 0.05,
         "torsion_lever": 2 / 3 * 0.08,
         "torsion_yield": 3e-4 / (2 / 3 * 0.08),

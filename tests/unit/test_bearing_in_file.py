@@ -16,6 +16,7 @@ from frames.design.project.inputs import ProjectInputs
 from frames.design.project.quantities import si
 from frames.design.project.reading import read_project, schema
 from lir_element import (
+    BackupSupport,
     CoulombFriction,
     FrictionHeating,
     LIRBearing,
@@ -47,6 +48,11 @@ OTHERS: dict[str, tuple[str, Any]] = {
     "rim_yield_force": ('"2.5 MN"', 2.5e6),
     "rim_hardening": ("0.01", 0.01),
     "flange": ('"80 mm"', 0.08),
+    "uplift_capacity": ('"30 mm"', 0.03),
+    "backup": (
+        '{ drop = "50 mm", friction = 0.25, stiffness = "900 kN/mm" }',
+        BackupSupport(drop=0.05, friction=0.25, stiffness=9e8),
+    ),
     "slip_capacity": ('"150 mm"', 0.15),
     "design_load": ('"3.5 MN"', 3.5e6),
     "yield_displacement": ('"0.5 mm"', 0.5e-3),
@@ -196,7 +202,7 @@ def test_the_section_of_the_page_is_a_bearing(tmp_path: Path) -> None:
 
 
 def test_units_are_those_of_fields() -> None:
-    kinds = (LIRBearing, PressureDependence, FrictionHeating)
+    kinds = (LIRBearing, PressureDependence, FrictionHeating, BackupSupport)
     assert set(FIELD_UNITS) == {kind.__name__ for kind in kinds}
     for kind in kinds:
         assert set(FIELD_UNITS[kind.__name__]) <= {f.name for f in fields(kind)}

@@ -32,6 +32,8 @@ TERMS = {
     "rim_overrun": "rim deformation at restrainer failure",
     "flange": "way beyond a broken restraining rim",
     "slip_capacity": "interface slip at the end of the overlap",
+    "uplift_capacity": "uplift at which the bearing fails",
+    "backup": "support after the bearing's failure",
     "design_load": "axial load that defaults refer to",
     "yield_displacement": "elastic displacement before sliding, concave surfaces",
     "interface_yield_displacement": "elastic displacement before slip, interface",
@@ -71,6 +73,8 @@ def _applies(name: str, bearing: LIRBearing) -> bool:
     # Whether a field says something of a bearing.
     if name == "bouc_wen_exponent":
         return bearing.friction_law == "bouc-wen"
+    if name == "uplift_capacity":
+        return math.isfinite(bearing.uplift_capacity)
     return name != "rim_hardening" or math.isfinite(bearing.rim_yield_force)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -20,7 +20,7 @@ from frames.risk.campaign.measures import evaluate, with_room
 from lir_element.errors import AnalysisError, AnalysisWarning
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
     import xarray as xr
 
@@ -39,6 +39,7 @@ _MOST_WARNINGS = 5
 
 Builder = Callable[[dict[str, float]], Frame]
 Told = Callable[["BatchProgress"], None]
+Known = Callable[[Sequence[int]], "Iterator[tuple[list[int], xr.Dataset]]"]
 
 
 class Batch(NamedTuple):
@@ -47,6 +48,7 @@ class Batch(NamedTuple):
     arrays: dict[str, Any]  # by name of variable, (runs, ...)
     histories: list[xr.Dataset]
     warnings: list[str]
+    reused: int = 0  # runs that were taken over
 
 
 class Reference(NamedTuple):
@@ -141,7 +143,12 @@ class Work:
 
 
 def compute(
-    work: Work, layout: xr.Dataset, batch: int, workers: int | None, told: Told | None = None
+    work: Work,
+    layout: xr.Dataset,
+    batch: int,
+    workers: int | None,
+    told: Told | None = None,
+    known: Known | None = None,
 ) -> Batch:
     """Compute a batch.
 
@@ -157,6 +164,8 @@ def compute(
         Runs at a time.
     told : callable, optional
         Hears of each run that is done.
+    known : callable, optional
+        Gives those of some rows whose runs are taken over, and their results.
 
     Returns
     -------
@@ -166,9 +175,13 @@ def compute(
     rows = work.plan.rows(batch)
     arrays = {str(name): _empty(layout[name], len(rows)) for name in layout.data_vars}
     histories = []
+    missing: Sequence[int] = rows
+    for places, there in known(rows) if known is not None else ():
+        _put(arrays, np.array(places) - rows.start, there, layout)
+        missing = sorted(set(missing) - set(places))
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always")
-        for places, found in _Runs(work, layout, workers, told).of(rows):
+        for places, found in _Runs(work, layout, workers, told).of(missing):
             at = np.array(places) - rows.start
             if isinstance(found, str):
                 arrays["status"][at], arrays["message"][at] = NOT_BUILT, found
@@ -178,7 +191,7 @@ def compute(
                     histories.append(_recorded(found, layout, places))
     texts = [str(w.message) for w in heard if not issubclass(w.category, AnalysisWarning)]
     said = [text for text, _ in Counter(texts).most_common(_MOST_WARNINGS)]
-    return Batch(arrays, histories, said)
+    return Batch(arrays, histories, said, len(rows) - len(missing))
 
 
 class _Runs:

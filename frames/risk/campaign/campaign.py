@@ -6,6 +6,7 @@ import math
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,7 @@ from frames.risk.campaign.measures import Measure, checked_measures
 from frames.risk.campaign.packages import lacking_packages
 from frames.risk.campaign.plan import Plan
 from frames.risk.campaign.plan_description import described
+from frames.risk.campaign.reused import KnownRuns
 from frames.risk.campaign.sampling import ParameterSample, whole
 from frames.risk.campaign.store import CampaignStatus, CampaignStore
 from lir_element.argument_checks import require_type
@@ -27,13 +29,12 @@ from lir_element.errors import AnalysisWarning
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
-    from pathlib import Path
 
     import pandas as pd
     import xarray as xr
 
     from frames.motion.ground_motion import GroundMotion
-    from frames.risk.campaign.batches import Batch, Builder, Told
+    from frames.risk.campaign.batches import Batch, Builder, Known, Told
     from lir_element.device.features import Features
 
 FEWEST, MOST, PARTS = 16, 512, 8
@@ -164,6 +165,7 @@ class Campaign:
         client: Any = None,
         progress: Told | bool | None = None,
         accept_other_sources: bool = False,
+        reuse: str | Path | Sequence[str | Path] | None = None,
     ) -> xr.Dataset:
         """Run what is not done yet, and return the results.
 
@@ -180,6 +182,9 @@ class Campaign:
             Whether a results database that other sources or another version of the package began is
             gone on with: where a change does not touch the numbers. The database keeps from which
             run on. Everything else must be as it was planned, properties of the bearings included.
+        reuse : str, path or sequence of them, optional
+            Folders of other campaigns whose runs are taken over in place of being computed again:
+            those of the same model, motion, scale and parameters, by the same sources and options.
 
         Returns
         -------
@@ -191,7 +196,7 @@ class Campaign:
         CampaignError
             If the results database was planned otherwise, or begun by other sources of the package
             (each difference is named), or is in use, no model can be set up, an own measure fails,
-            or the cluster is lost.
+            the cluster is lost, or runs of `reuse` were computed otherwise.
         OSError
             If the results database cannot be written. What was done before stays.
         KeyboardInterrupt
@@ -207,6 +212,8 @@ class Campaign:
         told = tell(progress)
         reference = self._work.reference()
         plan = described(self._work, reference)
+        stores = [reuse] if isinstance(reuse, (str, Path)) else list(reuse or ())
+        known = KnownRuns(stores, self._work, plan).of if stores else None
         if not self.store.exists:
             self.store.create(self._work.plan, plan, reference.layout)
         with self.store.owned():
@@ -214,22 +221,29 @@ class Campaign:
             done = set(self.store.batches_done())
             todo = [k for k in range(self._work.plan.batches) if k not in done]
             computed = _Counting(self._work.plan, todo, told)
-            for number, batch in self._computed(reference, computed, client, workers):
+            for number, batch in self._computed(reference, computed, client, workers, known):
                 self.store.write(self._work.plan, number, batch)
         _warn(self.store.status())
         return self.results()
 
     def _computed(
-        self, reference: Reference, counting: _Counting, client: Any, workers: int | None
+        self,
+        reference: Reference,
+        counting: _Counting,
+        client: Any,
+        workers: int | None,
+        known: Known | None,
     ) -> Iterator[tuple[int, Batch]]:
-        layout, todo = reference.layout, counting.todo
+        # A cluster computes the batches of which not all is known.
+        layout, work, todo = reference.layout, self._work, counting.todo
+        here = todo if client is None else [k for k in todo if _is_known(work.plan.rows(k), known)]
+        for number in here:
+            batch = compute(work, layout, number, workers, counting.of_batch(), known)
+            counting.add(batch)
+            yield number, batch
         if client is None:
-            for number in todo:
-                told = counting.of_batch()
-                batch = compute(self._work, layout, number, workers, told)
-                counting.add(batch)
-                yield number, batch
             return
+        todo = [number for number in todo if number not in set(here)]
         for number, batch in over_cluster(client, self._work, layout, todo, workers):
             counting.add(batch)
             counting.tell()
@@ -286,6 +300,11 @@ class _Counting:
         status = batch.arrays["status"]
         self._done += len(status)
         self._failed += int((status != "ok").sum())
+
+
+def _is_known(rows: Sequence[int], known: Known | None) -> bool:
+    # Whether no run of a batch has to be computed.
+    return known is not None and sum(len(places) for places, _ in known(rows)) == len(rows)
 
 
 def _warn(status: CampaignStatus) -> None:

@@ -15,7 +15,7 @@ from frames.risk.campaign.compared_devices import LIR, dish_diameter
 from frames.risk.fragility.comparison import compare_fragility
 from frames.risk.fragility.limit_state import LimitState
 from frames.risk.fragility.risk import collapse_margin_ratio
-from frames.risk.fragility.runs import FAILURE, UNKNOWN
+from frames.risk.fragility.runs import UNKNOWN
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -151,7 +151,7 @@ class DeviceComparison:
             row: dict[str, object] = {
                 "runs": len(outcome),
                 "collapsed": int(np.nansum(exceeded)),
-                "bearing failed": int((outcome == FAILURE).sum()),
+                "bearing failed": int(np.nansum(each.exceeded(LimitState.bearing_failure()))),
                 "analysis failed": int((outcome == UNKNOWN).sum()),
             }
             if name in curves:

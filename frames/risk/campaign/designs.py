@@ -29,6 +29,7 @@ FIELDS = (
     "rim_overrun",
     "flange",
     "slip_capacity",
+    "uplift_capacity",
     "yield_displacement",
     "interface_yield_displacement",
 )

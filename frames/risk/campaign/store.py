@@ -48,6 +48,8 @@ class CampaignStatus(NamedTuple):
         Runs in which the assumption check marks something.
     warnings : tuple of str
         What was warned of while batches were computed.
+    reused : int
+        Runs that were taken over from other results databases.
 
     Examples
     --------
@@ -59,6 +61,7 @@ class CampaignStatus(NamedTuple):
     statuses: dict[str, int]
     doubtful: int
     warnings: tuple[str, ...]
+    reused: int = 0
 
     def __str__(self) -> str:
         """Return it on one line."""
@@ -66,7 +69,10 @@ class CampaignStatus(NamedTuple):
         doubts = (
             f"; the assumption check marks something in {self.doubtful}" if self.doubtful else ""
         )
-        return f"{self.done} of {self.total} runs done{f': {parts}' if parts else ''}{doubts}"
+        taken = f" ({self.reused} of them taken over)" if self.reused else ""
+        return (
+            f"{self.done} of {self.total} runs done{taken}{f': {parts}' if parts else ''}{doubts}"
+        )
 
 
 class CampaignStore:
@@ -266,7 +272,7 @@ class CampaignStore:
                 "doubtful": int((batch.arrays["doubts"] != "").sum()),
                 "warnings": batch.warnings,
                 "digest": digest_of([batch.arrays]),
-            }
+            } | ({"reused": batch.reused} if batch.reused else {})
             write_whole(self.path / _DONE / f"{number:06d}.json", json.dumps(mark).encode())
         except OSError as cause:
             done = len(self.batches_done())
@@ -289,16 +295,18 @@ class CampaignStore:
         CampaignError
             If there is no store.
         """
-        total, done, doubtful = int(self.plan()["runs"]), 0, 0
+        total, done, doubtful, reused = int(self.plan()["runs"]), 0, 0, 0
         statuses: Counter[str] = Counter()
         said: dict[str, None] = {}
         for number in self.batches_done():
             mark = self._mark(number)
             done += mark["runs"]
             doubtful += mark["doubtful"]
+            reused += mark.get("reused", 0)
             statuses.update(mark["statuses"])
             said.update(dict.fromkeys(mark["warnings"]))
-        return CampaignStatus(done, total, dict(statuses.most_common()), doubtful, tuple(said))
+        counts = dict(statuses.most_common())
+        return CampaignStatus(done, total, counts, doubtful, tuple(said), reused)
 
     def results(self) -> xr.Dataset:
         """Return what the runs reached, read from the disk where it is used; also while it runs.

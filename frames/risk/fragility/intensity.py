@@ -161,9 +161,10 @@ class Intensity:
         """
         if self.kind == "scale":
             return 1.0
-        if self.kind in {"Sa", "Sa_avg"}:
-            periods = self.periods if self.period is None else (self.period,)
-            each = pair_spectrum(motion, periods, self.damping, self.measure)
+        if self.period is not None:  # of Sa
+            found = float(pair_spectrum(motion, [self.period], self.damping, self.measure)[0])
+        elif self.kind == "Sa_avg":
+            each = pair_spectrum(motion, self.periods, self.damping, self.measure)
             found = float(np.exp(np.log(each).mean())) if each.all() else 0.0
         elif self.kind == "PGA":
             found = float(pair_spectrum(motion, [0.0], 0.0, self.measure)[0])

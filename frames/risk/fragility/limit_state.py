@@ -19,8 +19,9 @@ class LimitState:
     """What is exceeded when a demand is above its limit, or a bearing fails.
 
     Failure of a bearing (a status of `lir_element.RunStatus` with `is_bearing_failure`) exceeds
-    every limit state: it is collapse of the isolation. A run that ended otherwise before its end
-    exceeds and keeps nothing: it is not known.
+    every limit state: it is collapse of the isolation. A run that went on with the backup of a
+    failed bearing (`LIRBearing.backup`) has demands of its own, and exceeds `bearing_failure`. A
+    run that ended otherwise before its end exceeds and keeps nothing: it is not known.
 
     Parameters
     ----------

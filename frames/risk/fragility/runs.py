@@ -51,10 +51,10 @@ def outcome_of(status: str) -> str:
     Returns
     -------
     str
-        `COMPLETE` for "ok" and "inaccurate" (which went to its end), `FAILURE` where the bearing
-        failed, otherwise `UNKNOWN`, also for "not_built" of a campaign. A structure that is beyond
-        what it carries ends in Newton's failure, as other things do: state a drift or a rotation
-        as the limit.
+        `COMPLETE` for "ok", "inaccurate" and "bearing_lost" (which went to their ends), `FAILURE`
+        where the bearing failed and the run with it, otherwise `UNKNOWN`, also for "not_built" of a
+        campaign. A structure that is beyond what it carries ends in Newton's failure, as other
+        things do: state a drift or a rotation as the limit.
 
     Raises
     ------
@@ -65,7 +65,7 @@ def outcome_of(status: str) -> str:
         return UNKNOWN
     require_choice("status", status, [s.name.lower() for s in RunStatus], error=FragilityError)
     found = RunStatus[status.upper()]
-    if found in {RunStatus.OK, RunStatus.INACCURATE}:
+    if found.is_complete:
         return COMPLETE
     return FAILURE if found.is_bearing_failure else UNKNOWN
 
@@ -263,7 +263,8 @@ class IntensityRuns(Shown):
         require_type("limit", limit, LimitState, "a LimitState")
         outcome = self.table["outcome"].to_numpy()
         if limit.quantity is None or limit.limit is None:
-            found = (outcome == FAILURE).astype(np.float64)
+            lost = self.table["status"].to_numpy() == RunStatus.BEARING_LOST.name.lower()
+            found = ((outcome == FAILURE) | lost).astype(np.float64)
         else:
             demand = self.demand(limit.quantity)
             if np.isnan(demand[outcome == COMPLETE]).any():

@@ -35,8 +35,11 @@ _SLIP_EXCEEDED = int(RunStatus.SLIP_EXCEEDED)
 _RIM_OVERRUN = int(RunStatus.RIM_OVERRUN)
 _SPHERE_EXCEEDED = int(RunStatus.SPHERE_EXCEEDED)
 _SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
+_UPLIFT_EXCEEDED = int(RunStatus.UPLIFT_EXCEEDED)
 _NEAR_END = 0.9  # of the last slip: a search that fails from beyond it has met it (a choice)
 _BEYOND_END = 1.001  # of it: what is found further on lies on the far side; 0.1 % for the estimate
+SNAPS = 0.97
+"""Of the slip beyond which there is no equilibrium: nearer to it a search that fails has met it."""
 _STARTS = (0.9, 0.5, 1.0, 0.75)  # by trial: none of 19,200 random trials near rims stayed unsolved
 SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
 
@@ -176,6 +179,8 @@ def limit_status(p: Props, new: State) -> int:
     """
     if new.axial_force > 0.0 and new.slip[0] ** 2 + new.slip[1] ** 2 > p.slip_capacity**2:
         return _SLIP_EXCEEDED
+    if p.length - new.string > p.uplift_capacity:
+        return _UPLIFT_EXCEEDED
     for k in range(2):
         if p.flange > 0.0:
             if new.eccentricity[k] > p.rim_displacement[k] + p.flange:

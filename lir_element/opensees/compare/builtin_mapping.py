@@ -13,6 +13,7 @@ from lir_element.device.bearing_checks import (
     TO_OPENSEES,
     require_constant_friction,
     require_lasting_rims,
+    require_no_backup,
 )
 from lir_element.device.friction import CoulombFriction, VelocityFriction
 
@@ -119,6 +120,7 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
         raise ValueError(msg)
     require_constant_friction(bearing, TO_OPENSEES)
     require_lasting_rims(bearing, TO_OPENSEES)
+    require_no_backup(bearing, TO_OPENSEES)
     radii, laws, length = bearing.radii, laws_of_opensees(bearing), bearing.effective_radius
     least = min(law.f_min for law in laws)
     if least <= 0.0:

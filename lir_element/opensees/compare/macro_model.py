@@ -19,6 +19,7 @@ from lir_element.device.bearing_checks import (
     TO_OPENSEES,
     require_constant_friction,
     require_lasting_rims,
+    require_no_backup,
 )
 from lir_element.opensees.compare.builtin_mapping import laws_of_opensees
 from lir_element.opensees.library import opensees
@@ -363,6 +364,7 @@ def _check(bearing: LIRBearing, directions: object, restoring: str) -> None:
     require_choice("restoring", restoring, ("series", "across"))
     require_constant_friction(bearing, TO_OPENSEES)
     require_lasting_rims(bearing, TO_OPENSEES)
+    require_no_backup(bearing, TO_OPENSEES)
     laws_of_opensees(bearing)
     if bearing.interface_friction <= bearing.effective_friction:
         msg = (

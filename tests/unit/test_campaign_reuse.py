@@ -1,0 +1,107 @@
+"""Runs of another campaign that are taken over: which, and that they are what would be computed."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from frames import GroundMotion, Recording, lumped_mass
+from frames.risk import Campaign, CampaignError, full_grid, open_campaign
+from frames.risk.campaign import batches
+from lir_element import CoulombFriction, LIRBearing
+
+pytest.importorskip("zarr")
+pytest.importorskip("filelock")
+
+BEARING = LIRBearing(
+    radius=0.75,
+    slider_height=0.085,
+    slider_radius=0.08,
+    capacity=0.175,
+    friction=CoulombFriction(0.066),
+    interface_friction=0.16,
+)
+TIME = np.linspace(0.0, 1.0, 101)
+PULSES = {
+    name: GroundMotion(x=size * np.sin(2.0 * np.pi * TIME), dt=0.01, name=name)
+    for name, size in (("small", 1.0), ("large", 2.0))
+}
+
+
+def campaign(store: Path, motions: object, scales: list[float], **more: object) -> Campaign:
+    given = {"sample": full_grid({"radius": [0.7, 0.9]}), "batch": 3} | more
+    model = lumped_mass(BEARING, 5e4)
+    return Campaign(model, motions, store=store, scales=scales, **given)  # type: ignore[arg-type]
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    store = tmp_path_factory.mktemp("first") / "runs"
+    campaign(store, PULSES["small"], [0.5, 1.0]).run(workers=1)
+    return store
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Campaign:
+    found = campaign(tmp_path_factory.mktemp("whole") / "runs", PULSES, [0.5, 1.0, 1.5])
+    found.run(workers=1)
+    return found
+
+
+def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Hear how many runs are computed from here on."""
+    computed: list[int] = []
+    true = batches.time_histories
+
+    def heard(*args: object, **kwargs: object) -> object:
+        if "cases" in kwargs:
+            computed.append(len(kwargs["cases"]))  # type: ignore[arg-type]
+        return true(*args, **kwargs)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(batches, "time_histories", heard)
+    return computed
+
+
+def test_what_is_known_is_not_computed_again(
+    first: Path, whole: Campaign, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    computed = counted(monkeypatch)
+    found = campaign(tmp_path / "runs", PULSES, [0.5, 1.0, 1.5])
+    found.run(workers=1, reuse=first)
+    assert sum(computed) == 12 - 4
+    assert found.status().reused == 4
+    assert "(4 of them taken over)" in str(found.status())
+    assert found.digest() == whole.digest()
+
+
+def test_campaigns_are_merged(
+    first: Path, whole: Campaign, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Several campaigns that hold all runs of one make it without a computation."""
+    others = [first]
+    for k, (motions, scales) in enumerate(
+        (([PULSES["small"]], [1.5]), ([PULSES["large"]], [1.5, 1.0, 0.5]))
+    ):
+        others.append(tmp_path / f"other {k}")
+        campaign(others[-1], motions, scales).run(workers=1)
+    computed = counted(monkeypatch)
+    merged = campaign(tmp_path / "merged", PULSES, [0.5, 1.0, 1.5])
+    merged.run(workers=1, reuse=others)
+    assert computed == []
+    assert merged.status().reused == 12
+    assert merged.digest() == whole.digest()
+    assert open_campaign(merged.store.path).digest() == whole.digest()
+
+
+def test_what_was_computed_otherwise_is_refused(first: Path, tmp_path: Path) -> None:
+    for name, more, match in (
+        ("step", {"dt": 0.005}, r"(?s)reuse.*options"),
+        ("parameters", {"sample": full_grid({"friction": [0.05]})}, "parameters were"),
+        ("set", {"sample": full_grid({"radius": [0.8, 0.7]})}, "no model is the same"),
+        ("histories", {"record": Recording()}, r"(?s)reuse.*record"),
+    ):
+        other = campaign(tmp_path / name, PULSES["small"], [0.5], **more)
+        with pytest.raises(CampaignError, match=match):
+            other.run(workers=1, reuse=first)
+    with pytest.raises(CampaignError, match="holds no campaign"):
+        campaign(tmp_path / "new", PULSES["small"], [0.5]).run(reuse=tmp_path / "nothing")

@@ -1,0 +1,201 @@
+"""What the page of buildings says, from the runs of each building on each device: plain numbers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from frames.risk import LimitState
+from frames.risk.fragility.runs import COMPLETE, FAILURE
+from lir_element.units import STANDARD_GRAVITY
+from validation.measurements.yielding_runs import LIR
+from validation.study.buildings_runs import (
+    ALL_RECORDS,
+    HEIGHT,
+    SPAN,
+    Building,
+    building,
+    period,
+    strength,
+)
+from validation.study.paired import (
+    DEVICES,
+    LIMITS,
+    OTHERS,
+    STRONG,
+    curve_of,
+    median_of,
+    ratio_of,
+    shares_of,
+    statuses_of,
+)
+from validation.study.records_runs import COLLAPSE, ULTIMATE
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from frames.risk import IntensityRuns
+    from validation.study.paired import Curve
+
+    Runs = Mapping[str, IntensityRuns]
+
+RESAMPLES, FEW_RESAMPLES = 200, 100
+"""Of the intervals by limit state, and of those by definition of collapse."""
+
+FLOOR, UPLIFT = 2.0 * STANDARD_GRAVITY, 0.05
+"""Floor acceleration [m/s2] and uplift [m] that may count as collapse."""
+
+UNHARMED = (1.0, 4.0, ULTIMATE)
+"""Ductilities below which frames are counted whose bearings failed [-]."""
+
+
+class Definition(NamedTuple):
+    """What may be called collapse: demands over their limits, bearings that fail or not."""
+
+    name: str
+    limits: tuple[tuple[str, float], ...]
+    bearings: bool = True
+
+    def of(self, runs: IntensityRuns) -> tuple[IntensityRuns, LimitState]:
+        """Return runs with the largest demand over its limit, and the limit state of 1.
+
+        Parameters
+        ----------
+        runs : IntensityRuns
+            Runs of a building.
+
+        Returns
+        -------
+        tuple of IntensityRuns and LimitState
+            Where failed bearings do not count, runs are judged as far as they went.
+        """
+        table = runs.table
+        shares = [table[quantity].to_numpy() / limit for quantity, limit in self.limits]
+        changes = {"share": np.max(shares, axis=0) if shares else np.zeros(len(table))}
+        if not self.bearings:
+            outcome = table["outcome"].to_numpy()
+            changes["outcome"] = np.where(outcome == FAILURE, COMPLETE, outcome)
+        own = replace(runs, table=table.assign(**changes), units={**runs.units, "share": "1"})
+        return own, LimitState(self.name, "share", 1.0)
+
+
+DRIFT, PLAN_FLOOR = "storey drift, mean", "floor acceleration in plan, mean"
+DEFINITIONS = (
+    Definition("ductility 9 or a bearing", (("ductility", ULTIMATE),)),
+    Definition("ductility 6 or a bearing", (("ductility", 6.0),)),
+    Definition("ductility 12 or a bearing", (("ductility", 12.0),)),
+    Definition("drift 4 % or a bearing", ((DRIFT, 0.04),)),
+    Definition(
+        "ductility 9, floor acceleration 2 g or a bearing",
+        (("ductility", ULTIMATE), (PLAN_FLOOR, FLOOR)),
+    ),
+    Definition(
+        "ductility 9, uplift 50 mm or a bearing",
+        (("ductility", ULTIMATE), ("maximum uplift", UPLIFT)),
+    ),
+    Definition("a bearing alone", ()),
+    Definition(
+        "ductility 9 alone, as far as runs went", (("ductility", ULTIMATE),), bearings=False
+    ),
+    Definition("drift 4 % alone, as far as runs went", ((DRIFT, 0.04),), bearings=False),
+)
+
+
+def tried(one: Building) -> tuple[str, ...]:
+    """Return the devices on which a building is run."""
+    return tuple(each for each in DEVICES if each != STRONG or one in ALL_RECORDS)
+
+
+def facts_of(one: Building) -> dict[str, float]:
+    """Return what a building is: period, strength, slenderness, loads, sliders."""
+    frame = building(one)
+    bearings = [link.bearing for link in frame.bearings.values()]
+    loads = [each.resolved()["design_load"] for each in bearings]
+    return {
+        "period": period(one),
+        "strength": strength(one),
+        "slenderness": one.storeys * HEIGHT / (2.0 * SPAN),
+        "weight": float(sum(loads)),
+        "least load": float(min(loads)),
+        "largest load": float(max(loads)),
+        "least slider": min(each.slider_radius for each in bearings),
+        "slider height": bearings[0].slider_height,
+        "largest slider": max(each.slider_radius for each in bearings),
+    }
+
+
+def numbers_of(runs: Runs) -> dict[str, Any]:
+    """Return what is kept of a building's runs.
+
+    Parameters
+    ----------
+    runs : mapping of str to IntensityRuns
+        By device, with ductility.
+
+    Returns
+    -------
+    dict
+        Medians, ratios and shares by limit state; definitions; how runs ended; uplift; frames
+        whose bearings failed.
+    """
+    limits = {}
+    for limit in LIMITS:
+        curves = {name: curve_of(each, limit, RESAMPLES) for name, each in runs.items()}
+        limits[limit.name] = _compared(curves) | {
+            "shares": {name: shares_of(each, limit) for name, each in runs.items()}
+        }
+        if limit is COLLAPSE:
+            limits[limit.name]["drawn"] = {name: _drawn(curve) for name, curve in curves.items()}
+    definitions = {}
+    for definition in DEFINITIONS:
+        curves = {}
+        counts = {}
+        for name, each in runs.items():
+            own, limit = definition.of(each)
+            curves[name] = curve_of(own, limit, FEW_RESAMPLES)
+            over = own.exceeded(limit)
+            counts[name] = [int(np.nansum(over)), int(np.isfinite(over).sum())]
+        definitions[definition.name] = _compared(curves) | {"counts": counts}
+    return {
+        "limits": limits,
+        "definitions": definitions,
+        "statuses": {name: statuses_of(each.table) for name, each in runs.items()},
+        "uplift": {name: _uplift(each) for name, each in runs.items()},
+        "unharmed": {name: _unharmed(each) for name, each in runs.items()},
+    }
+
+
+def _compared(curves: Mapping[str, Curve | str]) -> dict[str, Any]:
+    return {
+        "medians": {name: median_of(curve) for name, curve in curves.items()},
+        "why": {name: curve for name, curve in curves.items() if isinstance(curve, str)},
+        "ratios": {
+            other: ratio_of(curves[LIR], curves[other]) if other in curves else None
+            for other in OTHERS
+        },
+    }
+
+
+def _drawn(curve: Curve | str) -> list[float] | None:
+    # Median and dispersion of a lognormal curve.
+    if isinstance(curve, str):
+        return None
+    return [float(curve.median), float(curve.dispersion)]  # type: ignore[union-attr]
+
+
+def _uplift(runs: IntensityRuns) -> list[list[float]]:
+    # By intensity: complete runs, of them lifted by more than UPLIFT, their median uplift [m].
+    table = runs.table
+    rows = []
+    for level, own in table[table["outcome"] == COMPLETE].groupby("im"):
+        uplift = own["maximum uplift"]
+        rows.append([float(level), len(own), int((uplift > UPLIFT).sum()), float(uplift.median())])
+    return rows
+
+
+def _unharmed(runs: IntensityRuns) -> list[int]:
+    # Runs whose bearing failed, and of them those below each ductility until then.
+    own = runs.table[runs.table["outcome"] == FAILURE]["ductility"]
+    return [len(own), *(int((own <= bound).sum()) for bound in UNHARMED)]

@@ -1,0 +1,375 @@
+"""The page of the study of buildings, from its numbers alone; its tables."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from validation.page import table
+from validation.study.buildings_figures import CURVES_FIGURE, RATIOS_FIGURE
+from validation.study.buildings_numbers import DEFINITIONS, LIR, UNHARMED, UPLIFT
+from validation.study.buildings_runs import (
+    HEIGHT,
+    LENGTH,
+    SCALES,
+    SPAN,
+    THICKNESS,
+    WALL_YIELDS,
+)
+from validation.study.paired import (
+    DEVICES,
+    LIMITS,
+    OTHERS,
+    STRONG,
+    as_csv,
+    cost_line,
+    of_three,
+    told_lir,
+)
+from validation.study.records_runs import COLLAPSE, INTENSITY, STEP, ULTIMATE
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    Found = Mapping[str, Any]
+
+NAME = "study_buildings"
+
+
+def page(found: Found) -> str:
+    """Return the page in Markdown."""
+    return (
+        "\n\n".join(
+            [
+                "# Buildings of frames and of walls, low and high: does the result hold?",
+                _introduction(found),
+                "## In short",
+                _verdict(found),
+                f"![Medians of the LIR-DCFP over those of the DCFPs, by building](figures/{RATIOS_FIGURE})",
+                f"Median of the {LIR} over that of each DCFP, intervals of 90 %: above 1 the {LIR} is "
+                "better. A building without a mark has no median on one of both.",
+                "## The buildings",
+                _buildings(found),
+                "## Medians and margins",
+                _medians(found),
+                f"![Fragility of collapse by building](figures/{CURVES_FIGURE})",
+                "Collapse; points are shares of the runs whose outcome is known.",
+                "## Ratios",
+                _ratios(found),
+                "## How runs ended",
+                _ends(found),
+                "## Uplift",
+                _uplift(found),
+                "## What is called collapse",
+                _definitions(found),
+                _unharmed(found),
+                "## Limits of this study",
+                _limits(),
+                "## Cost",
+                cost_line(found["cost"]),
+            ]
+        )
+        + "\n"
+    )
+
+
+def _introduction(found: Found) -> str:
+    cost = found["cost"]
+    scales = ", ".join(f"{scale:g}" for scale in SCALES)
+    fewer = [name for name, own in found["buildings"].items() if own["records"] < found["records"]]
+    spared = (
+        f" To save time, {_of(fewer)} are run under every second record, and not on the {STRONG}."
+        if fewer
+        else ""
+    )
+    return (
+        f"Written by `python -m validation.study.buildings` ({cost['date']}, {cost['machine']}). "
+        "[study_rims.md](study_rims.md) compares devices of equal plan under one building. Here "
+        f"{len(found['buildings'])} stand on devices of one plan, that is one dish under the centre "
+        f"bearing: the {LIR} {told_lir(found['lir'])}, and DCFPs whose rims yield at 1 W, or neither yield "
+        "nor break. Sliders of DCFPs have one pressure under the building's own loads; all of the "
+        f"{LIR} are as wide as the widest of these, for the smallest overlap lets the whole interface slip "
+        "no further. So taller buildings have wider sliders, and more room for the slip; period (3 s) and "
+        f"the way to the rims are the same in all. The {found['records']} far-field pairs of FEMA P695 "
+        f"are scaled to {INTENSITY.label} of {scales} m/s2, steps {1e3 * STEP:g} ms.{spared} Collapse "
+        f"is a ductility of {ULTIMATE:g} of a hinge or the failure of a bearing; a failed bearing exceeds "
+        "every limit state, a failed analysis counts as unknown."
+    )
+
+
+def _verdict(found: Found) -> str:
+    lines = []
+    for limit in LIMITS:
+        for other in OTHERS:
+            above, below, open_, values = [], [], [], []
+            for name, own in found["buildings"].items():
+                ratio = own["limits"][limit.name]["ratios"][other]
+                if ratio is None:
+                    continue
+                values.append(ratio[0])
+                (above if ratio[1] > 1.0 else below if ratio[2] < 1.0 else open_).append(name)
+            if not values:
+                lines.append(f"- **{limit.name}**, over {other}: no median on one of both.")
+                continue
+            lines.append(
+                f"- **{limit.name}**, {LIR} over {other}: {min(values):.2f} to {max(values):.2f} in "
+                f"{len(values)} buildings; better in {_of(above)}, worse in {_of(below)}, not told apart "
+                f"in {_of(open_)}."
+            )
+    return "\n".join([*lines, f"- **What is called collapse.** {_verdict_definitions(found)}"])
+
+
+def _verdict_definitions(found: Found) -> str:
+    words = []
+    for other in OTHERS:
+        own = {
+            each.name: [
+                ratio[0]
+                for building in found["buildings"].values()
+                if (ratio := building["definitions"][each.name]["ratios"][other]) is not None
+            ]
+            for each in DEFINITIONS
+            if each.bearings
+        }
+        known = {name: values for name, values in own.items() if values}
+        low = min(known, key=lambda name: min(known[name]))
+        high = max(known, key=lambda name: max(known[name]))
+        words.append(
+            f"over {other} from {min(known[low]):.2f} ({low}) to {max(known[high]):.2f} ({high})"
+        )
+    return f"By definition and building the ratio of medians goes {'; '.join(words)}."
+
+
+def _of(names: Sequence[str]) -> str:
+    return f"{len(names)} ({'; '.join(names)})" if names else "none"
+
+
+def _buildings(found: Found) -> str:
+    rows = []
+    for name, each in found["buildings"].items():
+        own = each["facts"]
+        rows.append(
+            [
+                name,
+                f"{own['period']:.2f}",
+                f"{own['strength']:.2f}",
+                f"{own['slenderness']:.2f}",
+                f"{1e-6 * own['weight']:.1f}",
+                f"{1e-3 * own['least load']:.0f} to {1e-3 * own['largest load']:.0f}",
+                f"{1e3 * own['least slider']:.0f} to {1e3 * own['largest slider']:.0f}",
+                f"{1e3 * own['slider height']:.0f}",
+            ]
+        )
+    head = [
+        "building",
+        "period, fixed base [s]",
+        "strength V / W [-]",
+        "height over width [-]",
+        "weight W [MN]",
+        "loads of bearings [kN]",
+        "radii of sliders, smaller plan [mm]",
+        "height of sliders [mm]",
+    ]
+    return (
+        f"Plan 2 x 2 bays of {SPAN:g} m, storeys of {HEIGHT:g} m. Frames: from the top, three storeys have "
+        "the members of the light frame of [yielding_comparison.md](yielding_comparison.md), three those of "
+        "the demo, three heavier ones (box 500 x 30 mm, I 650 x 250 mm), so that the strength over the "
+        "weight stays alike: the base shear of a mechanism in which beams turn at all floors and columns "
+        "at their feet, under equal forces at the floors. Walls: the same, with the middle columns of the "
+        f"four facades replaced by walls of {LENGTH:g} m x {1e3 * THICKNESS:g} mm over their bearings, "
+        "cracked to half of their stiffness, with a hinge at the foot (1 % of bars; the moment under the "
+        f"load at rest). {WALL_YIELDS:g} rad of plastic rotation of a wall count as one unit of "
+        f"ductility, so that ductility {ULTIMATE:g} is "
+        f"{(ULTIMATE - 1.0) * WALL_YIELDS:.2f} rad: an assumption. Above their feet walls stay "
+        "elastic. "
+        f"Sliders are higher in taller buildings, as wide ones ask for; radii of the plates grow with "
+        f"them.\n\n{table(head, rows)}"
+    )
+
+
+def _medians(found: Found) -> str:
+    rows = []
+    for name, own in found["buildings"].items():
+        for device in own["statuses"]:
+            cells = []
+            for limit in LIMITS:
+                each = own["limits"][limit.name]
+                median = each["medians"][device]
+                cells.append(of_three(median) if median else _why(each["why"][device]))
+            collapse = own["limits"][COLLAPSE.name]["medians"][device]
+            margin = [value / found["considered"] for value in collapse] if collapse else None
+            rows.append([name, device, *cells, of_three(margin)])
+    head = [
+        "building",
+        "device",
+        *(f"{limit.name}, median [m/s2]" for limit in LIMITS),
+        "collapse margin",
+    ]
+    return (
+        "Intervals of 90 %. Margin: median of collapse over the Sa of the maximum considered earthquake "
+        f"that fills the capacity of the smaller plan, {found['considered']:.2f} m/s2, as in "
+        "[study.md](study.md).\n\n" + table(head, rows)
+    )
+
+
+def _why(text: str) -> str:
+    return f"none: {text.split(':')[0].split(';')[0]}"
+
+
+def _ratios(found: Found) -> str:
+    rows = [
+        [
+            name,
+            other,
+            *(of_three(own["limits"][limit.name]["ratios"][other]) for limit in LIMITS),
+        ]
+        for name, own in found["buildings"].items()
+        for other in OTHERS
+    ]
+    head = ["building", f"{LIR} over", *(limit.name for limit in LIMITS)]
+    return "Records are resampled for both devices alike.\n\n" + table(head, rows)
+
+
+def _ends(found: Found) -> str:
+    rows = []
+    for name, own in found["buildings"].items():
+        for device in own["statuses"]:
+            ends = ", ".join(f"{n} `{end}`" for end, n in own["statuses"][device].items())
+            shares = own["limits"][COLLAPSE.name]["shares"][device]
+            told = ", ".join(f"{over}/{failed}/{unknown}" for _, over, failed, _, unknown in shares)
+            rows.append([name, device, ends, told])
+    scales = ", ".join(f"{scale:g}" for scale in SCALES)
+    head = [
+        "building",
+        "device",
+        "ends",
+        f"collapse / of them bearings failed / unknown, at {scales} m/s2",
+    ]
+    return (
+        f"Of {found['records']} runs at each intensity, or of {found['records'] // 2}.\n\n"
+        + table(head, rows)
+    )
+
+
+def _uplift(found: Found) -> str:
+    rows = []
+    for name, own in found["buildings"].items():
+        for device in own["statuses"]:
+            cells = {
+                level: f"{over} of {n}, {1e3 * mid:.1f}"
+                for level, n, over, mid in own["uplift"][device]
+            }
+            rows.append([name, device, *(cells.get(scale, "-") for scale in SCALES)])
+    head = ["building", "device", *(f"{scale:g} m/s2" for scale in SCALES)]
+    return (
+        f"Complete runs in which a bearing lifts by more than {1e3 * UPLIFT:g} mm, and the median of the "
+        "largest uplift [mm]. Bearings press alone; nothing holds them down, and a bearing that comes down "
+        "again takes the blow. Codes that allow no uplift would refuse what lifts at their "
+        f"intensity, on any of these devices.\n\n{table(head, rows)}"
+    )
+
+
+def _definitions(found: Found) -> str:
+    parts = []
+    for other in OTHERS:
+        rows = [
+            [
+                each.name,
+                *(
+                    of_three(own["definitions"][each.name]["ratios"][other])
+                    for own in found["buildings"].values()
+                ),
+            ]
+            for each in DEFINITIONS
+        ]
+        head = [f"collapse is; {LIR} over {other}", *found["buildings"]]
+        parts.append(table(head, rows))
+    counts = [
+        [
+            each.name,
+            *(
+                ", ".join(
+                    f"{own['definitions'][each.name]['counts'][device][0]}"
+                    for device in own["statuses"]
+                )
+                for own in found["buildings"].values()
+            ),
+        ]
+        for each in DEFINITIONS
+    ]
+    parts.append(
+        f"Runs that collapse by each definition ({', '.join(DEVICES)}):\n\n"
+        + table(["collapse is", *found["buildings"]], counts)
+    )
+    return (
+        "Ratios of the medians by what is called collapse. Where the failure of a bearing does not count, a "
+        "run is judged until its bearing failed: what the building would do after that is not known here, so "
+        "that these lines flatter the device whose bearings fail.\n\n" + "\n\n".join(parts)
+    )
+
+
+def _unharmed(found: Found) -> str:
+    rows = []
+    for name, own in found["buildings"].items():
+        for device in own["statuses"]:
+            failed, *counts = own["unharmed"][device]
+            if failed:
+                rows.append([name, device, str(failed), *(str(count) for count in counts)])
+    head = [
+        "building",
+        "device",
+        "runs whose bearing failed",
+        *(f"frame at ductility {bound:g} or less until then" for bound in UNHARMED),
+    ]
+    return (
+        "Runs that end with a failed bearing, and how many of their frames had not failed, or had not even "
+        f"yielded (ductility 1), when it failed:\n\n{table(head, rows)}"
+    )
+
+
+def _limits() -> str:
+    return (
+        "One plan of 12 m x 12 m under all heights: high buildings on it are slender, and lift on every "
+        "device. Members scale by a rule of three storeys, not by a design; hinges do not degrade, walls "
+        "do not yield above their feet nor in shear, and the moment of their feet does not follow the "
+        "axial force. Bearings are at the level `pendulum`. "
+        f"One {LIR} with one friction of the interface stands for all. Records without a "
+        "vertical component, factors without spectral shape; nothing follows the failure of a bearing. "
+        "Strength, hardening and deformation at failure of rims as in [study_rims.md](study_rims.md)."
+    )
+
+
+def csv_tables(found: Found) -> dict[str, str]:
+    """Return the tables by the names of their files, SI units."""
+    medians = [
+        [name, device, limit.name, *(own["limits"][limit.name]["medians"][device] or [None] * 3)]
+        for name, own in found["buildings"].items()
+        for device in own["statuses"]
+        for limit in LIMITS
+    ]
+    ratios = [
+        [name, other, each.name, *(own["definitions"][each.name]["ratios"][other] or [None] * 3)]
+        for name, own in found["buildings"].items()
+        for other in OTHERS
+        for each in DEFINITIONS
+    ]
+    shares = [
+        [name, device, limit.name, *row]
+        for name, own in found["buildings"].items()
+        for limit in LIMITS
+        for device in own["statuses"]
+        for row in own["limits"][limit.name]["shares"][device]
+    ]
+    return {
+        f"{NAME}-medians.csv": as_csv(
+            ["building", "device", "limit state", "median [m/s2]", "low [m/s2]", "high [m/s2]"],
+            medians,
+        ),
+        f"{NAME}-definitions.csv": as_csv(
+            ["building", f"{LIR} over", "collapse is", "ratio [-]", "low [-]", "high [-]"], ratios
+        ),
+        f"{NAME}-shares.csv": as_csv(
+            ["building", "device", "limit state", "Sa [m/s2]", "over", "bearings failed", "known",
+             "unknown"],
+            shares,
+        ),
+    }  # fmt: skip
