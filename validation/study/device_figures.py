@@ -224,6 +224,7 @@ def cost_figure(found: Found) -> Figure:
                     panel.annotate(
                         name, (x, y), (3, -8), textcoords="offset points", fontsize=ps.SMALL - 1
                     )
+    panels[0].margins(y=0.12)
     ps.caption(panels[0], x="cost of nine bearings [t of steel]", y="collapse margin [-]")
     ps.caption(panels[1], x="volume, plates times height [m3]")
     handles = [

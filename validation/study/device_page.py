@@ -167,7 +167,8 @@ def _limits(found: Found) -> str:
         "checks of `lir check` propose 0.8. The gap around the building must let the LIR-DCFP "
         f"travel {1e3 * (own['capacity'] + own['sliders'][0]):.0f} mm, a DCFP with rims "
         f"{1e3 * (other['capacity'] + BREAKS):.0f} mm: its cost, that of larger joints and of what is "
-        "above and below the rims, is not in the comparison. Without rims, a slider may not leave its "
+        "above and below the rims, is not in the comparison. At equal cost the LIR-DCFP is the one of "
+        "the largest margin of its plan, not the one that gives most for its cost. Without rims, a slider may not leave its "
         "dish by its edge."
     )
 
