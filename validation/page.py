@@ -262,8 +262,8 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.study.device`), "
                 "[study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
                 "(`python -m validation.study.buildings`), "
-                "and [study_loss.md](study_loss.md), their expected loss, annual rates at three sites, "
-                "spectral shape and floor spectra (`python -m validation.study.loss`).",
+                "and [study_loss.md](study_loss.md), expected loss, annual rates at three sites, spectral "
+                "shape and floor spectra (`python -m validation.study.loss`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '
                 "It prints its results as figures; no data of them is published, so the claims check what "
                 "its text states, and closed forms. What the tests demand besides is listed in the "

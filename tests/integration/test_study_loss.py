@@ -18,16 +18,22 @@ from validation.study.consequences import AREA, COMPONENTS, REPLACEMENT, STOREYS
 from validation.study.hazards import CONSIDERED_PERIOD, L_AQUILA, italian, sites
 from validation.study.loss_page import page
 from validation.study.loss_runs import TARGET, annual
-from validation.study.pairs import KINDS, OURS, PLAINS, device
+from validation.study.pairs import BY_LOAD, NAMES, OTHERS, OURS, device
 from validation.study.records_runs import COLLAPSE, INTENSITY, considered
 
 
-def test_devices_share_one_dish():
-    for place, link in device(OURS).bearings.items():
-        for name in PLAINS:
-            other = device(name).bearings[place].bearing
-            assert dish_diameter(other) == pytest.approx(dish_diameter(link.bearing))
-            assert other.is_dcfp
+def test_devices_share_the_dish_under_the_centre():
+    places = device(OURS).bearings
+    dishes = {
+        name: max(dish_diameter(link.bearing) for link in device(name).bearings.values())
+        for name in NAMES
+    }
+    for name in OTHERS:
+        assert dishes[name] == pytest.approx(dishes[OURS])
+        assert all(
+            device(name).bearings[place].bearing.is_dcfp is (name != BY_LOAD) for place in places
+        )
+    assert len({link.bearing.slider_radius for link in places.values()}) == 1
 
 
 # Capacities
@@ -140,7 +146,7 @@ def test_the_page_is_that_of_its_numbers():
 def test_numbers_of_the_page_of_loss_hang_together():
     stored = json.loads((FOLDER / f"{loss.NAME}.json").read_text(encoding="utf-8"))
     assert stored["considered"] == pytest.approx(considered(), rel=1e-4)
-    assert stored["cost"]["runs"] == len(KINDS) * stored["records"] * len(stored["loss"]["im"])
+    assert stored["cost"]["runs"] == len(NAMES) * stored["records"] * len(stored["loss"]["im"])
     assert stored["shape"]["target"] == pytest.approx(TARGET, rel=1e-4)
     for name, curve in stored["loss"]["curves"].items():
         parts = np.sum([*curve["parts"].values()], axis=0)

@@ -1,6 +1,6 @@
 """Run the whole study, part after part: `python -m validation.study --store study-runs`.
 
-    python -m validation.study [part ...] [--store FOLDER] [--workers N] [--again]
+    python -m validation.study [part ...] [--store FOLDER] [--workers N or tcp://host:port] [--again]
 
 Each part keeps its runs in a folder of its own within the store, goes on with what is there, and
 writes its page; `python -m validation.study.<part>` runs one alone.
@@ -25,7 +25,9 @@ def main(given: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m validation.study")
     parser.add_argument("parts", nargs="*", metavar="part", help=f"of: {', '.join(PARTS)}")
     parser.add_argument("--store", type=Path, help="a folder for the runs, kept")
-    parser.add_argument("--workers", type=int, default=1, help="runs at a time")
+    parser.add_argument(
+        "--workers", default="1", help="runs at a time, or the address of a Dask scheduler"
+    )
     parser.add_argument(
         "--again", action="store_true", help="run nothing: write the pages from their JSON"
     )
@@ -34,7 +36,7 @@ def main(given: Sequence[str] | None = None) -> None:
     if unknown:
         parser.error(f"no part {unknown[0]!r}: one of {', '.join(PARTS)}")
     for part in options.parts or PARTS:
-        own = ["--workers", str(options.workers)]
+        own = ["--workers", options.workers]
         own += ["--store", str(options.store / part)] if options.store else []
         own += ["--again"] if options.again else []
         import_module(f"validation.study.{part}").main(own)

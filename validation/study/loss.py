@@ -19,7 +19,7 @@ from frames.risk.fragility.resampling import RESAMPLES
 from validation.page import DPI, FOLDER
 from validation.study.loss_figures import figures
 from validation.study.loss_page import page
-from validation.study.loss_runs import campaign, floor_spectra, floors_of, found_of
+from validation.study.loss_runs import best_campaign, campaign, floor_spectra, floors_of, found_of
 from validation.study.records import options_of, performed
 from validation.study.records_runs import normalised
 from validation.study.rounded import rounded, written
@@ -64,11 +64,17 @@ def main(given: Sequence[str] | None = None) -> None:
     motions = normalised(MotionSet.fema_p695(RECORDS))
     with tempfile.TemporaryDirectory() as folder:
         store = options.store or Path(folder)
-        runs = campaign(motions, store / "runs")
-        cost = performed(runs, options.workers)
+        costs = [
+            performed(make(motions, store / name), options.workers)
+            for name, make in (("runs", campaign), ("best", best_campaign))
+        ]
+        data = [open_campaign(store / name).results() for name in ("runs", "best")]
+        cost = costs[-1] | {
+            "runs": sum(each["runs"] for each in costs),
+            "loop": sum(float(each["seconds_loop"].sum()) for each in data),
+            "digests": [each["digest"] for each in costs],
+        }
         floors = floors_of(floor_spectra(motions, store / "floors"))
-        data = open_campaign(store / "runs").results()
-        cost["loop"] = float(data["seconds_loop"].sum())
         found = found_of(data, motions, RESAMPLES) | {"floors": floors, "cost": cost}
         write(rounded(found))
 

@@ -10,7 +10,7 @@ from frames.plots import plot_style as ps
 from lir_element.units import STANDARD_GRAVITY
 from validation.study.consequences import COMPONENTS
 from validation.study.loss_runs import FLOOR_PERIODS
-from validation.study.pairs import KINDS, OURS, UNBREAKABLE
+from validation.study.pairs import NAMES, OURS, UNBREAKABLE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     Found = Mapping[str, Any]
 
 LOSSES, SHAPE, FLOORS = "study_loss-loss.png", "study_loss-shape.png", "study_loss-floors.png"
-MARKERS = "os^d"
+MARKERS = "osv^d"
 PERIOD_TICKS = (0.05, 0.2, 1.0, 4.0)
 FLOOR_TICKS = (0.2, 0.5, 1.0, 2.0, 5.0)
 
@@ -34,7 +34,7 @@ def _losses(found: Found) -> Figure:
     figure = ps.new_figure(3.6)
     (panels,) = ps.grid_of(figure, 1, 3, share_x=True, share_y=True)
     im = np.array(found["loss"]["im"])
-    for k, name in enumerate(KINDS):
+    for k, name in enumerate(NAMES):
         curve, look = found["loss"]["curves"][name], ps.line_of(k)
         parts = curve["parts"]
         low, high = (100.0 * np.array(curve[key]) for key in ("low", "high"))
@@ -51,7 +51,7 @@ def _losses(found: Found) -> Figure:
         panel.set_ylim(0.0, 102.0)
         ps.caption(panel, title=title, x="Sa(3 s) [m/s2]")
     ps.caption(panels[0], y="of a new building [%]")
-    ps.add_legend(figure, panels[0].get_lines()[: len(KINDS)], columns=2)
+    ps.add_legend(figure, panels[0].get_lines()[: len(NAMES)], columns=2)
     return figure
 
 

@@ -25,7 +25,7 @@ from lir_element.units import STANDARD_GRAVITY
 from validation.study.capacities import bounds_of, draws, fitted, interval
 from validation.study.consequences import COMPONENTS, repair
 from validation.study.hazards import CONSIDERED_PERIOD, sites
-from validation.study.pairs import KINDS, OURS, device, devices
+from validation.study.pairs import NAMES, OURS, device, devices
 from validation.study.records_runs import (
     COLLAPSE,
     INTENSITY,
@@ -37,7 +37,7 @@ from validation.study.records_runs import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     import xarray as xr
@@ -63,13 +63,18 @@ TARGET = float(np.sqrt(PERIODS[0] * PERIODS[-1]) / 3.0)
 
 DRAWS = 300
 FLOOR_PERIODS = np.geomspace(0.05, 4.0, 40)
-FLOOR_DEVICES = tuple(KINDS)[:3]
+FLOOR_DEVICES = NAMES[:4]
 """Those whose floor spectra are formed."""
 
 
 def campaign(motions: Mapping[str, GroundMotion], store: Path) -> Campaign:
     """Return the campaign of all devices under records of 1 m/s2 at the study's intensities."""
     return Campaign(devices(), dict(motions), store=store, scales=list(SCALES), dt=STEP)
+
+
+def best_campaign(motions: Mapping[str, GroundMotion], store: Path) -> Campaign:
+    """Return the same of the best LIR-DCFP of the plan."""
+    return Campaign({OURS: device(OURS)}, dict(motions), store=store, scales=list(SCALES), dt=STEP)
 
 
 def floor_levels() -> dict[str, float]:
@@ -256,7 +261,7 @@ def by_record(losses: FloatArray, runs: IntensityRuns, records: list[str]) -> Fl
 
 
 def loss_of(
-    data: xr.Dataset, runs: Mapping[str, IntensityRuns], records: list[str]
+    results: Mapping[str, xr.Dataset], runs: Mapping[str, IntensityRuns], records: list[str]
 ) -> dict[str, Any]:
     """Return expected losses over intensity and a year, device by device."""
     at = np.array(sorted(set(next(iter(runs.values())).table["im"].tolist())))
@@ -267,7 +272,7 @@ def loss_of(
     for name, each in runs.items():
         parts = {
             part: by_record(values, each, records)
-            for part, values in losses_of(data, each, name).items()
+            for part, values in losses_of(results[name], each, name).items()
         }
         total = np.sum([*parts.values()], axis=0)
         means[name] = np.nanmean(total[drawn], axis=1)  # (draws, intensities)
@@ -370,15 +375,17 @@ def statuses_of(runs: Mapping[str, IntensityRuns]) -> dict[str, Any]:
 
 
 def found_of(
-    data: xr.Dataset, motions: Mapping[str, GroundMotion], resamples: int
+    data: Sequence[xr.Dataset], motions: Mapping[str, GroundMotion], resamples: int
 ) -> dict[str, Any]:
-    """Return what the page says of the campaign, but for floor spectra and cost."""
-    runs = {name: runs_of(data, motions, name) for name in KINDS}
+    """Return what the page says of the campaigns, but for floor spectra and cost."""
+    named = {str(name): each for each in data for name in each["model"].to_numpy()}
+    results = {name: named[name] for name in NAMES}
+    runs = {name: runs_of(each, motions, name) for name, each in results.items()}
     return {
         "considered": considered(),
         "records": len(motions),
         "statuses": statuses_of(runs),
         "shape": shapes_of(runs, motions),
-        "loss": loss_of(data, runs, list(motions)),
+        "loss": loss_of(results, runs, list(motions)),
         "sites": sites_of(),
     } | rates_of(runs, resamples)

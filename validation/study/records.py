@@ -93,12 +93,26 @@ def halved(sets: Sets) -> list[dict[str, Any]]:
     return rows
 
 
-def performed(runs: Campaign, workers: int) -> dict[str, Any]:
-    """Run what is not done, and return what it cost, with the results database's digest."""
+def performed(runs: Campaign, workers: int | str) -> dict[str, Any]:
+    """Run what is not done, and return what it cost, with the results database's digest.
+
+    Parameters
+    ----------
+    runs : Campaign
+        The campaign.
+    workers : int or str
+        Runs at a time, here; or the address of a Dask scheduler, whose workers' processor time is
+        not counted.
+
+    Returns
+    -------
+    dict
+        Runs, seconds, memory [MB], digest, date and machine.
+    """
     before = runs.store.status().done if runs.store.exists else 0
     clock, cpu = perf_counter(), process_time()
     with _quietly():
-        runs.run(workers=workers, progress=True)
+        workers = _run(runs, workers)
     status = runs.status()
     return {
         "runs": status.done,
@@ -113,6 +127,23 @@ def performed(runs: Campaign, workers: int) -> dict[str, Any]:
     }
 
 
+def _run(runs: Campaign, workers: int | str) -> int:
+    # Returns how many workers it had.
+    if isinstance(workers, int):
+        runs.run(workers=workers, progress=True)
+        return workers
+    from distributed import Client
+
+    with Client(workers) as client:
+        runs.run(client=client, progress=True)
+        return len(client.ncores())
+
+
+def workers_of(text: str) -> int | str:
+    """Return a number of workers, or the address of a Dask scheduler, of an option."""
+    return int(text) if text.isdecimal() else text
+
+
 def write(found: Mapping[str, Any], folder: Path = FOLDER) -> None:
     """Write the page, its figures and the numbers."""
     for name, figure in figures(found).items():
@@ -122,7 +153,7 @@ def write(found: Mapping[str, Any], folder: Path = FOLDER) -> None:
     print(f"written to {folder}")
 
 
-def study(sets: Sets, store: Path, workers: int, scales: Sequence[float]) -> dict[str, Any]:
+def study(sets: Sets, store: Path, workers: int | str, scales: Sequence[float]) -> dict[str, Any]:
     """Run the campaign, and return what the page says of it."""
     motions = {name: motion for each in sets.values() for name, motion in each.items()}
     runs = campaign(motions, store, scales)
@@ -134,7 +165,12 @@ def options_of(name: str, given: Sequence[str] | None) -> argparse.Namespace:
     """Return the options of a study's command: store, workers, again."""
     parser = argparse.ArgumentParser(prog=f"python -m validation.study.{name}")
     parser.add_argument("--store", type=Path, help="a folder for the runs, kept")
-    parser.add_argument("--workers", type=int, default=1, help="runs at a time")
+    parser.add_argument(
+        "--workers",
+        type=workers_of,
+        default=1,
+        help="runs at a time, or the address of a Dask scheduler",
+    )
     parser.add_argument(
         "--again", action="store_true", help="run nothing: write the page from its JSON"
     )
