@@ -8,7 +8,6 @@ extras "campaign", "fema" and "fragility".
 
 from __future__ import annotations
 
-import csv
 import datetime
 import json
 import os
@@ -31,7 +30,6 @@ from validation.study.device_numbers import (
     eccentricity_of,
     free_of,
     pair_of,
-    rounded,
 )
 from validation.study.device_page import NAME, page
 from validation.study.device_runs import (
@@ -52,6 +50,7 @@ from validation.study.device_runs import (
 )
 from validation.study.records import options_of, performed
 from validation.study.records_runs import COLLAPSE, considered, normalised, runs_of
+from validation.study.rounded import rounded, written
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -65,13 +64,13 @@ if TYPE_CHECKING:
     Found = Mapping[str, Any]
 
 RECORDS = "far-field"
-TABLES = FOLDER / "tables"
+DIGITS = 6
 
 
 class Performed:
     """Campaigns of the study, run or gone on with, and what they cost."""
 
-    def __init__(self, motions: Mapping[str, GroundMotion], workers: int) -> None:
+    def __init__(self, motions: Mapping[str, GroundMotion], workers: int | str) -> None:
         self.motions = motions
         self.workers = workers
         self.costs: list[dict[str, Any]] = []
@@ -100,7 +99,7 @@ def searched(done: Performed, store: Path) -> list[dict[str, Any]]:
     return rows + device_search.rows_of(points, data, done.motions, "second")
 
 
-def study(motions: Mapping[str, GroundMotion], store: Path, workers: int) -> dict[str, Any]:
+def study(motions: Mapping[str, GroundMotion], store: Path, workers: int | str) -> dict[str, Any]:
     """Run all campaigns, and return what the page says of them."""
     done = Performed(motions, workers)
     rows = searched(done, store)
@@ -247,7 +246,7 @@ def write(found: Found, folder: Path = FOLDER) -> None:
     (folder / f"{NAME}.md").write_text(page(found), encoding="utf-8")
     (folder / f"{NAME}.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
     for name, rows in (("devices", table_rows(found)), ("search", _flat(found["search"]))):
-        _write_table(folder / "tables" / f"{NAME}-{name}.csv", rows)
+        written(rows, folder / "tables" / f"{NAME}-{name}.csv")
     print(f"written to {folder}")
 
 
@@ -265,14 +264,6 @@ def _flat(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     ]
 
 
-def _write_table(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
-    path.parent.mkdir(exist_ok=True)
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-
-
 def main(given: Sequence[str] | None = None) -> None:
     """Run the campaigns, and write the page."""
     options = options_of("device", given)
@@ -281,7 +272,7 @@ def main(given: Sequence[str] | None = None) -> None:
         return
     motions = normalised(MotionSet.fema_p695(RECORDS))
     with tempfile.TemporaryDirectory() as folder:
-        write(rounded(study(motions, options.store or Path(folder), options.workers)))
+        write(rounded(study(motions, options.store or Path(folder), options.workers), DIGITS))
 
 
 if __name__ == "__main__":

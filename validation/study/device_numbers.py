@@ -13,15 +13,14 @@ from frames.risk.fragility.runs import COMPLETE, FAILURE
 from validation.study.device_cost import PRICES, cost_of, volume_of
 from validation.study.device_runs import STRIPES, Device, frame_of, own_bearings, shape_of
 from validation.study.device_search import energies
-from validation.study.records_runs import COLLAPSE, considered, numbers_of, runs_of
+from validation.study.records_runs import COLLAPSE, considered, numbers_of
 from validation.study.rims_runs import LIMITS
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     import xarray as xr
 
-    from frames import GroundMotion
     from frames._types import FloatArray
     from frames.risk import IntensityRuns, LimitState
     from frames.risk.fragility.curve import CollapseFragility, Fragility
@@ -190,29 +189,11 @@ def pair_of(
     }
 
 
-def eccentricity_of(data: xr.Dataset, device: str) -> float:
-    """Return the share of complete runs whose sliders' resultant reaches their edge [-]."""
+def eccentricity_of(data: xr.Dataset, device: str) -> float | None:
+    """Return the share of complete runs whose sliders' resultant reaches their edge."""
     own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == device))
     complete = np.array([str(s) in ("ok", "inaccurate") for s in own["status"].to_numpy()])
     if not complete.any():
-        return float("nan")
+        return None
     reached = own["reached_eccentricity_loaded"].to_numpy()[complete]
     return float((reached.max(axis=tuple(range(1, reached.ndim))) > 1.0).mean())
-
-
-def rounded(value: Any, digits: int = 6) -> Any:
-    """Return plain numbers to so many digits, for JSON."""
-    if isinstance(value, dict):
-        return {key: rounded(each, digits) for key, each in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [rounded(each, digits) for each in value]
-    if isinstance(value, float):
-        return float(f"{value:.{digits}g}") if np.isfinite(value) else None
-    return value
-
-
-def named_runs(
-    data: xr.Dataset, motions: Mapping[str, GroundMotion], devices: Sequence[Device]
-) -> dict[Device, IntensityRuns]:
-    """Return the runs of devices in a campaign."""
-    return {device: runs_of(data, motions, device.name) for device in devices}

@@ -9,7 +9,7 @@ from validation.measurements.yielding_runs import LIR
 from validation.page import table
 from validation.study.device_cost_page import cost, cost_verdict, equal_cost
 from validation.study.device_figures import COST, MARGINS, REGIONS, SEARCH, labelled, winner
-from validation.study.device_runs import OTHERS
+from validation.study.device_runs import BY_LOAD, OTHERS
 from validation.study.device_sections import (
     devices,
     interval,
@@ -114,6 +114,25 @@ def _verdict(found: Found) -> str:
         + _cells(found)
         + " "
         + cost_verdict(found)
+        + "\n\n"
+        + _sliders(found)
+    )
+
+
+def _sliders(found: Found) -> str:
+    # What equal sliders change, and what bodies do: runs that collapse at the stronger stripe.
+    counts = {(each["device"], each["what"]): each["counts"][-1] for each in found["varied"]}
+    at, own, known = counts[LIR, "as it is"]
+    by_load = counts[LIR, BY_LOAD]
+    bodies = [counts[name, "level `contact`"] for name in (LIR, OTHERS[1])]
+    plain = counts[OTHERS[1], "as it is"]
+    return (
+        f"The smallest slider of the building ends the slip of all: at {at:g} m/s2 and "
+        f"{millimetres(reference(found)['plan'])} mm {own:.0f} of {known:.0f} records collapse with "
+        f"equal sliders, {by_load[1]:.0f} of {by_load[2]:.0f} with sliders by load in the dishes of the "
+        f"DCFP. With sliders as bodies {bodies[0][1]:.0f} of {bodies[0][2]:.0f} collapse on the LIR-DCFP "
+        f"and {bodies[1][1]:.0f} of {bodies[1][2]:.0f} on the DCFP with rims of 1 W, at the level of "
+        f"all other numbers here {own:.0f} and {plain[1]:.0f}."
     )
 
 
@@ -184,6 +203,11 @@ def _took(found: Found) -> str:
         "All numbers are in study_device.json; devices and search as tables in SI units in "
         f"tables/{NAME}-devices.csv and {NAME}-search.csv.\n\n"
     ) + table(
-        ["campaign", "histories", "time loops [s of processor]", "digest of its results database"],
+        [
+            "campaign",
+            "histories",
+            "time loops [s by the clock, on a machine that others used]",
+            "digest of its results database",
+        ],
         rows,
     )

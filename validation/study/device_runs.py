@@ -194,6 +194,10 @@ def soft_device() -> Device:
     return Device(plan_of(0.0), True, soft=True)
 
 
+BY_LOAD = "sliders by load, 60 mm more"
+"""How a variant of the best LIR-DCFP is called."""
+
+
 def varied_devices(best: Device) -> dict[str, Device]:
     """Return a LIR-DCFP with other rims, another interface, and with sliders as their loads ask.
 
@@ -218,7 +222,7 @@ def varied_devices(best: Device) -> dict[str, Device]:
         "mu_h further above mu_e by half": best._replace(
             interface=own.effective_friction + 1.5 * share * best.least
         ),
-        "sliders by load, 60 mm more": best._replace(
+        BY_LOAD: best._replace(
             least=0.0, more=MORE, interface=own.effective_friction + share * smallest
         ),
     }
