@@ -262,6 +262,10 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.study.device`), "
                 "[study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
                 "(`python -m validation.study.buildings`), "
+                "[study_after.md](study_after.md), a stop that carries on after a bearing's failure "
+                "(`python -m validation.study.after`), "
+                "[study_uncertainty.md](study_uncertainty.md), which properties decide "
+                "(`python -m validation.study.uncertainty`), "
                 "and [study_loss.md](study_loss.md), expected loss, annual rates at three sites, spectral "
                 "shape and floor spectra (`python -m validation.study.loss`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '

@@ -1,0 +1,267 @@
+"""What follows the failure of a bearing, collapse or a stop: writes docs/validation/study_after.md.
+
+    python -m validation.study.after --store after-runs
+
+The campaign can be stopped; the same command goes on with its store. Needs the extras "campaign",
+"fema" and "fragility".
+"""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from frames.design import MotionSet
+from frames.plots import plot_style as ps
+from frames.risk import open_campaign
+from frames.risk.fragility.resampling import RESAMPLES
+from validation.page import DPI, FOLDER, table
+from validation.study.after_runs import (
+    DEVICES,
+    DROPS,
+    FRICTION,
+    KINDS,
+    LIMITS,
+    Kind,
+    campaign,
+    found_of,
+)
+from validation.study.records import options_of, performed
+from validation.study.records_runs import INTENSITY, SCALES, normalised
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from matplotlib.figure import Figure
+
+    Found = Mapping[str, Any]
+
+NAME = "study_after"
+RECORDS = "far-field"
+FIGURE = f"{NAME}-collapse.png"
+
+
+def page(found: Found) -> str:
+    """Return the page in Markdown."""
+    return (
+        "\n\n".join(
+            [
+                "# After the failure of a bearing: collapse, or a stop that carries on",
+                _introduction(found),
+                "## In short",
+                _verdict(found),
+                f"![Failed bearings and collapse over intensity](figures/{FIGURE})",
+                "Share of the records in which the building collapses, by what follows the failure of "
+                "a bearing; dotted: the maximum considered earthquake that fills the capacity of "
+                "the study's bearings.",
+                "## Margins",
+                _margins(found),
+                "## What runs that went on reached",
+                _reached(found),
+                "## Limits of this study",
+                _limits(),
+                "## Cost",
+                _cost(found),
+            ]
+        )
+        + "\n"
+    )
+
+
+def _introduction(found: Found) -> str:
+    drops = " and ".join(f"{1e3 * drop:.0f}" for drop in DROPS if drop is not None)
+    return (
+        f"Written by `python -m validation.study.after` ({found['cost']['date']}, "
+        f"{found['cost']['machine']}). In the other parts of the study the failure of a bearing is "
+        "collapse: of an LIR-DCFP whose sliders have left their overlap, of a DCFP whose rim is "
+        "broken. Here the building comes down on a flat stop instead "
+        f"([theory](../theory_friction.md), 3.13), {drops} mm below, with a friction of "
+        f"{FRICTION:g}, and collapses when a hinge reaches a ductility of 9. The devices are the "
+        "best of the plan of 689 mm ([study_device.md](study_device.md)); building, intensities "
+        f"({INTENSITY.label}) and the {found['records']} pairs of FEMA P695's {RECORDS} set are "
+        "those of the study."
+    )
+
+
+def _name(device: str, drop: float | None) -> str:
+    return Kind(device, drop).name
+
+
+def _verdict(found: Found) -> str:
+    lines = []
+    for place, drop in enumerate(DROPS):
+        names = {device: _name(device, drop) for device in DEVICES}
+        words = []
+        for device, name in names.items():
+            counts = [found["stripes"][name][-1][key] for key in ("failed", "collapsed", "known")]
+            words.append(
+                f"{device} {_margin(found['margins'].get(name))}; at {SCALES[-1]:g} m/s2 a bearing "
+                f"fails in {counts[0]}, and {counts[1]} of {counts[2]} collapse"
+            )
+        then = (
+            "Failure of a bearing is collapse"
+            if drop is None
+            else f"Stop after {1e3 * drop:.0f} mm"
+        )
+        lines.append(f"- **{then}.** Collapse margin: {'. '.join(words)}. {_ahead(found, place)}")
+    return "\n".join(lines) + "\n\n" + _conclusion(found)
+
+
+def _margin(value: Sequence[float] | None) -> str:
+    return "not reached" if value is None else "{:.2f} ({:.2f} to {:.2f})".format(*value)
+
+
+def _ahead(found: Found, place: int) -> str:
+    # Ratios of medians of the LIR-DCFP over the DCFP, limit by limit.
+    words = []
+    for limit in LIMITS:
+        ratio = found["ratios"][limit.name][place]
+        if ratio is not None:
+            words.append(f"{limit.name} {ratio[0]:.2f} ({ratio[1]:.2f} to {ratio[2]:.2f})")
+    return f"Median of the LIR-DCFP over that of the DCFP: {'; '.join(words)}."
+
+
+def _conclusion(found: Found) -> str:
+    lost = {device: [0, 0] for device in DEVICES}
+    reached: dict[str, list[float]] = {"drift": [], "floor": []}
+    for kind in KINDS:
+        if kind.drop is None:
+            continue
+        for row in found["stripes"][kind.name]:
+            lost[kind.device][0] += row["failed"]
+            lost[kind.device][1] += row["collapsed"]
+            for key, values in reached.items():
+                if row[key] is not None:
+                    values.append(row[key])
+    counts = "; ".join(
+        f"{device} in {collapsed} of {failed}" for device, (failed, collapsed) in lost.items()
+    )
+    drift, floor = reached["drift"], reached["floor"]
+    return (
+        "What is called collapse decides the comparison. Of the runs in which a bearing fails and a "
+        f"stop carries on, the frame reaches a ductility of 9: {counts}. The building is lost for "
+        "use all the same: it comes down, and by medians of the stripes its storeys drift by "
+        f"{100.0 * min(drift):.1f} to {100.0 * max(drift):.1f} % and its floors are shaken by "
+        f"{min(floor):.1f} to {max(floor):.1f} g, with either device. A designer who provides a "
+        "stop need not count the failure of a bearing as collapse; one who does not, has to."
+    )
+
+
+def _margins(found: Found) -> str:
+    head = ["device and what follows", *(f"{limit.name}, median [m/s2]" for limit in LIMITS)]
+    rows = []
+    for kind in KINDS:
+        curves = [found["limits"][limit.name][kind.name] for limit in LIMITS]
+        ends = ", ".join(f"{n} `{end}`" for end, n in found["statuses"][kind.name].items())
+        rows.append(
+            [
+                kind.name,
+                *(f"{c['median'][0]:.2f}" if "median" in c else c["why"] for c in curves),
+                _margin(found["margins"].get(kind.name)),
+                ends,
+            ]
+        )
+    return table([*head, "collapse margin (90 %)", "ends"], rows)
+
+
+def _reached(found: Found) -> str:
+    rows = []
+    for kind in KINDS:
+        if kind.drop is None:
+            continue
+        for row in found["stripes"][kind.name]:
+            if not row["failed"]:
+                continue
+            rows.append(
+                [
+                    kind.name,
+                    f"{row['im']:g}",
+                    f"{row['failed']} of {row['known']}",
+                    f"{row['collapsed']} of {row['known']}",
+                    *(
+                        "-" if row[key] is None else f"{factor * row[key]:.{digits}f}"
+                        for key, factor, digits in (
+                            ("drift", 100.0, 1),
+                            ("ductility", 1.0, 1),
+                            ("floor", 1.0, 1),
+                        )
+                    ),
+                ]
+            )
+    head = [
+        "device and what follows",
+        "Sa [m/s2]",
+        "bearing failed",
+        "collapsed",
+        "storey drift [%]",
+        "ductility [-]",
+        "floor acceleration [g]",
+    ]
+    return "Medians of the runs in which a bearing failed and that went on.\n\n" + table(head, rows)
+
+
+def _limits() -> str:
+    return (
+        "A stop is flat, wide enough and does not break; the parts of the bearing that lie about "
+        "are gone. The frame is linear but for its hinges and P-Delta of the permanent loads, and "
+        "hinges do not degrade, so that a frame which sags far is stronger here than in truth. "
+        "All bearings fail within tens of milliseconds of one another, since the base moves as "
+        "one. One building, one plan."
+    )
+
+
+def _cost(found: Found) -> str:
+    cost = found["cost"]
+    return (
+        f"{cost['runs']} histories, {found['loop']:.0f} s in the time loop. Digest of the results database: "
+        f"`{cost['digest']}`."
+    )
+
+
+def figure_of(found: Found) -> Figure:
+    """Return shares of failed bearings and of collapse over intensity, a panel a device."""
+    figure = ps.new_figure(2.9)
+    (panels,) = ps.grid_of(figure, 1, len(DEVICES), share_x=True, share_y=True)
+    for panel, device in zip(panels, DEVICES, strict=True):
+        for k, drop in enumerate(DROPS):
+            rows = found["stripes"][_name(device, drop)]
+            at = [row["im"] for row in rows]
+            label = "failure is collapse" if drop is None else f"stop after {1e3 * drop:.0f} mm"
+            share = [row["collapsed"] / row["known"] for row in rows]
+            panel.plot(
+                at, share, label=label, **ps.line_of(k), marker=("o", "s", "^")[k], markersize=3
+            )
+        panel.axvline(found["considered"], color=ps.GREY, linewidth=0.7, linestyle=":")
+        panel.set_ylim(-0.02, 1.02)
+        ps.caption(panel, title=device, x="Sa(3 s) [m/s2]")
+    ps.add_legend(figure, panels[0].get_lines()[:-1], columns=3)
+    ps.caption(panels[0], y="share that collapses [-]")
+    return figure
+
+
+def write(found: Found, folder: Path = FOLDER) -> None:
+    """Write the page, its figure and the numbers."""
+    figure_of(found).savefig(folder / "figures" / FIGURE, dpi=DPI, metadata={"Software": None})
+    (folder / f"{NAME}.md").write_text(page(found), encoding="utf-8")
+    (folder / f"{NAME}.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
+    print(f"written to {folder}")
+
+
+def main(given: Sequence[str] | None = None) -> None:
+    """Run the campaign, and write the page."""
+    options = options_of("after", given)
+    if options.again:
+        write(json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8")))
+        return
+    motions = normalised(MotionSet.fema_p695(RECORDS))
+    with tempfile.TemporaryDirectory() as folder:
+        store = options.store or Path(folder, "runs")
+        cost = performed(campaign(motions, store), options.workers)
+        data = open_campaign(store).results()
+        write(found_of(data, motions, RESAMPLES) | {"cost": cost, "records": len(motions)})
+
+
+if __name__ == "__main__":
+    main()
