@@ -258,6 +258,8 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.study.records`), "
                 "[study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "
                 "and break (`python -m validation.study.rims`), "
+                "[study_device.md](study_device.md), the best LIR-DCFP of a plan and its cost "
+                "(`python -m validation.study.device`), "
                 "[study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
                 "(`python -m validation.study.buildings`), "
                 "[study_after.md](study_after.md), a stop that carries on after a bearing's failure "

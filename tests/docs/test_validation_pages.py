@@ -23,6 +23,7 @@ MEASUREMENTS = (
     "study_loss",
     "study_uncertainty",
     "study_rims",
+    "study_device",
     "study_buildings",
     "study_after",
     "level_doubts",
