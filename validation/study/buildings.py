@@ -17,7 +17,7 @@ from frames.design import MotionSet
 from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
 from validation.study.buildings_figures import figures
-from validation.study.buildings_numbers import facts_of, halved, numbers_of, tried
+from validation.study.buildings_numbers import facts_of, halved, numbers_of
 from validation.study.buildings_page import NAME, csv_tables, page
 from validation.study.buildings_runs import (
     BUILDINGS,
@@ -54,8 +54,7 @@ def found_of(store: Path, workers: int) -> dict[str, Any]:
     found["lir"] = told_of(best_devices()[LIR])
     costs = []
     for one in BUILDINGS:
-        every = on_devices(building(one))
-        frames = {every[device].name: every[device] for device in tried(one)}
+        frames = {frame.name: frame for frame in on_devices(building(one)).values()}
         own = records_for(one, motions)
         data, cost = performed_each(frames, own, store, SCALES, workers)
         costs.append(cost)

@@ -38,8 +38,6 @@ def _curves(found: Found) -> Figure:
     for panel, (name, own) in zip(panels, found["buildings"].items(), strict=True):
         collapse = own["limits"][COLLAPSE.name]
         for k, device in enumerate(DEVICES):
-            if device not in own["statuses"]:
-                continue
             look, drawn = ps.line_of(k), collapse["drawn"][device]
             if drawn is not None:
                 panel.plot(at, norm.cdf(np.log(at / drawn[0]) / drawn[1]), **look)

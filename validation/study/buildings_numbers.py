@@ -15,7 +15,6 @@ from lir_element.errors import AnalysisWarning
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import LIR
 from validation.study.buildings_runs import (
-    ALL_RECORDS,
     BUILDINGS,
     HEIGHT,
     SPAN,
@@ -26,10 +25,8 @@ from validation.study.buildings_runs import (
     yield_rotations,
 )
 from validation.study.paired import (
-    DEVICES,
     LIMITS,
     OTHERS,
-    STRONG,
     WEAK,
     curve_of,
     median_of,
@@ -113,11 +110,6 @@ DEFINITIONS = (
     ),
     Definition("drift 4 % alone, as far as runs went", ((DRIFT, 0.04),), bearings=False),
 )
-
-
-def tried(one: Building) -> tuple[str, ...]:
-    """Return the devices on which a building is run."""
-    return tuple(each for each in DEVICES if each != STRONG or one in ALL_RECORDS)
 
 
 def facts_of(one: Building) -> dict[str, float]:

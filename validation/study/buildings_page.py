@@ -26,7 +26,6 @@ from validation.study.paired import (
     DEVICES,
     LIMITS,
     OTHERS,
-    STRONG,
     as_csv,
     cost_line,
     of_three,
@@ -86,11 +85,7 @@ def _introduction(found: Found) -> str:
     cost = found["cost"]
     scales = ", ".join(f"{scale:g}" for scale in SCALES)
     fewer = [name for name, own in found["buildings"].items() if own["records"] < found["records"]]
-    spared = (
-        f" To save time, {_of(fewer)} are run under every second record, and not on the {STRONG}."
-        if fewer
-        else ""
-    )
+    spared = f" To save time, {_of(fewer)} are run under every second record." if fewer else ""
     return (
         f"Written by `python -m validation.study.buildings` ({cost['date']}, {cost['machine']}). "
         "[study_rims.md](study_rims.md) compares devices of equal plan under one building. Here "

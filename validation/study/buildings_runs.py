@@ -45,8 +45,7 @@ SCALES = (1.2, 1.6, 2.0, 2.6, 3.3, 4.2)
 """Intensities of the stripes [m/s2]."""
 
 ALL_RECORDS = ((3, FRAMES), (3, WALLS), (6, FRAMES))
-"""Buildings that are run under all records, and with rims that never break, too; of the others,
-which cost most, every second record and two devices."""
+"""Buildings that are run under all records; the others, which cost most, under every second."""
 
 LENGTH, THICKNESS = 3.0, 0.30
 """Of a wall [m]."""
