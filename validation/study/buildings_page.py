@@ -210,7 +210,8 @@ def _medians(found: Found) -> str:
         "collapse margin",
     ]
     return (
-        "Intervals of 90 %. Margin: median of collapse over the Sa of the maximum considered earthquake "
+        "Intervals of 90 %; a median above the largest intensity that was run is extrapolated, and none is "
+        "given beyond 1.25 of it. Margin: median of collapse over the Sa of the maximum considered earthquake "
         f"that fills the capacity of the smaller plan, {found['considered']:.2f} m/s2, as in "
         "[study.md](study.md).\n\n" + table(head, rows)
     )
