@@ -258,10 +258,16 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.study.records`), "
                 "[study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "
                 "and break (`python -m validation.study.rims`), "
+                "[study_device.md](study_device.md), the best LIR-DCFP of a plan and its cost "
+                "(`python -m validation.study.device`), "
                 "[study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
                 "(`python -m validation.study.buildings`), "
+                "[study_motions.md](study_motions.md), records turned, with a vertical component, one "
+                "after another, and pulses (`python -m validation.study.motions`), "
                 "[study_after.md](study_after.md), a stop that carries on after a bearing's failure "
                 "(`python -m validation.study.after`), "
+                "[study_uncertainty.md](study_uncertainty.md), which properties decide "
+                "(`python -m validation.study.uncertainty`), "
                 "and [study_loss.md](study_loss.md), expected loss, annual rates at three sites, spectral "
                 "shape and floor spectra (`python -m validation.study.loss`).",
                 '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '

@@ -161,6 +161,11 @@ def test_numbers_of_the_page_of_loss_hang_together():
             for name, row in rows.items():
                 low, high = row["rate"][1:]
                 assert low <= row["rate"][0] <= high, (key, name)
+    for key, each in stored["without"].items():
+        for name, row in each.items():
+            whole = stored["loss"]["annual"][key][name]
+            assert row["collapse"] == whole["collapse"]
+            assert row["collapse"] <= row["loss"][0] <= whole["loss"][0]
     site = {each.name: each for each in sites()}["L'Aquila"]
     at = np.array(stored["loss"]["im"])
     again = float(annual(np.array(stored["loss"]["curves"][OURS]["mean"]), at, site.curve))

@@ -7,17 +7,27 @@ smallest slider lets it, its overlap, for a diaphragm moves all bearings alike.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from validation.measurements.yielding_runs import LIR, RIMS, bearings_of, model_of, structures
-from validation.study.records_runs import STRUCTURE
+from frames.risk import Campaign
+from validation.measurements.yielding_runs import (
+    LIR,
+    RIMS,
+    WIDE,
+    bearings_of,
+    model_of,
+    structures,
+)
+from validation.study.records_runs import STEP, STRUCTURE
 from validation.study.rims_runs import BREAKS, ENDLESS, MORE
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping, Sequence
+    from pathlib import Path
 
-    from frames import Frame
+    from frames import Frame, GroundMotion
     from lir_element import LIRBearing
 
 SOFT = 0.1
@@ -25,6 +35,9 @@ SOFT = 0.1
 
 RIM = 1.0
 """Strength of the rims of the LIR-DCFPs that are searched, over the design load."""
+
+HIGHER = 0.01
+"""What sliders are higher by, as often as the plates would touch at rest [m]."""
 
 
 class Device(NamedTuple):
@@ -66,6 +79,31 @@ def reach_of(device: Device, bearings: Iterable[LIRBearing]) -> float:
     return 0.5 * device.plan - max(slider_of(own, device) for own in bearings)
 
 
+def shape_of(plan: float, own: LIRBearing) -> tuple[float, float]:
+    """Return radius of the dishes and height of the sliders [m]: of a plan, with the length L.
+
+    The dishes rise towards their edges. Where both together would rise by more than the sliders are
+    high the plates touch at rest: the sliders are higher, and the radius is larger by half of that.
+
+    Parameters
+    ----------
+    plan : float
+        Diameter of the dish [m].
+    own : LIRBearing
+        The bearing of the study, both surfaces of one radius.
+
+    Returns
+    -------
+    (float, float)
+        Those of the study up to a plan of 744 mm.
+    """
+    (radius, _), height = own.radii, own.slider_height
+    while 2.0 * (radius - math.sqrt(radius**2 - 0.25 * plan**2)) >= height:
+        height += HIGHER
+        radius = 0.5 * (own.effective_radius + height)
+    return radius, height
+
+
 def bearing_of(own: LIRBearing, device: Device, reach: float) -> LIRBearing:
     """Return the bearing of a device in the place of one whose slider is as its load asks.
 
@@ -84,9 +122,12 @@ def bearing_of(own: LIRBearing, device: Device, reach: float) -> LIRBearing:
         The bearing; the stiffness and damping of its rims are those of `own`.
     """
     options = own.resolved()
+    radius, height = shape_of(device.plan, own)
     changes: dict[str, Any] = {
+        "radius": radius,
+        "slider_height": height,
         "slider_radius": slider_of(own, device),
-        "capacity": reach * own.effective_radius / own.radii[0],
+        "capacity": reach * own.effective_radius / radius,
         "rims": None,
         "design_load": options["design_load"],
         "rim_stiffness": options["rim_stiffness"] * (SOFT if device.soft else 1.0),
@@ -98,7 +139,7 @@ def bearing_of(own: LIRBearing, device: Device, reach: float) -> LIRBearing:
         changes["rim_yield_force"] = device.strength * options["design_load"]
     if not device.plain:
         changes["interface_friction"] = device.interface
-    return replace(own, **changes)
+    return replace(own.as_dcfp() if device.plain else own, **changes)
 
 
 def frame_of(device: Device) -> Frame:
@@ -117,8 +158,106 @@ def plan_of(more: float) -> float:
     return 2.0 * (own[0].rim_displacement[0] + max(each.slider_radius for each in own) + more)
 
 
+LEAST, MOST = -0.02, 0.15
+"""Of the plans of the search: radii by which dishes exceed those of the study's bearings [m]."""
+
+COMPARED = (0.0, MORE, MOST)
+"""Radii by which the dishes of the plans compared exceed those of the study's bearings [m]."""
+
 REFERENCE = MORE
-"""Radius by which the dishes of the plan that is the example exceed those of the study [m]."""
+"""That of the plan which is the example."""
+
+STRENGTHS = (None, 1.0, 0.5)
+"""Of the rims of the DCFPs, over the design load."""
+
+STRIPES = (1.6, 2.2, 2.6, 3.2, 4.2)
+"""Intensities at which devices are compared [m/s2]."""
+
+
+OTHERS = "rims that never break", "rims of 1 W", "rims of 0.5 W", "no rims"
+"""DCFPs, by their rims."""
+
+HALF_STRIPES = (2.6, 3.2)
+"""Those at which devices are varied, and run at the level `contact`."""
+
+
+def plain_devices(plan: float) -> dict[str, Device]:
+    """Return the DCFPs of a plan: sliders as small as the pressure allows, so that all is way."""
+    return {
+        name: Device(plan, True, strength=strength)
+        for name, strength in zip(OTHERS[:3], STRENGTHS, strict=True)
+    }
+
+
+def soft_device() -> Device:
+    """Return the DCFP of the study's plan whose rims are ten times softer."""
+    return Device(plan_of(0.0), True, soft=True)
+
+
+BY_LOAD = "sliders by load, 60 mm more"
+"""How a variant of the best LIR-DCFP is called."""
+
+
+def varied_devices(best: Device) -> dict[str, Device]:
+    """Return a LIR-DCFP with other rims, another interface, and with sliders as their loads ask.
+
+    Parameters
+    ----------
+    best : Device
+        The LIR-DCFP that collapses last, of the example's plan.
+
+    Returns
+    -------
+    dict of str to Device
+        By what is other. The interface is beyond what lets sliders tip. Sliders by load have 60 mm
+        more in radius each, so that all nine dishes are those of the DCFP, and the friction that
+        has the same share of the bound of tipping.
+    """
+    own = own_bearings()[0]
+    smallest = min(each.slider_radius for each in own_bearings()) + MORE
+    share = (best.interface - own.effective_friction) / best.least
+    return {
+        "rims of 0.5 W": best._replace(strength=0.5),
+        "rims that never break": best._replace(strength=None),
+        "mu_h further above mu_e by half": best._replace(
+            interface=own.effective_friction + 1.5 * share * best.least
+        ),
+        BY_LOAD: best._replace(
+            least=0.0, more=MORE, interface=own.effective_friction + share * smallest
+        ),
+    }
+
+
+def campaign_of(
+    devices: Sequence[Device], motions: Mapping[str, GroundMotion], store: Path
+) -> Campaign:
+    """Return the campaign of devices at all stripes."""
+    frames = {device.name: frame_of(device) for device in devices}
+    return Campaign(frames, dict(motions), store=store, scales=list(STRIPES), dt=STEP)
+
+
+def free_campaign(motions: Mapping[str, GroundMotion], store: Path) -> Campaign:
+    """Return that of DCFPs without rims: until one leaves its dish, its plan changes nothing."""
+    frame = model_of(structures()[STRUCTURE], WIDE)
+    return Campaign({WIDE: frame}, dict(motions), store=store, scales=list(STRIPES), dt=STEP)
+
+
+def half_campaign(
+    devices: Sequence[Device],
+    motions: Mapping[str, GroundMotion],
+    store: Path,
+    level: str = "pendulum",
+) -> Campaign:
+    """Return that of devices under every second record at few stripes, at a level of fidelity."""
+    frames = {device.name: frame_of(device) for device in devices}
+    return Campaign(
+        frames,
+        dict(list(motions.items())[::2]),
+        store=store,
+        scales=list(HALF_STRIPES),
+        dt=STEP,
+        level=level,
+    )
 
 
 def best_devices() -> dict[str, Device]:
@@ -127,8 +266,9 @@ def best_devices() -> dict[str, Device]:
     Returns
     -------
     dict of str to Device
-        "LIR-DCFP", and "DCFP, rims of 1 W" and so on: their sliders are as small as the
-        pressure allows, so that all of the plan is way to the rims.
+        "LIR-DCFP", that of study_device.md with its friction rounded down; and "DCFP, rims of 1 W"
+        and so on: their sliders are as small as the pressure allows, so that all of the plan is way
+        to the rims.
     """
     plan = plan_of(REFERENCE)
     lir = Device(plan, False, least=0.1527, interface=0.20)

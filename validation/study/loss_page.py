@@ -10,7 +10,7 @@ from validation.page import table
 from validation.study.consequences import COMPONENTS, REPLACEMENT
 from validation.study.hazards import SHORTEST
 from validation.study.loss_figures import FLOORS, LOSSES, SHAPE
-from validation.study.loss_runs import FLOOR_PERIODS, LIMITS
+from validation.study.loss_runs import FLOOR_PERIODS, LIMITS, STRUCTURE
 from validation.study.pairs import BY_LOAD, NAMES, OTHERS, OURS
 from validation.study.published import published
 from validation.study.records_runs import INTENSITY
@@ -98,6 +98,16 @@ def _verdict(found: Found) -> str:
             f"{name}: {words(each[name]['ratio'])}, {told(each[name]['ratio'])}" for name in OTHERS
         ]
         lines.append(f"- **Annual loss, {key}**: {OURS}, over {'; '.join(words_)}.")
+    sides = [told(each[name]["ratio"]) for each in found["without"].values() for name in OTHERS[1:]]
+    lines.append(
+        f"- **Without repair of the connections of beams** ({STRUCTURE}, of which most of the DCFPs' "
+        f"repair is made): annual loss of {OURS}, {_counted(sides)}; "
+        + "; ".join(
+            f"{key}: {words(each[OTHERS[1]]['ratio'])} of {OTHERS[1]}"
+            for key, each in found["without"].items()
+        )
+        + "."
+    )
     rates = found["rates"]
     for limit in LIMITS:
         sides = [
@@ -106,16 +116,18 @@ def _verdict(found: Found) -> str:
             for row in each[limit.name].values()
             if "ratio" in row
         ]
-        counts = ", ".join(f"{side} in {sides.count(side)}" for side in (BELOW, ABOVE, NEITHER))
-        lines.append(
-            f"- **Rate of {limit.name}**: that of {OURS}, is {counts} of {len(sides)} comparisons."
-        )
+        lines.append(f"- **Rate of {limit.name}**: that of {OURS}, is {_counted(sides)}.")
     lines.append(
         f"- **Collapse at the spectral shape of a code**: margin of {OURS}, over that of "
         + "; ".join(f"{name}: {words(found['shape']['ratios'][name])}" for name in OTHERS)
         + "."
     )
     return "\n".join(lines)
+
+
+def _counted(sides: list[str]) -> str:
+    counts = ", ".join(f"{side} in {sides.count(side)}" for side in (BELOW, ABOVE, NEITHER))
+    return f"{counts} of {len(sides)} comparisons"
 
 
 def _losses(found: Found) -> str:
@@ -288,7 +300,8 @@ def _floors(found: Found) -> str:
 def _limits() -> str:
     return (
         "One building of three storeys, one plan, two LIR-DCFPs. Quantities of components are assumed "
-        "where FEMA P-58 leaves them open; neither downtime, injuries, residual drift nor repair of "
+        "where FEMA P-58 leaves them open, and its costs of connections are of heavier beams than these; "
+        "neither downtime, injuries, residual drift nor repair of "
         "the bearings is in the loss. Hazards are approximations from what public sources give, "
         "taken as of RotD50 whatever component they are of: a site has its own. Loss below the lowest intensity falls straight to 0, and motions that come "
         "more often than the hazard's shortest return period are left out. Rims that never "

@@ -61,6 +61,9 @@ MEASURES = {
 TARGET = float(np.sqrt(PERIODS[0] * PERIODS[-1]) / 3.0)
 """Sa(3 s) over the average of a spectrum that falls as 1 / T, as codes have it [-]."""
 
+STRUCTURE = "B.10.35.001"
+"""The component whose repair is most of what devices differ by."""
+
 DRAWS = 300
 FLOOR_PERIODS = np.geomspace(0.05, 4.0, 40)
 FLOOR_DEVICES = NAMES[:4]
@@ -194,7 +197,9 @@ def shapes_of(
     }
 
 
-def losses_of(data: xr.Dataset, runs: IntensityRuns, name: str) -> dict[str, FloatArray]:
+def losses_of(
+    data: xr.Dataset, runs: IntensityRuns, name: str, left_out: Sequence[str] = ()
+) -> dict[str, FloatArray]:
     """Return expected losses of the runs of a device over the cost of a new building.
 
     Parameters
@@ -205,6 +210,8 @@ def losses_of(data: xr.Dataset, runs: IntensityRuns, name: str) -> dict[str, Flo
         Those of the device, in the same order.
     name : str
         The device.
+    left_out : sequence of str
+        Numbers of components that cost nothing.
 
     Returns
     -------
@@ -215,6 +222,7 @@ def losses_of(data: xr.Dataset, runs: IntensityRuns, name: str) -> dict[str, Flo
     own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == name))
     down = runs.exceeded(COLLAPSE)
     parts = repair(own["reached_drift"].to_numpy(), own["reached_floor_plan"].to_numpy())
+    parts |= {number: np.zeros_like(parts[number]) for number in left_out}
     whole = np.sum([*parts.values()], axis=0)
     scale = np.where(whole > 1.0, 1.0 / np.maximum(whole, 1.0), 1.0)
     found = {"collapse": down}
@@ -261,9 +269,12 @@ def by_record(losses: FloatArray, runs: IntensityRuns, records: list[str]) -> Fl
 
 
 def loss_of(
-    results: Mapping[str, xr.Dataset], runs: Mapping[str, IntensityRuns], records: list[str]
+    results: Mapping[str, xr.Dataset],
+    runs: Mapping[str, IntensityRuns],
+    records: list[str],
+    left_out: Sequence[str] = (),
 ) -> dict[str, Any]:
-    """Return expected losses over intensity and a year, device by device."""
+    """Return expected losses over intensity and a year, device by device, but for components."""
     at = np.array(sorted(set(next(iter(runs.values())).table["im"].tolist())))
     drawn = draws(len(records), DRAWS)
     curves: dict[str, Any] = {}
@@ -272,7 +283,7 @@ def loss_of(
     for name, each in runs.items():
         parts = {
             part: by_record(values, each, records)
-            for part, values in losses_of(results[name], each, name).items()
+            for part, values in losses_of(results[name], each, name, left_out).items()
         }
         total = np.sum([*parts.values()], axis=0)
         means[name] = np.nanmean(total[drawn], axis=1)  # (draws, intensities)
@@ -387,5 +398,6 @@ def found_of(
         "statuses": statuses_of(runs),
         "shape": shapes_of(runs, motions),
         "loss": loss_of(results, runs, list(motions)),
+        "without": loss_of(results, runs, list(motions), [STRUCTURE])["annual"],
         "sites": sites_of(),
     } | rates_of(runs, resamples)

@@ -192,7 +192,8 @@ def _limits() -> str:
         "what a ring of steel may do, and a designer has to state both. Plates, sliders, bolts and "
         "the columns over the bearings are taken to bear what the rims pass on. Hinges do not "
         "degrade, records have no vertical component, factors no spectral shape. One building, two "
-        "plans, and a few LIR-DCFPs, not the best of all; cost beyond the plan is left out."
+        "plans, and a few LIR-DCFPs; the best of a plan, whose small sliders are larger, and cost are in "
+        "[study_device.md](study_device.md)."
     )
 
 

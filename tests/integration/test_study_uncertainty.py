@@ -1,0 +1,109 @@
+"""The study of uncertainty: its sets, its numbers by other routes, and its page."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from frames.risk import sobol_indices
+from validation.page import FOLDER
+from validation.study import uncertainty
+from validation.study.pairs import BY_LOAD, UNBREAKABLE, device
+from validation.study.uncertainty_numbers import effects_of, shares_of
+from validation.study.uncertainty_page import KINDS, page, shares_of_kind
+from validation.study.uncertainty_runs import (
+    LEVELS,
+    RECORD,
+    SAMPLES,
+    SPREADS,
+    changed,
+    elastic_frames,
+    ours,
+    record_of,
+    sets_of,
+    stiffness_frames,
+)
+
+
+def test_properties_of_a_set_are_those_of_its_bearings():
+    sets = sets_of()
+    assert len(sets) == SAMPLES * (len(SPREADS) + 2)
+    each = sets[5]
+    link = next(iter(device(BY_LOAD).bearings.values()))
+    found, options = changed(link.bearing, each), link.bearing.resolved()
+    assert found.interface_friction == pytest.approx(0.16 * each["interface"])
+    assert found.frictions[0].f_max == pytest.approx(0.065 * each["friction"])
+    assert found.rim_stiffness == pytest.approx(each["stiffness"] * options["rim_stiffness"])
+    assert found.rim_yield_force == pytest.approx(each["strength"] * options["design_load"])
+    plastic = found.rim_overrun - found.rim_yield_force / found.rim_stiffness
+    assert plastic == pytest.approx(each["breaks"])
+    assert ours(each).damping.ratio == pytest.approx(each["damping"])
+    assert changed(link.bearing, {}) == replace(
+        link.bearing,
+        rim_stiffness=options["rim_stiffness"],
+        friction=replace(link.bearing.frictions[0]),
+    )
+    numbers = [record_of(one, 22) for one in sets]
+    assert set(numbers) == set(range(22))
+
+
+def test_softer_rims_break_where_they_are_said_to():
+    for key, frame in (stiffness_frames() | elastic_frames()).items():
+        kind, share = key.split("|")
+        for name, link in frame.bearings.items():
+            bearing, base = link.bearing, device(UNBREAKABLE).bearings[name].bearing.resolved()
+            if kind != "LIR-DCFP":
+                assert bearing.rim_stiffness == pytest.approx(float(share) * base["rim_stiffness"])
+            if kind == "DCFP, elastic":
+                assert bearing.rim_overrun == 0.02
+            if kind == "DCFP, 1 W":
+                load = base["design_load"]
+                plastic = bearing.rim_overrun - load / bearing.rim_stiffness
+                assert plastic == pytest.approx(0.02 - load / base["rim_stiffness"])
+
+
+def result(each):
+    return (
+        2.0 * SPREADS["friction"].cdf(each["friction"])
+        + SPREADS["damping"].cdf(each["damping"])
+        + 3.0 * (record_of(each, 22) % 2)
+    )
+
+
+def test_shares_and_effects_of_a_known_result():
+    sets = sets_of()
+    table = np.array([result(each) for each in sets]).reshape(-1, SAMPLES)
+    tables = {"LIR-DCFP": table, "DCFP": 0.5 * table}
+    tables["DCFP"][0, 3] = np.nan  # a run of unknown outcome
+    found = shares_of(tables, 20)
+    assert found["ratio"]["left out"] == 1
+    package = sobol_indices(
+        lambda sets: [result(each) for each in sets], SPREADS, samples=SAMPLES, seed=1
+    )
+    for key in SPREADS:
+        own = found["LIR-DCFP"]
+        assert own["first"][key][0] == pytest.approx(package.table.loc[key, "first"])
+        assert own["total"][key][0] == pytest.approx(package.table.loc[key, "total"])
+    effects = effects_of(tables, sets, 22, 20)["LIR-DCFP"]
+    # shares are linear in the result, the record is a constant of its own
+    assert effects["friction"][0] == pytest.approx(0.68 * 2.0)
+    assert effects["damping"][0] == pytest.approx(0.68)
+    assert effects["interface"][0] == pytest.approx(0.0, abs=1e-9)
+    assert RECORD not in effects
+
+
+def test_the_page_is_that_of_its_numbers():
+    stored = json.loads((FOLDER / f"{uncertainty.NAME}.json").read_text(encoding="utf-8"))
+    assert (FOLDER / f"{uncertainty.NAME}.md").read_text(encoding="utf-8") == page(stored)
+    assert (FOLDER / f"{uncertainty.NAME}.json").stat().st_size < 300_000
+    tables = list((FOLDER / "tables").glob(f"{uncertainty.NAME}-*.csv"))
+    assert len(tables) == 2
+    assert all(len(pd.read_csv(each)) > 3 for each in tables)
+    points = sum(len(shares_of_kind(kind)) for kind in KINDS)
+    assert len(stored["stiffness"]["margins"]) == points
+    sets = 2 * SAMPLES * (len(SPREADS) + 2)
+    assert stored["cost"]["runs"] == sets + points * len(LEVELS) * stored["records"]
+    for key, values in stored["stiffness"]["margins"].items():
+        assert values[1] <= values[0] <= values[2], key

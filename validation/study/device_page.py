@@ -1,0 +1,213 @@
+"""The page of the study of the best devices, from its numbers alone."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from validation.measurements.yielding_runs import LIR
+from validation.page import table
+from validation.study.device_cost_page import cost, cost_verdict, equal_cost
+from validation.study.device_figures import COST, MARGINS, REGIONS, SEARCH, labelled, winner
+from validation.study.device_runs import BY_LOAD, OTHERS
+from validation.study.device_sections import (
+    devices,
+    interval,
+    millimetres,
+    pairs,
+    reference,
+    search,
+    soft,
+    theory,
+    varied,
+)
+from validation.study.records_runs import COLLAPSE, INTENSITY
+from validation.study.rims_runs import BREAKS
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    Found = Mapping[str, Any]
+
+NAME = "study_device"
+
+
+def page(found: Found) -> str:
+    """Return the page in Markdown."""
+    return (
+        "\n\n".join(
+            [
+                "# The best LIR-DCFP of a plan, beside DCFPs of the same plan and of the same cost",
+                _introduction(found),
+                "## In short",
+                _verdict(found),
+                "## What must govern, by hand",
+                theory(found),
+                "## The search",
+                search(found),
+                f"![Collapse over sliders, interface and work of all devices tried](figures/{SEARCH})",
+                "Every LIR-DCFP tried, under every second record; circles: first design; diamonds: the "
+                "points tried at each plan after it.",
+                "## Devices, margins and failures",
+                f"![Collapse margins over the plan, and shares of collapse](figures/{MARGINS})",
+                "Shares of records that collapse, failed bearings included; an open mark is the share "
+                "of failed bearings where the frame has collapsed in others besides. Dotted: the "
+                "maximum considered earthquake that fills 250 mm.",
+                devices(found),
+                "## Who is ahead, where",
+                f"![Who is ahead over intensity and plan](figures/{REGIONS})",
+                "The LIR-DCFP against each DCFP of its plan: share of records that collapse (above), and "
+                "median floor acceleration with failed bearings as infinite (below). A cell is "
+                "decided where 90 % of resamples of the records agree.",
+                pairs(found),
+                "## Soft rims",
+                soft(found),
+                "## Varied, and with sliders as bodies",
+                varied(found),
+                "## Cost",
+                cost(found),
+                f"![Margin over cost](figures/{COST})",
+                equal_cost(found),
+                "## Limits of this study",
+                _limits(found),
+                "## What it took",
+                _took(found),
+            ]
+        )
+        + "\n"
+    )
+
+
+def _introduction(found: Found) -> str:
+    plans = ", ".join(millimetres(plan["plan"]) for plan in found["plans"])
+    return (
+        f"Written by `python -m validation.study.device` ({found['date']}, {found['machine']}). "
+        "[study_rims.md](study_rims.md) compares devices of equal plan, but not the best ones. Here "
+        "the LIR-DCFP of each plan is searched for: the radius of its sliders and the friction of its "
+        "interface with the largest collapse margin. It stands beside DCFPs whose sliders are as small "
+        "as the pressure allows, so that all of the plan is displacement. The plan is the diameter "
+        f"of the dish under the centre bearing: {plans} mm. Rims have 1 W unless told otherwise and "
+        f"break at {1e3 * BREAKS:g} mm; building, intensities ({INTENSITY.label}) and collapse (a "
+        "ductility of 9 of a hinge, or the failure of a bearing) are those of "
+        f"[study.md](study.md), records the {found['records']} pairs of FEMA P695's far-field set, "
+        "steps 10 ms, the same records for all. A failed bearing is an infinite demand."
+    )
+
+
+def _verdict(found: Found) -> str:
+    lines = []
+    for other in OTHERS:
+        rows = [
+            (plan["plan"], ratio)
+            for plan in found["plans"]
+            if (ratio := plan["pairs"][other]["ratios"][COLLAPSE.name]) is not None
+        ]
+        if not rows:
+            lines.append(f"- **{labelled(other)}.** No curve to compare with at any plan.")
+            continue
+        lines.append(f"- **{labelled(other)}.** {_said(rows)}")
+    return (
+        "Collapse: median intensity of the best LIR-DCFP over that of the DCFP of the same plan "
+        "(interval of 90 %, records resampled), above 1 the LIR-DCFP is better.\n\n"
+        + "\n".join(lines)
+        + "\n\n"
+        + _cells(found)
+        + " "
+        + cost_verdict(found)
+        + "\n\n"
+        + _sliders(found)
+    )
+
+
+def _sliders(found: Found) -> str:
+    # What equal sliders change, and what bodies do: runs that collapse at the stronger stripe.
+    counts = {(each["device"], each["what"]): each["counts"][-1] for each in found["varied"]}
+    at, own, known = counts[LIR, "as it is"]
+    by_load = counts[LIR, BY_LOAD]
+    bodies = [counts[name, "level `contact`"] for name in (LIR, OTHERS[1])]
+    plain = counts[OTHERS[1], "as it is"]
+    return (
+        f"The smallest slider of the building ends the slip of all: at {at:g} m/s2 and "
+        f"{millimetres(reference(found)['plan'])} mm {own:.0f} of {known:.0f} records collapse with "
+        f"equal sliders, {by_load[1]:.0f} of {by_load[2]:.0f} with sliders by load in the dishes of the "
+        f"DCFP. With sliders as bodies {bodies[0][1]:.0f} of {bodies[0][2]:.0f} collapse on the LIR-DCFP "
+        f"and {bodies[1][1]:.0f} of {bodies[1][2]:.0f} on the DCFP with rims of 1 W, at the level of "
+        f"all other numbers here {own:.0f} and {plain[1]:.0f}."
+    )
+
+
+def _said(rows: Sequence[tuple[float, Sequence[float]]]) -> str:
+    # Whether it is ahead, at which plans, and the nearest approach where it is not.
+    ahead = [plan for plan, ratio in rows if ratio[1] > 1.0]
+    behind = [plan for plan, ratio in rows if ratio[2] < 1.0]
+    plan, best = max(rows, key=lambda row: row[1][0])
+    words = []
+    if ahead:
+        words.append(f"is ahead at plans of {', '.join(map(millimetres, ahead))} mm")
+    if behind:
+        words.append(f"is behind at {', '.join(map(millimetres, behind))} mm")
+    even = len(rows) - len(ahead) - len(behind)
+    if even:
+        words.append(f"is level within the interval at {even} of {len(rows)}")
+    text = f"The LIR-DCFP {', '.join(words)}"
+    nearest = "largest ratio" if ahead else "nearest approach"
+    return f"{text}; {nearest} {interval(best)} at {millimetres(plan)} mm."
+
+
+def _cells(found: Found) -> str:
+    # Over all plans and intensities: in how many cells of the figure one is ahead.
+    sentences = []
+    for key, text in (
+        ("collapse", "Share of records that collapse"),
+        ("floors", "Median floor acceleration, failed bearings as infinite"),
+    ):
+        counts = []
+        for other in OTHERS:
+            cells = [cell for plan in found["plans"] for cell in plan["pairs"][other][key]]
+            who = [winner(cell) for cell in cells]
+            counts.append(
+                f"{other}: ahead in {who.count('LIR')}, behind in {who.count('DCFP')} of {len(who)}"
+            )
+        sentences.append(f"{text}, over plans and intensities: {'; '.join(counts)}.")
+    return " ".join(sentences)
+
+
+def _limits(found: Found) -> str:
+    room = reference(found)["devices"]
+    own, other = room[LIR], room[OTHERS[1]]
+    pressure = found["least_load"] / (math.pi * own["sliders"][0] ** 2)
+    return (
+        "One building, one set of records without vertical component and without spectral shape, hinges "
+        "that do not degrade, one friction of the surfaces. The search has a surface through few points: "
+        "the optimum is flat, and its neighbours may be as good. Rims of the LIR-DCFP have 1 W. "
+        "Friction of the interface is that of the level `pendulum`, constant; its sliders press the "
+        f"corners' liners with {pressure / 1e6:.1f} MPa, where friction of liners is "
+        "less well known. The interface is loaded at kappa = 2 up to the edge of the slider, where the "
+        "checks of `lir check` propose 0.8. The gap around the building must let the LIR-DCFP "
+        f"travel {1e3 * (own['capacity'] + own['sliders'][0]):.0f} mm, a DCFP with rims "
+        f"{1e3 * (other['capacity'] + BREAKS):.0f} mm: its cost, that of larger joints and of what is "
+        "above and below the rims, is not in the comparison. At equal cost the LIR-DCFP is the one of "
+        "the largest margin of its plan, not the one that gives most for its cost. Without rims, a slider may not leave its "
+        "dish by its edge."
+    )
+
+
+def _took(found: Found) -> str:
+    rows = [
+        [each["what"], str(each["runs"]), f"{each['seconds']:.0f}", f"`{each['digest'][:16]}`"]
+        for each in found["costs"]
+    ]
+    runs, seconds = (sum(each[key] for each in found["costs"]) for key in ("runs", "seconds"))
+    rows.append(["all", str(runs), f"{seconds:.0f}", ""])
+    return (
+        "All numbers are in study_device.json; devices and search as tables in SI units in "
+        f"tables/{NAME}-devices.csv and {NAME}-search.csv.\n\n"
+    ) + table(
+        [
+            "campaign",
+            "histories",
+            "time loops [s by the clock, on a machine that others used]",
+            "digest of its results database",
+        ],
+        rows,
+    )

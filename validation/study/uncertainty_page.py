@@ -1,0 +1,299 @@
+"""The page of the study of uncertainty, from its numbers alone."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from frames.plots import plot_style as ps
+from validation.page import table
+from validation.study.uncertainty_runs import (
+    BREAKING,
+    LEVEL,
+    LEVELS,
+    MEANINGS,
+    PAIR,
+    RECORD,
+    SAMPLES,
+    SHARES,
+    SPREADS,
+    STRENGTH,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from matplotlib.figure import Figure
+
+    Found = Mapping[str, Any]
+
+INDICES, MARGINS = "study_uncertainty-indices.png", "study_uncertainty-margins.png"
+RANGES = {
+    "friction": "uniform, 0.7 to 1.3",
+    "interface": "uniform, 0.7 to 1.3",
+    "stiffness": "log-uniform, 0.1 to 1",
+    "strength": "log-uniform, 0.5 to 2",
+    "breaks": "uniform, 0.01 to 0.04",
+    "damping": "uniform, 0.01 to 0.05",
+    RECORD: "each of the set as likely",
+}
+WHAT = {**{name: name for name in PAIR}, "ratio": "LIR-DCFP over DCFP"}
+KINDS = {
+    "LIR-DCFP": "LIR-DCFP",
+    "DCFP, never": "DCFP, rims that never break",
+    f"DCFP, {STRENGTH:g} W": f"DCFP, rims that yield at {STRENGTH:g} W and break 20 mm later",
+    "DCFP, elastic": "DCFP, rims that stay elastic and break at 20 mm",
+}
+"""Devices whose rims have one stiffness after another."""
+
+
+def shares_of_kind(kind: str) -> tuple[float, ...]:
+    """Return the stiffness of the rims over the default that a device was run with."""
+    return BREAKING if kind == "DCFP, elastic" else SHARES
+
+
+def page(found: Found) -> str:
+    """Return the page in Markdown."""
+    return (
+        "\n\n".join(
+            [
+                "# Modelling uncertainty: which properties decide, and the stiffness of rims",
+                _introduction(found),
+                "## In short",
+                _verdict(found),
+                "## Shares of the variance",
+                _indices(found),
+                f"![Total Sobol' indices of properties](figures/{INDICES})",
+                "Total indices with intervals of 90 %; the record is left out of the figure.",
+                "## What a property changes",
+                _effects(found),
+                "## Stiffness and strength of rims",
+                _margins(found),
+                f"![Collapse margin over the stiffness of rims](figures/{MARGINS})",
+                "Bands of 90 % are from resampled records.",
+                "## Limits of this study",
+                _limits(),
+                "## Cost",
+                _cost(found),
+            ]
+        )
+        + "\n"
+    )
+
+
+def words(values: list[float], digits: int = 2, factor: float = 1.0) -> str:
+    """Return a value with its interval."""
+    one, low, high = (f"{factor * v:.{digits}f}" for v in values)
+    return f"{one} ({low} to {high})"
+
+
+def _introduction(found: Found) -> str:
+    rows = [[key, MEANINGS[key], RANGES[key]] for key in SPREADS]
+    return (
+        f"Written by `python -m validation.study.uncertainty` ({found['cost']['date']}, "
+        f"{found['cost']['machine']}). The comparison of [study_rims.md](study_rims.md) rests on "
+        "properties that nobody knows well. Here they are varied, all together, for the LIR-DCFP and "
+        "the DCFP of the same plan (dish of 689 mm; sliders of the LIR-DCFP by their loads and 30 mm "
+        "more, mu_h 0.16), under the far-field records of FEMA P695 at "
+        f"Sa(3 s) = {LEVEL:g} m/s2, next to the maximum considered earthquake. Both devices have the "
+        "same properties and record in each run, rims yield and break. The result is the logarithm "
+        "of the ductility of the worst hinge, at most that of collapse, 9, which a failed bearing "
+        "counts as.\n\n" + table(["property", "is", "distribution (assumed)"], rows)
+    )
+
+
+def _leading(found: Found, name: str) -> list[str]:
+    totals = {k: v[0] for k, v in found["shares"][name]["total"].items() if k != RECORD}
+    return sorted(totals, key=lambda key: -totals[key])
+
+
+def _verdict(found: Found) -> str:
+    lines = []
+    for name, text in WHAT.items():
+        own = found["shares"][name]
+        first, second = _leading(found, name)[:2]
+        lines.append(
+            f"- **{text}**: the record explains {words(own['first'][RECORD])} of the variance alone "
+            f"and {words(own['total'][RECORD])} with all that it does together with others; of the "
+            f"properties {first} ({words(own['total'][first])} in total) and {second} "
+            f"({words(own['total'][second])}) matter most."
+        )
+    ratios = found["stiffness"]["ratios"]
+    below = [name for name, r in ratios.items() if r[2] < 1.0]
+    above = [name for name, r in ratios.items() if r[1] > 1.0]
+    names = [f"{KINDS[n.split('|')[0]]} at {n.split('|')[1]} of the stiffness" for n in above]
+    lines.append(
+        f"- **Rims**: the collapse margin of the LIR-DCFP is below that of the DCFP in {len(below)} of "
+        f"{len(ratios)} pairs of equal stiffness, above it in {len(above)}"
+        + (f" ({'; '.join(names)})" if names else "")
+        + f". {_cause(found)}"
+    )
+    return "\n".join(lines)
+
+
+def _cause(found: Found) -> str:
+    # By how much margins of each DCFP change from the stiffest rims it was run with to the softest.
+    margins = found["stiffness"]["margins"]
+    words_ = []
+    for kind, text in KINDS.items():
+        keys = [f"{kind}|{share:g}" for share in shares_of_kind(kind)]
+        first, last = margins[keys[0]][0], margins[keys[-1]][0]
+        words_.append(
+            f"{text}: {first:.2f} at {keys[0].split('|')[1]}, {last:.2f} at {SHARES[-1]:g}"
+        )
+    return (
+        f"Margins by stiffness over the default: {'; '.join(words_)}. Rims that yield, or never "
+        "break, keep their strength when they are softer; rims that break at one deformation break "
+        "at a force that falls with their stiffness."
+    )
+
+
+def _indices(found: Found) -> str:
+    rows = []
+    for key in SPREADS:
+        cells = []
+        for name in WHAT:
+            own = found["shares"][name]
+            cells += [words(own["first"][key]), words(own["total"][key])]
+        rows.append([key, *cells])
+    head = [
+        "property",
+        *(f"{text}, {kind}" for text in WHAT.values() for kind in ("first", "total")),
+    ]
+    told = "; ".join(
+        f"{text}: mean {found['shares'][name]['mean']:.2f}, deviation "
+        f"{found['shares'][name]['deviation']:.2f}, {found['shares'][name]['left out']} samples left "
+        "out for a run whose analysis failed"
+        for name, text in WHAT.items()
+    )
+    collapsed = ", ".join(f"{name} {100.0 * v:.0f} %" for name, v in found["collapsed"].items())
+    return (
+        f"Sobol' indices of {SAMPLES} samples (Saltelli et al. 2010), the record as one property more: "
+        f"{SAMPLES * (len(SPREADS) + 2)} sets, each run on both devices. Intervals of 90 % are from "
+        "resampled samples; with so few of them first indices are known to two tenths or so, and may come out below 0. "
+        f"Logarithm of the ductility: {told}. Share of runs that count as collapse: {collapsed}.\n\n"
+        + table(head, rows)
+    )
+
+
+def _effects(found: Found) -> str:
+    rows = [
+        [key, *(words([100.0 * math.expm1(v) for v in found["effects"][n][key]], 0) for n in WHAT)]
+        for key in SPREADS
+        if key != RECORD
+    ]
+    return (
+        "Change of the ductility from the fractile of 16 % of a property to that of 84 % [%], the "
+        "others as they come, from a line through all runs with a constant for each record. Above 0: "
+        "more of the property, more ductility. Ratio: above 0 is worse for the LIR-DCFP. Intervals of "
+        "90 % are from resampled samples. The interface of a DCFP changes nothing: what stands there, "
+        f"{100.0 * math.expm1(found['effects']['DCFP']['interface'][0]):.0f} %, is the error of the line "
+        "through so few samples, and effects of that size are not told apart from none.\n\n"
+        + table(["property", *WHAT.values()], rows)
+    )
+
+
+def _margins(found: Found) -> str:
+    rows = []
+    stiff = found["stiffness"]
+    for kind, text in KINDS.items():
+        for share in shares_of_kind(kind):
+            key = f"{kind}|{share:g}"
+            failed = ", ".join(f"{100.0 * v:.0f}" for v in stiff["failed"][key])
+            down = ", ".join(f"{100.0 * v:.0f}" for v in stiff["collapse"][key])
+            ratio = stiff["ratios"].get(key)
+            rows.append(
+                [
+                    text,
+                    f"{share:g}",
+                    words(stiff["margins"][key]),
+                    "-" if ratio is None else words(ratio),
+                    failed,
+                    down,
+                ]
+            )
+    head = [
+        "device",
+        "stiffness of rims over the default",
+        "collapse margin",
+        "LIR-DCFP over it",
+        f"failed bearings at {', '.join(f'{v:g}' for v in LEVELS)} m/s2 [%]",
+        "collapse there [%]",
+    ]
+    return (
+        "All records at five intensities, everything else as it was. The collapse capacity of a "
+        "record lies between two intensities; a lognormal curve is fitted to these intervals by "
+        "maximum likelihood.\n\n" + table(head, rows)
+    )
+
+
+def _limits() -> str:
+    return (
+        "Distributions are assumed, not measured, and independent. The rims of both devices have the "
+        "same properties in a run, which a maker of one device need not share. One intensity for the "
+        "indices: below it less collapses and the record matters otherwise. Ductility is cut at "
+        "collapse, so that a share cannot tell bad from worse. The building is that of the study; its "
+        "strength, its hinges and the geometry of the bearings are not varied. The interface of a "
+        "DCFP is rigid: its index is 0 by construction and a check of the method."
+    )
+
+
+def _cost(found: Found) -> str:
+    cost = found["cost"]
+    digests = "; ".join(f"{name}: `{digest}`" for name, digest in cost["digests"].items())
+    return (
+        f"{cost['runs']} histories ({cost['loop']:.0f} s in the time loop). Digests of the results "
+        f"databases: {digests}."
+    )
+
+
+def figures(found: Found) -> dict[str, Figure]:
+    """Return the figures by the names of their files."""
+    return {INDICES: _bars(found), MARGINS: _lines(found)}
+
+
+def _bars(found: Found) -> Figure:
+    figure = ps.new_figure(3.4)
+    (panels,) = ps.grid_of(figure, 1, 3, share_y=True)
+    keys = [key for key in SPREADS if key != RECORD]
+    places = np.arange(len(keys))[::-1]
+    for panel, (name, text) in zip(panels, WHAT.items(), strict=True):
+        values = np.array([found["shares"][name]["total"][key] for key in keys])
+        ends = np.abs(values[:, 1:] - values[:, :1]).T
+        panel.barh(places, values[:, 0], height=0.6, color="0.75", edgecolor="black", linewidth=0.6)
+        panel.errorbar(
+            values[:, 0], places, xerr=ends, fmt="none", ecolor="black", elinewidth=0.9, capsize=2.0
+        )
+        panel.set_xlim(0.0, 1.1)
+        ps.caption(panel, title=text, x="total index [-]")
+    panels[0].set_yticks(places, keys)
+    return figure
+
+
+def _lines(found: Found) -> Figure:
+    figure = ps.new_figure(3.8)
+    (panels,) = ps.grid_of(figure, 1, 2, share_x=True)
+    for k, (kind, text) in enumerate(KINDS.items()):
+        at = np.array(shares_of_kind(kind))
+        keys = [f"{kind}|{share:g}" for share in at]
+        values = np.array([found["stiffness"]["margins"][key] for key in keys])
+        failed = [100.0 * found["stiffness"]["failed"][key][1] for key in keys]
+        look = ps.line_of(k)
+        panels[0].fill_between(
+            at, values[:, 1], values[:, 2], alpha=0.12, color=look["color"], linewidth=0.0
+        )
+        for panel, line in zip(panels, (values[:, 0], failed), strict=True):
+            panel.plot(at, line, marker="os^d"[k], markersize=4.0, label=text, **look)
+    panels[0].axhline(1.0, color=ps.GREY, linewidth=0.7, linestyle=":")
+    panels[1].set_ylim(-2.0, 102.0)
+    for panel in panels:
+        panel.set_xscale("log")
+        panel.set_xticks(list(SHARES), [f"{share:g}" for share in SHARES])
+        panel.minorticks_off()
+        ps.caption(panel, x="stiffness of rims over the default [-]")
+    ps.caption(panels[0], y="collapse margin [-]")
+    ps.caption(panels[1], y=f"records that fail a bearing at {LEVELS[1]:g} m/s2 [%]")
+    ps.add_legend(figure, panels[0].get_lines()[: len(KINDS)], columns=1)
+    return figure
