@@ -262,6 +262,8 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.study.device`), "
                 "[study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
                 "(`python -m validation.study.buildings`), "
+                "[study_motions.md](study_motions.md), records turned, with a vertical component, one "
+                "after another, and pulses (`python -m validation.study.motions`), "
                 "[study_after.md](study_after.md), a stop that carries on after a bearing's failure "
                 "(`python -m validation.study.after`), "
                 "[study_uncertainty.md](study_uncertainty.md), which properties decide "

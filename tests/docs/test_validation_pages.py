@@ -25,6 +25,7 @@ MEASUREMENTS = (
     "study_rims",
     "study_device",
     "study_buildings",
+    "study_motions",
     "study_after",
     "level_doubts",
     "worked_building",

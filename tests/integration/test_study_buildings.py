@@ -185,3 +185,4 @@ def test_the_page_is_that_of_its_numbers():
             counted = own["definitions"]["ductility 9 or a bearing"]["counts"][device]
             assert counted[0] == sum(row[1] for row in collapse)
     assert stored["cost"]["runs"] == total
+    assert len(stored["halved"]) == 2 * len(BUILDINGS)

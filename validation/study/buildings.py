@@ -17,7 +17,7 @@ from frames.design import MotionSet
 from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
 from validation.study.buildings_figures import figures
-from validation.study.buildings_numbers import facts_of, numbers_of, tried
+from validation.study.buildings_numbers import facts_of, halved, numbers_of, tried
 from validation.study.buildings_page import NAME, csv_tables, page
 from validation.study.buildings_runs import (
     BUILDINGS,
@@ -31,13 +31,13 @@ from validation.study.paired import (
     joined,
     on_devices,
     performed_each,
-    rounded,
     table_of,
     told_of,
     write_part,
 )
 from validation.study.records import options_of
 from validation.study.records_runs import considered, normalised
+from validation.study.rounded import rounded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -67,7 +67,7 @@ def found_of(store: Path, workers: int) -> dict[str, Any]:
         found["buildings"][one.name] = {"facts": facts_of(one), "records": len(own)} | numbers_of(
             runs
         )
-    return found | {"cost": joined(costs)}
+    return found | {"halved": halved(motions), "cost": joined(costs)}
 
 
 def write(found: Found) -> None:

@@ -2,40 +2,49 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from frames import time_histories
 from frames.risk import LimitState
 from frames.risk.fragility.runs import COMPLETE, FAILURE
+from lir_element.errors import AnalysisWarning
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import LIR
 from validation.study.buildings_runs import (
     ALL_RECORDS,
+    BUILDINGS,
     HEIGHT,
     SPAN,
     Building,
     building,
     period,
     strength,
+    yield_rotations,
 )
 from validation.study.paired import (
     DEVICES,
     LIMITS,
     OTHERS,
     STRONG,
+    WEAK,
     curve_of,
     median_of,
+    on_devices,
     ratio_of,
     shares_of,
     statuses_of,
+    table_of,
 )
-from validation.study.records_runs import COLLAPSE, ULTIMATE
+from validation.study.records_runs import COLLAPSE, STEP, ULTIMATE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from frames import GroundMotion
     from frames.risk import IntensityRuns
     from validation.study.paired import Curve
 
@@ -46,6 +55,9 @@ RESAMPLES, FEW_RESAMPLES = 200, 100
 
 FLOOR, UPLIFT = 2.0 * STANDARD_GRAVITY, 0.05
 """Floor acceleration [m/s2] and uplift [m] that may count as collapse."""
+
+HALVED_EVERY = 3
+"""Of the records one in so many is run at two steps, each with another building."""
 
 UNHARMED = (1.0, 4.0, ULTIMATE)
 """Ductilities below which frames are counted whose bearings failed [-]."""
@@ -199,3 +211,41 @@ def _unharmed(runs: IntensityRuns) -> list[int]:
     # Runs whose bearing failed, and of them those below each ductility until then.
     own = runs.table[runs.table["outcome"] == FAILURE]["ductility"]
     return [len(own), *(int((own <= bound).sum()) for bound in UNHARMED)]
+
+
+STEPPED = ("ductility", DRIFT, PLAN_FLOOR, "bearing displacement", "interface slip")
+"""Demands that are compared at two steps."""
+
+HALVED_AT = 2.6
+"""Intensity of the runs at two steps [m/s2]."""
+
+
+def halved(motions: Mapping[str, GroundMotion]) -> list[dict[str, Any]]:
+    """Return demands of each building on two devices at the step of the campaigns and at half of it.
+
+    Parameters
+    ----------
+    motions : mapping of str to GroundMotion
+        Records of an intensity of 1 m/s2; each building takes another one.
+
+    Returns
+    -------
+    list of dict
+        "building", "device", "motion", and "runs": status and demands at both steps.
+    """
+    rows = []
+    for k, one in enumerate(BUILDINGS):
+        name, motion = list(motions.items())[HALVED_EVERY * k]
+        frames, yields = on_devices(building(one)), yield_rotations(one)
+        for device in (LIR, WEAK):
+            runs = []
+            for dt in (STEP, 0.5 * STEP):
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore", AnalysisWarning)
+                    data = time_histories(
+                        {device: frames[device]}, {name: motion}, scales=[HALVED_AT], dt=dt
+                    )
+                run = table_of(data, {name: motion}, yields).table.iloc[0]
+                runs.append({"status": str(run["status"])} | {q: float(run[q]) for q in STEPPED})
+            rows.append({"building": one.name, "device": device, "motion": name, "runs": runs})
+    return rows

@@ -6,7 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 from validation.page import table
 from validation.study.buildings_figures import CURVES_FIGURE, RATIOS_FIGURE
-from validation.study.buildings_numbers import DEFINITIONS, LIR, UNHARMED, UPLIFT
+from validation.study.buildings_numbers import (
+    DEFINITIONS,
+    HALVED_AT,
+    LIR,
+    STEPPED,
+    UNHARMED,
+    UPLIFT,
+)
 from validation.study.buildings_runs import (
     HEIGHT,
     LENGTH,
@@ -25,6 +32,7 @@ from validation.study.paired import (
     of_three,
     told_lir,
 )
+from validation.study.records_figures import SHOWN
 from validation.study.records_runs import COLLAPSE, INTENSITY, STEP, ULTIMATE
 
 if TYPE_CHECKING:
@@ -62,6 +70,8 @@ def page(found: Found) -> str:
                 "## What is called collapse",
                 _definitions(found),
                 _unharmed(found),
+                "## The step",
+                _steps(found),
                 "## Limits of this study",
                 _limits(),
                 "## Cost",
@@ -323,6 +333,39 @@ def _unharmed(found: Found) -> str:
     return (
         "Runs that end with a failed bearing, and how many of their frames had not failed, or had not even "
         f"yielded (ductility 1), when it failed:\n\n{table(head, rows)}"
+    )
+
+
+def _steps(found: Found) -> str:
+    shown = {quantity: SHOWN[quantity] for quantity in STEPPED}
+    rows, apart = [], []
+    for row in found["halved"]:
+        whole, half = row["runs"]
+        statuses = "`" + "`, `".join(dict.fromkeys((whole["status"], half["status"]))) + "`"
+        cells = [
+            ", ".join(f"{factor * each[quantity]:{form}}" for each in (whole, half))
+            for quantity, (_, factor, form) in shown.items()
+        ]
+        rows.append([row["building"], row["device"], row["motion"], statuses, *cells])
+        if statuses.count("`") > 2:
+            apart.append(f"{row['building']}, {row['device']}")
+    worst = {
+        quantity: max(
+            abs(whole[quantity] / half[quantity] - 1.0)
+            for whole, half in (row["runs"] for row in found["halved"])
+            if whole["status"] == half["status"] == "ok"
+            and half[quantity] > 1e-3  # a slip below 1 mm is none
+        )
+        for quantity in shown
+    }
+    told = ", ".join(
+        f"{100.0 * worst[q]:.1f} % of {text.split(' [')[0]}" for q, (text, *_) in shown.items()
+    )
+    ends = f"ends differ in {'; '.join(apart)}" if apart else "all end alike"
+    head = ["building", "device", "record", "status", *(text for text, *_ in shown.values())]
+    return (
+        f"A record a building at {HALVED_AT:g} m/s2, at {1e3 * STEP:g} ms and at half of it: {ends}; demands "
+        f"of complete runs differ by at most {told}. Runs that fail end a little earlier or later.\n\n{table(head, rows)}"
     )
 
 

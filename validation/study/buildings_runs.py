@@ -74,7 +74,7 @@ class Building(NamedTuple):
         return f"{self.storeys} storeys, {self.system}"
 
 
-BUILDINGS = (Building(3, FRAMES), Building(6, FRAMES), Building(3, WALLS))
+BUILDINGS = tuple(Building(n, system) for system in SYSTEMS for n in STOREYS)
 
 
 def steps() -> tuple[Structure, ...]:

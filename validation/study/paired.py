@@ -59,6 +59,9 @@ LIMITS = (
 FACTOR = Intensity(kind="scale")
 """Motions have an intensity of 1 m/s2 or 1 m/s: the factor on them is their intensity."""
 
+BEYOND = 1.25
+"""By which a median may be outside of the intensities that were run [-]: more is no finding."""
+
 WEIGHED = 0.9
 """Confidence of intervals [-]."""
 
@@ -207,9 +210,13 @@ def at_scales(runs: IntensityRuns, scales: Sequence[float]) -> IntensityRuns:
 def curve_of(runs: IntensityRuns, limit: LimitState, resamples: int) -> Curve | str:
     """Return the fragility of a building against a limit state, or why there is none."""
     try:
-        return fragility_of(runs, limit, resamples=resamples)
+        curve = fragility_of(runs, limit, resamples=resamples)
     except FragilityError as cause:
         return str(cause)
+    im = runs.table["im"]
+    if not im.min() / BEYOND <= curve.median <= BEYOND * im.max():
+        return "the median is far from all intensities that were run"
+    return curve
 
 
 def median_of(curve: Curve | str) -> list[float] | None:
@@ -251,15 +258,6 @@ def shares_of(runs: IntensityRuns, limit: LimitState) -> list[list[float]]:
 def statuses_of(table: pd.DataFrame) -> dict[str, int]:
     """Return how many runs ended how."""
     return {str(name): int(count) for name, count in table["status"].value_counts().items()}
-
-
-def rounded(value: Any, digits: int = 5) -> Any:
-    """Return a structure of plain values with its numbers rounded, for a small JSON."""
-    if isinstance(value, dict):
-        return {key: rounded(each, digits) for key, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [rounded(each, digits) for each in value]
-    return float(f"{value:.{digits}g}") if isinstance(value, float) else value
 
 
 def of_three(value: Sequence[float] | None) -> str:
