@@ -108,7 +108,9 @@ def study(motions: Mapping[str, GroundMotion], store: Path, workers: int | str) 
     for more in COMPARED:
         plan = plan_of(more)
         row = device_search.best_of(rows, plan)
-        best = Device(plan, False, least=row["least"], interface=row["interface"])
+        best = device_search.device_at(plan, *device_search.EDGE)
+        if row is not None:
+            best = Device(plan, False, least=row["least"], interface=row["interface"])
         found, runs = _plan(done, best, free, store)
         plans.append(found)
         if more == REFERENCE:

@@ -120,9 +120,9 @@ def margins_figure(found: Found) -> Figure:
 
 
 def shown_plans(found: Found) -> list[Mapping[str, Any]]:
-    """Return the plans of the panels: the smallest, the middle one, the largest."""
+    """Return the plans of the panels: the two smallest, and the largest."""
     plans = found["plans"]
-    return [plans[0], plans[len(plans) // 2], plans[-1]]
+    return [*plans[:2], plans[-1]]
 
 
 def _margins(panel: Axes, found: Found) -> None:

@@ -161,8 +161,11 @@ def plan_of(more: float) -> float:
 LEAST, MOST = -0.02, 0.15
 """Of the plans of the search: radii by which dishes exceed those of the study's bearings [m]."""
 
-COMPARED = (0.0, MORE, MOST)
-"""Radii by which the dishes of the plans compared exceed those of the study's bearings [m]."""
+SEARCHED = (0.0, MORE, MOST)
+"""Radii by which the dishes exceed those of the study's bearings where a device is searched [m]."""
+
+COMPARED = (*SEARCHED, 0.22)
+"""The same of all plans compared; the largest has the device that the work by hand names."""
 
 REFERENCE = MORE
 """That of the plan which is the example."""

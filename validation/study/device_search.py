@@ -13,9 +13,9 @@ from scipy.stats import norm, qmc
 from frames.design.sizing.target import LEAST_PRESSURE
 from frames.risk import Campaign
 from validation.study.device_runs import (
-    COMPARED,
     LEAST,
     MOST,
+    SEARCHED,
     Device,
     bearing_of,
     frame_of,
@@ -309,12 +309,12 @@ def second_points(rows: Sequence[Mapping[str, Any]]) -> list[tuple[float, float,
     list of (float, float, float)
         By plan where the response surface is highest, and `EDGE`.
     """
-    plans = [plan_of(more) for more in COMPARED]
+    plans = [plan_of(more) for more in SEARCHED]
     found = {point[0]: point for point in proposals(rows, plans)}
     return list(dict.fromkeys(p for plan in plans for p in (found[plan], (plan, *EDGE))))
 
 
-def best_of(rows: Sequence[Mapping[str, Any]], plan: float) -> Mapping[str, Any]:
-    """Return the row of the plan that collapses last."""
+def best_of(rows: Sequence[Mapping[str, Any]], plan: float) -> Mapping[str, Any] | None:
+    """Return the row of the plan that collapses last; None where none was tried."""
     own = [row for row in rows if math.isclose(row["plan"], plan, rel_tol=1e-9)]
-    return max(own, key=lambda row: row["median"])
+    return max(own, key=lambda row: row["median"], default=None)

@@ -10,9 +10,18 @@ from scipy.stats import spearmanr
 from validation.measurements.yielding_runs import LIR
 from validation.page import table
 from validation.study.device_figures import KINDS, labelled
-from validation.study.device_runs import HALF_STRIPES, OTHERS, REFERENCE, STRIPES, plan_of
+from validation.study.device_runs import (
+    HALF_STRIPES,
+    LEAST,
+    MOST,
+    OTHERS,
+    REFERENCE,
+    SEARCHED,
+    STRIPES,
+    plan_of,
+)
 from validation.study.device_search import EDGE
-from validation.study.device_search import STRIPES as SEARCHED
+from validation.study.device_search import STRIPES as TRIED
 from validation.study.records_runs import COLLAPSE
 from validation.study.rims_runs import LIMITS
 
@@ -117,17 +126,19 @@ def search(found: Found) -> str:
         "",
     ]
     first = sum(row["stage"] == "first" for row in found["search"])
-    stripes = ", ".join(f"{at:g}" for at in SEARCHED)
+    stripes = ", ".join(f"{at:g}" for at in TRIED)
     return (
         "A time history of collapse has no derivative and each value costs a stripe analysis, so that the "
-        f"search has a response surface: {first} Sobol' points of plan, least slider and kappa, every "
+        f"search has a response surface: {first} Sobol' points of plan "
+        f"({millimetres(plan_of(LEAST))} to {millimetres(plan_of(MOST))} mm), least slider and kappa, every "
         f"second record at {stripes} m/s2, the median by a lognormal curve of dispersion 0.25; through "
         "them a power of the work by hand, and linear radial functions of what it leaves over "
         "(`scipy.interpolate.RBFInterpolator`); the maximum of both at each plan by "
         "`scipy.optimize.direct`, which needs no start. At each plan that point and the one that the work by hand names, "
         "equal sliders with kappa = 2, are run (they are one at "
-        f"{_alike(found)} of {len(found['plans'])} plans); the better is taken to all records and "
-        "stripes.\n\n" + table(head, rows)
+        f"{_alike(found)} of {len(SEARCHED)} plans); the better is taken to all records and "
+        "stripes. A larger plan, beyond those of the search, has the device named by hand.\n\n"
+        + table(head, rows)
     )
 
 

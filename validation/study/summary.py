@@ -28,6 +28,9 @@ DRIFT, FLOOR, COLLAPSE = "storey drift 2 %", "floor acceleration 1 g", "collapse
 REFERENCE = 1
 """Which of the plans of the device's part is the example."""
 
+PLANS = {0: "smaller", 1: "larger"}
+"""How the part on rims calls these plans."""
+
 RIMS = ("rims that never break", "rims of 2 W", "rims of 1 W", "rims of 0.5 W")
 
 
@@ -197,7 +200,7 @@ def _margins(parts: Parts) -> str:
     for place, plan in enumerate(parts["device"]["plans"]):
         cells = [_interval(plan["devices"]["LIR-DCFP"]["margin"])]
         for rims in RIMS:
-            name = f"DCFP, {('smaller', 'larger', 'no such')[place]} plan, {rims}"
+            name = f"DCFP, {PLANS.get(place, 'no such')} plan, {rims}"
             own = plan["devices"].get(rims, {}).get("margin") or others.get(name)
             cells.append(_interval(own) if own else "-")
         rows.append([_width(plan), *cells])
@@ -274,7 +277,18 @@ def _loss(parts: Parts) -> str:
         "drift, floor acceleration and collapse, spectral shape, floor spectra and published "
         "results). Annual loss of the LIR-DCFP over that of a DCFP (90 %), below 1 it is better:\n\n"
         + table(head, rows)
+        + "\n\nMost of the repair of frames on DCFPs is that of the connections of beams, whose costs "
+        f"are of heavier frames; without it the ratios are {_without(found)}."
     )
+
+
+def _without(found: Mapping[str, Any]) -> str:
+    # Ranges of the same ratios without the connections of beams, by the DCFP's rims.
+    words = []
+    for rims in (RIMS[0], RIMS[2], RIMS[3]):
+        ratios = [each[f"DCFP, {rims}"]["ratio"][0] for each in found["without"].values()]
+        words.append(f"{min(ratios):.2f} to {max(ratios):.2f} ({rims})")
+    return ", ".join(words)
 
 
 def _cost(parts: Parts) -> str:
