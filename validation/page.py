@@ -254,6 +254,8 @@ def index(folder: Path = FOLDER) -> str:
                 "(`python -m validation.measurements.worked_building`), "
                 "[yielding_comparison.md](yielding_comparison.md), buildings that yield on four "
                 "systems (`python -m validation.measurements.yielding_comparison`), "
+                "**[study_summary.md](study_summary.md), when the LIR-DCFP does better than a DCFP, when "
+                "not, and what it costs** (`python -m validation.study.summary`), from its parts: "
                 "[study.md](study.md), the records of FEMA P695 on four devices "
                 "(`python -m validation.study.records`), "
                 "[study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "

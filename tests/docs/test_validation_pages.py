@@ -20,6 +20,7 @@ MEASUREMENTS = (
     "random_scenes",
     "slip",
     "study",
+    "study_summary",
     "study_loss",
     "study_uncertainty",
     "study_rims",

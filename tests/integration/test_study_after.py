@@ -3,7 +3,10 @@
 import json
 import math
 
+import numpy as np
 import pytest
+from scipy.optimize import minimize
+from scipy.stats import binom, norm
 
 from frames.risk.campaign.compared_devices import dish_diameter
 from validation.page import FOLDER
@@ -51,3 +54,24 @@ def test_the_page_is_that_of_its_numbers():
             median = stored["limits"][COLLAPSE.name][kind.name]["median"][0]
             assert margin[0] == pytest.approx(median / stored["considered"])
             assert math.isfinite(margin[2])
+
+
+def test_medians_are_those_of_the_counts():
+    """By scipy alone: the lognormal curve under which the counts of all stripes are likeliest."""
+    stored = json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8"))
+    for kind in KINDS:
+        curve = stored["limits"][COLLAPSE.name][kind.name]
+        if "median" not in curve:
+            continue
+        rows = stored["stripes"][kind.name]
+        im, over, known = (
+            np.array([row[key] for row in rows]) for key in ("im", "collapsed", "known")
+        )
+
+        def unlikely(p, im=im, over=over, known=known):
+            share = norm.cdf((np.log(im) - p[0]) / math.exp(p[1]))
+            return -binom.logpmf(over, known, np.clip(share, 1e-12, 1.0 - 1e-12)).sum()
+
+        found = minimize(unlikely, [1.0, -1.0], method="Nelder-Mead", tol=1e-10)
+        assert math.exp(found.x[0]) == pytest.approx(curve["median"][0], rel=1e-5)
+        assert math.exp(found.x[1]) == pytest.approx(curve["dispersion"][0], rel=1e-3)

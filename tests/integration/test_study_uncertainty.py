@@ -14,10 +14,12 @@ from validation.study.pairs import BY_LOAD, UNBREAKABLE, device
 from validation.study.uncertainty_numbers import effects_of, shares_of
 from validation.study.uncertainty_page import KINDS, page, shares_of_kind
 from validation.study.uncertainty_runs import (
+    BEST,
     LEVELS,
     RECORD,
     SAMPLES,
     SPREADS,
+    best_frames,
     changed,
     elastic_frames,
     ours,
@@ -50,12 +52,17 @@ def test_properties_of_a_set_are_those_of_its_bearings():
 
 
 def test_softer_rims_break_where_they_are_said_to():
-    for key, frame in (stiffness_frames() | elastic_frames()).items():
+    for key, frame in (stiffness_frames() | elastic_frames() | best_frames()).items():
         kind, share = key.split("|")
         for name, link in frame.bearings.items():
             bearing, base = link.bearing, device(UNBREAKABLE).bearings[name].bearing.resolved()
             if kind != "LIR-DCFP":
                 assert bearing.rim_stiffness == pytest.approx(float(share) * base["rim_stiffness"])
+            if kind == BEST:
+                load = base["design_load"]
+                assert bearing.rim_yield_force == pytest.approx(load)
+                plastic = bearing.rim_overrun - load / bearing.rim_stiffness
+                assert plastic == pytest.approx(0.02 - load / base["rim_stiffness"])
             if kind == "DCFP, elastic":
                 assert bearing.rim_overrun == 0.02
             if kind == "DCFP, 1 W":

@@ -16,7 +16,17 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-PARTS = ("records", "rims", "device", "buildings", "motions", "after", "loss", "uncertainty")
+PARTS = (
+    "records",
+    "rims",
+    "device",
+    "buildings",
+    "motions",
+    "after",
+    "loss",
+    "uncertainty",
+    "summary",
+)
 """Modules of this folder, in the order in which one needs what another found."""
 
 

@@ -62,7 +62,8 @@ def margins_over_cost(found: Found, kind: str, costs: Mapping[str, float]) -> di
     return points
 
 
-def _equal_ratios(found: Found, other: str, factors: Mapping[str, float]) -> list[float]:
+def equal_ratios(found: Found, other: str, factors: Mapping[str, float]) -> list[float]:
+    """Return margins of the LIR-DCFP over those of a DCFP of the same cost, at some costs."""
     own, their = (margins_over_cost(found, kind, factors) for kind in (LIR, other))
     return [one / two for _, one, two in at_equal_cost(own, their)]
 
@@ -79,7 +80,7 @@ def equal_cost(found: Found) -> str:
     for name, factors in cases.items():
         cells = []
         for other in OTHERS[:3]:
-            ratios = _equal_ratios(found, other, factors)
+            ratios = equal_ratios(found, other, factors)
             cells.append(f"{min(ratios):.2f} to {max(ratios):.2f}" if ratios else "-")
         rows.append([name, *cells])
     return (
@@ -93,7 +94,7 @@ def cost_verdict(found: Found) -> str:
     """Return margins at equal cost in a sentence."""
     words = []
     for other in OTHERS[:3]:
-        ratios = _equal_ratios(found, other, {})
+        ratios = equal_ratios(found, other, {})
         if ratios:
             words.append(f"{other} {min(ratios):.2f} to {max(ratios):.2f}")
     return (

@@ -31,6 +31,7 @@ from validation.study.uncertainty_numbers import (
 from validation.study.uncertainty_page import WHAT, figures, page
 from validation.study.uncertainty_runs import (
     SAMPLES,
+    best_campaign,
     elastic_campaign,
     sampled,
     sets_of,
@@ -45,6 +46,8 @@ if TYPE_CHECKING:
 NAME = "study_uncertainty"
 RECORDS = "far-field"
 DRAWS = 300
+RIMS = {"stiffness": stiffness_campaign, "elastic": elastic_campaign, "best": best_campaign}
+"""Campaigns over the stiffness of rims, by the folders of their stores."""
 
 
 def study(motions: Mapping[str, GroundMotion], store: Path, workers: int) -> dict[str, Any]:
@@ -56,10 +59,10 @@ def study(motions: Mapping[str, GroundMotion], store: Path, workers: int) -> dic
         results.append((numbers, runs.results()))
     tables = table_of(results, SAMPLES)
     digests = {"sample": hashlib.sha256("".join(c["digest"] for c in costs).encode()).hexdigest()}
-    for name, make in (("stiffness", stiffness_campaign), ("elastic", elastic_campaign)):
+    for name, make in RIMS.items():
         costs.append(performed(make(motions, store / name), workers))
         digests[name] = costs[-1]["digest"]
-    data = {name: open_campaign(store / name).results() for name in ("stiffness", "elastic")}
+    data = {name: open_campaign(store / name).results() for name in RIMS}
     stiff = stiffness_of([*data.values()], motions, DRAWS)
     ran = [*(each for _, each in results), *data.values()]
     return {

@@ -16,7 +16,7 @@ from validation.study.records_runs import (
     runs_of,
     stripes_of,
 )
-from validation.study.uncertainty_runs import PAIR, RECORD, SPREADS, record_of
+from validation.study.uncertainty_runs import BEST, PAIR, RECORD, SPREADS, record_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -170,7 +170,7 @@ def stiffness_of(
     Parameters
     ----------
     results : sequence of xarray.Dataset
-        Of `stiffness_campaign` and `elastic_campaign`.
+        Of `stiffness_campaign`, `elastic_campaign` and `best_campaign`.
     motions : mapping of str to GroundMotion
         Its records.
     resamples : int
@@ -180,7 +180,7 @@ def stiffness_of(
     -------
     dict
         "margins" and "failed" (share of failed bearings by intensity) by device and stiffness,
-        "ratios" of the LIR-DCFP over the others.
+        "ratios" of the best LIR-DCFP over the others.
     """
     records, at = list(motions), considered()
     drawn = draws(len(records), resamples)
@@ -197,8 +197,8 @@ def stiffness_of(
         found["collapse"][name] = [row[1] / row[2] for row in stripes_of(runs, COLLAPSE)]
     for name in again:
         device_, share = name.split("|")
-        ours_ = f"LIR-DCFP|{share}"
-        if device_ != "LIR-DCFP":
+        ours_ = f"{BEST}|{share}"
+        if device_ != BEST:
             found["ratios"][name] = [
                 found["margins"][ours_][0] / found["margins"][name][0],
                 *interval((again[ours_] / again[name]).tolist()),

@@ -16,7 +16,7 @@ from scipy import stats
 from frames import ModalDamping
 from frames.risk import Campaign, ParameterSample
 from frames.risk.fragility.sensitivity import saltelli_sets
-from validation.study.pairs import BY_LOAD, UNBREAKABLE, device
+from validation.study.pairs import BY_LOAD, OURS, UNBREAKABLE, device
 from validation.study.records_runs import (
     STEP,
 )
@@ -57,6 +57,8 @@ LEVEL = 2.2
 
 PAIR = {"LIR-DCFP": BY_LOAD, "DCFP": UNBREAKABLE}
 """The devices whose properties are varied: names of runs, devices of the study."""
+
+BEST = "LIR-DCFP, equal sliders"
 
 SHARES = (1.0, 0.3, 0.1, 0.03)
 """Stiffness of the rims over the default, where that alone is varied."""
@@ -193,6 +195,28 @@ def stiffness_frames() -> dict[str, Frame]:
             )
         found[f"DCFP, {STRENGTH:g} W|{share:g}"] = plain(soft).with_bearings(breaking)
     return found
+
+
+def best_frames() -> dict[str, Frame]:
+    """Return the building on the best LIR-DCFP, its rims of one stiffness after another, by name."""
+    frame = device(OURS)
+    found = {}
+    for share in SHARES:
+        soft = {}
+        for name, link in frame.bearings.items():
+            bearing = link.bearing
+            stiffness = share * bearing.resolved()["rim_stiffness"]
+            force = bearing.rim_yield_force
+            more = force / stiffness - force / bearing.resolved()["rim_stiffness"]
+            overrun = bearing.resolved()["rim_overrun"] + more
+            soft[name] = replace(bearing, rim_stiffness=stiffness, rim_overrun=overrun)
+        found[f"{BEST}|{share:g}"] = frame.with_bearings(soft)
+    return found
+
+
+def best_campaign(motions: Mapping[str, GroundMotion], store: Path) -> Campaign:
+    """Return the campaign of all records on the best LIR-DCFP."""
+    return Campaign(best_frames(), dict(motions), store=store, scales=list(LEVELS), dt=STEP)
 
 
 def elastic_frames() -> dict[str, Frame]:

@@ -1,0 +1,388 @@
+"""The study in one paper, from the numbers of its parts: writes docs/validation/study_summary.md.
+
+    python -m validation.study.summary
+
+It runs nothing: the parts do (`python -m validation.study`).
+"""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from validation.page import DPI, FOLDER, table
+from validation.study.device_cost_page import equal_ratios
+from validation.study.pairs import OURS as EQUAL
+from validation.study.summary_figure import PLAIN, comparisons, figure_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+
+    Parts = Mapping[str, Mapping[str, Any]]
+
+NAME = "study_summary"
+FIGURE = f"{NAME}-ratios.png"
+READ = ("rims", "device", "buildings", "motions", "after", "loss", "uncertainty")
+DRIFT, FLOOR, COLLAPSE = "storey drift 2 %", "floor acceleration 1 g", "collapse"
+REFERENCE = 1
+"""Which of the plans of the device's part is the example."""
+
+PLANS = {0: "smaller", 1: "larger"}
+"""How the part on rims calls these plans."""
+
+RIMS = ("rims that never break", "rims of 2 W", "rims of 1 W", "rims of 0.5 W")
+
+
+def parts_of(folder: Path = FOLDER) -> dict[str, dict[str, Any]]:
+    """Return the numbers of the parts by name."""
+    return {
+        name: json.loads((folder / f"study_{name}.json").read_text(encoding="utf-8"))
+        for name in READ
+    }
+
+
+def page(parts: Parts) -> str:
+    """Return the page in Markdown."""
+    return (
+        "\n\n".join(
+            [
+                "# When the LIR-DCFP does better than a DCFP, when not, and what it costs",
+                "Written by `python -m validation.study.summary` from the numbers of the parts of this "
+                "study, which have methods, intervals, limits and data of each.",
+                "## Abstract",
+                _abstract(parts),
+                "## 1. Question and method",
+                _method(parts),
+                "## 2. Devices of equal plan",
+                _margins(parts),
+                "![Who is ahead over intensity and plan](figures/study_device-regions.png)",
+                "Figure 1. Who is ahead over intensity and plan: share of records that collapse (above), "
+                "median floor acceleration (below), failed bearings counted.",
+                "## 3. Does it hold?",
+                f"![Ratios of medians, by condition](figures/{FIGURE})",
+                "Figure 2. Median intensity of the LIR-DCFP over that of the DCFP with rims of 1 W, "
+                "intervals of 90 % by resampling records for both: right of 1 the LIR-DCFP is better. "
+                "Where a mark is missing, one of both has no median.",
+                _robust(parts),
+                "## 4. What is called collapse",
+                _after(parts),
+                "## 5. Loss and annual rates",
+                _loss(parts),
+                "## 6. Cost",
+                _cost(parts),
+                "## 7. Discussion",
+                _discussion(parts),
+                "## 8. Limits",
+                _limits(),
+                "## 9. To repeat it",
+                _repeat(parts),
+            ]
+        )
+        + "\n"
+    )
+
+
+def _interval(values: Sequence[float]) -> str:
+    return "{:.2f} ({:.2f} to {:.2f})".format(*values[:3])
+
+
+def _plan(parts: Parts, place: int = REFERENCE) -> Mapping[str, Any]:
+    return dict(parts["device"]["plans"][place])
+
+
+def _width(plan: Mapping[str, Any]) -> str:
+    return f"{1e3 * plan['plan']:.0f} mm"
+
+
+def _abstract(parts: Parts) -> str:
+    plan = _plan(parts)
+    ours, pair = plan["devices"]["LIR-DCFP"], plan["pairs"][PLAIN]["ratios"]
+    plains = [
+        f"{plan['devices'][rims]['margin'][0]:.2f} ({rims})"
+        for rims in RIMS
+        if rims in plan["devices"]
+    ]
+    verdicts = [
+        f"{limit} {_interval(pair[limit])}" for limit in (DRIFT, "ductility 4", FLOOR, COLLAPSE)
+    ]
+    after = parts["after"]["ratios"]["storey drift 4 %"]
+    return (
+        "The LIR-DCFP bounds what presses on its rims by the friction of its interface, at the price "
+        f"of a slip that its sliders must have room for. {_runs(parts)} time histories of buildings "
+        "that yield ask when that pays, against double concave bearings (DCFP) of the same plan whose "
+        "rims yield and break at a stated force. The LIR-DCFP is searched for at each plan: all "
+        "sliders as wide as the widest, for the smallest ends the slip of all, and an interface as "
+        f"strong as its resultant allows. In dishes of {_width(plan)} its collapse margin is "
+        f"{_interval(ours['margin'])}, those of DCFPs {', '.join(plains)}. Medians of intensity over "
+        f"those of the DCFP with {PLAIN}: {'; '.join(verdicts)}. "
+        f"{_plans_words(parts)} Collapse counts the failure of a bearing; where a stop carries on "
+        f"after it, a frame collapses in {_carried(parts)} of these runs, and the median of a storey "
+        f"drift of 4 % is {_interval(after[1])} times that of the DCFP, {_interval(after[0])} without. "
+        f"{_equal_cost(parts)}"
+    )
+
+
+def _carried(parts: Parts) -> str:
+    # Of the runs in which a stop carries on after a failed bearing: in how many a frame collapses.
+    words = []
+    for name, rows in parts["after"]["stripes"].items():
+        if "stop" in name:
+            failed, collapsed = (sum(row[key] for row in rows) for key in ("failed", "collapsed"))
+            words.append(f"{collapsed} of {failed} ({name.split(':', maxsplit=1)[0]})")
+    return " and ".join(words)
+
+
+def _equal_cost(parts: Parts) -> str:
+    words = []
+    for rims in (RIMS[0], RIMS[2], RIMS[3]):
+        found = equal_ratios(parts["device"], rims, {})
+        words.append(f"{rims} {min(found):.2f} to {max(found):.2f}")
+    return (
+        "At equal cost, by assumed prices, the collapse margin of the LIR-DCFP over that of a DCFP, of a "
+        f"larger plan then, is: {'; '.join(words)}."
+    )
+
+
+def _plans_words(parts: Parts) -> str:
+    words = []
+    for rims in (RIMS[0], RIMS[2], RIMS[3]):
+        ratios = {
+            _width(plan): plan["pairs"][rims]["ratios"][COLLAPSE]
+            for plan in parts["device"]["plans"]
+        }
+        ahead = [name for name, (_, low, *_rest) in ratios.items() if low > 1.0]
+        behind = [name for name, (_, _low, high, *_rest) in ratios.items() if high < 1.0]
+        found = [
+            f"{word} at {', '.join(names)}"
+            for word, names in (("ahead", ahead), ("behind", behind))
+            if names
+        ]
+        level = len(ratios) - len(ahead) - len(behind)
+        found += [f"level at {level} of {len(ratios)} plans"] if level else []
+        words.append(f"{rims} {', '.join(found)}")
+    return f"By collapse it is, over the plans, against {'; against '.join(words)}."
+
+
+def _runs(parts: Parts) -> str:
+    # Histories of all parts; those of the device's search are listed one by one.
+    total = sum(part["cost"]["runs"] for name, part in parts.items() if name != "device") + sum(
+        each["runs"] for each in parts["device"]["costs"]
+    )
+    return f"{round(total, -2):,}"
+
+
+def _method(parts: Parts) -> str:
+    plans = ", ".join(_width(plan) for plan in parts["device"]["plans"])
+    return (
+        "**Devices.** Plan is the diameter of the dish under the centre bearing: "
+        f"{plans}. What is not slider is displacement; sliders of DCFPs are as small as their "
+        "pressure allows. Rims yield at 0.5, 1 or 2 times the load W of their bearing and break at "
+        "20 mm, or never do ([study_rims.md](study_rims.md), [study_device.md](study_device.md)).\n\n"
+        "**Buildings.** Steel frames with plastic hinges on nine bearings, of three storeys unless told "
+        f"otherwise; in one part {'; '.join(parts['buildings']['buildings'])} "
+        "([study_buildings.md](study_buildings.md)).\n\n"
+        "**Motions.** The 22 pairs of FEMA P695's far-field set, scaled to Sa(3 s, 5 %), RotD50; "
+        "near-fault sets ([study.md](study.md)); turned, with a vertical component, one after "
+        "another, pulses ([study_motions.md](study_motions.md)). The same records for all devices.\n\n"
+        "**Limits.** Storey drift of 2 %, ductility of 4, floor acceleration of 1 g, collapse: "
+        "a ductility of 9 of a hinge or the failure of a bearing. A failed bearing exceeds every "
+        "limit, a failed analysis counts as unknown; lognormal curves by maximum likelihood; "
+        "margin is the median of collapse over the maximum considered earthquake that fills "
+        f"250 mm, {parts['device']['considered']:.2f} m/s2."
+    )
+
+
+def _margins(parts: Parts) -> str:
+    # Collapse margins by plan and rims; those of 2 W are of the part on rims, by plan.
+    rows = []
+    others = parts["rims"]["margins"]
+    for place, plan in enumerate(parts["device"]["plans"]):
+        cells = [_interval(plan["devices"]["LIR-DCFP"]["margin"])]
+        for rims in RIMS:
+            name = f"DCFP, {PLANS.get(place, 'no such')} plan, {rims}"
+            own = plan["devices"].get(rims, {}).get("margin") or others.get(name)
+            cells.append(_interval(own) if own else "-")
+        rows.append([_width(plan), *cells])
+    plan = _plan(parts)
+    return (
+        "Collapse margins (90 %); rims of 2 W from [study_rims.md](study_rims.md).\n\n"
+        + table(["plan", "best LIR-DCFP", *(f"DCFP, {rims}" for rims in RIMS)], rows)
+        + "\n\nWhat the strength of the rims gives the DCFP, it takes from what stands on it: of the "
+        f"DCFP of {_width(plan)} with rims that never break the median floor acceleration that "
+        f"exceeds 1 g begins at {plan['devices'][RIMS[0]]['limits'][FLOOR]['median'][0]:.2f} m/s2, of "
+        f"the LIR-DCFP at {plan['devices']['LIR-DCFP']['limits'][FLOOR]['median'][0]:.2f} m/s2."
+    )
+
+
+def _robust(parts: Parts) -> str:
+    words = []
+    for limit in (DRIFT, "ductility 4", FLOOR, COLLAPSE):
+        ratios = [ratio for _, found in comparisons(parts) if (ratio := found.get(limit))]
+        better = sum(low > 1.0 for _, low, *_rest in ratios)
+        worse = sum(high < 1.0 for _, _low, high, *_rest in ratios)
+        words.append(
+            f"- **{limit}**: {min(r[0] for r in ratios):.2f} to {max(r[0] for r in ratios):.2f} in "
+            f"{len(ratios)} comparisons; better in {better}, worse in {worse}, not told apart in "
+            f"{len(ratios) - better - worse}"
+        )
+    rows = [row for each in parts["motions"]["seconds"].values() for row in each["LIR-DCFP"]]
+    plains = [
+        row for each in parts["motions"]["seconds"].values() for row in each[f"DCFP, {PLAIN}"]
+    ]
+    counts = [
+        f"{name} {sum(r['collapsed'] for r in own)} of {sum(r['known'] for r in own)}"
+        for name, own in (("LIR-DCFP", rows), ("DCFP", plains))
+    ]
+    shares = parts["uncertainty"]["shares"]
+    record = [f"{shares[key]['total']['record'][0]:.2f}" for key in ("LIR-DCFP", "DCFP")]
+    return (
+        "\n".join(words)
+        + f"\n\n**A second shock** collapses, of the buildings that survived the first: "
+        f"{'; '.join(counts)} ([study_motions.md](study_motions.md)). **Properties**: of the variance "
+        f"of ductility the record explains {record[0]} (LIR-DCFP) and {record[1]} (DCFP) in total; of "
+        "the properties friction of dishes and interface matter most to the LIR-DCFP, while the "
+        "stiffness of rims decides where they break at a given deformation "
+        "([study_uncertainty.md](study_uncertainty.md))."
+    )
+
+
+def _after(parts: Parts) -> str:
+    ends, stop = parts["after"]["ratios"]["storey drift 4 %"]
+    return (
+        "A bearing that has failed is collapse only if nothing carries its load. With a flat stop "
+        "below ([study_after.md](study_after.md)) a hinge reaches a ductility of 9, of the runs in "
+        f"which bearings fail, in {_carried(parts)}: no median of collapse is left to compare. The "
+        f"median of a storey drift of 4 % on the LIR-DCFP over that on the DCFP with {PLAIN} is "
+        f"{_interval(stop)} then, and {_interval(ends)} where the failure counts as collapse. Other "
+        "definitions of collapse: [study_buildings.md](study_buildings.md)."
+    )
+
+
+def _loss(parts: Parts) -> str:
+    found = parts["loss"]
+    rows = []
+    for site, devices in found["loss"]["annual"].items():
+        own = devices[EQUAL]
+        cells = [
+            _interval(devices[name]["ratio"])
+            for name in (f"DCFP, {RIMS[0]}", f"DCFP, {PLAIN}", f"DCFP, {RIMS[3]}")
+        ]
+        rows.append([site, f"{100.0 * own['loss'][0]:.2f}", *cells])
+    head = ["hazard", "LIR-DCFP, % of a new building a year"]
+    head += [f"over DCFP, {rims}" for rims in (RIMS[0], RIMS[2], RIMS[3])]
+    return (
+        "FEMA P-58 components, hazards of three sites as they are, and moved so that the earthquake "
+        "of 2,475 years fills the bearings ([study_loss.md](study_loss.md), with sources, rates of "
+        "drift, floor acceleration and collapse, spectral shape, floor spectra and published "
+        "results). Annual loss of the LIR-DCFP over that of a DCFP (90 %), below 1 it is better:\n\n"
+        + table(head, rows)
+        + "\n\nMost of the repair of frames on DCFPs is that of the connections of beams, whose costs "
+        f"are of heavier frames; without it the ratios are {_without(found)}."
+    )
+
+
+def _without(found: Mapping[str, Any]) -> str:
+    # Ranges of the same ratios without the connections of beams, by the DCFP's rims.
+    words = []
+    for rims in (RIMS[0], RIMS[2], RIMS[3]):
+        ratios = [each[f"DCFP, {rims}"]["ratio"][0] for each in found["without"].values()]
+        words.append(f"{min(ratios):.2f} to {max(ratios):.2f} ({rims})")
+    return ", ".join(words)
+
+
+def _cost(parts: Parts) -> str:
+    rows = []
+    for plan in parts["device"]["plans"]:
+        costs = {
+            name: sum(each["cost"].values())
+            for name, each in plan["devices"].items()
+            if each["cost"]
+        }
+        own = costs["LIR-DCFP"]
+        rows.append(
+            [_width(plan), f"{own:,.0f}"]
+            + [f"{own / costs[rims]:.2f}" for rims in (RIMS[0], RIMS[2], RIMS[3])]
+        )
+    head = ["plan", "LIR-DCFP", *(f"over DCFP, {rims}" for rims in (RIMS[0], RIMS[2], RIMS[3]))]
+    return (
+        "Nine bearings in kilograms of machined steel, by prices that are assumed; each is varied by "
+        f"half in [study_device.md](study_device.md#cost). {_equal_cost(parts)}\n\n"
+        + table(head, rows)
+        + "\n\n![Margin over cost](figures/study_device-cost.png)\n\n"
+        "Figure 3. Collapse margin over cost."
+    )
+
+
+def _discussion(parts: Parts) -> str:
+    energies = _plan(parts)["devices"]["LIR-DCFP"]["energies"]
+    slip, rims = 1e3 * energies["slip"], 1e3 * energies["rims"]
+    return (
+        "**Why.** Up to its rims the LIR-DCFP is a DCFP. From there its interface takes "
+        f"(D / L + mu_h) W over the slip of the smallest slider, {slip:.0f} mm of W in the example; "
+        f"rims of 1 W take {rims:.0f} mm of W over 20 mm, and pass on the frame what they bear: its "
+        "yielding takes the rest, until it has no more. So the LIR-DCFP keeps drift, ductility and "
+        "floor acceleration low up to its end, which is sudden; the DCFP lets the frame yield and "
+        "ends later, the later the stronger its rims.\n\n"
+        "**For a designer.** Give all sliders one radius, that of the most loaded; raise mu_h until "
+        "the resultant stands on the slider's edge at the full slip; provide a stop that carries "
+        "after the last millimetre of slip. Choose the LIR-DCFP where contents and a frame that "
+        "stays in use count, or where rims cannot be relied on for a force of the order of W; choose "
+        "a DCFP of a larger plan where there is room, and one with strong rims where collapse alone "
+        "counts and frame and connections bear several g."
+    )
+
+
+def _limits() -> str:
+    return (
+        "Bearings are those of this program's level `pendulum`; hinges do not degrade; one friction "
+        "of the surfaces and one period; plates, bolts and columns bear what the rims pass on; prices "
+        "are assumed; no maker's data of rims; the far-field set is scaled without a target spectrum "
+        "(what that does: [study_loss.md](study_loss.md#spectral-shape)). Each part lists its own. "
+        "No text of Auad, Castaldo and Almazan (2022) with numbers could be read, so that nothing "
+        "is compared with them."
+    )
+
+
+def _repeat(parts: Parts) -> str:
+    rows = []
+    for name, part in parts.items():
+        if name == "device":
+            runs = sum(each["runs"] for each in part["costs"])
+            seconds = sum(each["seconds"] for each in part["costs"])
+            digests = [each["digest"] for each in part["costs"]]
+        else:
+            cost = part["cost"]
+            runs, seconds = cost["runs"], part.get("loop", cost.get("loop", cost.get("cpu")))
+            own = cost.get("digests") or [cost["digest"]]
+            digests = list(own.values()) if isinstance(own, dict) else own
+        more = f" and {len(digests) - 1} more" if len(digests) > 1 else ""
+        rows.append([name, str(runs), f"{seconds:.0f}", f"`{digests[0][:16]}`{more}"])
+    head = ["part", "histories", "time loops [s]", "digest of the results database"]
+    return (
+        "`python -m validation.study --store runs` runs all parts, on one machine overnight; "
+        "`--workers tcp://host:port` on a Dask cluster. Numbers are in `study_<part>.json`, tables "
+        "as CSV in [tables/](tables/). For a building of your own: `lir campaign` with `[compare]` "
+        "([campaigns](../campaigns.md#devices-compared)). The building that yields takes 27 s of "
+        "processor time for 88 histories, 23,000 an hour on two cores; before its time loop was "
+        "shortened it took 35 s, 18,000 an hour (both on one machine, in turns). 14 medians of the "
+        "part `after` were recomputed from its results database by scipy alone, to six digits.\n\n"
+        + table(head, rows)
+    )
+
+
+def write(parts: Parts, folder: Path = FOLDER) -> None:
+    """Write the page and its figure."""
+    figure_of(parts).savefig(folder / "figures" / FIGURE, dpi=DPI, metadata={"Software": None})
+    (folder / f"{NAME}.md").write_text(page(parts), encoding="utf-8")
+    print(f"written to {folder}")
+
+
+def main(given: Sequence[str] | None = None) -> None:
+    """Write the page from the numbers of the parts; options of the parts mean nothing here."""
+    del given
+    write(parts_of())
+
+
+if __name__ == "__main__":
+    main()
