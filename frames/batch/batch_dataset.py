@@ -121,7 +121,25 @@ def stack(
     coordinates["unit"] = ("quantity", list(units.values()))
     labels = _union(row.layout.labels for row in _unlike(rows))
     histories, more = _of_histories(rows)
+    variables = _as_recorded(variables, labels, more)
     return xr.Dataset(variables | histories, coordinates | labels | more)
+
+
+def _as_recorded(
+    variables: Mapping[str, xr.Variable],
+    labels: Mapping[str, Sequence[str]],
+    recorded: Mapping[str, Any],
+) -> dict[str, xr.Variable]:
+    # What was reached, of the bearings, nodes and so on that are recorded, as in a single history.
+    kept = {
+        dim: [list(labels[dim]).index(str(name)) for name in recorded[dim]]
+        for dim in labels
+        if dim in recorded and list(recorded[dim]) != list(labels[dim])
+    }
+    return {
+        name: variable.isel({dim: kept[dim] for dim in variable.dims if dim in kept})
+        for name, variable in variables.items()
+    }
 
 
 def _texts(values: Iterable[str]) -> Any:

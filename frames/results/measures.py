@@ -137,7 +137,7 @@ def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
     >>> floor_acceleration(data).sel(axis="x").dims
     ('time', 'level')
     """
-    require_recorded(data, "means over levels", "node_acceleration")
+    require_recorded(data, "means over levels", "node_acceleration", "level_node", "node_mass")
     require_whole_levels(data, "means over levels")
     place, shares = data["level_node"].to_numpy(), floor_shares(data)
     moves = data["node_acceleration"].sel(dof=["ux", "uy", "uz"]).transpose("time", "node", "dof")

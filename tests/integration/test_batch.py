@@ -17,6 +17,7 @@ from frames import (
     GroundMotion,
     ModelWarning,
     Recording,
+    floor_acceleration,
     load,
     lumped_mass,
     moment_frame,
@@ -206,6 +207,26 @@ def test_histories_are_stacked(building: Frame, motions: dict[str, GroundMotion]
         assert np.isnan(own.isel(time=slice(one.sizes["time"], None))).all()
     ended = many["reached_until"]
     assert float(ended.min()) < float(ended.max())  # one stops early, and is filled up
+
+
+def test_histories_of_some_levels_and_bearings(
+    building: Frame, motions: dict[str, GroundMotion]
+) -> None:
+    """Of what is not recorded nothing is kept, as in a single history; peaks are of all."""
+    recording = Recording(levels=("base",), bearings=tuple(building.bearings)[:1])
+    motion = motions["near"]
+    many = quietly(time_histories, building, motion, record=recording, scales=[0.4, 0.5])
+    whole = quietly(time_histories, building, motion, scales=[0.4, 0.5])
+    one = quietly(time_history, building, motion.scaled(0.5), recording=recording)
+    assert many["node"].to_numpy().tolist() == one["node"].to_numpy().tolist()
+    for name in ("node_displacement", "axial_force", "reached_displacement", "reached_node_plan"):
+        np.testing.assert_array_equal(many[name].isel(run=1), one[name])
+    there = [name for name in whole["quantity"].to_numpy() if name not in TIMED]
+    np.testing.assert_array_equal(
+        many["peak"].sel(quantity=there), whole["peak"].sel(quantity=there)
+    )
+    with pytest.raises(ValueError, match=r"no level_node.*time_history"):
+        floor_acceleration(many.isel(run=0))
 
 
 def test_histories_on_other_grids_have_steps(
