@@ -362,7 +362,7 @@ def _repeat(parts: Parts) -> str:
     return (
         "`python -m validation.study --store runs` runs all parts, on one machine overnight; "
         "`--workers tcp://host:port` on a Dask cluster. Numbers are in `study_<part>.json`, tables "
-        "as CSV in [tables/](tables/). For a building of your own: `lir campaign` with `[compare]` "
+        "as CSV in `docs/validation/tables/`. For a building of your own: `lir campaign` with `[compare]` "
         "([campaigns](../campaigns.md#devices-compared)). The building that yields takes 27 s of "
         "processor time for 88 histories, 23,000 an hour on two cores; before its time loop was "
         "shortened it took 35 s, 18,000 an hour (both on one machine, in turns). 14 medians of the "
