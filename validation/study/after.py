@@ -8,16 +8,10 @@ The campaign can be stopped; the same command goes on with its store. Needs the 
 
 from __future__ import annotations
 
-import json
-import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from frames.design import MotionSet
 from frames.plots import plot_style as ps
-from frames.risk import open_campaign
-from frames.risk.fragility.resampling import RESAMPLES
-from validation.page import DPI, FOLDER, table
+from validation.page import table
 from validation.study.after_runs import (
     DEVICES,
     DROPS,
@@ -28,8 +22,8 @@ from validation.study.after_runs import (
     campaign,
     found_of,
 )
-from validation.study.records import options_of, performed
-from validation.study.records_runs import INTENSITY, SCALES, normalised
+from validation.study.far_field import RECORDS, run_part, write_part
+from validation.study.records_runs import INTENSITY, SCALES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -39,7 +33,6 @@ if TYPE_CHECKING:
     Found = Mapping[str, Any]
 
 NAME = "study_after"
-RECORDS = "far-field"
 FIGURE = f"{NAME}-collapse.png"
 
 
@@ -241,26 +234,14 @@ def figure_of(found: Found) -> Figure:
     return figure
 
 
-def write(found: Found, folder: Path = FOLDER) -> None:
+def write(found: Found) -> None:
     """Write the page, its figure and the numbers."""
-    figure_of(found).savefig(folder / "figures" / FIGURE, dpi=DPI, metadata={"Software": None})
-    (folder / f"{NAME}.md").write_text(page(found), encoding="utf-8")
-    (folder / f"{NAME}.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
-    print(f"written to {folder}")
+    write_part(NAME, page(found), {FIGURE: figure_of(found)}, found)
 
 
 def main(given: Sequence[str] | None = None) -> None:
     """Run the campaign, and write the page."""
-    options = options_of("after", given)
-    if options.again:
-        write(json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8")))
-        return
-    motions = normalised(MotionSet.fema_p695(RECORDS))
-    with tempfile.TemporaryDirectory() as folder:
-        store = options.store or Path(folder, "runs")
-        cost = performed(campaign(motions, store), options.workers)
-        data = open_campaign(store).results()
-        write(found_of(data, motions, RESAMPLES) | {"cost": cost, "records": len(motions)})
+    run_part("after", given, campaign, found_of, write)
 
 
 if __name__ == "__main__":
