@@ -166,6 +166,26 @@ def test_the_slider_is_the_least_that_keeps_the_checks() -> None:
     assert not theirs.passed
 
 
+def test_a_margin_of_the_slip_makes_sliders_and_interface_larger() -> None:
+    """By hand: the slip times the margin, mu_h of it; the rims stay where they are."""
+    target = replace(ONE, rim_share=0.75, least_pressure=3e6)
+    plain = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=target).chosen
+    wide = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=replace(target, slip_margin=2.0)).chosen
+    t = wide.trace
+    assert t.value("s") == pytest.approx(2.0 * 0.25 * t.value("D"), rel=1e-12)
+    length = 4.0 - wide.bearings[0].slider_height
+    surfaces = BOUNDS.friction.upper * 0.05 * 4.0 / length
+    holds = (surfaces + t.value("s") / length) / BOUNDS.interface_factors.lower
+    needed = max(holds, ONE.limits.margin * surfaces / BOUNDS.interface_factors.lower)
+    friction = wide.bearings[0].interface_friction
+    assert needed <= friction < needed + ONE.friction_step
+    assert friction > plain.bearings[0].interface_friction
+    assert wide.bearings[0].slider_radius > plain.bearings[0].slider_radius
+    assert wide.bearings[0].slider_radius >= t.value("s")
+    with pytest.raises(CheckError, match="slip_margin"):
+        replace(ONE, slip_margin=0.5)
+
+
 def test_the_three_devices_share_radius_friction_and_slider() -> None:
     found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=ONE)
     lir, plain, free = (

@@ -34,6 +34,7 @@ class Target(Table):
     radii: tuple[Length, ...] | None = None
     frictions: tuple[Ratio, ...] | None = None
     rim_share: Ratio | None = None
+    slip_margin: Ratio | None = None
     pressure: Pressure | None = None
     largest_pressure: Pressure | None = None
     least_pressure: Pressure | None = None

@@ -232,7 +232,11 @@ def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget) -> N
         t("U_cap", "m_r * max(D, D_held)", "m", shown="mm", source=source)
         t("r", "U_cap / D", note="share of D at which the rims are met")
     if t.value("r") < 1.0:
-        t("s", "D - U_cap", "m", shown="mm", note="left to the interface")
+        formula = "D - U_cap"
+        if target.slip_margin != 1.0:
+            t.given("m_s", target.slip_margin, note="margin of the slip")
+            formula = "m_s * (D - U_cap)"
+        t("s", formula, "m", shown="mm", note="left to the interface")
     else:
         t.given("r_s", target.slip_reserve, note="reserve, rims not being met")
         t("s", "r_s * D", "m", shown="mm", note="reserve of the interface")

@@ -47,6 +47,10 @@ class DesignTarget:
     slip_reserve : float
         What the interface must be able to slip where rims are not met, over the displacement that
         bearings must allow [-]: for an earthquake that is stronger.
+    slip_margin : float
+        What the interface must be able to slip where rims are met, over what they leave to it [-],
+        at least 1: sliders and friction of the interface are for that slip, so that bearings are
+        farther from failing under motions beyond those of the design.
     pressure : float
         Mean pressure on a slider under the average combination [Pa].
     largest_pressure : float
@@ -89,6 +93,7 @@ class DesignTarget:
     rim_share: float | None = None
     free_margin: float = 1.05
     slip_reserve: float = 0.10
+    slip_margin: float = 1.0
     pressure: float = 30e6
     largest_pressure: float = 60e6
     least_pressure: float = LEAST_PRESSURE
@@ -118,6 +123,7 @@ class DesignTarget:
             require_between("rim_share", share, 0.0, 2.0, "-", error=CheckError)
         require_between("free_margin", self.free_margin, 1.0, 2.0, "-", error=CheckError)
         require_between("slip_reserve", self.slip_reserve, 0.0, 1.0, "-", error=CheckError)
+        require_between("slip_margin", self.slip_margin, 1.0, 10.0, "-", error=CheckError)
         for name in (
             "slip_reserve",
             "pressure",
