@@ -233,7 +233,7 @@ def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget) -> N
         t("r", "U_cap / D", note="share of D at which the rims are met")
     if t.value("r") < 1.0:
         formula = "D - U_cap"
-        if target.slip_margin != 1.0:
+        if target.slip_margin > 1.0:
             t.given("m_s", target.slip_margin, note="margin of the slip")
             formula = "m_s * (D - U_cap)"
         t("s", formula, "m", shown="mm", note="left to the interface")
