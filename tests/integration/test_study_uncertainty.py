@@ -10,7 +10,7 @@ import pytest
 from frames.risk import sobol_indices
 from validation.page import FOLDER
 from validation.study import uncertainty
-from validation.study.pairs import BY_LOAD, UNBREAKABLE, device
+from validation.study.pairs import BY_LOAD, OURS, UNBREAKABLE, device
 from validation.study.uncertainty_numbers import effects_of, shares_of
 from validation.study.uncertainty_page import KINDS, page, shares_of_kind
 from validation.study.uncertainty_runs import (
@@ -19,6 +19,7 @@ from validation.study.uncertainty_runs import (
     RECORD,
     SAMPLES,
     SPREADS,
+    best,
     best_frames,
     changed,
     elastic_frames,
@@ -47,6 +48,11 @@ def test_properties_of_a_set_are_those_of_its_bearings():
         rim_stiffness=options["rim_stiffness"],
         friction=replace(link.bearing.frictions[0]),
     )
+    equal, same = best(each).bearings, device(OURS).bearings
+    for name, one in equal.items():
+        factor = one.bearing.interface_friction / same[name].bearing.interface_friction
+        assert factor == pytest.approx(each["interface"])
+    assert len({one.bearing.slider_radius for one in equal.values()}) == 1
     numbers = [record_of(one, 22) for one in sets]
     assert set(numbers) == set(range(22))
 
