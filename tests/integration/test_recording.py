@@ -446,7 +446,7 @@ def peak_memory(duration: float, recording: Recording) -> float:
     model, motion, _ = SCENES["uplift"]
     gc.collect()  # so that what Python looks for at some time is not looked for within one of them
     tracemalloc.start()
-    time_history(model, motion, dt=1e-4, duration=duration, recording=recording)
+    time_history(model, motion, dt=2e-4, duration=duration, recording=recording)
     _, most = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     return most
@@ -458,7 +458,7 @@ def test_memory_is_what_is_recorded(monkeypatch):
     short, long = (peak_memory(length, Recording.peaks()) for length in (1.0, 2.0))
     assert long < 1.05 * short + 1e5  # twice the steps
     assert short < 0.25 * everything
-    tenth = peak_memory(2.0, Recording(every=100))
+    tenth = peak_memory(2.0, Recording(every=50))
     assert tenth < long + 1.5e6  # 200 steps of 0.7 kB, and the parts they are put together from
 
 
