@@ -174,7 +174,7 @@ def _indices(found: Found) -> str:
     return (
         f"Sobol' indices of {SAMPLES} samples (Saltelli et al. 2010), the record as one property more: "
         f"{SAMPLES * (len(SPREADS) + 2)} sets, each run on both devices. Intervals of 90 % are from "
-        "resampled samples; with so few of them first indices are known to two tenths or so, and may come out below 0. "
+        "resampled samples; first indices may come out below 0. "
         f"Logarithm of the ductility: {told}. Share of runs that count as collapse: {collapsed}.\n\n"
         + table(head, rows)
     )
@@ -263,6 +263,7 @@ def _bars(found: Found) -> Figure:
     (panels,) = ps.grid_of(figure, 1, 3, share_y=True)
     keys = [key for key in SPREADS if key != RECORD]
     places = np.arange(len(keys))[::-1]
+    farthest = 1.1 * max(found["shares"][n]["total"][key][2] for n in WHAT for key in keys)
     for panel, (name, text) in zip(panels, WHAT.items(), strict=True):
         values = np.array([found["shares"][name]["total"][key] for key in keys])
         ends = np.abs(values[:, 1:] - values[:, :1]).T
@@ -270,7 +271,7 @@ def _bars(found: Found) -> Figure:
         panel.errorbar(
             values[:, 0], places, xerr=ends, fmt="none", ecolor="black", elinewidth=0.9, capsize=2.0
         )
-        panel.set_xlim(0.0, 1.1)
+        panel.set_xlim(0.0, farthest)
         ps.caption(panel, title=text, x="total index [-]")
     panels[0].set_yticks(places, keys)
     return figure
