@@ -12,9 +12,13 @@ from validation.study.rims import NAME, OURS, PLAINS, page
 from validation.study.rims_runs import ENDLESS, KINDS, LIMITS, MORE, devices
 
 
-def test_devices_are_of_equal_plan_and_load():
+@pytest.fixture(scope="module")
+def every():
+    return devices()
+
+
+def test_devices_are_of_equal_plan_and_load(every):
     """Under each place all devices of a plan need one dish, and refer to one load."""
-    every = devices()
     assert len(every) == len(KINDS) == len({kind.name for kind in KINDS})
     for wider in (False, True):
         own = [every[kind.name].bearings for kind in (*PLAINS[wider], *OURS[wider])]
@@ -32,8 +36,8 @@ def test_devices_are_of_equal_plan_and_load():
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
-def test_rims_are_as_strong_as_they_are_called(kind):
-    for link in devices()[kind.name].bearings.values():
+def test_rims_are_as_strong_as_they_are_called(every, kind):
+    for link in every[kind.name].bearings.values():
         bearing, options = link.bearing, link.bearing.resolved()
         assert bearing.is_dcfp is kind.plain
         if kind.strength is None:
@@ -42,7 +46,7 @@ def test_rims_are_as_strong_as_they_are_called(kind):
         else:
             assert bearing.rim_yield_force == kind.strength * options["design_load"]
         if kind.wider and not kind.plain:
-            other = devices()[OURS[False][0].name].bearings
+            other = every[OURS[False][0].name].bearings
             sliders = {round(each.bearing.slider_radius, 6) for each in other.values()}
             assert round(bearing.slider_radius - MORE * kind.wider_sliders, 6) in sliders
 
