@@ -8,6 +8,7 @@ The campaign can be stopped; the same command goes on with its store. Needs the 
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from frames.plots import plot_style as ps
@@ -22,8 +23,10 @@ from validation.study.after_runs import (
     campaign,
     found_of,
 )
-from validation.study.far_field import RECORDS, run_part, write_part
+from validation.study.far_field import RECORDS, far_field
+from validation.study.part import run_part, write_part
 from validation.study.records_runs import INTENSITY, SCALES
+from validation.study.rounded import with_interval
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -103,7 +106,7 @@ def _verdict(found: Found) -> str:
 
 
 def _margin(value: Sequence[float] | None) -> str:
-    return "not reached" if value is None else "{:.2f} ({:.2f} to {:.2f})".format(*value)
+    return "not reached" if value is None else with_interval(value)
 
 
 def _ahead(found: Found, place: int) -> str:
@@ -112,7 +115,7 @@ def _ahead(found: Found, place: int) -> str:
     for limit in LIMITS:
         ratio = found["ratios"][limit.name][place]
         if ratio is not None:
-            words.append(f"{limit.name} {ratio[0]:.2f} ({ratio[1]:.2f} to {ratio[2]:.2f})")
+            words.append(f"{limit.name} {with_interval(ratio)}")
     return f"Median of the LIR-DCFP over that of the DCFP: {'; '.join(words)}."
 
 
@@ -241,7 +244,7 @@ def write(found: Found) -> None:
 
 def main(given: Sequence[str] | None = None) -> None:
     """Run the campaign, and write the page."""
-    run_part("after", given, campaign, found_of, write)
+    run_part("after", given, partial(far_field, campaign, found_of), write)
 
 
 if __name__ == "__main__":

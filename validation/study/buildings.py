@@ -8,14 +8,10 @@ The campaigns can be stopped; the same command goes on with their stores. Needs 
 
 from __future__ import annotations
 
-import json
-import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from frames.design import MotionSet
 from validation.measurements.yielding_runs import LIR
-from validation.page import FOLDER
 from validation.study.buildings_figures import figures
 from validation.study.buildings_numbers import facts_of, halved, numbers_of
 from validation.study.buildings_page import NAME, csv_tables, page
@@ -33,21 +29,21 @@ from validation.study.paired import (
     performed_each,
     table_of,
     told_of,
-    write_part,
 )
-from validation.study.records import options_of
+from validation.study.part import run_part, write_part
 from validation.study.records_runs import considered, normalised
 from validation.study.rounded import rounded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+    from pathlib import Path
 
     Found = Mapping[str, Any]
 
 RECORDS = "far-field"
 
 
-def found_of(store: Path, workers: int) -> dict[str, Any]:
+def found_of(store: Path, workers: int | str) -> dict[str, Any]:
     """Run what is not done, and return what the page says of it."""
     motions = normalised(MotionSet.fema_p695(RECORDS))
     found: dict[str, Any] = {"records": len(motions), "considered": considered(), "buildings": {}}
@@ -71,18 +67,12 @@ def found_of(store: Path, workers: int) -> dict[str, Any]:
 
 def write(found: Found) -> None:
     """Write the page, its figures, its tables and the numbers."""
-    write_part(NAME, page(found), figures(found), csv_tables(found), found)
+    write_part(NAME, page(found), figures(found), found, csv_tables(found))
 
 
 def main(given: Sequence[str] | None = None) -> None:
     """Run the campaigns, and write the page."""
-    options = options_of("buildings", given)
-    if options.again:
-        write(json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8")))
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        store = options.store or Path(folder, "runs")
-        write(rounded(found_of(store, options.workers)))
+    run_part("buildings", given, lambda store, workers: rounded(found_of(store, workers)), write)
 
 
 if __name__ == "__main__":

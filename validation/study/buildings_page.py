@@ -28,11 +28,11 @@ from validation.study.paired import (
     OTHERS,
     as_csv,
     cost_line,
-    of_three,
     told_lir,
 )
 from validation.study.records_figures import SHOWN
 from validation.study.records_runs import COLLAPSE, INTENSITY, STEP, ULTIMATE
+from validation.study.rounded import with_interval
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -199,10 +199,10 @@ def _medians(found: Found) -> str:
             for limit in LIMITS:
                 each = own["limits"][limit.name]
                 median = each["medians"][device]
-                cells.append(of_three(median) if median else _why(each["why"][device]))
+                cells.append(with_interval(median) if median else _why(each["why"][device]))
             collapse = own["limits"][COLLAPSE.name]["medians"][device]
             margin = [value / found["considered"] for value in collapse] if collapse else None
-            rows.append([name, device, *cells, of_three(margin)])
+            rows.append([name, device, *cells, with_interval(margin)])
     head = [
         "building",
         "device",
@@ -226,7 +226,7 @@ def _ratios(found: Found) -> str:
         [
             name,
             other,
-            *(of_three(own["limits"][limit.name]["ratios"][other]) for limit in LIMITS),
+            *(with_interval(own["limits"][limit.name]["ratios"][other]) for limit in LIMITS),
         ]
         for name, own in found["buildings"].items()
         for other in OTHERS
@@ -281,7 +281,7 @@ def _definitions(found: Found) -> str:
             [
                 each.name,
                 *(
-                    of_three(own["definitions"][each.name]["ratios"][other])
+                    with_interval(own["definitions"][each.name]["ratios"][other])
                     for own in found["buildings"].values()
                 ),
             ]

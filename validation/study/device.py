@@ -9,10 +9,8 @@ extras "campaign", "fema" and "fragility".
 from __future__ import annotations
 
 import datetime
-import json
 import os
 import platform
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +20,6 @@ from frames.design import MotionSet
 from frames.risk.fragility.resampling import RESAMPLES
 from validation.measurements.benchmark import processor
 from validation.measurements.yielding_runs import LIR, WIDE
-from validation.page import DPI, FOLDER
 from validation.study import device_search
 from validation.study.device_figures import figures
 from validation.study.device_numbers import (
@@ -48,9 +45,9 @@ from validation.study.device_runs import (
     soft_device,
     varied_devices,
 )
-from validation.study.records import options_of, performed
+from validation.study.part import performed, run_part, write_part
 from validation.study.records_runs import COLLAPSE, considered, normalised, runs_of
-from validation.study.rounded import rounded, written
+from validation.study.rounded import csv_of, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -241,15 +238,11 @@ def table_rows(found: Found) -> list[dict[str, Any]]:
     return rows
 
 
-def write(found: Found, folder: Path = FOLDER) -> None:
+def write(found: Found) -> None:
     """Write the page, its figures, tables and the numbers."""
-    for name, figure in figures(found).items():
-        figure.savefig(folder / "figures" / name, dpi=DPI, metadata={"Software": None})
-    (folder / f"{NAME}.md").write_text(page(found), encoding="utf-8")
-    (folder / f"{NAME}.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
-    for name, rows in (("devices", table_rows(found)), ("search", _flat(found["search"]))):
-        written(rows, folder / "tables" / f"{NAME}-{name}.csv")
-    print(f"written to {folder}")
+    tables = {"devices": table_rows(found), "search": _flat(found["search"])}
+    texts = {f"{NAME}-{name}.csv": csv_of(rows) for name, rows in tables.items()}
+    write_part(NAME, page(found), figures(found), found, texts)
 
 
 def _flat(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
@@ -266,15 +259,16 @@ def _flat(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
     ]
 
 
+def run(store: Path, workers: int | str) -> dict[str, Any]:
+    """Run what is not done under the records, and return what the page says of it."""
+    motions = normalised(MotionSet.fema_p695(RECORDS))
+    found: dict[str, Any] = rounded(study(motions, store, workers), DIGITS)
+    return found
+
+
 def main(given: Sequence[str] | None = None) -> None:
     """Run the campaigns, and write the page."""
-    options = options_of("device", given)
-    if options.again:
-        write(json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8")))
-        return
-    motions = normalised(MotionSet.fema_p695(RECORDS))
-    with tempfile.TemporaryDirectory() as folder:
-        write(rounded(study(motions, options.store or Path(folder), options.workers), DIGITS))
+    run_part("device", given, run, write)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from validation.study.loss_runs import FLOOR_PERIODS, LIMITS, STRUCTURE
 from validation.study.pairs import BY_LOAD, NAMES, OTHERS, OURS
 from validation.study.published import published
 from validation.study.records_runs import INTENSITY
+from validation.study.rounded import with_interval
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -64,12 +65,6 @@ def page(found: Found) -> str:
     )
 
 
-def words(values: list[float], digits: int = 2, factor: float = 1.0) -> str:
-    """Return a value with its interval."""
-    one, low, high = (f"{factor * v:.{digits}f}" for v in values)
-    return f"{one} ({low} to {high})"
-
-
 def told(ratio: list[float]) -> str:
     """Return on which side of 1 an interval lies."""
     return ABOVE if ratio[1] > 1.0 else BELOW if ratio[2] < 1.0 else NEITHER
@@ -95,7 +90,8 @@ def _verdict(found: Found) -> str:
     lines = []
     for key, each in found["loss"]["annual"].items():
         words_ = [
-            f"{name}: {words(each[name]['ratio'])}, {told(each[name]['ratio'])}" for name in OTHERS
+            f"{name}: {with_interval(each[name]['ratio'])}, {told(each[name]['ratio'])}"
+            for name in OTHERS
         ]
         lines.append(f"- **Annual loss, {key}**: {OURS}, over {'; '.join(words_)}.")
     sides = [told(each[name]["ratio"]) for each in found["without"].values() for name in OTHERS[1:]]
@@ -103,7 +99,7 @@ def _verdict(found: Found) -> str:
         f"- **Without repair of the connections of beams** ({STRUCTURE}, of which most of the DCFPs' "
         f"repair is made): annual loss of {OURS}, {_counted(sides)}; "
         + "; ".join(
-            f"{key}: {words(each[OTHERS[1]]['ratio'])} of {OTHERS[1]}"
+            f"{key}: {with_interval(each[OTHERS[1]]['ratio'])} of {OTHERS[1]}"
             for key, each in found["without"].items()
         )
         + "."
@@ -119,7 +115,7 @@ def _verdict(found: Found) -> str:
         lines.append(f"- **Rate of {limit.name}**: that of {OURS}, is {_counted(sides)}.")
     lines.append(
         f"- **Collapse at the spectral shape of a code**: margin of {OURS}, over that of "
-        + "; ".join(f"{name}: {words(found['shape']['ratios'][name])}" for name in OTHERS)
+        + "; ".join(f"{name}: {with_interval(found['shape']['ratios'][name])}" for name in OTHERS)
         + "."
     )
     return "\n".join(lines)
@@ -139,7 +135,7 @@ def _losses(found: Found) -> str:
             curve = loss["curves"][name]
             three = [100.0 * curve[key][k] for key in ("mean", "low", "high")]
             down = 100.0 * curve["parts"]["collapse"][k]
-            cells.append(f"{words(three, 1)}; {down:.0f}")
+            cells.append(f"{with_interval(three, 1)}; {down:.0f}")
         rows.append([f"{im:g}", *cells])
     unknown = sum(each["unknown"] for each in found["statuses"].values())
     return (
@@ -216,9 +212,9 @@ def _rates(found: Found) -> str:
             cells = []
             for limit in LIMITS:
                 row = found["rates"][key][limit.name].get(name)
-                cells.append("-" if row is None else words(row["rate"], 2, 1e4))
+                cells.append("-" if row is None else with_interval(row["rate"], 2, 1e4))
             own = found["loss"]["annual"][key][name]
-            rows.append([key, name, *cells, words(own["loss"], 2, 1e2)])
+            rows.append([key, name, *cells, with_interval(own["loss"], 2, 1e2)])
     head = [
         "hazard",
         "device",
@@ -236,11 +232,11 @@ def _shape(found: Found) -> str:
         rows.append(
             [
                 name,
-                words(line["slope"]),
+                with_interval(line["slope"]),
                 f"{line['alone']:.2f}, {line['dispersion']:.2f}",
-                words(line["margin"]),
-                words(line["corrected"]),
-                "-" if name == OURS else words(shape["ratios"][name]),
+                with_interval(line["margin"]),
+                with_interval(line["corrected"]),
+                "-" if name == OURS else with_interval(shape["ratios"][name]),
             ]
         )
     head = [
@@ -266,7 +262,8 @@ def _shape(found: Found) -> str:
 def _efficiency(found: Found) -> str:
     efficiency = found["shape"]["efficiency"]
     rows = [
-        [measure, *(words(each[name]) for name in NAMES)] for measure, each in efficiency.items()
+        [measure, *(with_interval(each[name]) for name in NAMES)]
+        for measure, each in efficiency.items()
     ]
     best = min(efficiency, key=lambda m: float(np.mean([row[0] for row in efficiency[m].values()])))
     return (

@@ -9,15 +9,12 @@ with records of three components.
 
 from __future__ import annotations
 
-import json
 import os
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from frames.design import MotionSet
 from validation.measurements.yielding_runs import LIR
-from validation.page import FOLDER
 from validation.study.buildings_numbers import RESAMPLES
 from validation.study.buildings_runs import BUILDINGS, SCALES, building, yield_rotations
 from validation.study.device_runs import best_devices
@@ -47,9 +44,8 @@ from validation.study.paired import (
     performed_each,
     table_of,
     told_of,
-    write_part,
 )
-from validation.study.records import options_of
+from validation.study.part import run_part, write_part
 from validation.study.records_runs import considered, normalised
 from validation.study.rounded import rounded
 
@@ -135,22 +131,22 @@ def found_of(runner: Runner, folder: Path) -> dict[str, Any]:
 
 def write(found: Found) -> None:
     """Write the page, its figures, its tables and the numbers."""
-    write_part(NAME, page(found), figures(found), csv_tables(found), found)
+    write_part(NAME, page(found), figures(found), found, csv_tables(found))
 
 
-def main(given: Sequence[str] | None = None) -> None:
-    """Run the campaigns, and write the page."""
-    options = options_of("motions", given)
-    if options.again:
-        write(json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8")))
-        return
+def run(store: Path, workers: int | str) -> dict[str, Any]:
+    """Run what is not done; records of three components are where LIR_RECORDS says."""
     records = os.environ.get("LIR_RECORDS")
     if not records:
         msg = "LIR_RECORDS names no folder: set it to one with records of three components"
         raise SystemExit(msg)
-    with tempfile.TemporaryDirectory() as folder:
-        runner = Runner(options.store or Path(folder, "runs"), options.workers)
-        write(rounded(found_of(runner, Path(records))))
+    found: dict[str, Any] = rounded(found_of(Runner(store, workers), Path(records)))
+    return found
+
+
+def main(given: Sequence[str] | None = None) -> None:
+    """Run the campaigns, and write the page."""
+    run_part("motions", given, run, write)
 
 
 if __name__ == "__main__":

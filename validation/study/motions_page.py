@@ -25,10 +25,10 @@ from validation.study.paired import (
     WEAK,
     as_csv,
     cost_line,
-    of_three,
     told_lir,
 )
 from validation.study.records_runs import COLLAPSE, INTENSITY
+from validation.study.rounded import with_interval
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -159,7 +159,7 @@ def _verdict_vertical(found: Found) -> str:
         words.append(f"{name} {more} runs more and {less} less of {total}")
     ratios = found["vertical"]["ratios"]
     both = " and ".join(
-        f"{of_three(ratios[kind])} {word} it"
+        f"{with_interval(ratios[kind])} {word} it"
         for kind, word in (("flat", "without"), ("whole", "with"))
         if ratios[kind]
     )
@@ -199,8 +199,8 @@ def _angles(found: Found) -> str:
                 f"{sum(row[2] for row in own['shares'][name])}"
                 for name in TRIED
             ]
-            medians = [of_three(own["medians"][name]) for name in TRIED]
-            rows.append([limit.name, angle, *medians, *failed, of_three(own["ratio"])])
+            medians = [with_interval(own["medians"][name]) for name in TRIED]
+            rows.append([limit.name, angle, *medians, *failed, with_interval(own["ratio"])])
     runs = sum(row[3] + row[4] for row in own["shares"][LIR])
     head = [
         "limit state",
@@ -300,8 +300,8 @@ def _vertical(found: Found) -> str:
         *(text for text, _, _ in QUANTITIES.values()),
     ]
     medians = "; ".join(
-        f"{name} {of_three(each['medians'][0])} without, {of_three(each['medians'][1])} with, ratio "
-        f"{of_three(each['ratio'])}"
+        f"{name} {with_interval(each['medians'][0])} without, {with_interval(each['medians'][1])} with, ratio "
+        f"{with_interval(each['ratio'])}"
         for name, each in own["devices"].items()
     )
     ratios = ", ".join(f"{ratio:.2f}" for _, ratio in three.values())

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,12 +24,12 @@ from frames.risk import (
 from frames.risk.fragility.runs import FAILURE, UNKNOWN
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import LIR
-from validation.page import DPI, FOLDER
 from validation.study.device_runs import Device, best_devices, reach_of
 from validation.study.device_runs import bearing_of as best_of
-from validation.study.records import performed
-from validation.study.records_runs import COLLAPSE, STEP
-from validation.study.rims_runs import MORE, Kind, bearing_of
+from validation.study.pairs import KINDS, UNBREAKABLE
+from validation.study.part import performed
+from validation.study.records_runs import COLLAPSE, STEP, ductilities_of
+from validation.study.rims_runs import MORE, bearing_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -38,7 +37,6 @@ if TYPE_CHECKING:
 
     import pandas as pd
     import xarray as xr
-    from matplotlib.figure import Figure
 
     from frames import Frame, GroundMotion
     from frames.risk.fragility.curve import CollapseFragility, Fragility
@@ -46,8 +44,8 @@ if TYPE_CHECKING:
 
     Curve = Fragility | CollapseFragility
 
-WEAK, STRONG = "DCFP, rims of 1 W", "DCFP, rims that never break"
-PLAIN = {WEAK: Kind(True, True, 0.0, 0.0, 1.0), STRONG: Kind(True, True, 0.0, 0.0, None)}
+WEAK, STRONG = "DCFP, rims of 1 W", UNBREAKABLE
+PLAIN = {name: KINDS[name] for name in (WEAK, STRONG)}
 OTHERS = tuple(PLAIN)
 DEVICES = (LIR, *OTHERS)
 LIMITS = (
@@ -172,32 +170,14 @@ def joined(costs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     return total | {"digests": digests} | last
 
 
-def ductilities(data: xr.Dataset, at_yield: Mapping[str, float]) -> Any:
-    """Return the largest ductility of rotation of each run, (runs,).
-
-    Parameters
-    ----------
-    data : Dataset
-        Of a campaign.
-    at_yield : mapping of str to float
-        Rotation at which each member yields [rad].
-
-    Returns
-    -------
-    ndarray, shape (runs,)
-        1 where no hinge yields.
-    """
-    members = [str(name).split(":")[0] for name in data["hinge"].to_numpy()]
-    limits = np.array([at_yield[name] for name in members])
-    return 1.0 + (data["reached_hinge_rotation"].to_numpy() / limits).max(axis=1)
-
-
 def table_of(
     data: xr.Dataset, motions: Mapping[str, GroundMotion], at_yield: Mapping[str, float]
 ) -> IntensityRuns:
     """Return the runs of a building with their ductility; intensities are factors."""
     found = IntensityRuns.from_dataset(data, dict(motions), FACTOR)
-    table = found.table.assign(ductility=ductilities(data, at_yield))
+    table = found.table.assign(
+        ductility=ductilities_of(data, lambda hinge: at_yield[hinge.split(":")[0]])
+    )
     return IntensityRuns(table, FACTOR, {**found.units, "ductility": "1"})
 
 
@@ -260,11 +240,6 @@ def statuses_of(table: pd.DataFrame) -> dict[str, int]:
     return {str(name): int(count) for name, count in table["status"].value_counts().items()}
 
 
-def of_three(value: Sequence[float] | None) -> str:
-    """Return a value with its interval as text; a dash where there is none."""
-    return "-" if value is None else "{:.2f} ({:.2f} to {:.2f})".format(*value)
-
-
 def cost_line(cost: Mapping[str, Any]) -> str:
     """Return what campaigns cost, in a sentence, with the digests of their stores."""
     digests = ", ".join(f"`{digest[:16]}`" for digest in cost["digests"])
@@ -282,36 +257,3 @@ def as_csv(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     writer.writerow(head)
     writer.writerows(rows)
     return text.getvalue()
-
-
-def write_part(
-    name: str,
-    page: str,
-    figures: Mapping[str, Figure],
-    tables: Mapping[str, str],
-    found: Mapping[str, Any],
-    folder: Path = FOLDER,
-) -> None:
-    """Write a part's page, its figures and tables by their names, and its numbers.
-
-    Parameters
-    ----------
-    name : str
-        Of the page and of the numbers, without ending.
-    page : str
-        The page.
-    figures, tables : mapping of str to Figure, of str to str
-        By the names of their files.
-    found : mapping
-        The numbers.
-    folder : Path
-        Where pages are.
-    """
-    for file, figure in figures.items():
-        figure.savefig(folder / "figures" / file, dpi=DPI, metadata={"Software": None})
-    (folder / "tables").mkdir(exist_ok=True)
-    for file, text in tables.items():
-        (folder / "tables" / file).write_text(text, encoding="utf-8")
-    (folder / f"{name}.md").write_text(page, encoding="utf-8")
-    (folder / f"{name}.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
-    print(f"written to {folder}")

@@ -39,7 +39,7 @@ from validation.measurements.yielding_runs import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     import xarray as xr
@@ -137,12 +137,29 @@ def yield_rotations() -> dict[str, float]:
     return structures()[STRUCTURE].yield_rotations()
 
 
-def ductilities(data: xr.Dataset) -> Any:
-    """Return the largest ductility of rotation of each run, (runs,): 1 where no hinge yields."""
-    kinds = [str(name).split("-")[0] for name in data["hinge"].to_numpy()]
-    at_yield = yield_rotations()
-    limits = np.array([at_yield[kind] for kind in kinds])
+def ductilities_of(data: xr.Dataset, at_yield: Callable[[str], float]) -> Any:
+    """Return the largest ductility of rotation of each run, (runs,): 1 where no hinge yields.
+
+    Parameters
+    ----------
+    data : Dataset
+        Of a campaign.
+    at_yield : callable
+        Gives the rotation at which a hinge yields [rad], by its name.
+
+    Returns
+    -------
+    ndarray, shape (runs,)
+        Ductilities.
+    """
+    limits = np.array([at_yield(str(name)) for name in data["hinge"].to_numpy()])
     return 1.0 + (data["reached_hinge_rotation"].to_numpy() / limits).max(axis=1)
+
+
+def ductilities(data: xr.Dataset) -> Any:
+    """Return the same of the study's building, whose columns and beams yield alike."""
+    at_yield = yield_rotations()
+    return ductilities_of(data, lambda hinge: at_yield[hinge.split("-")[0]])
 
 
 def runs_of(data: xr.Dataset, motions: Mapping[str, GroundMotion], device: str) -> IntensityRuns:

@@ -8,11 +8,13 @@ The campaign can be stopped; the same command goes on with its store. Needs the 
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from frames.plots import plot_style as ps
 from validation.page import table
-from validation.study.far_field import RECORDS, run_part, write_part
+from validation.study.far_field import RECORDS, far_field
+from validation.study.part import run_part, write_part
 from validation.study.records_runs import COLLAPSE, INTENSITY
 from validation.study.rims_runs import BREAKS, KINDS, LIMITS, Kind, campaign, found_of
 
@@ -228,7 +230,7 @@ def write(found: Found) -> None:
 
 def main(given: Sequence[str] | None = None) -> None:
     """Run the campaign, and write the page."""
-    run_part("rims", given, campaign, found_of, write)
+    run_part("rims", given, partial(far_field, campaign, found_of), write)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ import pandas as pd
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
-    from pathlib import Path
 
 DIGITS = 5
 
@@ -24,8 +23,15 @@ def rounded(value: Any, digits: int = DIGITS) -> Any:
     return value
 
 
-def written(rows: Sequence[Mapping[str, Any]], file: Path) -> None:
-    """Write rows as a CSV file, numbers rounded."""
-    file.parent.mkdir(exist_ok=True)
+def csv_of(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Return rows as CSV, numbers rounded."""
     frame = pd.DataFrame([rounded(dict(row)) for row in rows])
-    frame.to_csv(file, index=False, lineterminator="\n")
+    return str(frame.to_csv(index=False, lineterminator="\n"))
+
+
+def with_interval(values: Sequence[float] | None, digits: int = 2, factor: float = 1.0) -> str:
+    """Return a value with its interval as text; a dash where there is none."""
+    if values is None:
+        return "-"
+    one, low, high = (f"{factor * v:.{digits}f}" for v in values[:3])
+    return f"{one} ({low} to {high})"

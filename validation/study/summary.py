@@ -10,9 +10,11 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from validation.page import DPI, FOLDER, table
+from validation.page import FOLDER, table
 from validation.study.device_cost_page import equal_ratios
 from validation.study.pairs import OURS as EQUAL
+from validation.study.part import write_part
+from validation.study.rounded import with_interval
 from validation.study.summary_figure import PLAIN, comparisons, figure_of
 from validation.study.uncertainty_runs import MEANINGS
 
@@ -84,10 +86,6 @@ def page(parts: Parts) -> str:
     )
 
 
-def _interval(values: Sequence[float]) -> str:
-    return "{:.2f} ({:.2f} to {:.2f})".format(*values[:3])
-
-
 def _plan(parts: Parts, place: int = REFERENCE) -> Mapping[str, Any]:
     return dict(parts["device"]["plans"][place])
 
@@ -105,7 +103,7 @@ def _abstract(parts: Parts) -> str:
         if rims in plan["devices"]
     ]
     verdicts = [
-        f"{limit} {_interval(pair[limit])}" for limit in (DRIFT, "ductility 4", FLOOR, COLLAPSE)
+        f"{limit} {with_interval(pair[limit])}" for limit in (DRIFT, "ductility 4", FLOOR, COLLAPSE)
     ]
     after = parts["after"]["ratios"]["storey drift 4 %"]
     return (
@@ -115,11 +113,11 @@ def _abstract(parts: Parts) -> str:
         "rims yield and break at a stated force. The LIR-DCFP is searched for at each plan: all "
         "sliders as wide as the widest, for the smallest ends the slip of all, and an interface as "
         f"strong as its resultant allows. In dishes of {_width(plan)} its collapse margin is "
-        f"{_interval(ours['margin'])}, those of DCFPs {', '.join(plains)}. Medians of intensity over "
+        f"{with_interval(ours['margin'])}, those of DCFPs {', '.join(plains)}. Medians of intensity over "
         f"those of the DCFP with {PLAIN}: {'; '.join(verdicts)}. "
         f"{_plans_words(parts)} Collapse counts the failure of a bearing; where a stop carries on "
         f"after it, a frame collapses in {_carried(parts)} of these runs, and the median of a storey "
-        f"drift of 4 % is {_interval(after[1])} times that of the DCFP, {_interval(after[0])} without. "
+        f"drift of 4 % is {with_interval(after[1])} times that of the DCFP, {with_interval(after[0])} without. "
         f"{_equal_cost(parts)}"
     )
 
@@ -199,11 +197,11 @@ def _margins(parts: Parts) -> str:
     rows = []
     others = parts["rims"]["margins"]
     for place, plan in enumerate(parts["device"]["plans"]):
-        cells = [_interval(plan["devices"]["LIR-DCFP"]["margin"])]
+        cells = [with_interval(plan["devices"]["LIR-DCFP"]["margin"])]
         for rims in RIMS:
             name = f"DCFP, {PLANS.get(place, 'no such')} plan, {rims}"
             own = plan["devices"].get(rims, {}).get("margin") or others.get(name)
-            cells.append(_interval(own) if own else "-")
+            cells.append(with_interval(own) if own else "-")
         rows.append([_width(plan), *cells])
     plan = _plan(parts)
     return (
@@ -260,7 +258,7 @@ def _after(parts: Parts) -> str:
         "below ([study_after.md](study_after.md)) a hinge reaches a ductility of 9, of the runs in "
         f"which bearings fail, in {_carried(parts)}: no median of collapse is left to compare. The "
         f"median of a storey drift of 4 % on the LIR-DCFP over that on the DCFP with {PLAIN} is "
-        f"{_interval(stop)} then, and {_interval(ends)} where the failure counts as collapse. Other "
+        f"{with_interval(stop)} then, and {with_interval(ends)} where the failure counts as collapse. Other "
         "definitions of collapse: [study_buildings.md](study_buildings.md)."
     )
 
@@ -271,7 +269,7 @@ def _loss(parts: Parts) -> str:
     for site, devices in found["loss"]["annual"].items():
         own = devices[EQUAL]
         cells = [
-            _interval(devices[name]["ratio"])
+            with_interval(devices[name]["ratio"])
             for name in (f"DCFP, {RIMS[0]}", f"DCFP, {PLAIN}", f"DCFP, {RIMS[3]}")
         ]
         rows.append([site, f"{100.0 * own['loss'][0]:.2f}", *cells])
@@ -377,11 +375,9 @@ def _repeat(parts: Parts) -> str:
     )
 
 
-def write(parts: Parts, folder: Path = FOLDER) -> None:
+def write(parts: Parts) -> None:
     """Write the page and its figure."""
-    figure_of(parts).savefig(folder / "figures" / FIGURE, dpi=DPI, metadata={"Software": None})
-    (folder / f"{NAME}.md").write_text(page(parts), encoding="utf-8")
-    print(f"written to {folder}")
+    write_part(NAME, page(parts), {FIGURE: figure_of(parts)})
 
 
 def main(given: Sequence[str] | None = None) -> None:

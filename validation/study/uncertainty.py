@@ -9,19 +9,15 @@ The campaigns can be stopped; the same command goes on with its store. Needs the
 from __future__ import annotations
 
 import hashlib
-import json
-import tempfile
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from frames.design import MotionSet
 from frames.risk import open_campaign
-from validation.page import DPI, FOLDER
-from validation.study.records import options_of, performed
+from validation.study.part import performed, run_part, write_part
 from validation.study.records_runs import ULTIMATE, normalised
-from validation.study.rounded import rounded, written
+from validation.study.rounded import csv_of, rounded
 from validation.study.uncertainty_numbers import (
     effects_of,
     shares_of,
@@ -40,6 +36,7 @@ from validation.study.uncertainty_runs import (
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+    from pathlib import Path
 
     from frames import GroundMotion
 
@@ -50,7 +47,7 @@ RIMS = {"stiffness": stiffness_campaign, "elastic": elastic_campaign, "best": be
 """Campaigns over the stiffness of rims, by the folders of their stores."""
 
 
-def study(motions: Mapping[str, GroundMotion], store: Path, workers: int) -> dict[str, Any]:
+def study(motions: Mapping[str, GroundMotion], store: Path, workers: int | str) -> dict[str, Any]:
     """Run the campaigns, and return what the page says of them."""
     sets, results, costs = sets_of(), [], []
     (store / "sample").mkdir(parents=True, exist_ok=True)
@@ -83,12 +80,8 @@ def study(motions: Mapping[str, GroundMotion], store: Path, workers: int) -> dic
     }
 
 
-def write(found: Mapping[str, Any], folder: Path = FOLDER) -> None:
+def write(found: Mapping[str, Any]) -> None:
     """Write the page, its figures, tables and the numbers."""
-    for name, figure in figures(found).items():
-        figure.savefig(folder / "figures" / name, dpi=DPI, metadata={"Software": None})
-    (folder / f"{NAME}.md").write_text(page(found), encoding="utf-8")
-    (folder / f"{NAME}.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
     rows = [
         {"result": text, "index": kind, "property": key}
         | dict(zip(("value [-]", "low", "high"), values, strict=True))
@@ -96,25 +89,25 @@ def write(found: Mapping[str, Any], folder: Path = FOLDER) -> None:
         for kind in ("first", "total")
         for key, values in found["shares"][name][kind].items()
     ]
-    written(rows, folder / "tables" / f"{NAME}-indices.csv")
     margins = [
         dict(zip(("device", "stiffness over default [-]"), key.split("|"), strict=True))
         | dict(zip(("collapse margin [-]", "low", "high"), values, strict=True))
         for key, values in found["stiffness"]["margins"].items()
     ]
-    written(margins, folder / "tables" / f"{NAME}-margins.csv")
-    print(f"written to {folder}")
+    tables = {f"{NAME}-indices.csv": csv_of(rows), f"{NAME}-margins.csv": csv_of(margins)}
+    write_part(NAME, page(found), figures(found), found, tables)
+
+
+def run(store: Path, workers: int | str) -> dict[str, Any]:
+    """Run what is not done under the records, and return what the page says of it."""
+    motions = normalised(MotionSet.fema_p695(RECORDS))
+    found: dict[str, Any] = rounded(study(motions, store, workers))
+    return found
 
 
 def main(given: Sequence[str] | None = None) -> None:
     """Run the campaigns, and write the page."""
-    options = options_of("uncertainty", given)
-    if options.again:
-        write(json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8")))
-        return
-    motions = normalised(MotionSet.fema_p695(RECORDS))
-    with tempfile.TemporaryDirectory() as folder:
-        write(rounded(study(motions, options.store or Path(folder), options.workers)))
+    run_part("uncertainty", given, run, write)
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import numpy as np
 
 from frames.plots import plot_style as ps
 from validation.page import table
+from validation.study.rounded import with_interval
 from validation.study.uncertainty_runs import (
     BEST,
     BREAKING,
@@ -85,12 +86,6 @@ def page(found: Found) -> str:
     )
 
 
-def words(values: list[float], digits: int = 2, factor: float = 1.0) -> str:
-    """Return a value with its interval."""
-    one, low, high = (f"{factor * v:.{digits}f}" for v in values)
-    return f"{one} ({low} to {high})"
-
-
 def _introduction(found: Found) -> str:
     rows = [[key, MEANINGS[key], RANGES[key]] for key in SPREADS]
     return (
@@ -117,10 +112,10 @@ def _verdict(found: Found) -> str:
         own = found["shares"][name]
         first, second = _leading(found, name)[:2]
         lines.append(
-            f"- **{text}**: the record explains {words(own['first'][RECORD])} of the variance alone "
-            f"and {words(own['total'][RECORD])} with all that it does together with others; of the "
-            f"properties {first} ({words(own['total'][first])} in total) and {second} "
-            f"({words(own['total'][second])}) matter most."
+            f"- **{text}**: the record explains {with_interval(own['first'][RECORD])} of the variance alone "
+            f"and {with_interval(own['total'][RECORD])} with all that it does together with others; of the "
+            f"properties {first} ({with_interval(own['total'][first])} in total) and {second} "
+            f"({with_interval(own['total'][second])}) matter most."
         )
     ratios = found["stiffness"]["ratios"]
     below = [name for name, r in ratios.items() if r[2] < 1.0]
@@ -158,7 +153,7 @@ def _indices(found: Found) -> str:
         cells = []
         for name in WHAT:
             own = found["shares"][name]
-            cells += [words(own["first"][key]), words(own["total"][key])]
+            cells += [with_interval(own["first"][key]), with_interval(own["total"][key])]
         rows.append([key, *cells])
     head = [
         "property",
@@ -182,7 +177,13 @@ def _indices(found: Found) -> str:
 
 def _effects(found: Found) -> str:
     rows = [
-        [key, *(words([100.0 * math.expm1(v) for v in found["effects"][n][key]], 0) for n in WHAT)]
+        [
+            key,
+            *(
+                with_interval([100.0 * math.expm1(v) for v in found["effects"][n][key]], 0)
+                for n in WHAT
+            ),
+        ]
         for key in SPREADS
         if key != RECORD
     ]
@@ -210,8 +211,8 @@ def _margins(found: Found) -> str:
                 [
                     text,
                     f"{share:g}",
-                    words(stiff["margins"][key]),
-                    "-" if ratio is None else words(ratio),
+                    with_interval(stiff["margins"][key]),
+                    "-" if ratio is None else with_interval(ratio),
                     failed,
                     down,
                 ]

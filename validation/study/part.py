@@ -1,0 +1,165 @@
+"""What all parts of the study share: their options, running a campaign, writing page and numbers."""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import json
+import os
+import platform
+import resource
+import tempfile
+import warnings
+from contextlib import contextmanager
+from pathlib import Path
+from time import perf_counter, process_time
+from typing import TYPE_CHECKING, Any
+
+from frames import ModelWarning
+from lir_element.errors import AnalysisWarning
+from validation.measurements.benchmark import processor
+from validation.page import DPI, FOLDER
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator, Mapping, Sequence
+
+    from matplotlib.figure import Figure
+
+    from frames.risk import Campaign
+
+    Found = Mapping[str, Any]
+
+
+@contextmanager
+def quietly() -> Generator[None, None, None]:
+    """Leave out warnings: what is doubtful of a run or a model is in the tables."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AnalysisWarning)
+        warnings.simplefilter("ignore", ModelWarning)
+        yield
+
+
+def performed(runs: Campaign, workers: int | str) -> dict[str, Any]:
+    """Run what is not done, and return what it cost, with the results database's digest.
+
+    Parameters
+    ----------
+    runs : Campaign
+        The campaign.
+    workers : int or str
+        Runs at a time, here; or the address of a Dask scheduler, whose workers' processor time is
+        not counted.
+
+    Returns
+    -------
+    dict
+        Runs, seconds, memory [MB], digest, date and machine.
+    """
+    before = runs.store.status().done if runs.store.exists else 0
+    clock, cpu = perf_counter(), process_time()
+    with quietly():
+        workers = _run(runs, workers)
+    status = runs.status()
+    return {
+        "runs": status.done,
+        "computed": status.done - before,
+        "workers": workers,
+        "clock": perf_counter() - clock,
+        "cpu": process_time() - cpu,
+        "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
+        "digest": runs.digest(),
+        "date": f"{datetime.date.today():%Y-%m-%d}",
+        "machine": f"{processor()}, {os.cpu_count()} cores, Python {platform.python_version()}",
+    }
+
+
+def _run(runs: Campaign, workers: int | str) -> int:
+    # Returns how many workers it had.
+    if isinstance(workers, int):
+        runs.run(workers=workers, progress=True)
+        return workers
+    from distributed import Client
+
+    with Client(workers) as client:
+        runs.run(client=client, progress=True)
+        return len(client.ncores())
+
+
+def workers_of(text: str) -> int | str:
+    """Return a number of workers, or the address of a Dask scheduler, of an option."""
+    return int(text) if text.isdecimal() else text
+
+
+def options_of(name: str, given: Sequence[str] | None) -> argparse.Namespace:
+    """Return the options of a study's command: store, workers, again."""
+    parser = argparse.ArgumentParser(prog=f"python -m validation.study.{name}")
+    parser.add_argument("--store", type=Path, help="a folder for the runs, kept")
+    parser.add_argument(
+        "--workers",
+        type=workers_of,
+        default=1,
+        help="runs at a time, or the address of a Dask scheduler",
+    )
+    parser.add_argument(
+        "--again", action="store_true", help="run nothing: write the page from its JSON"
+    )
+    return parser.parse_args(given)
+
+
+def run_part(
+    part: str,
+    given: Sequence[str] | None,
+    found_of: Callable[[Path, int | str], Found],
+    write: Callable[[Found], None],
+) -> None:
+    """Run a part, or go on with it, and write its page; with ``--again`` from the numbers kept.
+
+    Parameters
+    ----------
+    part : str
+        Its name, as in ``python -m validation.study.<part>``.
+    given : sequence of str or None
+        Options; None: those of the command.
+    found_of : callable
+        Runs what is not done, in a folder and with workers, and returns plain numbers.
+    write : callable
+        Writes what was found.
+    """
+    options = options_of(part, given)
+    if options.again:
+        write(json.loads((FOLDER / f"study_{part}.json").read_text(encoding="utf-8")))
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        write(found_of(options.store or Path(folder, "runs"), options.workers))
+
+
+def write_part(
+    name: str,
+    page: str,
+    figures: Mapping[str, Figure],
+    found: Found | None = None,
+    tables: Mapping[str, str] | None = None,
+) -> None:
+    """Write a part's page, its figures and tables by their names, and its numbers.
+
+    Parameters
+    ----------
+    name : str
+        Of the page and of the numbers, without ending.
+    page : str
+        The page.
+    figures : mapping of str to Figure
+        By the names of their files.
+    found : mapping, optional
+        The numbers; a page of other parts' numbers has none.
+    tables : mapping of str to str, optional
+        CSV by the names of their files.
+    """
+    for file, figure in figures.items():
+        figure.savefig(FOLDER / "figures" / file, dpi=DPI, metadata={"Software": None})
+    for file, text in (tables or {}).items():
+        (FOLDER / "tables" / file).write_text(text, encoding="utf-8")
+    (FOLDER / f"{name}.md").write_text(page, encoding="utf-8")
+    if found is not None:
+        (FOLDER / f"{name}.json").write_text(json.dumps(found) + "\n", encoding="utf-8")
+    print(f"written to {FOLDER}")
