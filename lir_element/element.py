@@ -13,7 +13,7 @@ from lir_element.device.features import Features, apply
 from lir_element.device.friction import least_coefficients
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.kernels import levels
-from lir_element.kernels.pendulum.trial import SNAPS, has_no_state, last_slip
+from lir_element.kernels.pendulum.trial import has_no_state, is_about_to_snap, last_slip
 from lir_element.layout import HEAT_PARTS, STATE, STATE_BY_NAME, WORK, Floats, Records
 
 if TYPE_CHECKING:
@@ -275,9 +275,8 @@ def limit_detail(props: Records, state: Records, index: int) -> str:
         limit = float(props["slip_capacity"][index])
         return f"slip {slip:.4g} m, slip_capacity {limit:.4g} m"
     if status is RunStatus.UPLIFT_EXCEEDED:
-        opening = float(props["length"][index] - state["string"][index])
         limit = float(props["uplift_capacity"][index])
-        return f"opening {opening:.4g} m, uplift_capacity {limit:.4g} m"
+        return f"opening {opening_of(props, state, index):.4g} m, uplift_capacity {limit:.4g} m"
     if status is RunStatus.RIM_OVERRUN:
         way = float(props["flange"][index])
         if way > 0.0:
@@ -304,11 +303,16 @@ def about_to_snap(props: Records, state: Records) -> tuple[int, str] | None:
     int, str, or None
         Its index, and slip and limit in words.
     """
-    slips = np.hypot(state["slip"][:, 0], state["slip"][:, 1])
-    held = np.array([last_slip(p, at) for p, at in zip(props, state, strict=True)])
-    for k in np.flatnonzero(slips > SNAPS * held):
-        return int(k), f"slip {slips[k]:.4g} m, no equilibrium beyond {held[k]:.4g} m"
+    for k, (p, at) in enumerate(zip(props, state, strict=True)):
+        if is_about_to_snap(p, at):
+            slip, held = float(np.hypot(*at["slip"])), last_slip(p, at)
+            return k, f"slip {slip:.4g} m, no equilibrium beyond {held:.4g} m"
     return None
+
+
+def opening_of(props: Records, state: Records, index: int) -> float:
+    """Return how far the contact of a bearing is open in a state, negative while it presses [m]."""
+    return float(props["length"][index] - state["string"][index])
 
 
 def _twelve(name: str, value: ArrayLike) -> Floats:

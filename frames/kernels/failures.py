@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from frames._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.backup import give_up
-from lir_element.kernels.pendulum.trial import SNAPS, copy_words, last_slip
+from lir_element.kernels.pendulum.trial import copy_words, is_about_to_snap
 
 if TYPE_CHECKING:
     from lir_element.layout import Records, Words
@@ -24,18 +24,16 @@ def ends_run(props: Records, new: Records) -> int:
 
     It ends by a bearing without a backup, and when no bearing is left and no stop below one.
     """
-    carries = False
+    first, carries = -1, False
     for k in range(props.shape[0]):
-        if new[k].status != _OK and not props[k].goes_on:
+        fails = new[k].status != _OK
+        if fails and not props[k].goes_on:
             return k
-        fails = new[k].status != _OK or new[k].failed != 0
-        carries = carries or not fails or props[k].backup_drop < math.inf
-    if carries:
-        return -1
-    for k in range(props.shape[0]):
-        if new[k].status != _OK:
-            return k
-    return -1
+        if fails and first < 0:
+            first = k
+        stands = not fails and new[k].failed == 0
+        carries = carries or stands or props[k].backup_drop < math.inf
+    return -1 if carries else first
 
 
 @kernel
@@ -51,10 +49,7 @@ def lose_bearing(
         found, code = at, cause
     else:
         for k in range(props.shape[0]):
-            if props[k].fused or old[k].failed != 0:
-                continue
-            slip = math.sqrt(old[k].slip[0] ** 2 + old[k].slip[1] ** 2)
-            if slip > SNAPS * last_slip(props[k], old[k]):
+            if is_about_to_snap(props[k], old[k]):
                 found = k
                 break
     if found < 0 or not props[found].goes_on or old[found].failed != 0:

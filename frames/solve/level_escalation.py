@@ -76,7 +76,7 @@ def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) ->
     """
     last, time = ends[-1]
     others = [
-        k for k, (status, _) in enumerate(ends[:-1]) if _completes(status) != _completes(last)
+        k for k, (status, _) in enumerate(ends[:-1]) if status.is_complete != last.is_complete
     ]
     if not others:
         return
@@ -89,12 +89,8 @@ def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) ->
     data.attrs["auto_runs"] += f"\n{line}"
 
 
-def _completes(status: RunStatus) -> bool:
-    return status.is_complete
-
-
 def _ended(status: RunStatus, time: float) -> str:
-    how = "completed" if _completes(status) else f"stopped ({status.name.lower()})"
+    how = "completed" if status.is_complete else f"stopped ({status.name.lower()})"
     return f"{how} at t = {time:.4g} s"
 
 

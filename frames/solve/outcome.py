@@ -9,7 +9,7 @@ import numpy as np
 from frames.results.assumption_checks import audit_report
 from frames.results.peak_response import largest
 from lir_element.argument_checks import listed
-from lir_element.element import about_to_snap, limit_detail
+from lir_element.element import about_to_snap, limit_detail, opening_of
 from lir_element.errors import RunStatus
 
 if TYPE_CHECKING:
@@ -159,10 +159,6 @@ def _lost(state: GravityState) -> tuple[int, str] | None:
     return int(order[0]), text
 
 
-def _opening(state: GravityState, k: int) -> float:
-    return float(state.model.props["length"][k] - state.run.new["string"][k])
-
-
 def _exceeded(state: GravityState, status: RunStatus) -> dict[str, object]:
     # What a bearing reached at the step that its limit ended: that step is in no history.
     k, run = int(state.run.counts["bearing"][0]), state.run
@@ -171,7 +167,7 @@ def _exceeded(state: GravityState, status: RunStatus) -> dict[str, object]:
     values = {
         RunStatus.SLIP_EXCEEDED: ("slip", np.hypot(*run.new["slip"][k])),
         RunStatus.RIM_OVERRUN: ("rim_force", run.new["rim_force"][k].max()),
-        RunStatus.UPLIFT_EXCEEDED: ("gap", _opening(state, k)),
+        RunStatus.UPLIFT_EXCEEDED: ("gap", opening_of(state.model.props, run.new, k)),
     }
     if status not in values:
         return {}

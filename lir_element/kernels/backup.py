@@ -87,8 +87,8 @@ def backup_trial(
     f[6], f[7], f[8] = mu * push * z_1, mu * push * z_2, -push
     for a in range(3):
         f[a] = -f[6 + a]
-        w.moment[a] = arm_of(p, u, a)
-    add_moment(w.moment, f)
+    x, y, z = arm_of(p, u, 0), arm_of(p, u, 1), arm_of(p, u, 2)
+    f[3], f[4], f[5] = -(y * f[8] - z * f[7]), -(z * f[6] - x * f[8]), -(x * f[7] - y * f[6])
     rows = w.half  # derivative of the force on node j by the way of j from i
     rows[0, 0], rows[0, 1], rows[1, 0] = mu * push * h_11, mu * push * h_12, mu * push * h_21
     rows[1, 1], rows[2, 0], rows[2, 1] = mu * push * h_22, 0.0, 0.0
@@ -103,15 +103,6 @@ def arm_of(p: Props, u: Floats, axis: int) -> float:
     """Return where node j is from node i along an axis."""
     height = p.lever[0] + p.lever[1] - p.length if axis == 2 else 0.0
     return float(u[6 + axis] - u[axis] + height)
-
-
-@kernel
-def add_moment(arm: Floats, force: Floats) -> None:
-    """Set the moment on node i that balances the force on node j: ``-arm x f``."""
-    x, y, z = arm[0], arm[1], arm[2]
-    force[3] = -(y * force[8] - z * force[7])
-    force[4] = -(z * force[6] - x * force[8])
-    force[5] = -(x * force[7] - y * force[6])
 
 
 @kernel

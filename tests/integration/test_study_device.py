@@ -38,7 +38,7 @@ from validation.study.device_runs import (
 from validation.study.records_runs import COLLAPSE, considered
 from validation.study.rims_runs import KINDS, MORE
 from validation.study.rims_runs import devices as rims_devices
-from validation.study.rounded import written
+from validation.study.rounded import csv_of
 
 
 def bearings_on(one):
@@ -332,14 +332,11 @@ def test_the_device_that_other_parts_take_is_that_of_the_page(stored):
     assert taken.strength == found["strength"]
 
 
-def test_the_table_of_devices_is_that_of_the_page(stored, tmp_path):
+def test_the_table_of_devices_is_that_of_the_page(stored):
     rows = device.table_rows(stored)
     assert len(rows) == len(COMPARED) * (1 + len(OTHERS))
-    written(rows, tmp_path / "devices.csv")
     kept = FOLDER / "tables" / f"{device_page.NAME}-devices.csv"
-    assert kept.read_text(encoding="utf-8") == (tmp_path / "devices.csv").read_text(
-        encoding="utf-8"
-    )
+    assert kept.read_text(encoding="utf-8") == csv_of(rows)
     table = pd.read_csv(kept)
     assert table["plan [m]"].nunique() == len(COMPARED)
     assert table.filter(like="failed bearing").le(1.0).all(axis=None)

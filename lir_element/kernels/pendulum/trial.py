@@ -38,7 +38,7 @@ _SLIP_UNSTABLE = int(RunStatus.SLIP_UNSTABLE)
 _UPLIFT_EXCEEDED = int(RunStatus.UPLIFT_EXCEEDED)
 _NEAR_END = 0.9  # of the last slip: a search that fails from beyond it has met it (a choice)
 _BEYOND_END = 1.001  # of it: what is found further on lies on the far side; 0.1 % for the estimate
-SNAPS = 0.97
+_SNAPS = 0.97
 """Of the slip beyond which there is no equilibrium: nearer to it a search that fails has met it."""
 _STARTS = (0.9, 0.5, 1.0, 0.75)  # by trial: none of 19,200 random trials near rims stayed unsolved
 SMALLEST_COSINE = 0.3  # of the tilt: beyond 72 degrees there is no bearing left
@@ -208,6 +208,13 @@ def last_slip(p: Props, at: State) -> float:
     """
     mu = at.friction_coefficient
     return at.string * p.interface_friction + p.radius[0] * mu[0] + p.radius[1] * mu[1]
+
+
+@kernel
+def is_about_to_snap(p: Props, at: State) -> bool:
+    """Return whether the slip of a committed state is next to the one at which equilibrium ends."""
+    limit = _SNAPS * last_slip(p, at)
+    return bool(at.failed == 0 and at.slip[0] ** 2 + at.slip[1] ** 2 > limit**2)
 
 
 @kernel
