@@ -186,11 +186,13 @@ app.command()(view)
 
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
-    from frames.design.histories.demand_table import headed, void_said
+    from frames.design.histories.demand_table import headed
+    from frames.design.histories.failed_runs import failed_runs
 
     _frame_table("Demands", headed(found.demands))
-    if void := void_said(found.demands):
-        say(f"no values for design, only what runs reached: {void}")
+    if failures := failed_runs(found.runs, found.rules, found.moved):
+        out.print("\n[bold]Runs that failed[/]: their largest values are no values for design")
+        _say_each(map(str, failures))
     if found.moved:
         every = [data for each in found.moved.values() for data in each.values()]
         seconds = float(every[0].attrs["seconds"])  # of all of them: one batch
@@ -292,10 +294,10 @@ def _checks(title: str, checks: Checks) -> None:
     out.print(f"\n[bold]{title}[/]: {checks.tally}", soft_wrap=True)
     width = max((len(each.verdict) for each in checks), default=0)
     for each in checks:
-        style = {"ok": "green", "FAILS": "red"}.get(each.verdict, "yellow")
+        style = {"ok": "green", "FAILS": "red", "no value": "red"}.get(each.verdict, "yellow")
         out.print(f"[{style}]{each.verdict:{width}}[/] ", end="")
         star = each.cited.removeprefix(each.clause)
-        say(f"{each.statement} [{each.clause}]{star}")
+        say(f"{each.brief} [{each.clause}]{star}")
     if any(each.standing.starred for each in checks):
         say(LEGEND)
 

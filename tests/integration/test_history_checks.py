@@ -161,7 +161,7 @@ def test_a_run_that_failed_is_never_averaged_away(frame: Frame, with_failure: xr
             assert math.isfinite(check.demand)
             assert check.ratio == math.inf
             assert reason in check.note
-            assert f"no value for design: {reason}" in check.statement
+            assert f"no valid value: {reason}" in check.statement
             assert "reached" in check.said[0]
         moved = with_failure["reached_displacement"].to_numpy()[:, 0]
         gamma = HISTORY_RULES[code].displacement_factor

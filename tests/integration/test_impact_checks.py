@@ -174,7 +174,7 @@ def test_a_failed_run_has_no_values(frame: Frame) -> None:
     assert len(checks.failed) == len(checks) > 3
     assert all(math.isfinite(c.demand) and "slipped further" in c.void for c in checks[1:])
     check = one(checks, "slip over the overlap")
-    assert "no value for design: " in check.statement
+    assert "no valid value: " in check.statement
     # the step that failed is in no history, but in the message and in what was reached
     said = re.search(r"slip (\S+) m, slip_capacity (\S+) m", data.attrs["message"])
     assert said is not None

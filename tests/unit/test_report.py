@@ -456,7 +456,7 @@ def check_of(demand: float, limit: float, **more: object) -> Check:
         (check_of(0.5, math.inf), ("0.5", "", "no limit", "")),
         (check_of(math.inf, 1.0), ("not evaluated", "", "1", "")),
         (check_of(math.inf, 1.0, void="a run failed"), ("not known", "", "1", "")),
-        (check_of(0.5, 1.0, void="a run failed"), ("0.5 reached", "", "1", "")),
+        (check_of(0.5, 1.0, void="a run failed"), ("0.5 before failure", "", "1", "")),
     ],
 )
 def test_checks_in_words(check: Check, said: tuple[str, str, str, str]) -> None:

@@ -121,7 +121,7 @@ def test_checks_of_every_code_are_translated(code: str, tmp_path: Path, put_exam
         ("264.2 mm", "264,2 mm"),
         ("storey drift ratio", "deriva de entrepiso"),
         ("bearing-0-0, bottom rim, lower, MCE_R", "bearing-0-0, anillo inferior, inferior, MCE_R"),
-        ("0.45 reached", "0,45 alcanzado"),
+        ("0.45 before failure", "0,45 antes de la falla"),
         ("largest of each of 7 runs", "máximo de cada uno de 7 análisis"),
         ("displacement [mm]", "desplazamiento [mm]"),
         ("margin; a proposal", "margen; una propuesta"),

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Bound = Literal["lower", "nominal", "upper", ""]
 Scope = Literal["any", "demand", "procedure", "agreement", "minimum"]
-Verdict = Literal["ok", "FAILS", "does not apply", "needs agreement", "raised"]
+Verdict = Literal["ok", "FAILS", "no value", "does not apply", "needs agreement", "raised"]
 _ROUND_OFF = 1e-9
 
 
@@ -54,8 +54,8 @@ class Check:
     shown : str
         Unit to show it in; kN for forces, otherwise `unit`.
     void : str
-        Why the demand is no value for design, as after runs that failed: the check then fails,
-        whatever demand and limit are. The demand is what was reached.
+        Why there is no valid demand, for example because runs failed. The check then does not
+        pass, whatever demand and limit are. The demand is the largest value before the failure.
     scope : {"any", "demand", "procedure", "agreement", "minimum"}
         What it holds for: any analysis; a demand that a time history finds anew; a limit of
         the equivalent-linear procedure; a solution that the code has no rule for; or a least
@@ -149,10 +149,10 @@ class Check:
 
     @property
     def verdict(self) -> Verdict:
-        """Outcome: "ok", "FAILS", or what exceeding the limit means by the `scope`.
+        """Return "ok", "FAILS", "no value", or the meaning of an exceeded limit by the `scope`.
 
-        "does not apply" of a limit of a procedure, "needs agreement" where the code has no rule,
-        "raised" of a demand that counts with its least value; without a value for design "FAILS".
+        "does not apply": a limit of a procedure; "needs agreement": the code has no rule;
+        "raised": a demand that counts with its least value; "no value": runs failed (`void`).
         """
         if self.passed:
             return "ok"
@@ -162,7 +162,7 @@ class Check:
         }
         if not self.void:
             beyond["minimum"] = "raised"
-        return beyond.get(self.scope, "FAILS")
+        return beyond.get(self.scope, "no value" if self.void else "FAILS")
 
     @property
     def concerns(self) -> str:
@@ -180,17 +180,22 @@ class Check:
         demand = quantity(self.demand, self.unit, self.shown)
         limit = quantity(self.limit, self.unit, self.shown)
         if self.void:
-            return (demand if math.isinf(self.demand) else f"{demand} reached", limit, "-")
+            return (demand if math.isinf(self.demand) else f"{demand} before failure", limit, "-")
         return demand, limit, f"{self.ratio:.3f}" if math.isfinite(self.ratio) else "-"
 
     @property
     def statement(self) -> str:
-        """What is checked, with its numbers, on one line."""
+        """Return the check with its numbers on one line."""
+        return f"{self.brief}, no valid value: {self.void}" if self.void else self.brief
+
+    @property
+    def brief(self) -> str:
+        """Return the check with its numbers on one line, without the reason of `void`."""
         where = self.concerns
         demand, limit, _ = self.said
         title = f"{self.title}{f' ({where})' if where else ''}"
         if self.void:
-            return f"{title}: {demand}, limit {limit}, no value for design: {self.void}"
+            return f"{title}: {demand}, limit {limit}"
         return f"{title}: {demand} {self.relation} {limit}, {self._ratio_in_words}"
 
     @property
@@ -205,8 +210,8 @@ class Check:
 
     def __str__(self) -> str:
         """Return the check on one line."""
-        word = {"ok": "passed", "FAILS": "FAILED"}.get(self.verdict, self.verdict)
-        return f"{self.statement}, {word} [{self.clause}]"
+        word = {"ok": "passed", "FAILS": "FAILED", "no value": "FAILED"}
+        return f"{self.statement}, {word.get(self.verdict, self.verdict)} [{self.clause}]"
 
 
 _HEAD = ("check", "concerns", "bound", "level", "demand", "", "limit", "ratio", "", "clause")
@@ -250,13 +255,18 @@ class Checks(Sequence[Check]):
 
     @property
     def passed(self) -> bool:
-        """Whether there are checks and none has the verdict "FAILS"."""
+        """Return whether there are checks and none fails or lacks a valid value."""
         return bool(self._checks) and not self.failed
 
     @property
     def failed(self) -> Checks:
-        """Those whose verdict is "FAILS"."""
-        return Checks(check for check in self if check.verdict == "FAILS")
+        """Return the checks that fail on their value or have no valid value."""
+        return Checks(check for check in self if check.verdict in {"FAILS", "no value"})
+
+    @property
+    def without_value(self) -> Checks:
+        """Return the checks that have no valid value, because runs failed."""
+        return Checks(check for check in self if check.verdict == "no value")
 
     @property
     def inapplicable(self) -> Checks:
@@ -282,7 +292,9 @@ class Checks(Sequence[Check]):
         more += f", {agree} to be agreed with the authority" if agree else ""
         less = len(self.raised)
         more += f", {less} below the code's least value: forces are raised to it" if less else ""
-        return f"{len(self)} checks, {len(self.failed)} failed{more}"
+        void = len(self.without_value)
+        fail = f"{len(self.failed) - void} failed"
+        return f"{len(self)} checks, {fail}{f', {void} without a valid value' if void else ''}{more}"
 
     @property
     def governing(self) -> Check:

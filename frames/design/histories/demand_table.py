@@ -256,7 +256,12 @@ def at_levels(tables: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
         each = (f"{name}: {text}" for name, text in words.items())
         statistics[bound] = next(iter(words.values())) if same else "; ".join(each)
     runs = sum(table.attrs["runs"] for table in tables.values())
-    found.attrs = {"statistics": statistics, "runs": runs // len(tables)}
+    each_level = {name: table.attrs["statistics"] for name, table in tables.items()}
+    found.attrs = {
+        "statistics": statistics,
+        "at_levels": each_level,
+        "runs": runs // len(tables),
+    }
     return found
 
 

@@ -298,6 +298,59 @@ def names_of(data: xr.Dataset, name: str) -> tuple[str, ...]:
     return tuple(map(str, data[dim].to_numpy()))
 
 
+class Failure(NamedTuple):
+    """A run that failed.
+
+    Attributes
+    ----------
+    motion : str
+        The motion and its scale.
+    status : str
+        The status of the run; "ok" of a complete run in which a bearing lifted off.
+    at : float
+        Time of the failure [s]; NaN if it is not known.
+    where : str
+        The bearing or degree of freedom.
+    """
+
+    motion: str
+    status: str
+    at: float
+    where: str
+
+    def __str__(self) -> str:
+        """Return motion, cause, time and place."""
+        cause = self.status if self.status != "ok" else "a bearing lifted off"
+        when = f" at {self.at:.4g} s" if math.isfinite(self.at) else ""
+        return f"{self.motion}: {cause}{when}{f', {self.where}' if self.where else ''}"
+
+
+def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
+    """Return the failure of each run; None of those that count.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs.
+    rules : HistoryRules
+        The code's.
+
+    Returns
+    -------
+    list of Failure or None, (n_runs,)
+        A run fails if it stopped, or if a bearing lifted off and the code does not allow that.
+    """
+    status = [str(value) for value in data["status"].to_numpy()]
+    torn = parted(data, rules.least_gap).any(axis=1) & (not rules.uplift_allowed)
+    at, where = data["failed_at"].to_numpy(), data["failed_where"].to_numpy()
+    return [
+        Failure(motion_of(data, k), word, float(at[k]), str(where[k]))
+        if word != "ok" or torn[k]
+        else None
+        for k, word in enumerate(status)
+    ]
+
+
 def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
     """Return how the runs of one bound are taken together.
 
@@ -313,23 +366,14 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
     Suite
         Mean or largest, and which runs failed.
     """
-    status = [str(value) for value in data["status"].to_numpy()]
-    lifted = parted(data, rules.least_gap)
-    failed, words = [], []
-    for k, word in enumerate(status):
-        torn = bool(lifted[k].any()) and not rules.uplift_allowed
-        failed.append(word != "ok" or torn)
-        if failed[-1]:
-            at = float(data["failed_at"][k])
-            when = f" at {at:.4g} s" if math.isfinite(at) else ""
-            where = str(data["failed_where"].to_numpy()[k])
-            cause = word if word != "ok" else "a bearing lifted off"
-            words.append(f"{motion_of(data, k)}: {cause}{when}{f', {where}' if where else ''}")
+    stopped = failures_of(data, rules)
+    status = data["status"].to_numpy()
+    words = [str(one) for one in stopped if one is not None]
     statistic: Literal["mean", "largest"] = "mean" if len(status) >= rules.mean_from else "largest"
     reason = f"{len(words)} of {len(status)} runs failed ({'; '.join(words)})" if words else ""
     return Suite(
         statistic=statistic,
-        failed=tuple(failed),
+        failed=tuple(one is not None for one in stopped),
         allowed=rules.unacceptable_allowed,
         median_factor=rules.median_factor,
         reason=reason,

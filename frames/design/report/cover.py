@@ -1,4 +1,4 @@
-"""The cover of a report: who, when, by which codes, with which programs, of which input."""
+"""The cover of a report: people, date, codes, programs, input, and the verdict."""
 
 from __future__ import annotations
 
@@ -11,9 +11,15 @@ from typing import TYPE_CHECKING, NamedTuple
 from markupsafe import Markup
 
 from frames.design.codes.registry import code_named
+from frames.design.histories.failed_runs import failed_runs
+from frames.design.report.judged import Judged, judged
+from frames.design.report.page import Table
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from frames.design.calculation.check import Check
     from frames.design.project.design_run import ProjectRun
 
 _LIBRARIES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
@@ -90,6 +96,89 @@ def cover_of(run: ProjectRun, source: str) -> Cover:
         motions=str(run.inputs.get("motions", "")),
         written=datetime.now(tz=UTC).strftime("%Y-%m-%d %H:%M UTC"),
     )
+
+
+class Verdict(NamedTuple):
+    """The verdict of a run: two short lists, and each cause once.
+
+    Attributes
+    ----------
+    by_value : int
+        Number of checks that fail on their value; counts of failed runs are not among them.
+    worst : list of (Judged, str)
+        Of each title and level the worst of these, and the other bounds at which it fails.
+    without_value : int
+        Number of checks that have no valid value, because runs failed.
+    beyond, within : list of str
+        Titles of these: beyond the limit before the failure already, and not beyond it.
+    failures : Table
+        Runs that failed, by level, bound and cause.
+    failed, doubtful, runs : int
+        Number of runs that failed, that the assumption checks mark, and of all runs.
+    """
+
+    by_value: int
+    worst: list[tuple[Judged, str]]
+    without_value: int
+    beyond: list[str]
+    within: list[str]
+    failures: Table
+    failed: int
+    doubtful: int
+    runs: int
+
+
+def verdict_of(run: ProjectRun) -> Verdict:
+    """Return the verdict of a run's checks.
+
+    Parameters
+    ----------
+    run : ProjectRun
+        The run.
+
+    Returns
+    -------
+    Verdict
+        Its lists are empty if nothing fails.
+    """
+    void = run.checks.without_value
+    by_value = [c for c in run.checks.failed if not c.void and c.symbol != "n_failed"]
+    beyond = _titles(check for check in void if check.compared > 1.0)
+    failures = failed_runs(run.runs, run.rules, run.moved)
+    each = (*run.runs.values(), *run.moved.values())
+    every = [data for bounds in each for data in bounds.values()]
+    return Verdict(
+        by_value=len(by_value),
+        worst=_worst(by_value),
+        without_value=len(void),
+        beyond=beyond,
+        within=[title for title in _titles(void) if title not in beyond],
+        failures=Table(
+            ("level", "bound", "failed", "cause", "motions"),
+            [(f.level, f.bound, f"{f.count} of {f.of}", f.cause, f.motions) for f in failures],
+            frozenset({0, 1, 3, 4}),
+        ),
+        failed=sum(one.count for one in failures),
+        doubtful=sum(int((data["doubts"].to_numpy() != "").sum()) for data in every),
+        runs=sum(data.sizes["run"] for data in every),
+    )
+
+
+def _titles(checks: Iterable[Check]) -> list[str]:
+    return list(dict.fromkeys(check.title for check in checks))
+
+
+def _worst(checks: Iterable[Check]) -> list[tuple[Judged, str]]:
+    # Of each title and level the check of the largest ratio, and the bounds of the others.
+    groups: dict[tuple[str, str], list[Check]] = {}
+    for check in checks:
+        groups.setdefault((check.title, check.level), []).append(check)
+    found = []
+    for group in groups.values():
+        worst = max(group, key=lambda check: check.ratio)
+        others = dict.fromkeys(check.bound for check in group if check.bound != worst.bound)
+        found.append((judged(worst), ", ".join(others)))
+    return found
 
 
 def css_string(text: str) -> Markup:

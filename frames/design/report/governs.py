@@ -68,26 +68,27 @@ def what_governs(checks: Iterable[Check]) -> Governing:
     Returns
     -------
     Governing
-        The first `MOST`, those without a value for design first; counts and the scaling of motions
-        aside while they pass, and least values, to which demands are raised.
+        The first `MOST`; checks without a valid value by their largest value before the failure.
+        Counts, the scaling of motions while it passes, and least values are left out.
     """
     highest: dict[tuple[str, str], Check] = {}
     for check in checks:
         if (check.passed and check.symbol in COUNTS) or check.verdict == "raised":
             continue
         key = (check.title, check.level)
-        if key not in highest or check.ratio > highest[key].ratio:
+        if key not in highest or check.compared > highest[key].compared:
             highest[key] = check
-    first = sorted(highest.values(), key=lambda check: -check.ratio)[:MOST]
-    finite = [check.ratio for check in first if math.isfinite(check.ratio)]
+    first = sorted(highest.values(), key=lambda check: -check.compared)[:MOST]
+    finite = [check.compared for check in first if math.isfinite(check.compared)]
     end = max([_SCALE, *(min(ratio, 2.0 * _SCALE) for ratio in finite)])
-    bars = [
-        Bar(check, min(check.ratio / end, 1.0), f"{check.ratio:.2f}")
-        if math.isfinite(check.ratio)
-        else Bar(check, 1.0, "no value" if check.void else "not met")
-        for check in first
-    ]
+    bars = [Bar(check, min(check.compared / end, 1.0), _ratio_of(check)) for check in first]
     return Governing(bars, 1.0 / end)
+
+
+def _ratio_of(check: Check) -> str:
+    if check.void:
+        return "no value"
+    return f"{check.ratio:.2f}" if math.isfinite(check.ratio) else "not met"
 
 
 def statistic_of(check: Check) -> str:

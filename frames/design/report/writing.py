@@ -8,11 +8,11 @@ import pandas as pd
 
 from frames.design.calculation.standing import LEGEND, standing_of
 from frames.design.codes.registry import code_named
-from frames.design.histories.demand_table import envelope_said, headed, void_said
+from frames.design.histories.demand_table import headed
 from frames.design.histories.link_demands import largest_of_links
 from frames.design.report.by_motion import BY_MOTION, motion_tables
 from frames.design.report.columns import in_parts
-from frames.design.report.cover import cover_of, css_string
+from frames.design.report.cover import cover_of, css_string, verdict_of
 from frames.design.report.eccentric import eccentricity_said, raised_tables
 from frames.design.report.figures import pictures
 from frames.design.report.governs import what_governs
@@ -100,7 +100,9 @@ def report_in(
         css_string=css_string,
         sections=SECTIONS,
         case=run.governing_case,
-        failed=[judged(check) for check in run.checks.failed],
+        failed=len(run.checks.failed),
+        verdict=(found := verdict_of(run)),
+        failures=fit(found.failures),
         least=[judged(check) for check in run.checks.raised],
         governing=what_governs(run.checks),
         judged=judged,
@@ -130,8 +132,7 @@ def report_in(
         of_tests=_notes(tables["programme"]),
         motions=fit(page_table(run.motions.table().rename(columns=_named), "motion")),
         equivalent=fit(Table(run.equivalent.head(), run.equivalent.rows())),
-        demands=fit(_demands(run.demands)),
-        void=void_said(run.demands),
+        demands=[(level, said, fit(part)) for level, said, part in _demands(run.demands)],
         raised=[words.table(part) for part in raised_tables(tables[ECCENTRICITY])],
         eccentricity=eccentricity_said(run),
         by_motion=[words.table(part) for part in motion_tables(tables[BY_MOTION])],
@@ -176,21 +177,23 @@ def _named(fact: str) -> str:
     return _FACTS.get(fact, fact.replace("_", " "))
 
 
-def _demands(demands: pd.DataFrame) -> Table:
-    # Short heads, and a column that says which statistic the columns of the bounds are of.
-    heads = dict(zip(headed(demands).columns, demands.drop(columns="void").columns, strict=True))
-    short = {long: "single" if long == "value" else name for long, name in heads.items()}
-    short = {
-        long: {
-            "envelope": "envelope of these",
-            "worst": "largest of all runs",
-            "run": "in run",
-        }.get(name, name)
-        for long, name in short.items()
-    }
-    shown = headed(demands).rename(columns=short)
-    shown.insert(1, "values are", envelope_said(demands))
-    return page_table(shown, "quantity")
+def _demands(demands: pd.DataFrame) -> list[tuple[str, list[str], Table]]:
+    # Of each level: its name, the statistics of its bounds in words, and its table.
+    found = []
+    heads = {"worst": "largest of all runs", "run": "in run", "envelope": "envelope"}
+    statistics = demands.attrs["at_levels"]
+    for level, table in demands.groupby("level", sort=False):
+        bounds = statistics[level]
+        shown = table.drop(columns=["void", "level"]).rename(columns=heads)
+        if "value" in bounds:
+            shown = shown.drop(columns="value")
+        if (shown["note"] == "").all():
+            shown = shown.drop(columns="note")
+        words = [f"{bound}: {said}" if len(bounds) > 1 else said for bound, said in bounds.items()]
+        if len({*bounds.values()}) == 1:
+            words = [next(iter(bounds.values()))]
+        found.append((str(level), words, page_table(shown, "quantity")))
+    return found
 
 
 def _friction(friction: pd.DataFrame) -> Table:

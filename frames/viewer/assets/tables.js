@@ -52,14 +52,17 @@ const Tables = (() => {
     table.replaceChildren(head, ...rows);
   }
 
-  const order = { FAILS: 0, "needs agreement": 1, "does not apply": 2, raised: 3, ok: 4 };
+  const order = { FAILS: 0, "no value": 1, "needs agreement": 2, "does not apply": 3, raised: 4, ok: 5 };
 
   function checks(panel, list, choose) {
     panel.hidden = list.length === 0;
     const sorted = [...list].sort((a, b) => order[a.verdict] - order[b.verdict] || b.rank - a.rank);
-    const failed = list.filter((check) => check.verdict === "FAILS").length;
+    const count = (verdict) => list.filter((check) => check.verdict === verdict).length;
+    const [fail, unknown] = [count("FAILS"), count("no value")];
+    const failed = fail + unknown;
     const tally = panel.querySelector("#tally");
-    tally.textContent = `${list.length} checks, ${failed} failed; governing ones first`;
+    const without = unknown ? `, ${unknown} without a valid value` : "";
+    tally.textContent = `${list.length} checks, ${fail} failed${without}; governing ones first`;
     tally.classList.toggle("bad", failed > 0);
     const table = panel.querySelector("table");
     const all = panel.querySelector("#all-checks");
@@ -86,7 +89,7 @@ const Tables = (() => {
     return row([
       cell("td", check.verdict), title, cell("td", concerns), cell("td", check.demand), cell("td", { "<=": "≤", ">=": "≥" }[check.relation]),
       cell("td", check.limit), cell("td", check.ratio), cell("td", check.clause),
-    ], { FAILS: "FAILS", ok: "ok" }[check.verdict] ?? "beyond");
+    ], { FAILS: "FAILS", "no value": "FAILS", ok: "ok" }[check.verdict] ?? "beyond");
   }
 
   function kept(element, said) {
