@@ -139,15 +139,16 @@ class BoundChecks:
 
     @property
     def _note(self) -> str:
-        # With each check: why there is no value, or that there is more to read.
+        # With each check: which runs failed if they may, or that there is more to read.
         marked = sum(bool(str(d)) for d in self.data["doubts"].to_numpy())
         more = (
             f"assumption checks of {marked} runs mark something: see the check of runs"
             if marked
             else ""
         )
-        said = (self._suite.reason, self._suite.moved_failed, more)
-        return "; ".join(part for part in said if part)
+        failed = sum(self._suite.failed)
+        allowed = "" if self._suite.void or not failed else f"{failed} runs failed: as many may"
+        return "; ".join(part for part in (allowed, more) if part)
 
     @property
     def _bearings(self) -> BearingDemands:
@@ -192,8 +193,7 @@ class BoundChecks:
         t.given("n_allowed", float(allowed))
         clause = self._clause(self.rules.statistic_clause)
         judge = CheckBuilder(t, self.bound, MEMORY)
-        said = (self._suite.reason, self._small_gaps, self._audit)
-        note = "; ".join(part for part in said if part)
+        note = "; ".join(part for part in (self._small_gaps, self._audit) if part)
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
 
     def _moved_failed(self) -> list[Check]:
@@ -204,8 +204,7 @@ class BoundChecks:
         count = float(sum(suite_of(self.moved, self.rules).failed))
         t.given("n_failed", count, note=f"of {self.moved.sizes['run']} runs")
         t.given("n_allowed", 0.0)
-        audit = audit_notes(named_by_way(self.moved))
-        note = "; ".join(part for part in (self._suite.moved_failed, audit) if part)
+        note = audit_notes(named_by_way(self.moved))
         clause = self._clause(self.rules.eccentricity_clause)
         judge = CheckBuilder(t, self.bound, self._known("moved masses", "accidental_eccentricity"))
         title = "runs with moved masses that failed"
@@ -241,10 +240,8 @@ class BoundChecks:
             void = self._suite.void if stopped else ""
             judge = CheckBuilder(t, self.bound, self._known("uplift", "uplift_allowed"), void=void)
             clause, title = self._clause(self.rules.force_clause), f"uplift duration above {gap}"
-            said = "; ".join(
-                part for part in (self._suite.void if stopped else "", self._small_gaps) if part
-            )
-            found.append(judge(clause, title, "t_up", "<=", "t_allowed", note=said))
+            note = self._small_gaps
+            found.append(judge(clause, title, "t_up", "<=", "t_allowed", note=note))
         rules = self.rules
         clause = self._clause(rules.uplift_clause) if rules.uplift_clause else ""
         devices = devices_of(self.data, self.frame)

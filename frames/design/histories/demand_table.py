@@ -220,7 +220,7 @@ def said(suite: Suite) -> str:
     n, failed = len(suite.failed), sum(suite.failed)
     what = f"{suite.statistic} of "
     if suite.void:
-        return f"{what}what {n} runs reached, {failed} failed"
+        return f"no valid value; {what}{n} runs, {failed} failed"
     more = ", raised by moved masses" if suite.raised else ""
     if failed:
         least = f"at least {suite.median_factor:g} medians of all"

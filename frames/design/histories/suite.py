@@ -198,8 +198,10 @@ class Suite:
         if not self.is_usable:
             value = self.value(values)
             if math.isnan(value):
-                return t.given(symbol, math.inf, unit, shown=shown, note=self.void)
-            return t.given(symbol, value, unit, shown=shown, note=f"reached only: {self.void}")
+                return t.given(symbol, math.inf, unit, shown=shown, note="not known: runs failed")
+            note = f"no valid value; {sum(self.failed)} of {len(self.failed)} runs failed"
+            note = note if any(self.failed) else "no valid value; runs with moved masses failed"
+            return t.given(symbol, value, unit, shown=shown, note=note)
         more = self.raised.get(of)
         if more is None:
             return self._enter(t, symbol, values, unit, shown)
@@ -243,7 +245,7 @@ class Suite:
         if math.isfinite(t.value(of)):
             t(symbol, formula, unit, shown=shown)
         else:
-            t.given(symbol, math.inf, unit, shown=shown, note=self.void)
+            t.given(symbol, math.inf, unit, shown=shown, note="not known: runs failed")
 
     def _median(self, values: FloatArray) -> float:
         return float(np.median(np.where(self.failed, math.inf, values)))

@@ -157,7 +157,7 @@ class Uplift:
     ) -> list[Check]:
         # `asked`: clause and its standing.
         clause, standing = asked
-        words = "; ".join(part for part in (self._void, self._told, self.note) if part)
+        words = "; ".join(part for part in (self._told, self.note) if part)
         return Governing(self.bound, standing, words, self._void)(clause, title, each)
 
     @property

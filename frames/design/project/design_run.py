@@ -328,7 +328,7 @@ def _programme(
     table = prototype_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
     if asked.void:
         of_runs = table["what"].str.contains("(?:largest|least) load|interface|impact", regex=True)
-        why = f"no values for design: {asked.void}"
+        why = "no values for design: runs failed"
         notes = table.loc[of_runs, "note"]
         table.loc[of_runs, "note"] = [f"{note}; {why}" if note else why for note in notes]
     return table

@@ -42,6 +42,7 @@ _WORDLESS = "|".join(
 )
 _NAME = re.compile(rf"(?:{_WORDLESS})(?: (?:{_WORDLESS}))*")
 _MORE = 8  # letters that a line of a figure may have more than in English
+_SENTENCES = 3  # of a message of the catalogue, at most; trying patterns on more takes long
 _HEAD = re.compile(r"(.*?)( \[[^]]*\])$")
 _COUNTED = re.compile(r"(\d+) (\D.*)")
 _IN_MATH = re.compile(r"(?<=<mn>)[^<]*|(?<=<mtext>)[^<]*")
@@ -177,11 +178,14 @@ class Words:
         return self.number("\n".join(textwrap.wrap(said, width)) if len(lines) > 1 else said)
 
     def _said(self, text: str) -> str:
+        sentences = text.split("; ")
+        if len(sentences) > _SENTENCES:
+            return "; ".join(self._said(part) for part in sentences)
         found = self._known(text)
         if found is not None:
             return found
-        if "; " in text:  # sentences: those that are known
-            return "; ".join(self._said(part) for part in text.split("; "))
+        if len(sentences) > 1:
+            return "; ".join(self._said(part) for part in sentences)
         self.missing.add(text)
         return text
 

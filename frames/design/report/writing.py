@@ -177,10 +177,10 @@ def _named(fact: str) -> str:
     return _FACTS.get(fact, fact.replace("_", " "))
 
 
-def _demands(demands: pd.DataFrame) -> list[tuple[str, list[str], Table]]:
+def _demands(demands: pd.DataFrame) -> list[tuple[str, list[tuple[str, str]], Table]]:
     # Of each level: its name, the statistics of its bounds in words, and its table.
     found = []
-    heads = {"worst": "largest of all runs", "run": "in run", "envelope": "envelope"}
+    heads = {"worst": "largest of all runs", "run": "in run", "envelope": "envelope of these"}
     statistics = demands.attrs["at_levels"]
     for level, table in demands.groupby("level", sort=False):
         bounds = statistics[level]
@@ -189,9 +189,8 @@ def _demands(demands: pd.DataFrame) -> list[tuple[str, list[str], Table]]:
             shown = shown.drop(columns="value")
         if (shown["note"] == "").all():
             shown = shown.drop(columns="note")
-        words = [f"{bound}: {said}" if len(bounds) > 1 else said for bound, said in bounds.items()]
-        if len({*bounds.values()}) == 1:
-            words = [next(iter(bounds.values()))]
+        same = len({*bounds.values()}) == 1
+        words = [("", next(iter(bounds.values())))] if same else [*bounds.items()]
         found.append((str(level), words, page_table(shown, "quantity")))
     return found
 
