@@ -239,8 +239,8 @@ class _Recorder(Recorder):
 
 
 def _histories(recorded: xr.Dataset, template: xr.Dataset) -> xr.Dataset:
-    # What is recorded of a run besides what it reached, and what its structure has anyway.
-    known = {*template.data_vars, "nodes_of_level"}
+    # The histories of a run, and the places of the nodes, without which they cannot be drawn.
+    known = {*template.data_vars, "nodes_of_level"} - {"node_position"}
     names = [
         name
         for name in recorded.data_vars

@@ -143,6 +143,7 @@ def run(
             if (results / "run.json").is_file():
                 err.print("the other files there are of the run before", highlight=False)
             raise
+        err.print("writing results and report", highlight=False)
         written = write_run(found, results, file.read_text(encoding="utf-8"), figures=figures)
         _told_of(found, written, results)
 
@@ -176,6 +177,9 @@ def report(
             )
             err.print(text, markup=False, highlight=False, soft_wrap=True)
         source = file.read_text(encoding="utf-8")
+        old = [name for name in ("view.html", "report.pdf") if (results / name).is_file()]
+        if old:
+            err.print(f"removed with the checks of before: {', '.join(old)}", highlight=False)
         written = write_judgement(found, results, source, figures=figures, language=language)
         if pdf:
             written.append(print_report(results / "report.html", results / "report.pdf"))
@@ -186,10 +190,13 @@ app.command()(view)
 
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
-    from frames.design.histories.demand_table import headed
+    from frames.design.histories.demand_table import tables_of_levels
     from frames.design.histories.failed_runs import failed_runs
 
-    _frame_table("Demands", headed(found.demands))
+    for level, statistics, table in tables_of_levels(found.demands):
+        _frame_table(f"Demands, level {level}" if level else "Demands", table)
+        words = (f"{bound}: {said}" if bound else said for bound, said in statistics)
+        say(f"values are: {'; '.join(words)}")
     if failures := failed_runs(found.runs, found.rules, found.moved):
         out.print("\n[bold]Runs that failed[/]: their largest values are no values for design")
         _say_each(map(str, failures))

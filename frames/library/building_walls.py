@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from frames.library.building_plan import BuildingPlan, WallPart
     from frames.model.sections import Section
 
+ARM = "arm-"
+"""Beginning of the names of the rigid arms of walls."""
+
 RIGID = 1e3
 """Stiffness of the arms over that of the wall's own section [-]."""
 
@@ -78,7 +81,7 @@ def add_arms(frame: Frame, plan: BuildingPlan, level: int) -> None:
     floor = level_name(level)
     for wall in plan.walls_at(level):
         for end in (wall.start, wall.end):
-            name = f"arm-{floor}-{end}-{wall.start}-{wall.end}"
+            name = f"{ARM}{floor}-{end}-{wall.start}-{wall.end}"
             frame.add_member(name, f"{floor}-{end}", wall_node(wall, level), rigid_arm(wall))
 
 

@@ -149,7 +149,7 @@ class Check:
 
     @property
     def verdict(self) -> Verdict:
-        """Return "ok", "FAILS", "no value", or the meaning of an exceeded limit by the `scope`.
+        """Outcome: "ok", "FAILS", "no value", or the meaning of an exceeded limit by the `scope`.
 
         "does not apply": a limit of a procedure; "needs agreement": the code has no rule;
         "raised": a demand that counts with its least value; "no value": runs failed (`void`).
@@ -185,12 +185,12 @@ class Check:
 
     @property
     def statement(self) -> str:
-        """Return the check with its numbers on one line."""
+        """The check with its numbers on one line."""
         return f"{self.brief}, no valid value: {self.void}" if self.void else self.brief
 
     @property
     def brief(self) -> str:
-        """Return the check with its numbers on one line, without the reason of `void`."""
+        """The check with its numbers on one line, without the reason of `void`."""
         where = self.concerns
         demand, limit, _ = self.said
         title = f"{self.title}{f' ({where})' if where else ''}"
@@ -255,17 +255,17 @@ class Checks(Sequence[Check]):
 
     @property
     def passed(self) -> bool:
-        """Return whether there are checks and none fails or lacks a valid value."""
+        """Whether there are checks, and none fails or lacks a valid value."""
         return bool(self._checks) and not self.failed
 
     @property
     def failed(self) -> Checks:
-        """Return the checks that fail on their value or have no valid value."""
+        """The checks that fail on their value or have no valid value."""
         return Checks(check for check in self if check.verdict in {"FAILS", "no value"})
 
     @property
     def without_value(self) -> Checks:
-        """Return the checks that have no valid value, because runs failed."""
+        """The checks that have no valid value, because runs failed."""
         return Checks(check for check in self if check.verdict == "no value")
 
     @property
@@ -294,7 +294,9 @@ class Checks(Sequence[Check]):
         more += f", {less} below the code's least value: forces are raised to it" if less else ""
         void = len(self.without_value)
         fail = f"{len(self.failed) - void} failed"
-        return f"{len(self)} checks, {fail}{f', {void} without a valid value' if void else ''}{more}"
+        return (
+            f"{len(self)} checks, {fail}{f', {void} without a valid value' if void else ''}{more}"
+        )
 
     @property
     def governing(self) -> Check:

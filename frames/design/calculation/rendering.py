@@ -84,7 +84,8 @@ def scale(unit: str, shown: str) -> float:
 
 
 def number(value: float) -> str:
-    """Return a number with four significant digits, with a power of ten where it needs one."""
+    """Return a number with four significant digits, with a power of ten if it needs one."""
+    value += 0.0  # no -0
     if not (1e-4 <= abs(value) < 1e6 or abs(value) <= 0.0):
         mantissa, _, exponent = f"{value:.3e}".partition("e")
         short = mantissa.rstrip("0").rstrip(".")

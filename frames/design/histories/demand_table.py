@@ -265,6 +265,34 @@ def at_levels(tables: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
     return found
 
 
+def tables_of_levels(
+    demands: pd.DataFrame,
+) -> list[tuple[str, list[tuple[str, str]], pd.DataFrame]]:
+    """Return a table of demands level by level, for people.
+
+    Parameters
+    ----------
+    demands : pandas.DataFrame
+        Of `at_levels`.
+
+    Returns
+    -------
+    list of (str, list of (str, str), pandas.DataFrame)
+        Level; its bounds with their statistic in words, one without a bound if all are the same;
+        the table without empty columns, in SI units.
+    """
+    heads = {"envelope": "envelope of these", "worst": "largest of all runs", "run": "in run"}
+    found = []
+    for level, table in demands.groupby("level", sort=False):
+        bounds: dict[str, str] = demands.attrs["at_levels"][level]
+        left_out = ["void", "level", *(["envelope"] if "value" in bounds else [])]
+        shown = table.drop(columns=left_out + ["note"] * int((table["note"] == "").all()))
+        same = len({*bounds.values()}) == 1
+        words = [("", next(iter(bounds.values())))] if same else [*bounds.items()]
+        found.append((str(level), words, shown.rename(columns=heads)))
+    return found
+
+
 def void_said(table: pd.DataFrame) -> str:
     """Return why a table of demands has no values for design, of each level; empty if it has."""
     return "; ".join(why for why in dict.fromkeys(map(str, table["void"])) if why)

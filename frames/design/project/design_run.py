@@ -185,7 +185,10 @@ def run_project(
         whole = xr.concat(
             _every(runs), "run", data_vars="minimal", coords="minimal", compat="override"
         )
-        raise AnalysisInterrupted(stop.time, whole.assign_attrs(status="interrupted")) from stop
+        more = int(stop.data.attrs.get("runs_asked_for", 0))
+        asked = {"status": "interrupted", "runs_asked_for": whole.sizes["run"] + more}
+        stop.data = whole.assign_attrs(asked)  # its class says how far: runs, or time of one run
+        raise
     found = Histories(runs=runs, governing=governing, governing_case=case, moved=moved)
     return evaluate_run(parts, known, found)
 

@@ -93,9 +93,11 @@ def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:
 def _of_one_run(run: ProjectRun) -> list[Plan]:
     data, where = run.governing, run.governing_case
     bearing, typical = worst_bearing(data), typical_bearing(data)
+    is_met = bool((data["rim_force"].sel(bearing=bearing) > 0.0).any())
+    event = "the impact" if is_met else "its largest displacement"
     plans: list[Plan] = [
         (
-            f"The bearing before, during and after the impact, {bearing}; {where}",
+            f"The bearing before, during and after {event}, {bearing}; {where}",
             lambda: bearing_sections(data, bearing=bearing),
         ),
         (f"Force over displacement, {bearing}; {where}", lambda: hysteresis(data, bearing)),

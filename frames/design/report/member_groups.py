@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from frames.library.building_walls import ARM
 from frames.recording.force_rows import MEMBER_FORCES
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ def member_groups(run: ProjectRun, forces: pd.DataFrame | None) -> pd.DataFrame:
         return pd.DataFrame()
     judged = [level.name for level in run.rules.levels if level.judges_structure]
     governing = forces[(forces["governs"] == "yes") & forces.index.isin(judged)].reset_index()
+    governing = governing[~governing["member"].str.startswith(ARM)]  # rigid: nothing to design
     names = group_names(run.frame)
     order = {name: k for k, name in enumerate(dict.fromkeys(names.values()))}
     group = governing["member"].map(names)

@@ -171,8 +171,8 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     Returns
     -------
     dict of str to pandas.DataFrame
-        "bearings", "friction", "modes", "programme" of tests, "eccentricity" of masses,
-        "demands-by-motion", "member-groups", "members-without-forces"; "members", "storeys" and
+        "bearings", "friction", "modes", "motions" with their factors, "programme" of tests,
+        "eccentricity" of masses, "demands-by-motion", "member-groups", "members-without-forces"; "members", "storeys" and
         "reactions" as far as the structure has them (`force_demands`).
     """
     raises = raises_by_case(run.checks)
@@ -181,6 +181,7 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "bearings": bearing_table(run),
         "friction": friction_table(run),
         "modes": mode_table(run),
+        "motions": run.motions.table(),
         "member-groups": member_groups(run, forces.get("members")),
         WITHOUT_FORCES: without_forces(run.frame),
         LINKS: link_demands(run.runs, run.rules, run.moved),

@@ -8,7 +8,7 @@ import pandas as pd
 
 from frames.design.calculation.standing import LEGEND, standing_of
 from frames.design.codes.registry import code_named
-from frames.design.histories.demand_table import headed
+from frames.design.histories.demand_table import tables_of_levels
 from frames.design.histories.link_demands import largest_of_links
 from frames.design.report.by_motion import BY_MOTION, motion_tables
 from frames.design.report.columns import in_parts
@@ -132,7 +132,10 @@ def report_in(
         of_tests=_notes(tables["programme"]),
         motions=fit(page_table(run.motions.table().rename(columns=_named), "motion")),
         equivalent=fit(Table(run.equivalent.head(), run.equivalent.rows())),
-        demands=[(level, said, fit(part)) for level, said, part in _demands(run.demands)],
+        demands=[
+            (level, said, fit(page_table(part, "quantity")))
+            for level, said, part in tables_of_levels(run.demands)
+        ],
         raised=[words.table(part) for part in raised_tables(tables[ECCENTRICITY])],
         eccentricity=eccentricity_said(run),
         by_motion=[words.table(part) for part in motion_tables(tables[BY_MOTION])],
@@ -175,24 +178,6 @@ _FACTS = {"azimuth_x": "azimuth of x [°]", "azimuth_y": "azimuth of y [°]", "s
 def _named(fact: str) -> str:
     # The head of a column of a table of motions, whose keys are names.
     return _FACTS.get(fact, fact.replace("_", " "))
-
-
-def _demands(demands: pd.DataFrame) -> list[tuple[str, list[tuple[str, str]], Table]]:
-    # Of each level: its name, the statistics of its bounds in words, and its table.
-    found = []
-    heads = {"worst": "largest of all runs", "run": "in run", "envelope": "envelope of these"}
-    statistics = demands.attrs["at_levels"]
-    for level, table in demands.groupby("level", sort=False):
-        bounds = statistics[level]
-        shown = table.drop(columns=["void", "level"]).rename(columns=heads)
-        if "value" in bounds:
-            shown = shown.drop(columns="value")
-        if (shown["note"] == "").all():
-            shown = shown.drop(columns="note")
-        same = len({*bounds.values()}) == 1
-        words = [("", next(iter(bounds.values())))] if same else [*bounds.items()]
-        found.append((str(level), words, page_table(shown, "quantity")))
-    return found
 
 
 def _friction(friction: pd.DataFrame) -> Table:
