@@ -9,6 +9,7 @@ import subprocess  # noqa: S404
 import unicodedata
 from collections.abc import Callable
 from dataclasses import fields
+from functools import reduce
 from html import unescape
 from pathlib import Path
 from types import SimpleNamespace
@@ -131,9 +132,9 @@ def test_the_numbers_are_those_of_the_results(results: Path, page: str) -> None:
     assert [head.partition(",")[0] for head in heads[1:3]] == ["lower", "upper"]
     assert all(" of " in head for head in (*heads[1:4], heads[5]))  # the statistic
     part = section(page, "time-histories")
+    assert f"Values are: {heads[1].removeprefix('lower, ')}." in " ".join(part.split())
     for name, row in demands.iterrows():
         shown = columns(part, name)
-        assert heads[1] == f"lower, {shown['values are']}"  # which statistic, in each row
         factor = factors.get(row["unit"], 1.0)
         names = ("lower", "upper", "envelope of these", "largest of all runs")
         for title, column in zip(names, (*heads[1:4], heads[5]), strict=True):
@@ -427,6 +428,64 @@ def test_what_governs_are_the_highest_ratios(results: Path, page: str) -> None:
     for length, ratio in zip(lengths, highest, strict=True):
         assert length == pytest.approx(one * ratio, abs=0.11) or ratio > 2.5
     assert part.count('class="fails"') == (highest > 1.0).sum()
+
+
+FAILS = (
+    ("s_ms = 1.2", "s_ms = 2.4"),
+    ("s_m1 = 0.6", "s_m1 = 1.2"),
+    ('bounds = ["lower", "upper"]', 'bounds = ["lower"]\nlevel = "pendulum"'),
+    ("[project]", '[project]\nlanguage = "es"\ndecimal = ","'),
+)
+
+
+@pytest.fixture(scope="module")
+def failing(tmp_path_factory: pytest.TempPathFactory, put_example: Callable[..., Path]) -> Path:
+    """Return a project of which every run slips off, judged in Spanish."""
+    file = put_example(tmp_path_factory.mktemp("failing")) / "project.toml"
+    file.write_text(reduce(lambda text, pair: text.replace(*pair), FAILS, PROJECT))
+    done = CliRunner().invoke(app, ["run", str(file), "--results", str(file.parent / "results")])
+    assert done.exit_code == 1, done.output
+    (file.parent / "console.txt").write_text(done.output)
+    return file
+
+
+def test_a_failing_design_names_each_cause_once(failing: Path) -> None:
+    """The cover and the console: failed on value and without a valid value apart."""
+    checks = pd.read_csv(failing.parent / "results" / "checks.csv", keep_default_na=False)
+    void = checks["void"] != ""
+    assert (checks["verdict"] == "no value").equals(void)
+    assert void.sum() > 10
+    assert not checks["passed"][void].any()
+    console = (failing.parent / "console.txt").read_text()
+    assert f", {void.sum()} without a valid value" in console
+    assert console.count("MCE_R, lower: 11 of 11 runs failed") == 1
+    assert not re.search(r"before failure.*artificial-1", console)
+    page = (failing.parent / "results" / "report.html").read_text(encoding="utf-8")
+    cover = re.sub(r"<[^>]*>", " ", page.partition('id="verdict"')[2].partition('class="facts"')[0])
+    assert len(cover.split()) < 300
+    assert cover.count("artificial-1 ") == 1
+    assert f"{void.sum()} verificaciones no tienen un valor válido" in cover
+    by_value = (checks["verdict"] == "FAILS") & (checks["symbol"] != "n_failed")
+    said = f"No se cumplen por su valor {by_value.sum()} de {len(checks)}"
+    assert said in " ".join(cover.split())
+    bars = section(page, "summary")
+    assert "sin valor" in bars
+    width = float(re.search(r'viewBox="0 0 (\d+)', bars)[1])
+    for x, text in re.findall(r'<text x="([\d.]+)"[^>]*class="ratio">([^<]*)<', bars):
+        assert float(x) + 7.0 * len(text) < width  # 11 px: no word is cut
+
+
+def test_a_failing_design_is_in_spanish_throughout(failing: Path) -> None:
+    pytest.importorskip("babel")
+    parts = ProjectInputs(read_project(failing), failing.parent)
+    known = preliminary(parts)
+    histories = read_histories(failing.parent / "results", inputs_of(parts, known))
+    run = evaluate_run(parts, known, histories)
+    names = {*run.frame.bearings, *run.frame.nodes, *run.motions}
+    words = Words("es", ",", {run.frame.name, *names})
+    said = report_in(words, run, failing.read_text(), run_tables(run))
+    assert words.missing == set()
+    assert not [t for t in texts_of(said) if re.search(r"(?<![\w.])\d+\.\d+(?![\w.])", t)]
 
 
 def test_each_check_says_of_which_runs_its_demand_is(results: Path, page: str) -> None:

@@ -193,7 +193,8 @@ class BoundChecks:
         t.given("n_allowed", float(allowed))
         clause = self._clause(self.rules.statistic_clause)
         judge = CheckBuilder(t, self.bound, MEMORY)
-        note = "; ".join(part for part in (self._small_gaps, self._audit) if part)
+        said = (self._suite.reason, self._small_gaps, self._audit)
+        note = "; ".join(part for part in said if part)
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
 
     def _moved_failed(self) -> list[Check]:
@@ -204,7 +205,8 @@ class BoundChecks:
         count = float(sum(suite_of(self.moved, self.rules).failed))
         t.given("n_failed", count, note=f"of {self.moved.sizes['run']} runs")
         t.given("n_allowed", 0.0)
-        note = audit_notes(named_by_way(self.moved))
+        audit = audit_notes(named_by_way(self.moved))
+        note = "; ".join(part for part in (self._suite.moved_failed, audit) if part)
         clause = self._clause(self.rules.eccentricity_clause)
         judge = CheckBuilder(t, self.bound, self._known("moved masses", "accidental_eccentricity"))
         title = "runs with moved masses that failed"

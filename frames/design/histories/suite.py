@@ -344,13 +344,12 @@ def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
     """
     status = [str(value) for value in data["status"].to_numpy()]
     torn = parted(data, rules.least_gap).any(axis=1) & (not rules.uplift_allowed)
-    at, where = data["failed_at"].to_numpy(), data["failed_where"].to_numpy()
-    return [
-        Failure(motion_of(data, k), word, float(at[k]), str(where[k]))
-        if word != "ok" or torn[k]
-        else None
-        for k, word in enumerate(status)
-    ]
+
+    def of(k: int) -> Failure:
+        at, where = float(data["failed_at"][k]), str(data["failed_where"].to_numpy()[k])
+        return Failure(motion_of(data, k), status[k], at, where)
+
+    return [of(k) if word != "ok" or torn[k] else None for k, word in enumerate(status)]
 
 
 def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
@@ -372,7 +371,7 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
     status = data["status"].to_numpy()
     words = [str(one) for one in stopped if one is not None]
     statistic: Literal["mean", "largest"] = "mean" if len(status) >= rules.mean_from else "largest"
-    reason = f"{len(words)} of {len(status)} runs failed ({'; '.join(words)})" if words else ""
+    reason = "; ".join([f"{len(words)} of {len(status)} runs failed", *words]) if words else ""
     return Suite(
         statistic=statistic,
         failed=tuple(one is not None for one in stopped),

@@ -172,8 +172,8 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     -------
     dict of str to pandas.DataFrame
         "bearings", "friction", "modes", "motions" with their factors, "programme" of tests,
-        "eccentricity" of masses, "demands-by-motion", "member-groups", "members-without-forces"; "members", "storeys" and
-        "reactions" as far as the structure has them (`force_demands`).
+        "eccentricity" of masses, "demands-by-motion", "member-groups", "members-without-forces";
+        "members", "storeys" and "reactions" as far as the structure has them (`force_demands`).
     """
     raises = raises_by_case(run.checks)
     forces = force_demands(run.runs, run.rules, raises, run.moved)
