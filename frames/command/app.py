@@ -104,11 +104,11 @@ def check(file: File = FILE) -> None:
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
         say(repr(ground.equivalent))
-        _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
+        _checks("Equivalent-linear analysis, rims left out", ground.checks)
         _say_each(unchecked(parts.file))
         _say_each(from_memory(parts.code()))
         say(f"the file can be run: lir run {file} ({said_of_runs(parts, ground.motions)})")
-        if not ground.equivalent.checks.passed:
+        if not ground.checks.passed:
             raise typer.Exit(FAILED_CHECKS)
 
 

@@ -56,7 +56,8 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
         A row a quantity with the columns value, unit (SI), time [s] and where. Displacements,
         drifts, forces and accelerations in plan are sizes of vectors, of both horizontal
         components at one instant: at most sqrt(2) times the larger of both peaks. What a run that
-        stopped before its end would have left is NaN.
+        stopped before its end would have left is NaN; where it failed, "where" of the row "duration
+        computed" says how: the other rows are what it reached.
 
     Raises
     ------
@@ -268,5 +269,6 @@ def _walls(data: xr.Dataset) -> BoolArray:
 
 def _of_run(data: xr.Dataset) -> Iterator[Peak]:
     yield Peak("energy balance: error over input", energy_error(data), "1")
-    yield Peak("duration computed", computed_until(data), "s")
+    end = "" if str(data.attrs["status"]) == "ok" else _status(data)
+    yield Peak("duration computed", computed_until(data), "s", where=end)
     yield Peak("seconds of the time loop", float(data.attrs["seconds_loop"]), "s")

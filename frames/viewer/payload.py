@@ -39,7 +39,7 @@ class ShownCheck(Protocol):
 
     @property
     def verdict(self) -> str:
-        """Outcome: "ok", "FAILS", "does not apply", "needs agreement", "raised"."""
+        """Outcome: one of `frames.design.Check.verdict`."""
 
     @property
     def title(self) -> str:

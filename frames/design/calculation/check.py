@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Bound = Literal["lower", "nominal", "upper", ""]
 Scope = Literal["any", "demand", "procedure", "agreement", "minimum"]
-Verdict = Literal["ok", "FAILS", "does not apply", "needs agreement", "raised"]
+Verdict = Literal["ok", "FAILS", "no limit", "does not apply", "needs agreement", "raised"]
 _ROUND_OFF = 1e-9
 
 
@@ -148,14 +148,20 @@ class Check:
         return self.ratio <= 1.0 + _ROUND_OFF
 
     @property
-    def verdict(self) -> Verdict:
-        """Outcome: "ok", "FAILS", or what exceeding the limit means by the `scope`.
+    def is_unlimited(self) -> bool:
+        """Whether demand or limit is infinite, so that nothing is compared with a number."""
+        return math.isinf(self.limit) or math.isinf(self.demand)
 
+    @property
+    def verdict(self) -> Verdict:
+        """Outcome: "ok", "FAILS", "no limit", or what exceeding the limit means by the `scope`.
+
+        "no limit" where one of the two sides is unbounded and the other is held against nothing;
         "does not apply" of a limit of a procedure, "needs agreement" where the code has no rule,
         "raised" of a demand that counts with its least value; without a value for design "FAILS".
         """
         if self.passed:
-            return "ok"
+            return "no limit" if self.is_unlimited else "ok"
         beyond: dict[str, Verdict] = {
             "procedure": "does not apply",
             "agreement": "needs agreement",
@@ -179,6 +185,9 @@ class Check:
         """Demand, limit and ratio as tables show them: "-" where there is no ratio."""
         demand = quantity(self.demand, self.unit, self.shown)
         limit = quantity(self.limit, self.unit, self.shown)
+        if self.verdict == "no limit":
+            demand = "no limit" if math.isinf(self.demand) else demand
+            return demand, "no limit" if math.isinf(self.limit) else limit, "-"
         if self.void:
             return (demand if math.isinf(self.demand) else f"{demand} reached", limit, "-")
         return demand, limit, f"{self.ratio:.3f}" if math.isfinite(self.ratio) else "-"
@@ -191,6 +200,8 @@ class Check:
         title = f"{self.title}{f' ({where})' if where else ''}"
         if self.void:
             return f"{title}: {demand}, limit {limit}, no value for design: {self.void}"
+        if self.verdict == "no limit":
+            return f"{title}: {demand if math.isinf(self.limit) else f'at least {limit}'}"
         return f"{title}: {demand} {self.relation} {limit}, {self._ratio_in_words}"
 
     @property
@@ -282,6 +293,8 @@ class Checks(Sequence[Check]):
         more += f", {agree} to be agreed with the authority" if agree else ""
         less = len(self.raised)
         more += f", {less} below the code's least value: forces are raised to it" if less else ""
+        free = sum(check.verdict == "no limit" for check in self)
+        more += f", {free} without a limit" if free else ""
         return f"{len(self)} checks, {len(self.failed)} failed{more}"
 
     @property
@@ -339,7 +352,7 @@ class Checks(Sequence[Check]):
                 c.bound,
                 c.level,
                 c.said[0],
-                "" if c.void else c.relation,
+                "" if c.void or c.verdict == "no limit" else c.relation,
                 *c.said[1:],
                 c.verdict,
                 c.cited,

@@ -58,6 +58,10 @@ if TYPE_CHECKING:
 _SYMBOLS = Symbols("d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s", allowed="d_max")
 
 
+_DRIFTS = {"brittle": 0.005, "ductile": 0.0075, "separate": 0.010}
+"""Limits of nu d_r over the height by the non-structural elements (EN 1998-1 4.4.3.2)."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class EN1998:
     """Factors of EN 1998-1 and -2 and EN 15129; `CODE.values` tells how well each is known.
@@ -404,6 +408,9 @@ CODE = DesignCode(
         standard="EN 1998-1",
         least=3,
         mean_from=7,
+        drift=_DRIFTS["brittle"],
+        drift_factor=0.5,
+        drift_classes=tuple(_DRIFTS.items()),
         displacement_factor=1.2,
         accidental_eccentricity=0.05,
         statistic_clause="4.3.3.4.3(3)",

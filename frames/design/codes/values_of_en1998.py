@@ -49,6 +49,9 @@ VALUES = {
     "forces": CodeValue("EN 1998-1 (10.9)", "forces of the floors"),
     "drift": CodeValue("EN 1998-1 4.4.3.2", "storey drift at most 0.005", field="drift"),
     "reduction": CodeValue("EN 1998-1 4.4.3.2", "nu = 0.5", field="reduction"),
+    "history drift": CodeValue(
+        "EN 1998-1 4.4.3.2", "nu d_r of histories at most 0.005, 0.0075 or 0.010 of the height"
+    ),
     "orthogonal": CodeValue("EN 1998-1 4.3.3.5", "30 % of the other direction", field="orthogonal"),
     "vertical loads": CodeValue("EN 15129 8.3, EN 1998-1 10.10", "no uplift, pressure of sliders"),
     "overturning": CodeValue("EN 1998-1 4.4.2.4", "of the whole structure, safety 1.0"),

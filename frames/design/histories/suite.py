@@ -320,11 +320,8 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
         torn = bool(lifted[k].any()) and not rules.uplift_allowed
         failed.append(word != "ok" or torn)
         if failed[-1]:
-            at = float(data["failed_at"][k])
-            when = f" at {at:.4g} s" if math.isfinite(at) else ""
-            where = str(data["failed_where"].to_numpy()[k])
-            cause = word if word != "ok" else "a bearing lifted off"
-            words.append(f"{motion_of(data, k)}: {cause}{when}{f', {where}' if where else ''}")
+            cause = "" if word != "ok" else "a bearing lifted off"
+            words.append(f"{motion_of(data, k)}: {_ended(data, k, cause)}")
     statistic: Literal["mean", "largest"] = "mean" if len(status) >= rules.mean_from else "largest"
     reason = f"{len(words)} of {len(status)} runs failed ({'; '.join(words)})" if words else ""
     return Suite(
@@ -335,6 +332,45 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
         reason=reason,
         source=f"{rules.cited} {rules.statistic_clause}".strip(),
     )
+
+
+def stopped_in(data: xr.Dataset) -> BoolArray:
+    """Return which runs failed by their status, whatever the code makes of uplift, (n_runs,)."""
+    if "run" not in data.dims:
+        return np.array([str(data.attrs["status"]) != "ok"])
+    return np.array([str(word) != "ok" for word in data["status"].to_numpy()])
+
+
+def end_of(data: xr.Dataset, k: int) -> str:
+    """Return how a run failed, with what it begins: " (slip_exceeded)"; empty where it did not."""
+    return f" ({data['status'].to_numpy()[k]})" if stopped_in(data)[k] else ""
+
+
+def stopped_runs(data: xr.Dataset) -> str:
+    """Return which runs failed by their status and when, in words; empty where none did.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs.
+
+    Returns
+    -------
+    str
+        As `Suite.reason`, of runs that stopped or went on without a bearing alone.
+    """
+    words = [
+        f"{motion_of(data, int(k))}: {_ended(data, int(k))}"
+        for k in np.flatnonzero(stopped_in(data))
+    ]
+    return f"{len(words)} of {data.sizes['run']} runs failed ({'; '.join(words)})" if words else ""
+
+
+def _ended(data: xr.Dataset, k: int, cause: str = "") -> str:
+    # How a run failed, when and where.
+    at, where = float(data["failed_at"][k]), str(data["failed_where"].to_numpy()[k])
+    when = f" at {at:.4g} s" if math.isfinite(at) else ""
+    return f"{cause or data['status'].to_numpy()[k]}{when}{f', {where}' if where else ''}"
 
 
 def parted(data: xr.Dataset, least: float) -> BoolArray:

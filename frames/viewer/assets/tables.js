@@ -52,7 +52,7 @@ const Tables = (() => {
     table.replaceChildren(head, ...rows);
   }
 
-  const order = { FAILS: 0, "needs agreement": 1, "does not apply": 2, raised: 3, ok: 4 };
+  const order = { FAILS: 0, "needs agreement": 1, "does not apply": 2, raised: 3, "no limit": 4, ok: 5 };
 
   function checks(panel, list, choose) {
     panel.hidden = list.length === 0;
