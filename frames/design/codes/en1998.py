@@ -42,7 +42,7 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
-from frames.design.codes.values_of_en1998 import VALUES
+from frames.design.codes.values_of_en1998 import PROVISIONS, VALUES
 from frames.design.hazard.code_rules import DampingRule, ScalingRule
 from frames.design.hazard.spectrum import Spectrum
 
@@ -382,6 +382,7 @@ CODE = DesignCode(
     title="Design of structures for earthquake resistance, with EN 15129, Anti-seismic devices",
     edition="EN 1998-1:2004, EN 1998-2:2005, EN 15129:2009; not the second generation",
     values=VALUES,
+    provisions=PROVISIONS,
     analysis=EN1998,
     damping=DampingRule(
         "EN 1998-1:2004, 3.2.2.2(3)",

@@ -125,7 +125,7 @@ class HistoryRules:
             remedy="0.05 is a twentieth of the plan's sides, 0 leaves it out",
             error=CheckError,
         )
-        require_between("drift_factor", self.drift_factor, 0.1, 1.0, "-", error=CheckError)
+        require_between("drift_factor", self.drift_factor, 0.1, 1.0 + 1e-9, "-", error=CheckError)
         require_non_negative("least_gap", self.least_gap, "m", error=CheckError)
         require_non_negative("unacceptable_allowed", self.unacceptable_allowed, error=CheckError)
         for name in ("drift", "second_order", "engagement"):
