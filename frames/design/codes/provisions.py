@@ -24,6 +24,7 @@ NO_CHECK = "since no check of it was made"
 NEEDS: Mapping[str, str] = {
     "superstructure": "there is no [superstructure] with R",
     "wind": "no wind shear is given ([superstructure] wind_shear)",
+    "combinations": "no load cases of dead, live and snow load are known ([loads] gives them)",
     "service": "no displacement is given ([superstructure] service_displacement)",
     "gap": "no clear distance is given ([limits] moat_gap)",
     "storey stiffness": 'only a structure of kind "shear building" has the stiffness of a storey; '

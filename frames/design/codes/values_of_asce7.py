@@ -153,7 +153,7 @@ PROVISIONS = (
         f"{_CLAUSE} 17.2.4.6, 17.2.4.7",
         "uplift by the combinations",
         ("no uplift",),
-        ("superstructure",),
+        ("superstructure", "combinations"),
     ),
     Provision(
         f"{_CLAUSE} 17.2.4.7", "uplift in time histories", ("maximum uplift over the rim height",)

@@ -152,7 +152,7 @@ PROVISIONS = (
         "EN 15129 8.3, EN 1998-1 10.10",
         "uplift by the combinations",
         ("no uplift",),
-        ("superstructure",),
+        ("superstructure", "combinations"),
     ),
     Provision("EN 1998-1 10.10", "uplift in time histories", ("uplift duration",)),
     Provision(

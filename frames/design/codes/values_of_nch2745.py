@@ -103,7 +103,12 @@ PROVISIONS = (
         ("overturning of the whole structure",),
         ("superstructure",),
     ),
-    Provision("NCh2745 6.2", "uplift by the combinations", ("no uplift",), ("superstructure",)),
+    Provision(
+        "NCh2745 6.2",
+        "uplift by the combinations",
+        ("no uplift",),
+        ("superstructure", "combinations"),
+    ),
     Provision("NCh2745 8", "uplift in time histories", ("uplift duration",)),
     Provision(
         "NCh2745 6.2",

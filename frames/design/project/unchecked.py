@@ -51,6 +51,7 @@ def facts_of(parts: ProjectInputs, known: Preliminary) -> frozenset[str]:
         "wind": above is not None and above.wind_shear > 0.0,
         "service": above is not None and above.service_displacement > 0.0,
         "storey stiffness": above is not None and above.storey_stiffness is not None,
+        "combinations": bool(known.system.combinations),
         "storeys": len(frame.levels) > 1,
         "moved": bool(known.moved),
         "bounds": not {*file.analysis.bounds}.isdisjoint(known.equivalent.bounds),

@@ -193,8 +193,9 @@ def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
         shift = 0.18 * (k - 0.5 * (len(found) - 1))
         places = np.arange(len(each.values)) + shift
         for which, mark in ((~each.failed, "o^v"[k % 3]), (each.failed, "x")):
-            values = factor * each.values[which]
-            panel.plot(places[which], values, mark, color=ps.PALETTE[k], markersize=4.0)
+            if which.any():
+                values = factor * each.values[which]
+                panel.plot(places[which], values, mark, color=ps.PALETTE[k], markersize=4.0)
         if math.isfinite(each.design):
             panel.axhline(factor * each.design, color=ps.PALETTE[k], linewidth=1.0)
     panel.set_ylim(bottom=0.0)
