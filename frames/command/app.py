@@ -303,12 +303,13 @@ def _checks(title: str, checks: Checks) -> None:
 
 def _provisions(states: Iterable[ProvisionState]) -> None:
     # Those that are not checked with their reasons, a line each; those of the engineer in one.
-    from frames.design.codes.provisions import left_to_the_engineer, not_checked
+    from frames.design.codes.provisions import RUN, left_to_the_engineer, not_checked
 
     every = tuple(states)
     checked, left, own = len(every), not_checked(every), left_to_the_engineer(every)
     checked -= len(left) + len(own)
-    title = f"{checked} of {len(every)} provisions are checked, {len(left)} are not"
+    later = f" here or by {RUN}" if any(one.how == RUN for one in every) else ""
+    title = f"{checked} of {len(every)} provisions are checked{later}, {len(left)} are not"
     out.print(f"\n[bold]Provisions[/]: {title}, {len(own)} are yours", soft_wrap=True)
     _say_each(left)
     say(f"yours: {'; '.join(own)}")

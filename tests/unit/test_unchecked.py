@@ -99,15 +99,15 @@ KINDS = {
     "dampers and moat": FRAME + ABOVE + DAMPERS + MOAT,
 }
 COUNTS = {
-    "stick, all given": {"ASCE 7-22": (26, 5, 7), "EN 1998": (24, 8, 7), "NCh2745": (21, 8, 6)},
+    "stick, all given": {"ASCE 7-22": (26, 5, 8), "EN 1998": (24, 8, 8), "NCh2745": (21, 8, 7)},
     "frame, nothing given": {
-        "ASCE 7-22": (14, 17, 7),
-        "EN 1998": (15, 17, 7),
-        "NCh2745": (12, 17, 6),
+        "ASCE 7-22": (14, 17, 8),
+        "EN 1998": (15, 17, 8),
+        "NCh2745": (12, 17, 7),
     },
-    "frame with walls": {"ASCE 7-22": (23, 8, 8), "EN 1998": (21, 11, 8), "NCh2745": (18, 11, 7)},
-    "imported": {"ASCE 7-22": (15, 16, 7), "EN 1998": (14, 18, 7), "NCh2745": (11, 18, 6)},
-    "dampers and moat": {"ASCE 7-22": (18, 13, 8), "EN 1998": (16, 16, 8), "NCh2745": (13, 16, 7)},
+    "frame with walls": {"ASCE 7-22": (23, 8, 9), "EN 1998": (21, 11, 9), "NCh2745": (18, 11, 8)},
+    "imported": {"ASCE 7-22": (15, 16, 8), "EN 1998": (14, 18, 8), "NCh2745": (11, 18, 7)},
+    "dampers and moat": {"ASCE 7-22": (18, 13, 9), "EN 1998": (16, 16, 9), "NCh2745": (13, 16, 8)},
 }
 """Provisions by structure and code: checked, not checked, the engineer's."""
 REST = """
@@ -140,7 +140,7 @@ def made(name: str, folder: Path) -> Any:
     motions = folder / "motions"
     motions.mkdir()
     time = np.arange(0.0, 1.5, 0.01)
-    np.savetxt(motions / "x.txt", 2.5 * np.sin(2.0 * math.pi * time / 1.5))
+    np.savetxt(motions / "x.txt", 1.2 * np.sin(2.0 * math.pi * time / 1.5))
     (motions / "motions.csv").write_text(
         "name,x,y,dt,unit,near_fault\npulse,x.txt,x.txt,0.01,m/s2,yes\n"
     )
@@ -156,6 +156,7 @@ def made(name: str, folder: Path) -> Any:
         data = histories_at_levels(parts, known.frame, known.motions, None)["design"]["lower"]
         governing = time_history(known.frame, known.motions["pulse"], level="pendulum")
     noise = {f"noise_{key}": 0.0 for key in ("displacement", "base_shear", "rim_force", "slip")}
+    assert data["status"].to_numpy().tolist() == ["ok"]
     history = governing.assign_attrs(noise)
     return SimpleNamespace(folder=folder, data=data, history=history)
 
@@ -270,11 +271,9 @@ def failing(kind: Any, code: str, case: str, share: float) -> tuple[ProjectRun, 
         ("stick, all given", "ASCE 7-22", "one"),
         ("stick, all given", "ASCE 7-22", "allowed"),
         ("stick, all given", "EN 1998", "moved"),
-        ("stick, all given", "EN 1998", "allowed"),
         ("stick, all given", "NCh2745", "lost"),
         ("dampers and moat", "ASCE 7-22", "one"),
         ("dampers and moat", "NCh2745", "all"),
-        ("dampers and moat", "EN 1998", "moved"),
     ],
 )
 def test_no_check_and_no_table_takes_a_value_of_a_failed_run(
@@ -294,12 +293,11 @@ def test_no_check_and_no_table_takes_a_value_of_a_failed_run(
     marked = 0
     for title in tables:
         one, two = (each[title].reset_index().map(str) for each in (tables, twins))
-        if one.empty:
-            continue
-        rows = one[(one != two).any(axis=1).to_numpy()]
-        for row in rows.to_numpy():
-            marked += 1
-            assert any("failed" in cell or word in cell for cell in row), (title, row)
+        differs = np.zeros(0, dtype=bool) if one.empty else (one != two).any(axis=1).to_numpy()
+        for row, twin_row in zip(one[differs].to_numpy(), two[differs].to_numpy(), strict=True):
+            marked += 1  # in whichever of both the value is that of the failed run
+            cells = {*row, *twin_row}
+            assert any("failed" in cell or word in cell for cell in cells), (title, row)
     assert marked > 10
     if case == "one":
         texts = {text.get_text() for text in motions_figure(run).findobj(Text)}

@@ -200,6 +200,11 @@ PROVISIONS = (
         "diaphragm that brings forces to the bearings",
         why="since forces in slabs are not formed",
     ),
+    yours(
+        f"{_CLAUSE} 11.4, (17.5-1)",
+        "spectrum at the long periods of isolation",
+        "D_M by S_M1 alone was up to 10 % low at one site: give [spectrum] points",
+    ),
     yours(f"{_CLAUSE} 17.2.4.1, 17.2.4.3", "environment and fire", "state it in the specification"),
     yours(
         f"{_CLAUSE} 17.2.4.8, 17.2.4.9",

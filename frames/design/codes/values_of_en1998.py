@@ -191,6 +191,11 @@ PROVISIONS = (
         why="since no force with overstrength is formed",
     ),
     yours(
+        "EN 1998-1:2004",
+        "edition that is in force",
+        "the second generation (2024) is not known here",
+    ),
+    yours(
         "EN 1998-1 10.5.1 to 10.5.3",
         "place, access and inspection of the bearings, settlements, rigid slab above them",
         "state it in the specification",

@@ -140,6 +140,11 @@ PROVISIONS = (
         "overstrength of members and connections",
         why="since no force with overstrength is formed",
     ),
+    yours(
+        "NCh433 6.2.3",
+        "edition that is in force",
+        "of NCh433 with DS61, and of NCh2745: confirm both",
+    ),
     yours("NCh2745 13", "review of the design", "by a reviewer of the project"),
     yours(
         "NCh2745 14",

@@ -13,7 +13,6 @@ from frames.design._errors import CheckError
 from frames.design.histories.suite import (
     Amplification,
     Suite,
-    end_of,
     motion_of,
     names_of,
     peaks_of_runs,
@@ -218,11 +217,9 @@ def named_by_way(moved: xr.Dataset) -> xr.Dataset:
 
 
 def every_motion(data: xr.Dataset, moved: xr.Dataset | None) -> list[str]:
-    """Return the motions of all runs, those with moved masses last; failed ones say how."""
+    """Return the motions of all runs, those with moved masses last and with their way."""
     every = [data] if moved is None else [data, named_by_way(moved)]
-    return [
-        f"{motion_of(one, k)}{end_of(one, k)}" for one in every for k in range(one.sizes["run"])
-    ]
+    return [motion_of(one, k) for one in every for k in range(one.sizes["run"])]
 
 
 _OF_SUITES = (
