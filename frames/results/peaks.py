@@ -77,7 +77,10 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
     """
     remedy = "a Dataset of time_history; for several, summary({name: data, ...})"
     require_type("data", data, xr.Dataset, remedy)
-    return pd.DataFrame(peaks_of(data), columns=Peak._fields).set_index("quantity")
+    table = pd.DataFrame(peaks_of(data), columns=Peak._fields).set_index("quantity")
+    if str(data.attrs["status"]) != "ok":
+        table.loc["duration computed", "where"] = _status(data)
+    return table
 
 
 def peaks_of(data: xr.Dataset) -> list[Peak]:
@@ -269,6 +272,5 @@ def _walls(data: xr.Dataset) -> BoolArray:
 
 def _of_run(data: xr.Dataset) -> Iterator[Peak]:
     yield Peak("energy balance: error over input", energy_error(data), "1")
-    end = "" if str(data.attrs["status"]) == "ok" else _status(data)
-    yield Peak("duration computed", computed_until(data), "s", where=end)
+    yield Peak("duration computed", computed_until(data), "s")
     yield Peak("seconds of the time loop", float(data.attrs["seconds_loop"]), "s")

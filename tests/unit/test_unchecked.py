@@ -16,11 +16,15 @@ import pytest
 
 pytest.importorskip("pydantic")
 pytest.importorskip("pint")
+pytest.importorskip("typer")
 
 import xarray as xr
 from matplotlib.text import Text
+from typer.testing import CliRunner
 
 from frames import time_history
+from frames.command.app import app
+from frames.command.console import FAILED_CHECKS
 from frames.design import Check, Checks, Standing, code_named
 from frames.design.codes.builtin import BUILT_IN
 from frames.design.codes.code_values import CodeValue
@@ -240,6 +244,26 @@ def test_every_provision_is_checked_or_says_why_not(
     assert len(not_checked(run.provisions)) == counts[1]
     assert len(left_to_the_engineer(run.provisions)) == counts[2]
     assert counts == COUNTS[name][code]
+
+
+def test_the_clear_distance_is_checked_before_any_run(kinds: Callable[[str], Any]) -> None:
+    """100 mm for what bearings must allow: `lir check` fails; what is not checked is printed."""
+    folder = kinds("stick, all given").folder
+    parts, known = opened(folder, "ASCE 7-22")
+    title = "clearance to the moat wall, equivalent-linear"
+    room = [check for check in known.checks if check.title == title]
+    allowed = [each.allowed_displacement for each in known.equivalent.bounds.values()]
+    assert [(c.demand, c.limit) for c in room] == [(value, 0.4) for value in allowed]
+    assert all(c.clause == "ASCE 7-22 17.2.5.2" for c in room)
+    text = (folder / "ASCE 7-22.toml").read_text().replace('"400 mm"', '"100 mm"')
+    (folder / "narrow.toml").write_text(text)
+    done = CliRunner().invoke(app, ["check", str(folder / "narrow.toml")])
+    said = " ".join(done.output.split())
+    assert done.exit_code == FAILED_CHECKS
+    assert f"FAILS {title} (lower, MCE_R): {1e3 * allowed[0]:.4g} mm <= 100 mm" in said
+    assert "of 39 provisions are checked here or by lir run" in said
+    for sentence in not_checked(provisions_of(parts, known, (), is_run=False)):
+        assert sentence in said
 
 
 def failing(kind: Any, code: str, case: str, share: float) -> tuple[ProjectRun, str]:
