@@ -328,9 +328,13 @@ def _programme(
         impact_speed=float(speeds.max()) if len(speeds) else None,
     )
     table = prototype_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
-    if asked.void:
-        of_runs = table["what"].str.contains("(?:largest|least) load|interface|impact", regex=True)
-        why = f"no values for design: {asked.void}"
-        notes = table.loc[of_runs, "note"]
-        table.loc[of_runs, "note"] = [f"{note}; {why}" if note else why for note in notes]
+    stopped = str(histories.governing.attrs["status"]) != "ok"  # of which the speed is
+    speed = "the run that displaces a bearing most failed" if stopped else ""
+    for of_runs, void in (
+        ("(?:largest|least) load|interface|impact", asked.void),
+        ("impact", "" if asked.void else speed),
+    ):
+        those = table["what"].str.contains(of_runs, regex=True) & bool(void)
+        why, notes = f"no values for design: {void}", table.loc[those, "note"]
+        table.loc[those, "note"] = [f"{note}; {why}" if note else why for note in notes]
     return table
