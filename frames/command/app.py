@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from frames.design.calculation.check import Checks
+    from frames.design.codes.provisions import ProvisionState
     from frames.design.project.design_run import ProjectRun
     from frames.design.project.inputs import ProjectInputs
     from frames.design.project.speed import Way
@@ -91,7 +92,7 @@ def check(file: File = FILE) -> None:
     from frames.design.project.level_runs import said_of_runs
     from frames.design.project.preliminary import preliminary
     from frames.design.project.structure_statement import structure_rows
-    from frames.design.project.unchecked import from_memory, unchecked
+    from frames.design.project.unchecked import from_memory, provisions_of
     from lir_element.tables import text_table
 
     with told():
@@ -104,11 +105,11 @@ def check(file: File = FILE) -> None:
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
         say(repr(ground.equivalent))
-        _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
-        _say_each(unchecked(parts.file))
+        _checks("Equivalent-linear analysis, rims left out", ground.checks)
+        _provisions(provisions_of(parts, ground, (), is_run=False))
         _say_each(from_memory(parts.code()))
         say(f"the file can be run: lir run {file} ({said_of_runs(parts, ground.motions)})")
-        if not ground.equivalent.checks.passed:
+        if not ground.checks.passed:
             raise typer.Exit(FAILED_CHECKS)
 
 
@@ -206,7 +207,7 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
         count = sum(data.sizes["run"] for data in every)
         say(f"demands are raised by {count} time histories with moved masses, {seconds:.3g} s")
     _checks("Checks", found.checks)
-    _say_each(found.unchecked)
+    _provisions(found.provisions)
     say(f"{len(written)} files in {results}, report.html among them")
     if not found.checks.passed:
         raise typer.Exit(FAILED_CHECKS)
@@ -307,6 +308,20 @@ def _checks(title: str, checks: Checks) -> None:
         say(f"{each.brief} [{each.clause}]{star}")
     if any(each.standing.starred for each in checks):
         say(LEGEND)
+
+
+def _provisions(states: Iterable[ProvisionState]) -> None:
+    # Those that are not checked with their reasons, a line each; those of the engineer in one.
+    from frames.design.codes.provisions import RUN, left_to_the_engineer, not_checked
+
+    every = tuple(states)
+    checked, left, own = len(every), not_checked(every), left_to_the_engineer(every)
+    checked -= len(left) + len(own)
+    later = f" here or by {RUN}" if any(one.how == RUN for one in every) else ""
+    title = f"{checked} of {len(every)} provisions are checked{later}, {len(left)} are not"
+    out.print(f"\n[bold]Provisions[/]: {title}, {len(own)} are yours", soft_wrap=True)
+    _say_each(left)
+    say(f"yours: {'; '.join(own)}")
 
 
 def _say_each(sentences: Iterable[str]) -> None:

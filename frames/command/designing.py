@@ -104,7 +104,7 @@ def _found(
             bounds=parts.bounds(),
             target=target,
             superstructure=parts.superstructure(frame),
-            code=parts.code().analysis(),
+            code=parts.analysis(),
             sizes=sizes,
             least=least,
         )

@@ -56,7 +56,8 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
         A row a quantity with the columns value, unit (SI), time [s] and where. Displacements,
         drifts, forces and accelerations in plan are sizes of vectors, of both horizontal
         components at one instant: at most sqrt(2) times the larger of both peaks. What a run that
-        stopped before its end would have left is NaN.
+        stopped before its end would have left is NaN; where it failed, "where" of the row "duration
+        computed" says how: the other rows are what it reached.
 
     Raises
     ------
@@ -76,7 +77,10 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
     """
     remedy = "a Dataset of time_history; for several, summary({name: data, ...})"
     require_type("data", data, xr.Dataset, remedy)
-    return pd.DataFrame(peaks_of(data), columns=Peak._fields).set_index("quantity")
+    table = pd.DataFrame(peaks_of(data), columns=Peak._fields).set_index("quantity")
+    if str(data.attrs["status"]) != "ok":
+        table.loc["duration computed", "where"] = _status(data)
+    return table
 
 
 def peaks_of(data: xr.Dataset) -> list[Peak]:

@@ -40,16 +40,18 @@ def test_results_page_is_up_to_date(build: ModuleType) -> None:
     assert build.rebuilt(page, build.generated()) == page, "run: python docs/build.py"
 
 
-def test_standings_page_is_up_to_date(build: ModuleType) -> None:
-    page = build.STANDINGS.read_text(encoding="utf-8")
-    assert build.rebuilt(page, build.standings()) == page, "run: python docs/build.py"
+@pytest.mark.parametrize("name", ["standings", "provisions"])
+def test_pages_of_the_codes_are_up_to_date(build: ModuleType, name: str) -> None:
+    page = getattr(build, name.upper()).read_text(encoding="utf-8")
+    assert build.rebuilt(page, getattr(build, name)()) == page, "run: python docs/build.py"
 
 
 def test_the_build_says_what_the_demo_needs(
     build: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Without the record the other pages are written, the demo's stays, the build ends with 1."""
-    pages = {name: tmp_path / f"{name.lower()}.md" for name in ("RESULTS", "STANDINGS", "DEMO")}
+    names = "RESULTS", "STANDINGS", "PROVISIONS", "DEMO"
+    pages = {name: tmp_path / f"{name.lower()}.md" for name in names}
     for name, path in pages.items():
         path.write_text(f"before\n{build.BEGIN}\nold\n{build.END}\nafter\n", encoding="utf-8")
         monkeypatch.setattr(build, name, path)

@@ -7,7 +7,7 @@ import forces
 import motions
 import numpy as np
 
-DRIFT = {"ASCE 7-22": 0.020, "NCh2745": 0.003}
+DRIFT = {"ASCE 7-22": 0.020, "EN 1998": 0.005, "NCh2745": 0.003}
 LEAST_MOTIONS = {"ASCE 7-22": 7, "EN 1998": 3, "NCh2745": 3}
 RIMS_FROM = {"ASCE 7-22": 0.60, "EN 1998": 1.0, "NCh2745": 1.0}
 OWN = "no code: limit of the project"
@@ -194,6 +194,8 @@ def drift(f):
     """Worst drift of storeys and lines, grown as the shears must."""
     more = forces.raised(f.linear, f.suite)[0]
     theta = max(f.suite.design("drift").max(), f.suite.design("line_drift").max())
+    if f.code == "EN 1998" and not f.own:
+        theta *= 0.5  # nu, of damage limitation
     return theta * more, f.limits["drift"] if f.own else DRIFT[f.code]
 
 
@@ -481,5 +483,7 @@ def _facts(project, failed, tally, name):
     )
     motion = project.runs[largest[1]][largest[2]]["motion"][largest[3]]
     level = largest[1] or ("MCE_R" if project.code == "ASCE 7-22" else "design")
-    case = f"{motion}, {largest[2]} bound, {level} level"
+    status = project.runs[largest[1]][largest[2]]["status"][largest[3]]
+    ended = "" if status == "ok" else f", failed ({status})"
+    case = f"{motion}, {largest[2]} bound, {level} level{ended}"
     tally.words(name, "governing case", facts["governing_case"], case)

@@ -53,6 +53,7 @@ def compare(project, tally):
         _demands,
         _by_motion,
         _checks,
+        _provisions,
         _programme,
         _accepted,
     ]
@@ -79,6 +80,7 @@ def _kind(heading, head):
         ("Time histories", "motion"): _by_motion,
         ("Time histories", "members"): _members,
         ("Checks", "check"): _checks,
+        ("Checks", "provision"): _provisions,
         ("Test programme", "test"): _programme,
         ("Test programme", "accepted if"): _accepted,
     }
@@ -467,6 +469,8 @@ def _limit(project, row):
         k = s.names.index(subject)
         return overturning(project, e, above)[k], share * s.P[k]
     held = above["T_fb"] if above and above["T_fb"] else 0.0
+    if title == "storey drift":
+        return storey_drift(project, e, above, int(subject.removeprefix("storey ")) - 1)
     simple = {
         "effective period": (e["period"], 5.0),
         "effective damping": (e["damping"], 0.30),
@@ -477,6 +481,35 @@ def _limit(project, row):
         "height": (above["h"][-1] if above else 0.0, 19.8),
     }
     return simple.get(title)
+
+
+def storey_drift(project, e, above, k):
+    """Return the drift of a storey under the floors' forces, and its limit."""
+    stiffness = project.file["structure"]["storey_stiffness"][k]
+    w, h = above["w"], above["h"]
+    code = project.code
+    share = w * h ** (14.0 * e["damping"] * above["T_fb"]) if code == "ASCE 7-22" else w * h
+    share = w if code == "EN 1998" else share  # one acceleration for all
+    more = {"ASCE 7-22": e.get("R_I"), "EN 1998": 0.5 * 1.5, "NCh2745": min(above["R"], 2.0)}
+    limit = {"ASCE 7-22": 0.015, "EN 1998": 0.005, "NCh2745": 0.0025}[code]
+    shear = e["V_s"] * share[k:].sum() / share.sum()
+    return more[code] * shear / stiffness, limit * np.diff(h, prepend=0.0)[k]
+
+
+def _provisions(project, head, rows, tally):
+    """The table among the files, and that each is checked by a check that was made or says why."""
+    name, kept = "tables of the report", project.table("provisions")
+    tally.words(name, "number of provisions", len(rows), len(kept))
+    made = {row["title"] for row in project.table("checks")}
+    for row, own in zip(rows, kept, strict=True):
+        tally.words(name, f"{own['what']}", row[0], own["what"])
+        tally.words(name, f"{own['what']} is", row[2], own["state"])
+        if own["state"] == "checked":
+            titles = own["how"].split("; ")
+            limits = "storey drift", "no uplift", "effective", "period ratio", "no restrainer"
+            limits += "restoring", "total eccentricity", "capacity with", "storeys", "height"
+            found = [t in made or t.startswith(limits) for t in titles]
+            tally.words(name, f"{own['what']} by", all(found), True)
 
 
 def overturning(project, e, above):

@@ -127,7 +127,16 @@ def test_from_seven_motions_on_the_mean_counts_below_the_largest(
     assert {c.level for c in asce} == {"MCE_R"}
     europe = history_checks(few, frame, "EN 1998-1")
     assert one(europe, "isolator displacement").demand == pytest.approx(1.2 * moved[5])
-    assert not [check for check in europe if "drift" in check.title]
+    nu_d = one(europe, "storey drift ratio")  # of damage limitation, for brittle elements
+    assert (nu_d.demand, nu_d.limit) == pytest.approx((0.5 * drift[5].max(), 0.005), rel=1e-12)
+    assert nu_d.clause == "EN 1998-1 4.4.3.2"
+    for kind, limit in (("ductile", 0.0075), ("separate", 0.010)):
+        chosen = HISTORY_RULES["EN 1998"].for_elements(kind)
+        assert one(history_checks(few, frame, chosen), "storey drift ratio").limit == limit
+    with pytest.raises(CheckError, match=r"nonstructural = 'brick': choose one of .'brittle'"):
+        HISTORY_RULES["EN 1998"].for_elements("brick")
+    with pytest.raises(CheckError, match="NCh2745 has one limit of drifts"):
+        HISTORY_RULES["NCh2745"].for_elements("brittle")
     refused = history_checks(few, alone, "ASCE 7-22")
     assert [check.title for check in refused.failed] == ["number of motions"]
 
@@ -170,7 +179,7 @@ def test_a_run_that_failed_is_never_averaged_away(frame: Frame, with_failure: xr
         table = history_demands(with_failure, code)
         row = table.loc["isolator displacement"]
         assert row["value"] == row["envelope"] == pytest.approx(moved.mean(), rel=1e-12)
-        assert (row["worst"], row["run"]) == (pytest.approx(moved.max()), "pulse 4")
+        assert (row["worst"], row["run"]) == (pytest.approx(moved.max()), "pulse 4 (slip_exceeded)")
         assert row["void"].startswith(reason)
         assert table.attrs["statistics"] == {"value": "no valid value; mean of 7 runs, 1 failed"}
         assert np.isnan(table.loc["residual interface slip", "value"])

@@ -138,3 +138,4 @@ def test_a_run_that_stopped_leaves_nothing():
     assert math.isnan(table.loc["residual interface slip", "value"])
     assert math.isnan(table.loc["residual bearing displacement", "value"])
     assert summary({"one": data}).loc["status", "one"].startswith("slip_exceeded at ")
+    assert peaks(data).loc["duration computed", "where"].startswith("slip_exceeded at ")

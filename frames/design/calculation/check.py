@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
 Bound = Literal["lower", "nominal", "upper", ""]
 Scope = Literal["any", "demand", "procedure", "agreement", "minimum"]
-Verdict = Literal["ok", "FAILS", "no value", "does not apply", "needs agreement", "raised"]
+Verdict = Literal[
+    "ok", "FAILS", "no value", "no limit", "does not apply", "needs agreement", "raised"
+]
 _ROUND_OFF = 1e-9
 
 
@@ -148,14 +150,20 @@ class Check:
         return self.ratio <= 1.0 + _ROUND_OFF
 
     @property
+    def is_unlimited(self) -> bool:
+        """Whether demand or limit is infinite, so that nothing is compared with a number."""
+        return math.isinf(self.limit) or math.isinf(self.demand)
+
+    @property
     def verdict(self) -> Verdict:
         """Outcome: "ok", "FAILS", "no value", or the meaning of an exceeded limit by the `scope`.
 
-        "does not apply": a limit of a procedure; "needs agreement": the code has no rule;
-        "raised": a demand that counts with its least value; "no value": runs failed (`void`).
+        "no limit": demand or limit is infinite, so that there is nothing to compare; "does not
+        apply": a limit of a procedure; "needs agreement": the code has no rule; "raised": a
+        demand that counts with its least value; "no value": runs failed (`void`).
         """
         if self.passed:
-            return "ok"
+            return "no limit" if self.is_unlimited else "ok"
         beyond: dict[str, Verdict] = {
             "procedure": "does not apply",
             "agreement": "needs agreement",
@@ -179,6 +187,9 @@ class Check:
         """Demand, limit and ratio as tables show them: "-" where there is no ratio."""
         demand = quantity(self.demand, self.unit, self.shown)
         limit = quantity(self.limit, self.unit, self.shown)
+        if self.verdict == "no limit":
+            demand = "no limit" if math.isinf(self.demand) else demand
+            return demand, "no limit" if math.isinf(self.limit) else limit, "-"
         if self.void:
             return (demand if math.isinf(self.demand) else f"{demand} before failure", limit, "-")
         return demand, limit, f"{self.ratio:.3f}" if math.isfinite(self.ratio) else "-"
@@ -196,6 +207,8 @@ class Check:
         title = f"{self.title}{f' ({where})' if where else ''}"
         if self.void:
             return f"{title}: {demand}, limit {limit}"
+        if self.verdict == "no limit":
+            return f"{title}: {demand if math.isinf(self.limit) else f'at least {limit}'}"
         return f"{title}: {demand} {self.relation} {limit}, {self._ratio_in_words}"
 
     @property
@@ -292,11 +305,11 @@ class Checks(Sequence[Check]):
         more += f", {agree} to be agreed with the authority" if agree else ""
         less = len(self.raised)
         more += f", {less} below the code's least value: forces are raised to it" if less else ""
+        free = sum(check.verdict == "no limit" for check in self)
+        more += f", {free} without a limit" if free else ""
         void = len(self.without_value)
-        fail = f"{len(self.failed) - void} failed"
-        return (
-            f"{len(self)} checks, {fail}{f', {void} without a valid value' if void else ''}{more}"
-        )
+        more = f", {void} without a valid value{more}" if void else more
+        return f"{len(self)} checks, {len(self.failed) - void} failed{more}"
 
     @property
     def governing(self) -> Check:
@@ -353,7 +366,7 @@ class Checks(Sequence[Check]):
                 c.bound,
                 c.level,
                 c.said[0],
-                "" if c.void else c.relation,
+                "" if c.void or c.verdict == "no limit" else c.relation,
                 *c.said[1:],
                 c.verdict,
                 c.cited,

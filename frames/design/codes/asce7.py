@@ -47,7 +47,7 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
-from frames.design.codes.values_of_asce7 import VALUES
+from frames.design.codes.values_of_asce7 import PROVISIONS, VALUES
 from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.units import STANDARD_GRAVITY
@@ -409,6 +409,7 @@ CODE = DesignCode(
     title="Minimum Design Loads and Associated Criteria for Buildings and Other Structures",
     edition="ASCE/SEI 7-22, chapter 17; compared with public texts that follow 7-05 and 7-16",
     values=VALUES,
+    provisions=PROVISIONS,
     analysis=ASCE7,
     damping=DampingRule(
         "ASCE/SEI 7-22, table 17.5-1 (7-16 alike)",

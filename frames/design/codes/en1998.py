@@ -42,7 +42,7 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
-from frames.design.codes.values_of_en1998 import VALUES
+from frames.design.codes.values_of_en1998 import PROVISIONS, VALUES
 from frames.design.hazard.code_rules import DampingRule, ScalingRule
 from frames.design.hazard.spectrum import Spectrum
 
@@ -56,6 +56,10 @@ if TYPE_CHECKING:
     from frames.design.codes.superstructure import Superstructure
 
 _SYMBOLS = Symbols("d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s", allowed="d_max")
+
+
+_DRIFTS = {"brittle": 0.005, "ductile": 0.0075, "separate": 0.010}
+"""Limits of nu d_r over the height by the non-structural elements (EN 1998-1 4.4.3.2)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -378,6 +382,7 @@ CODE = DesignCode(
     title="Design of structures for earthquake resistance, with EN 15129, Anti-seismic devices",
     edition="EN 1998-1:2004, EN 1998-2:2005, EN 15129:2009; not the second generation",
     values=VALUES,
+    provisions=PROVISIONS,
     analysis=EN1998,
     damping=DampingRule(
         "EN 1998-1:2004, 3.2.2.2(3)",
@@ -404,6 +409,9 @@ CODE = DesignCode(
         standard="EN 1998-1",
         least=3,
         mean_from=7,
+        drift=_DRIFTS["brittle"],
+        drift_factor=0.5,
+        drift_classes=tuple(_DRIFTS.items()),
         displacement_factor=1.2,
         accidental_eccentricity=0.05,
         statistic_clause="4.3.3.4.3(3)",

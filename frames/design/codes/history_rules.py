@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from frames.design._errors import CheckError
 from frames.design.codes.levels import DESIGN, ActionLevel
@@ -34,6 +34,11 @@ class HistoryRules:
         largest.
     drift : float, optional
         Limit of the storey drift ratio [-]; None where the code has none for this level of motion.
+    drift_factor : float
+        On the drift that is held against it [-]: to a more frequent earthquake, nu of EN 1998.
+    drift_classes : tuple of (str, float)
+        Kinds of non-structural elements with the limit of each [-], where a code has several; a
+        project names one.
     second_order : float, optional
         Storey drift ratio times R_I above which the effects of gravity on the displaced structure
         (P-Delta) must be in the analysis [-]; None where the code has none.
@@ -80,6 +85,8 @@ class HistoryRules:
     least: int
     mean_from: int
     drift: float | None = None
+    drift_factor: float = 1.0
+    drift_classes: tuple[tuple[str, float], ...] = ()
     second_order: float | None = None
     displacement_factor: float = 1.0
     uplift_allowed: bool = False
@@ -118,6 +125,7 @@ class HistoryRules:
             remedy="0.05 is a twentieth of the plan's sides, 0 leaves it out",
             error=CheckError,
         )
+        require_between("drift_factor", self.drift_factor, 0.1, 1.0 + 1e-9, "-", error=CheckError)
         require_non_negative("least_gap", self.least_gap, "m", error=CheckError)
         require_non_negative("unacceptable_allowed", self.unacceptable_allowed, error=CheckError)
         for name in ("drift", "second_order", "engagement"):
@@ -126,6 +134,34 @@ class HistoryRules:
         if not self.levels:
             msg = "levels is empty: give one level of the seismic action at least"
             raise CheckError(msg)
+
+    def for_elements(self, kind: str) -> HistoryRules:
+        """Return the rules with the limit of drifts of a kind of non-structural elements.
+
+        Parameters
+        ----------
+        kind : str
+            One of `drift_classes`.
+
+        Returns
+        -------
+        HistoryRules
+            The others are the same.
+
+        Raises
+        ------
+        CheckError
+            If the code has no such kind.
+        """
+        limits = dict(self.drift_classes)
+        if not limits:
+            msg = (
+                f"nonstructural = {kind!r}: {self.code} has one limit of drifts for all elements, "
+                "leave it out"
+            )
+            raise CheckError(msg)
+        require_choice("nonstructural", kind, tuple(limits), error=CheckError)
+        return replace(self, drift=limits[kind])
 
     @property
     def bearing_level(self) -> str:

@@ -49,7 +49,7 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
-from frames.design.codes.values_of_nch2745 import VALUES
+from frames.design.codes.values_of_nch2745 import PROVISIONS, VALUES
 from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
 from frames.design.hazard.spectral_shapes import (
     NCH433_SHEAR,
@@ -328,6 +328,7 @@ CODE = DesignCode(
     title="Earthquake-resistant design of base-isolated buildings (Chile)",
     edition="tables of NCh2745 Of.2003; that those of 2013 are the same is not confirmed",
     values=VALUES,
+    provisions=PROVISIONS,
     analysis=NCh2745,
     damping=DampingRule(
         VALUES["damping factor"].clause,

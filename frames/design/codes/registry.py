@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from frames.design.codes.code_values import CodeValue
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.outcome import BoundResult
+    from frames.design.codes.provisions import Provision
     from frames.design.codes.superstructure import Superstructure
 
 
@@ -178,6 +179,8 @@ class DesignCode(HazardRules):
         Edition that its clauses, formulas and tables are of, as report and console name it.
     values : mapping of str to CodeValue
         What it gives, value by value, and how well each is known; all else is from memory.
+    provisions : tuple of Provision
+        What it asks of a project, checked or not.
     analysis : callable
         Returns the equivalent-linear analysis with all defaults; a class such as `ASCE7`.
     histories : HistoryRules
@@ -224,6 +227,7 @@ class DesignCode(HazardRules):
     title: str
     edition: str = ""
     values: Mapping[str, CodeValue] = field(default_factory=dict)
+    provisions: tuple[Provision, ...] = ()
     analysis: Callable[[], AnalysisMethod]
     histories: HistoryRules
     spectrum: Callable[..., Spectrum]

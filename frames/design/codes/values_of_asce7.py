@@ -9,6 +9,7 @@ from frames.design.codes.code_values import (
     USGS,
     CodeValue,
 )
+from frames.design.codes.provisions import Provision, yours
 
 VALUES = {
     "damping factor": CodeValue("ASCE 7-22 table 17.5-1", "B_M by the damping", E031),
@@ -94,3 +95,132 @@ VALUES = {
     ),
 }
 """By name; of what no text was compared it is from memory."""
+
+_CLAUSE = "ASCE 7-22"
+
+PROVISIONS = (
+    Provision(
+        f"{_CLAUSE} 17.2.4.5, 17.4.1",
+        "rims are not met at D_TM",
+        ("no restrainer contact at the total displacement",),
+    ),
+    Provision(
+        f"{_CLAUSE} 17.2.4.5",
+        "share of D_TM from which rims may be met",
+        ("displacement where a rim engages",),
+    ),
+    Provision(f"{_CLAUSE} 17.2.4.4", "restoring force", ("restoring force",)),
+    Provision(
+        f"{_CLAUSE} 17.4.1",
+        "limits of the procedure: T_M, beta_M, stiffness",
+        ("effective period", "effective damping", "effective stiffness ratio"),
+    ),
+    Provision(
+        f"{_CLAUSE} 17.4.1",
+        "limits of the procedure: T_M over T_fb, storeys, height",
+        ("period ratio T_M / T_fb", "storeys", "height"),
+        ("superstructure",),
+    ),
+    Provision(
+        f"{_CLAUSE} 17.4.1, 12.3.2",
+        "regularity in plan and height, torsional irregularity",
+        why="since the largest drift over the mean one is held against no limit",
+    ),
+    Provision(
+        f"{_CLAUSE} 17.5.6",
+        "storey drift, equivalent-linear",
+        ("storey drift",),
+        ("superstructure", "storey stiffness"),
+    ),
+    Provision(
+        f"{_CLAUSE} 17.6.4.4",
+        "storey drift of time histories",
+        ("storey drift ratio",),
+        ("storeys",),
+    ),
+    Provision(
+        f"{_CLAUSE} 17.6.4.4",
+        "P-Delta from a drift of 0.010 / R_I on",
+        why="since the note of the drifts alone says whether the analysis has it",
+    ),
+    Provision(
+        f"{_CLAUSE} 17.2.4.7",
+        "overturning of the whole structure",
+        ("overturning of the whole structure",),
+        ("superstructure",),
+    ),
+    Provision(
+        f"{_CLAUSE} 17.2.4.6, 17.2.4.7",
+        "uplift by the combinations",
+        ("no uplift",),
+        ("superstructure", "combinations"),
+    ),
+    Provision(
+        f"{_CLAUSE} 17.2.4.7", "uplift in time histories", ("maximum uplift over the rim height",)
+    ),
+    Provision(f"{_CLAUSE} 17.2.4.2", "sliding under wind", ("sliding under wind",), ("wind",)),
+    Provision(
+        f"{_CLAUSE} 17.2.5.2",
+        "separation to walls and neighbours",
+        ("clearance to the moat wall, equivalent-linear",),
+        ("gap",),
+    ),
+    Provision(
+        f"{_CLAUSE} 17.3.3",
+        "number and scaling of motions",
+        ("number of motions", "pairs of motions", "mean spectrum of the motions"),
+    ),
+    Provision(
+        f"{_CLAUSE} 17.3.3",
+        "near-fault pairs in the axes of the fault",
+        ("near-fault pairs that are not turned to the fault",),
+        ("near fault",),
+    ),
+    Provision(f"{_CLAUSE} 17.3.3", "runs that failed", ("runs that failed",)),
+    Provision(
+        f"{_CLAUSE} 17.6.2.1",
+        "accidental eccentricity of time histories",
+        ("runs with moved masses that failed",),
+        ("moved",),
+    ),
+    Provision(f"{_CLAUSE} 17.6.4", "displacement of time histories", ("isolator displacement",)),
+    Provision(
+        f"{_CLAUSE} 17.6.4",
+        "least shears of time histories",
+        ("base shear of time histories", "storey shear of time histories"),
+        ("superstructure", "storeys", "bounds"),
+    ),
+    Provision(
+        f"{_CLAUSE} 12.4.3, 17.5.4",
+        "overstrength of members and connections",
+        why="since no force with overstrength is formed",
+    ),
+    Provision(
+        f"{_CLAUSE} 17.2.5.1",
+        "diaphragm that brings forces to the bearings",
+        why="since forces in slabs are not formed",
+    ),
+    yours(
+        f"{_CLAUSE} 11.4, (17.5-1)",
+        "spectrum at the long periods of isolation",
+        "D_M by S_M1 alone was up to 10 % low at one site: give [spectrum] points",
+    ),
+    yours(f"{_CLAUSE} 17.2.4.1, 17.2.4.3", "environment and fire", "state it in the specification"),
+    yours(
+        f"{_CLAUSE} 17.2.4.8, 17.2.4.9",
+        "inspection, replacement and quality control",
+        "state it in the specification",
+    ),
+    yours(
+        f"{_CLAUSE} 17.2.6",
+        "parts that cross the isolation interface",
+        "they must follow the total displacement",
+    ),
+    yours(f"{_CLAUSE} 17.7", "review of the design", "by a reviewer of the project"),
+    yours(
+        f"{_CLAUSE} 17.8",
+        "tests of the bearings",
+        "the programme is in the report; acceptance_checks judges loops that were measured",
+    ),
+)
+"""Provisions of chapter 17, checked or not; `OF_BEARINGS` has those beside the code."""

@@ -1,6 +1,7 @@
 """What EN 1998 and EN 15129 give for isolation, value by value, and how well each is known."""
 
 from frames.design.codes.code_values import NTC, NTC_SLIDERS, CodeValue
+from frames.design.codes.provisions import NO_CODE, Provision, yours
 from frames.design.hazard.spectral_shapes import EN1998_TABLES
 
 VALUES = {
@@ -49,6 +50,9 @@ VALUES = {
     "forces": CodeValue("EN 1998-1 (10.9)", "forces of the floors"),
     "drift": CodeValue("EN 1998-1 4.4.3.2", "storey drift at most 0.005", field="drift"),
     "reduction": CodeValue("EN 1998-1 4.4.3.2", "nu = 0.5", field="reduction"),
+    "history drift": CodeValue(
+        "EN 1998-1 4.4.3.2", "nu d_r of histories at most 0.005, 0.0075 or 0.010 of the height"
+    ),
     "orthogonal": CodeValue("EN 1998-1 4.3.3.5", "30 % of the other direction", field="orthogonal"),
     "vertical loads": CodeValue("EN 15129 8.3, EN 1998-1 10.10", "no uplift, pressure of sliders"),
     "overturning": CodeValue("EN 1998-1 4.4.2.4", "of the whole structure, safety 1.0"),
@@ -76,3 +80,137 @@ VALUES = {
     "stable": CodeValue("EN 15129 8.3.4", "the bearing stays stable"),
 }
 """By name; of what no text was compared it is from memory."""
+
+PROVISIONS = (
+    Provision(
+        "EN 1998-1 10.3, EN 15129 8.3",
+        "rims are not met at gamma_x d_bd",
+        ("no restrainer contact at gamma_x d_bd",),
+    ),
+    Provision(
+        "EN 1998-1 10.3(2), EN 15129",
+        "share of gamma_x d_bd from which rims may be met",
+        ("displacement where a rim engages",),
+    ),
+    Provision(
+        "EN 15129 4.3, EN 1998-2 7.7.1",
+        "recentring",
+        ("recentring, energy", "recentring, displacement"),
+    ),
+    Provision(
+        "EN 1998-1 10.9.2",
+        "limits of the procedure: stiffness, damping, restoring force",
+        ("effective stiffness ratio", "effective damping", "restoring force"),
+    ),
+    Provision(
+        "EN 1998-1 10.9.2",
+        "variation of properties with rate and load",
+        why="since a project's file has no key for it",
+    ),
+    Provision(
+        "EN 1998-1 10.9.3", "total eccentricity", ("total eccentricity over the side of the plan",)
+    ),
+    Provision(
+        "EN 1998-1 10.9.3",
+        "limits of the simplified linear analysis",
+        why="since time histories take its place",
+    ),
+    Provision(
+        "NTC 2018 7.10.6.2.2",
+        "displacement left by earlier events",
+        ("capacity with accumulated displacement",),
+    ),
+    Provision(
+        "EN 1998-1 4.4.3.2",
+        "storey drift, equivalent-linear",
+        ("storey drift",),
+        ("superstructure", "storey stiffness"),
+    ),
+    Provision(
+        "EN 1998-1 4.4.3.2",
+        "storey drift of time histories",
+        ("storey drift ratio",),
+        ("storeys",),
+    ),
+    Provision(
+        "EN 1998-1 4.4.2.2",
+        "second-order effects, theta at most 0.1",
+        why="since theta of the storeys is not formed",
+    ),
+    Provision(
+        "EN 1998-1 4.2.3",
+        "regularity in plan and height, torsion",
+        why="since the largest drift over the mean one is held against no limit",
+    ),
+    Provision(
+        "EN 1998-1 4.4.2.4",
+        "overturning of the whole structure",
+        ("overturning of the whole structure",),
+        ("superstructure",),
+    ),
+    Provision(
+        "EN 15129 8.3, EN 1998-1 10.10",
+        "uplift by the combinations",
+        ("no uplift",),
+        ("superstructure", "combinations"),
+    ),
+    Provision("EN 1998-1 10.10", "uplift in time histories", ("uplift duration",)),
+    Provision(
+        "EN 1998-1 4.3.3.5.2, 10.6",
+        "vertical earthquake in the combinations",
+        why="since the combinations have none",
+    ),
+    Provision(NO_CODE, "sliding under wind", ("sliding under wind",), ("wind",)),
+    Provision(
+        "EN 1998-1 10.5.4",
+        "separation to walls and neighbours",
+        ("clearance to the moat wall, equivalent-linear",),
+        ("gap",),
+    ),
+    Provision(
+        "EN 1998-1 3.2.3.1.2",
+        "number and scaling of motions",
+        (
+            "number of motions",
+            "pairs of motions",
+            "mean spectrum of the motions",
+            "mean spectrum of the motions at the period 0",
+        ),
+    ),
+    Provision("EN 1998-1 4.3.3.4.3(3)", "runs that failed", ("runs that failed",)),
+    Provision(
+        "EN 1998-1 4.3.2",
+        "accidental eccentricity of time histories",
+        ("runs with moved masses that failed",),
+        ("moved",),
+    ),
+    Provision("EN 1998-1 10.3(2)", "displacement of time histories", ("isolator displacement",)),
+    Provision(
+        "EN 1998-1 4.4.2.3, 4.4.2.6",
+        "capacity design and overstrength",
+        why="since no force with overstrength is formed",
+    ),
+    yours(
+        "EN 1998-1:2004",
+        "edition that is in force",
+        "the second generation (2024) is not known here",
+    ),
+    yours(
+        "EN 1998-1 10.5.1 to 10.5.3",
+        "place, access and inspection of the bearings, settlements, rigid slab above them",
+        "state it in the specification",
+    ),
+    yours(
+        "EN 1998-1 10.4",
+        "pipes and joints that cross the isolation interface",
+        "they must follow the total displacement",
+    ),
+    yours("EN 1998-1 4.3.5", "non-structural elements", "floor accelerations are in demands.csv"),
+    yours(
+        "EN 15129 8.3.4",
+        "tests of the bearings",
+        "the programme is in the report; acceptance_checks judges loops that were measured",
+    ),
+    yours("EN 15129 4.4, 10", "durability, fire, replacement", "state it in the specification"),
+)
+"""Provisions of EN 1998 and EN 15129, checked or not; `OF_BEARINGS` has those beside them."""

@@ -1,6 +1,7 @@
 """What NCh2745 gives, value by value, and how well each is known."""
 
 from frames.design.codes.code_values import CodeValue
+from frames.design.codes.provisions import NO_CODE, Provision, yours
 from frames.design.hazard.spectral_shapes import NCH2745_TABLES
 
 VALUES = {
@@ -54,3 +55,111 @@ VALUES = {
     "stable": CodeValue("NCh2745 14.4", "the bearing stays stable"),
 }
 """By name; of what no text was compared it is from memory."""
+
+PROVISIONS = (
+    Provision(
+        "NCh2745 7.3",
+        "rims are not met at D_TM",
+        ("no restrainer contact at the total displacement",),
+    ),
+    Provision(
+        "NCh2745 7.3",
+        "share of D_TM from which rims may be met",
+        ("displacement where a rim engages",),
+    ),
+    Provision("NCh2745 10.2", "restoring force", ("restoring force",)),
+    Provision(
+        "NCh2745 10.2",
+        "capacity of 3 D_TD where the restoring force is less",
+        why="since the note of the restoring force alone names it",
+    ),
+    Provision(
+        "NCh2745 7.1",
+        "limits of the static procedure",
+        why="since none were read; time histories take its place",
+    ),
+    Provision(
+        "NCh2745 8.2",
+        "least displacements and shears of time histories",
+        why="since none were read; those of ASCE 7-22 and UBC-97 are a measure",
+    ),
+    Provision(
+        "NCh433 5.5",
+        "regularity in plan and height, torsion",
+        why="since the largest drift over the mean one is held against no limit",
+    ),
+    Provision(
+        "NCh2745 7.6",
+        "storey drift, equivalent-linear",
+        ("storey drift",),
+        ("superstructure", "storey stiffness"),
+    ),
+    Provision(
+        "NCh2745 8.8", "storey drift of time histories", ("storey drift ratio",), ("storeys",)
+    ),
+    Provision(
+        "NCh2745 6.2",
+        "overturning of the whole structure",
+        ("overturning of the whole structure",),
+        ("superstructure",),
+    ),
+    Provision(
+        "NCh2745 6.2",
+        "uplift by the combinations",
+        ("no uplift",),
+        ("superstructure", "combinations"),
+    ),
+    Provision("NCh2745 8", "uplift in time histories", ("uplift duration",)),
+    Provision(
+        "NCh2745 6.2",
+        "vertical earthquake in the combinations",
+        why="since the combinations have none",
+    ),
+    Provision(NO_CODE, "sliding under wind", ("sliding under wind",), ("wind",)),
+    Provision(
+        NO_CODE,
+        "separation to walls and neighbours",
+        ("clearance to the moat wall, equivalent-linear",),
+        ("gap",),
+    ),
+    Provision(
+        "NCh2745 8.4",
+        "number and scaling of motions",
+        ("number of motions", "pairs of motions", "mean spectrum of the motions"),
+    ),
+    Provision("NCh2745 8.4", "runs that failed", ("runs that failed",)),
+    Provision(
+        "NCh2745 8.3",
+        "accidental eccentricity of time histories",
+        ("runs with moved masses that failed",),
+        ("moved",),
+    ),
+    Provision("NCh2745 8", "displacement of time histories", ("isolator displacement",)),
+    Provision(
+        "NCh2745 7.4",
+        "overstrength of members and connections",
+        why="since no force with overstrength is formed",
+    ),
+    yours(
+        "NCh433 6.2.3",
+        "edition that is in force",
+        "of NCh433 with DS61, and of NCh2745: confirm both",
+    ),
+    yours("NCh2745 13", "review of the design", "by a reviewer of the project"),
+    yours(
+        "NCh2745 14",
+        "tests of the bearings",
+        "the programme is in the report; acceptance_checks judges loops that were measured",
+    ),
+    yours(
+        "NCh2745 9",
+        "parts that cross the isolation interface",
+        "they must follow the total displacement",
+    ),
+    yours(
+        "NCh2745 6",
+        "environment, fire, inspection and replacement",
+        "state it in the specification",
+    ),
+)
+"""Provisions of NCh2745, checked or not; `OF_BEARINGS` has those beside the code."""

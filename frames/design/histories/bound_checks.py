@@ -27,6 +27,7 @@ from frames.design.histories.suite import (
     names_of,
     parted,
     peaks_of_runs,
+    stopped_runs,
     suite_of,
 )
 from frames.design.histories.suite_notes import audit_notes, contact_notes, left_out_checks
@@ -98,7 +99,7 @@ class BoundChecks:
         """
         doubts = list(map(str, self.data["doubts"].to_numpy()))
         found = [self._motions(), self._failed(), *self._moved_failed()]
-        found += left_out_checks(self.data, doubts, self.bound)
+        found += left_out_checks(self.data, doubts, self.bound, stopped_runs(self.data))
         if self.level.judges_bearings:
             found += self._of_bearings()
         if self.level.judges_structure:
@@ -238,8 +239,8 @@ class BoundChecks:
             longest = float(np.where(open_, lasts, 0.0).max())
             t.given("t_up", longest, "s", note=f"longest of a bearing in a run, gap above {gap}")
             t.given("t_allowed", 0.0, "s")
-            stopped = bool((every["status"].to_numpy() != "ok").any())
-            void = self._suite.void if stopped else ""
+            stopped = stopped_runs(every)  # also where the code lets the others stand
+            void = stopped and (self._suite.void or stopped)
             judge = CheckBuilder(t, self.bound, self._known("uplift", "uplift_allowed"), void=void)
             clause, title = self._clause(self.rules.force_clause), f"uplift duration above {gap}"
             note = self._small_gaps
@@ -292,7 +293,8 @@ class BoundChecks:
             return found
         if self.rules.drift is not None:
             for check in self._drift_within(self.rules.drift, self.rules.drift_clause):
-                note = "; ".join(part for part in (check.note, self._gravity(check)) if part)
+                said = (check.note, self._gravity(check), self._elements)
+                note = "; ".join(part for part in said if part)
                 found.append(replace(check, note=note))
         if own is not None:
             for check in self._drift_within(own, ""):
@@ -312,17 +314,29 @@ class BoundChecks:
         there = "the members have it" if self.frame.members else "springs do not have it"
         return f"above {100.0 * least:.3g} % P-Delta must be in the analysis ({clause}): {there}"
 
+    @property
+    def _elements(self) -> str:
+        # Which non-structural elements the code's limit is of, where it has several kinds.
+        limits = dict(self.rules.drift_classes)
+        kinds = [kind for kind, limit in limits.items() if limit == self.rules.drift]
+        if not kinds:
+            return ""
+        others = (f"{kind} {100.0 * v:g} %" for kind, v in limits.items() if kind not in kinds)
+        return f"limit of {kinds[0]} non-structural elements, of others: {', '.join(others)}"
+
     def _beside(self) -> str:
         # How the project's limit of drifts is to that of the code.
         own, code = self.limits.drift, self.rules.drift
         if own is None or code is None:
             return ""
+        code /= self.rules.drift_factor
         word = "laxer" if own > code else "not laxer"
         clause = self._clause(self.rules.drift_clause)
         return f"{word} than {100.0 * code:g} % of {clause}, which is checked beside it"
 
     def _drift_within(self, limit: float, clause: str) -> list[Check]:
         least = self._least_shears
+        nu = self.rules.drift_factor if clause else 1.0
 
         def fill(values: FloatArray, of: str) -> Trace:
             t = Trace()
@@ -331,9 +345,13 @@ class BoundChecks:
                 more = "least shear over that of the runs, as its own check has it; 1 at least"
                 t.given("f_V", raise_of(least).above, note=more)
                 self._suite.form(t, "theta_d", "f_V * theta", "-", "%", of="theta")
+            if nu < 1.0:
+                t.given("nu", nu, note="of the earthquake of damage limitation")
+                self._suite.form(t, "theta_nu", "nu * theta", "-", "%", of="theta")
             return t
 
-        symbol, title = "theta_d" if least else "theta", "storey drift ratio"
+        title = "storey drift ratio"
+        symbol = "theta_d" if least else "theta_nu" if nu < 1.0 else "theta"
         found: list[Check] = []
         for name, of in _DRIFTS.items():
             if f"reached_{name}" in self.data:

@@ -8,7 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames.design.histories.eccentricity import raised_suite, with_moved
-from frames.design.histories.suite import motion_of, names_of, peaks_of_runs
+from frames.design.histories.suite import (
+    end_of,
+    motion_of,
+    names_of,
+    peaks_of_runs,
+    stopped_in,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -117,7 +123,8 @@ def _numbers(
         largest = np.nanmax(reached_by(every[bound], name), axis=1, initial=-math.inf)
         if largest.max() > worst:
             worst, one = float(largest.max()), int(largest.argmax())
-            run = ", ".join(part for part in (motion_of(every[bound], one), bound) if part)
+            named = f"{motion_of(every[bound], one)}{end_of(every[bound], one)}"
+            run = ", ".join(part for part in (named, bound) if part)
     found = {"envelope": envelope, "worst": worst}
     known = {key: sign * v + 0.0 if math.isfinite(v) else math.nan for key, v in found.items()}
     return cells | {
@@ -205,7 +212,7 @@ def reached_by(data: xr.Dataset, name: str) -> FloatArray:
     values = peaks_of_runs(data, name)
     values = values.reshape(len(values), -1).copy()
     if name.endswith("_left"):
-        values[data["status"].to_numpy() != "ok"] = math.nan
+        values[stopped_in(data)] = math.nan
     return values
 
 

@@ -114,8 +114,8 @@ def eccentricity_table(
     -------
     pandas.DataFrame
         A row a level, bound, way and quantity (SI): the largest with the masses where they are and
-        moved, the factor or the difference that counts, and of which motions. Empty without moved
-        runs.
+        moved, the factor or the difference that counts, and of which motions; void: which of these
+        runs failed, so that nothing counts. Empty without moved runs.
     """
     import pandas as pd
 
@@ -123,7 +123,7 @@ def eccentricity_table(
     units = {name: unit for name, unit, _ in _RAISED}
     for level, each in moved.items():
         for bound, data in each.items():
-            table, _ = _each_way(runs[level][bound], data, rules)
+            table, failed = _each_way(runs[level][bound], data, rules)
             for (name, way), (centred, reached, motions) in table.items():
                 one = _raise(way, centred, reached, motions, dict(_KINDS)[name])
                 factored = dict(_KINDS)[name] == "factor"
@@ -139,6 +139,7 @@ def eccentricity_table(
                         "factor": one.factor if factored else math.nan,
                         "added": math.nan if factored else one.added,
                         "motions": motions,
+                        "void": failed,
                     }
                 )
     return pd.DataFrame(rows)
@@ -293,6 +294,8 @@ def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple
         suites = suite_of(here, rules), suite_of(there, rules)
         if any(suites[1].failed):
             failed.append(f"masses moved {way}: {suites[1].reason}")
+        elif suites[0].void:  # what moved masses are compared with
+            failed.append(f"masses where they are: {suites[0].void}")
         whole = there.sizes["run"] == data.sizes["run"]
         motions = f"{suites[1].statistic} of all {there.sizes['run']} motions"
         if not whole:
@@ -304,7 +307,7 @@ def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple
                 if name == "rim_plastic" and not any(pair):
                     continue
                 found[name, way] = (pair[0], pair[1], motions)
-    return found, "; ".join(failed)
+    return found, "; ".join(dict.fromkeys(failed))
 
 
 def _place(data: xr.Dataset, moved: xr.Dataset, k: int) -> int:

@@ -214,7 +214,7 @@ def history_demands(
           ``attrs["statistics"]`` says which, and of how many;
         - envelope: the largest of these, and where it is;
         - worst: the largest of all single runs (of the minimum axial force the smallest), and its
-          run;
+          run, with its status where it failed;
         - note: what the row is of, and which gaps do not count;
         - void: where more runs failed than the rules allow, which and why. The numbers of that
           bound are then those that its runs reached, failed ones included, up to where they

@@ -73,7 +73,10 @@ def link_demands(runs: Runs, rules: HistoryRules, moved: Runs | None = None) -> 
                 table[title] = value
             every = [data] if beside is None else [data, beside]
             forces = np.concatenate([peaks_of_runs(one, "link_force") for one in every])
-            which = np.nan_to_num(forces, nan=-np.inf).argmax(axis=0)
+            counts = np.full(len(forces), True)  # of those that failed none, if the others stand
+            counts[: len(suite.failed)] = not suite.is_usable or ~np.array(suite.failed)
+            known = np.where(counts[:, None], forces, -np.inf)
+            which = np.nan_to_num(known, nan=-np.inf).argmax(axis=0)
             table["motion"] = np.array(every_motion(data, beside), dtype=object)[which]
             table["its force [N]"] = forces[which, np.arange(len(which))]
             tables.append(table.assign(void=suite.void, level=level))

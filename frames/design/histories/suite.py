@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -344,12 +344,7 @@ def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
     """
     status = [str(value) for value in data["status"].to_numpy()]
     torn = parted(data, rules.least_gap).any(axis=1) & (not rules.uplift_allowed)
-
-    def of(k: int) -> Failure:
-        at, where = float(data["failed_at"][k]), str(data["failed_where"].to_numpy()[k])
-        return Failure(motion_of(data, k), status[k], at, where)
-
-    return [of(k) if word != "ok" or torn[k] else None for k, word in enumerate(status)]
+    return [_failure(data, k) if word != "ok" or torn[k] else None for k, word in enumerate(status)]
 
 
 def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
@@ -369,9 +364,8 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
     """
     stopped = failures_of(data, rules)
     status = data["status"].to_numpy()
-    words = [str(one) for one in stopped if one is not None]
+    reason = _said_of([one for one in stopped if one is not None], data)
     statistic: Literal["mean", "largest"] = "mean" if len(status) >= rules.mean_from else "largest"
-    reason = "; ".join([f"{len(words)} of {len(status)} runs failed", *words]) if words else ""
     return Suite(
         statistic=statistic,
         failed=tuple(one is not None for one in stopped),
@@ -380,6 +374,45 @@ def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
         reason=reason,
         source=f"{rules.cited} {rules.statistic_clause}".strip(),
     )
+
+
+def stopped_in(data: xr.Dataset) -> BoolArray:
+    """Return which runs failed by their status, whatever the code makes of uplift, (n_runs,)."""
+    if "run" not in data.dims:
+        return np.array([str(data.attrs["status"]) != "ok"])
+    return np.array([str(word) != "ok" for word in data["status"].to_numpy()])
+
+
+def end_of(data: xr.Dataset, k: int) -> str:
+    """Return how a run failed, with what it begins: " (slip_exceeded)"; empty where it did not."""
+    return f" ({data['status'].to_numpy()[k]})" if stopped_in(data)[k] else ""
+
+
+def stopped_runs(data: xr.Dataset) -> str:
+    """Return which runs failed by their status and when, in words; empty where none did.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        The runs.
+
+    Returns
+    -------
+    str
+        As `Suite.reason`, of runs that stopped or went on without a bearing alone.
+    """
+    return _said_of([_failure(data, int(k)) for k in np.flatnonzero(stopped_in(data))], data)
+
+
+def _said_of(failures: Sequence[Failure], data: xr.Dataset) -> str:
+    # How many runs failed, and each of them.
+    count = f"{len(failures)} of {data.sizes['run']} runs failed"
+    return "; ".join([count, *map(str, failures)]) if failures else ""
+
+
+def _failure(data: xr.Dataset, k: int) -> Failure:
+    at, where = float(data["failed_at"][k]), str(data["failed_where"].to_numpy()[k])
+    return Failure(motion_of(data, k), str(data["status"].to_numpy()[k]), at, where)
 
 
 def parted(data: xr.Dataset, least: float) -> BoolArray:

@@ -39,7 +39,9 @@ def audit_notes(data: xr.Dataset) -> str:
     )
 
 
-def left_out_checks(data: xr.Dataset, doubts: list[str], bound: Bound) -> list[Check]:
+def left_out_checks(
+    data: xr.Dataset, doubts: list[str], bound: Bound, void: str = ""
+) -> list[Check]:
     """Return the check that nothing that runs left out mattered; none where they left out nothing.
 
     Parameters
@@ -50,6 +52,8 @@ def left_out_checks(data: xr.Dataset, doubts: list[str], bound: Bound) -> list[C
         What the assumption check of each marks.
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings.
+    void : str
+        Which runs failed: nothing is known of them from then on.
 
     Returns
     -------
@@ -67,7 +71,7 @@ def left_out_checks(data: xr.Dataset, doubts: list[str], bound: Bound) -> list[C
     )
     t.given("n_allowed", 0.0)
     judge, title = (
-        CheckBuilder(t, bound, OWN),
+        CheckBuilder(t, bound, OWN, void=void),
         "runs whose modelling assumptions are violated",
     )
     return [judge("no code: assumption check", title, "n_spoilt", "<=", "n_allowed", note=features)]

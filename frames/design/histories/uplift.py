@@ -16,7 +16,13 @@ from frames.design.devices.bearing_numbers import enter_geometry
 from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
 from frames.design.devices.overlap import overlap_area, pressure
 from frames.design.histories.governing import Calculation, Governing
-from frames.design.histories.suite import Suite, motion_of, names_of, peaks_of_runs
+from frames.design.histories.suite import (
+    Suite,
+    motion_of,
+    names_of,
+    peaks_of_runs,
+    stopped_in,
+)
 from lir_element.device.sliders import interface_height
 
 if TYPE_CHECKING:
@@ -198,9 +204,7 @@ class Uplift:
 
     @property
     def _failed(self) -> BoolArray:
-        if "run" not in self.data.dims:
-            return np.array([str(self.data.attrs["status"]) != "ok"])
-        return np.array([str(word) != "ok" for word in self.data["status"].to_numpy()])
+        return stopped_in(self.data)
 
 
 def _enter_rim(bearing: LIRBearing) -> Trace:

@@ -13,7 +13,7 @@ import pandas as pd
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.demand_table import envelope_said, void_said
 from frames.design.histories.suite import peaks_of_runs
-from frames.design.project.governing_run import most_displaced
+from frames.design.project.governing_run import most_displaced, named_case
 from frames.design.project.level_runs import (
     demands_at_levels,
     histories_at_levels,
@@ -227,7 +227,7 @@ def compared_histories(
             model = frame if bound == "" else with_property_bounds(frame, bound, parts.bounds())
             data[device] = time_history(model, motion, level=given.level, dt=given.dt)
     where = list(found.known.frame.bearings)[int(np.argmax(reached))]
-    return data, f"{name}, {bound} bound, {level} level", where
+    return data, named_case(found.runs[OURS], level, bound, run), where
 
 
 def _frames_of(frame: Frame) -> dict[str, Frame]:

@@ -25,7 +25,7 @@ from frames.design.project.level_runs import (
 )
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.structure_statement import structure_rows
-from frames.design.project.unchecked import unchecked
+from frames.design.project.unchecked import provisions_of
 from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
     from frames.design.codes.history_rules import HistoryRules
     from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.codes.provisions import ProvisionState
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
@@ -94,8 +95,8 @@ class ProjectRun:
         What of the input was warned of.
     structure : tuple of (str, str)
         What the structure is, in words.
-    unchecked : tuple of str
-        What is not checked, for the file has no number for it.
+    provisions : tuple of ProvisionState
+        Provisions of the code: checked, not checked and why, or the engineer's.
     tables : tuple of Path
         Tables that the file names, which are kept with the results.
     """
@@ -120,7 +121,7 @@ class ProjectRun:
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
     structure: tuple[tuple[str, str], ...] = ()
-    unchecked: tuple[str, ...] = ()
+    provisions: tuple[ProvisionState, ...] = ()
     tables: tuple[Path, ...] = ()
 
 
@@ -239,6 +240,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         asked=asked,
         types=types,
     )
+    checks = Checks(checks_of(run))
     return ProjectRun(
         frame=frame,
         spectrum=known.spectrum,
@@ -247,7 +249,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         runs=runs,
         moved=moved,
         demands=demands,
-        checks=Checks(checks_of(run)),
+        checks=checks,
         bounds=bounds,
         model=frame.check(),
         loads=known.system.loads,
@@ -260,7 +262,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         types=known.types,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
         structure=tuple(structure_rows(parts.file, frame)),
-        unchecked=unchecked(parts.file),
+        provisions=provisions_of(parts, known, checks),
         tables=parts.tables(),
     )
 
@@ -329,9 +331,13 @@ def _programme(
         impact_speed=float(speeds.max()) if len(speeds) else None,
     )
     table = prototype_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
-    if asked.void:
-        of_runs = table["what"].str.contains("(?:largest|least) load|interface|impact", regex=True)
-        why = "no values for design: runs failed"
-        notes = table.loc[of_runs, "note"]
-        table.loc[of_runs, "note"] = [f"{note}; {why}" if note else why for note in notes]
+    stopped = str(histories.governing.attrs["status"]) != "ok"  # of which the speed is
+    speed = "the run that displaces a bearing most failed" if stopped else ""
+    for of_runs, void in (
+        ("(?:largest|least) load|interface|impact", "runs failed" if asked.void else ""),
+        ("impact", "" if asked.void else speed),
+    ):
+        those = table["what"].str.contains(of_runs, regex=True) & bool(void)
+        why, notes = f"no values for design: {void}", table.loc[those, "note"]
+        table.loc[those, "note"] = [f"{note}; {why}" if note else why for note in notes]
     return table

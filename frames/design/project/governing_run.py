@@ -6,6 +6,7 @@ import warnings
 from typing import TYPE_CHECKING
 
 from frames.design.codes.bounds import with_property_bounds
+from frames.design.histories.suite import stopped_in
 from frames.recording.recording import Recording
 from frames.results.peak_response import largest
 from frames.results.storage import as_packed
@@ -79,7 +80,7 @@ def governing_run(
     kept = as_packed(data).assign_attrs(
         {f"{_ATTRIBUTE}{key}": _apart(data, disturbed, key) for key in _WATCHED}
     )
-    return kept, f"{name}, {bound} bound, {level} level"
+    return kept, named_case(runs, level, bound, run)
 
 
 def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
@@ -119,6 +120,14 @@ def most_displaced(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> tuple[str,
         for run in range(data.sizes["run"])
     }
     return max(reached, key=lambda key: reached[key])
+
+
+def named_case(runs: LevelRuns, level: str, bound: Bound, run: int) -> str:
+    """Return a run in words: motion, bound and level, and the status of one that failed."""
+    data = runs[level][bound]
+    motion, status = (str(data[name].to_numpy()[run]) for name in ("motion", "status"))
+    ended = f", failed ({status})" if stopped_in(data)[run] else ""
+    return f"{motion}, {bound} bound, {level} level{ended}"
 
 
 def _apart(data: xr.Dataset, other: xr.Dataset, quantity: str) -> float:

@@ -7,7 +7,7 @@ import runpy
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from frames.assembly.assemble import assemble
 from frames.design._errors import ProjectError
@@ -42,6 +42,7 @@ from lir_element import CoulombFriction, LIRBearing
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from frames.design.codes.registry import AnalysisMethod
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project import schema
     from frames.design.project.schema import MotionSource, ProjectFile, Structure
@@ -158,6 +159,8 @@ class ProjectInputs:
         if above is None:
             return None
         given = above.model_dump()
+        if isinstance(self.file.structure, ShearBuilding):  # others have no stiffness of a storey
+            given["storey_stiffness"] = self.file.structure.storey_stiffness
         return in_section("superstructure", lambda: Superstructure.from_frame(frame, **given))
 
     def spectrum(self) -> Spectrum:
@@ -204,8 +207,19 @@ class ProjectInputs:
         given = self.file.analysis.model_dump(exclude_none=True, include=keys)
         if given.get("accidental_eccentricity") == "none":
             given["accidental_eccentricity"] = 0.0
-        rules = self.code().histories
-        return in_section("analysis", lambda: replace(rules, **given))
+        rules, kind = self.code().histories, self.file.analysis.nonstructural
+
+        def made() -> HistoryRules:
+            return replace(rules if kind is None else rules.for_elements(kind), **given)
+
+        return in_section("analysis", made)
+
+    def analysis(self) -> AnalysisMethod:
+        """Return the equivalent-linear analysis of the code, with the file's limit of drifts."""
+        found: Any = self.code().analysis()
+        if self.file.analysis.nonstructural is None:
+            return cast("AnalysisMethod", found)
+        return cast("AnalysisMethod", replace(found, drift=self.rules().drift))
 
     def target(self) -> DesignTarget:
         """Return what ``lir design`` chooses from."""

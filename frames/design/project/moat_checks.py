@@ -12,7 +12,7 @@ from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT
 from frames.design.histories.demand_table import largest_of_bounds
 from frames.design.histories.eccentricity import raised_suite, with_moved
-from frames.design.histories.suite import motion_of, peaks_of_runs
+from frames.design.histories.suite import motion_of, peaks_of_runs, stopped_runs
 from frames.design.project.check_register import RunToCheck, register_check
 from frames.design.project.devices_beside import walls_of
 
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames.design.calculation.check import Bound
+    from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.codes.registry import DesignCode
     from frames.frame import Frame
 
 _AT_BEARINGS = "at the bearings: what stands out past them moves more where the base turns"
@@ -46,19 +48,40 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
     gap = run.limits.moat_gap
     if gap is None:
         return []
-    found = []
-    for each in run.equivalent.bounds.values():
-        t = _with_gap(gap)
-        t.given("D_T", each.allowed_displacement, "m", shown="mm", note="that bearings must allow")
-        title = "clearance to the moat wall, equivalent-linear"
-        room = run.code.values.get("separation")
-        judge = CheckBuilder(t, each.bound, OWN if room is None else room.standing)
-        clause = PROJECT_LIMIT if room is None else room.clause
-        found.append(judge(clause, title, "D_T", "<=", "g_moat", note=_AT_BEARINGS))
+    found = clearance_checks(run.code, run.equivalent, gap)
     level = run.rules.bearing_level
     for bound, data in run.runs[level].items():
         moved = run.moved.get(level, {}).get(bound)
         found += _of_histories(run, bound, data, moved, gap)
+    return [replace(check, level=level) for check in found]
+
+
+def clearance_checks(code: DesignCode, equivalent: EquivalentLinear, gap: float) -> list[Check]:
+    """Make the checks of the clear distance by the equivalent-linear analysis alone.
+
+    Parameters
+    ----------
+    code : DesignCode
+        The code.
+    equivalent : EquivalentLinear
+        Its analysis.
+    gap : float
+        Clear distance to the moat wall or a neighbour [m].
+
+    Returns
+    -------
+    list of Check
+        One a bound.
+    """
+    found, room = [], code.values.get("separation")
+    for each in equivalent.bounds.values():
+        t = _with_gap(gap)
+        t.given("D_T", each.allowed_displacement, "m", shown="mm", note="that bearings must allow")
+        title = "clearance to the moat wall, equivalent-linear"
+        judge = CheckBuilder(t, each.bound, OWN if room is None else room.standing)
+        clause = PROJECT_LIMIT if room is None else room.clause
+        found.append(judge(clause, title, "D_T", "<=", "g_moat", note=_AT_BEARINGS))
+    level = code.histories.bearing_level
     return [replace(check, level=level) for check in found]
 
 
@@ -82,7 +105,7 @@ def _of_histories(
     k = int(largest.argmax())
     t = _with_gap(gap)
     t.given("D_max", float(largest[k]), "m", shown="mm", note=motion_of(every, k))
-    judge = CheckBuilder(t, bound, OWN)
+    judge = CheckBuilder(t, bound, OWN, void=stopped_runs(every))
     title = "moat wall is not met in any run"
     return [first, judge(PROJECT_LIMIT, title, "D_max", "<=", "g_moat", note=told.model)]
 

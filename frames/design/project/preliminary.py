@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelError, ModelWarning, MotionWarning
 from frames.design._errors import ProjectError
+from frames.design.calculation.check import Checks
 from frames.design.codes.analysis import equivalent_linear
 from frames.design.hazard.sanity_checks import factor_doubts, twins
 from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
+from frames.design.project.moat_checks import clearance_checks
 from frames.design.project.sanity_checks import file_doubts, wind_doubts
 from frames.design.project.schema import ImportedModel, OpenSeesModel
 from frames.library.moved_masses import with_moved_masses
@@ -56,6 +58,8 @@ class Preliminary:
         Type of each bearing of the frame.
     doubts : tuple of str
         What was warned of on the way: of the file, the bearing and the motions.
+    checks : Checks
+        Those of the equivalent-linear analysis, and of the clear distance to walls by it.
     """
 
     frame: Frame
@@ -67,6 +71,7 @@ class Preliminary:
     moved: Mapping[str, Frame] = field(default_factory=dict)
     types: Mapping[str, str] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()
+    checks: Checks = field(default_factory=Checks)
 
 
 def preliminary(parts: ProjectInputs) -> Preliminary:
@@ -121,9 +126,11 @@ def _made(parts: ProjectInputs) -> Preliminary:
         spectrum,
         bounds=parts.bounds(),
         superstructure=above,
-        code=parts.code().analysis(),
+        code=parts.analysis(),
     )
     motions = scaled_motions(parts, spectrum, equivalent)
+    gap = parts.limits().moat_gap
+    room = [] if gap is None else clearance_checks(parts.code(), equivalent, gap)
     return Preliminary(
         frame=frame,
         system=system,
@@ -133,6 +140,7 @@ def _made(parts: ProjectInputs) -> Preliminary:
         motions=motions,
         moved=moved_frames(parts, frame),
         types=parts.types(),
+        checks=equivalent.checks + room,
     )
 
 

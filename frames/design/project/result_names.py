@@ -23,6 +23,7 @@ RESULT_FILES = frozenset(
                 "members-without-forces",
                 "modes",
                 "programme",
+                "provisions",
                 "reactions",
                 "storeys",
             )

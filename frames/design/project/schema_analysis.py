@@ -20,6 +20,7 @@ class Analysis(Table):
     bounds: tuple[Literal["lower", "nominal", "upper"], ...] = ("lower", "nominal", "upper")
     uplift_allowed: bool | None = None
     least_gap: Length | None = None
+    nonstructural: str | None = None
     histories: Literal["governing", "all"] = "governing"
     accidental_eccentricity: Ratio | Literal["none"] | None = None
     accidental_eccentricity_motions: Literal["governing", "all"] = "governing"

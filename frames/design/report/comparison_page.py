@@ -95,7 +95,11 @@ def _differences(found: Comparison) -> pd.DataFrame:
     ours, plain = (found.demands[device] for device in (OURS, PLAIN))
     one, two = ours["envelope"], plain["envelope"].to_numpy()
     change = 100.0 * (one / np.where(np.abs(two) > 0.0, two, math.nan) - 1.0)
-    words = ["-" if math.isnan(value) else f"{value:+.0f} %" for value in change]
+    void = (ours["void"] != "").to_numpy() | (plain["void"] != "").to_numpy()
+    words = [
+        "no value" if failed else "-" if math.isnan(value) else f"{value:+.0f} %"
+        for value, failed in zip(change, void, strict=True)
+    ]
     table = ours[["unit"]].assign(**{OURS: one, PLAIN: two, f"{OURS} to {PLAIN}": words})
     return table if ours["level"].nunique() == 1 else table.assign(level=ours["level"])
 

@@ -30,6 +30,7 @@ def raised_tables(table: pd.DataFrame) -> list[Table]:
     worst = table.loc[size.groupby([table["level"], table["bound"], table["quantity"]]).idxmax()]
     worst["quantity"] = worst["quantity"].replace(_TITLES)
     worst = worst.sort_index().set_index("quantity")
+    worst.loc[worst["void"] != "", ["factor", "added"]] = math.nan  # of what failed runs reached
     worst["factor"] = worst["factor"].map(_factor)  # a pure number, whatever unit its row has
     order = ["level", "bound", "masses", "unit", "centred", "moved", "factor", "added", "motions"]
     if worst["level"].nunique() == 1:

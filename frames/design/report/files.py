@@ -7,6 +7,8 @@ import shutil
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, cast
 
+import pandas as pd
+
 from frames.design._errors import ProjectError
 from frames.design.histories.demand_table import headed
 from frames.design.project.design_run import Histories
@@ -59,7 +61,7 @@ def write_run(
         histories, ``runs-<level>-<bound>.nc`` where a code has several levels of the seismic
         action, and ``moved-...nc`` in the same way, those with the masses moved, whose table is
         ``eccentricity.csv``; ``equivalent-linear.csv``, ``demands.csv``, ``checks.csv``,
-        ``demands-by-motion.csv``,
+        ``demands-by-motion.csv``, ``provisions.csv``,
         ``bearings.csv``, ``friction.csv``, ``modes.csv``, ``programme.csv``, ``storeys.csv``,
         ``reactions.csv`` in SI units, and ``members.csv``, ``member-groups.csv`` of a structure
         with members, ``members-without-forces.csv`` of one with shells or springs,
@@ -113,6 +115,7 @@ def write_judgement(
         f"{BY_MOTION}.csv": tables[BY_MOTION].to_csv(index=False),
         "equivalent-linear.csv": run.equivalent.to_dataframe().to_csv(),
         "demands.csv": headed(run.demands).assign(void=run.demands["void"]).to_csv(),
+        "provisions.csv": pd.DataFrame(run.provisions).to_csv(index=False),
         "checks.csv": run.checks.to_dataframe().to_csv(index=False),
         "checks.txt": calculations(run),
         "report.html": report_html(run, source, tables, figures=figures, language=language),

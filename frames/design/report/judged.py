@@ -78,7 +78,8 @@ def judged(check: Check) -> Judged:
         limit, sign, ratio = "none allowed", "", ""
         demand = "none" if check.demand in _ZERO and not check.void else demand
     if math.isinf(check.demand):
-        demand, sign, ratio = NOT_EVALUATED if not check.void else "not known", "", ""
+        known = "no limit" if check.passed else NOT_EVALUATED
+        demand, sign, ratio = "not known" if check.void else known, "", ""
     if math.isinf(check.limit):
         limit, sign, ratio = "no limit", "", ""
     return Judged(

@@ -36,7 +36,7 @@ def member_groups(run: ProjectRun, forces: pd.DataFrame | None) -> pd.DataFrame:
         A row a group and force, in local axes: number of members, unit, smallest and largest value
         for design, each with its member, station and bound, at the level at which the structure is
         judged. Empty without members. What is below a millionth of the largest of its unit is left
-        out: round-off.
+        out: round-off. Where runs failed a column "void" says so: values are what they reached.
     """
     if forces is None:
         return pd.DataFrame()
@@ -47,7 +47,7 @@ def member_groups(run: ProjectRun, forces: pd.DataFrame | None) -> pd.DataFrame:
     order = {name: k for k, name in enumerate(dict.fromkeys(names.values()))}
     group = governing["member"].map(names)
     parts = dict(iter(governing.groupby([group, "force"])))
-    rows = []
+    rows, void = [], governing["void"].any()
     for name, force in sorted(parts, key=lambda key: (order[key[0]], MEMBER_FORCES.index(key[1]))):
         part = parts[name, force]
         row = {"group": name, "members": part["member"].nunique(), "force": force}
@@ -57,6 +57,8 @@ def member_groups(run: ProjectRun, forces: pd.DataFrame | None) -> pd.DataFrame:
             worst = those.iloc[int(np.argmax(sign * those["value"].to_numpy()))]
             row[title] = float(worst["value"])
             row[f"member of {title}"] = f"{worst['member']} {worst['station']}, {worst['bound']}"
+        if void:
+            row["void"] = "; ".join(dict.fromkeys(why for why in part["void"] if why))
         rows.append(row)
     table = pd.DataFrame(rows).set_index("group")
     size = table[["smallest", "largest"]].abs().max(axis=1)

@@ -13,7 +13,7 @@ from frames.design.histories.force_demands import force_demands
 from frames.design.histories.least_shears import raises_by_case
 from frames.design.histories.link_demands import link_demands
 from frames.design.histories.motion_table import demands_by_motion
-from frames.design.histories.suite import peaks_of_runs
+from frames.design.histories.suite import peaks_of_runs, stopped_in
 from frames.design.report.by_motion import BY_MOTION
 from frames.design.report.member_groups import member_groups, without_forces
 from frames.statics.modes import modes
@@ -65,7 +65,8 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
     -------
     pandas.DataFrame
         A row a bearing; places and displacements [m], forces [N], in the names of the columns.
-        Largest of all runs, those with moved masses among them, whatever the code makes of them.
+        Largest of all runs, those with moved masses among them, whatever the code makes of them;
+        where runs failed a column "void" says how many: those count until they stopped.
     """
     links = run.frame.bearings
     places = [run.frame.nodes[link.j] for link in links.values()]
@@ -79,11 +80,14 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
     )
     if len(set(run.types.values())) > 1:
         table.insert(0, "type", [run.types[name] for name in links])
+    both = (*run.runs.values(), *run.moved.values())
     for title, (name, sign) in _REACHED.items():
-        both = (*run.runs.values(), *run.moved.values())
         every = (data for each in both for data in each.values())
         values = [peaks_of_runs(data, name).max(axis=0) for data in every]
         table[title] = sign * np.max(values, axis=0)
+    stopped = [stopped_in(data) for runs in both for data in runs.values()]
+    if count := sum(int(each.sum()) for each in stopped):
+        table["void"] = f"{count} of {sum(map(len, stopped))} runs failed"
     return table
 
 

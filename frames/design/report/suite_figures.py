@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from frames._types import FloatArray
+    from frames._types import BoolArray, FloatArray
     from frames.design.calculation.check import Check
     from frames.design.histories.suite import Suite
     from frames.design.project.design_run import ProjectRun
@@ -56,6 +56,10 @@ class Reached(NamedTuple):
         Which of the two, and whether accidental eccentricity raises it.
     where : str
         Bearing or storey.
+    failed : ndarray of bool, (n_runs,)
+        Runs whose values must not count.
+    is_usable : bool
+        Whether `design` is a value for design, and not what runs reached alone.
     """
 
     bound: str
@@ -64,6 +68,8 @@ class Reached(NamedTuple):
     design: float
     statistic: str
     where: str
+    failed: BoolArray
+    is_usable: bool
 
 
 def reached(run: ProjectRun, name: str, *, of_bearings: bool) -> list[Reached]:
@@ -108,13 +114,11 @@ def reached(run: ProjectRun, name: str, *, of_bearings: bool) -> list[Reached]:
                 design[k],
                 suite.statistic + (", raised by moved masses" if suite.raised else ""),
                 names_of(data, name)[k],
+                np.array(suite.failed),
+                suite.is_usable,
             )
         )
     return found
-
-
-def _statistic(suite: Suite) -> str:
-    return f"{suite.statistic}, raised by moved masses" if suite.raised else suite.statistic
 
 
 def motions_figure(run: ProjectRun) -> Figure:
@@ -128,8 +132,9 @@ def motions_figure(run: ProjectRun) -> Figure:
     Returns
     -------
     Figure
-        A panel for each quantity; marks are motions, lines the mean or the largest, whichever the
-        code counts, as in the table of demands.
+        A panel for each quantity; marks are motions, crosses those whose run failed, lines the mean
+        or the largest, whichever the code counts, as in the table of demands. Where there are no
+        values for design the title says so.
     """
     quantities = (
         ("isolator displacement", "displacement", "mm", 1e3, True),
@@ -166,15 +171,31 @@ def motions_figure(run: ProjectRun) -> Figure:
         for k, each in enumerate(shown[0][3])
     ]
     title = f"All motions; lines: the {' or the '.join(statistics)}, at the place that governs"
+    every = [each for *_, found in shown for each in found]
+    if any(each.failed.any() for each in every):
+        handles.append(_cross(label="run that failed"))
+    if not all(each.is_usable for each in every):
+        title = VOID_TITLE
     ps.add_legend(figure, handles, title=title)
     return figure
+
+
+VOID_TITLE = "All motions; runs failed: lines are what runs reached, no values for design"
+"""Title of a figure whose lines are no values for design."""
+
+
+def _cross(**more: Any) -> Line2D:
+    return Line2D([], [], color=ps.GREY, marker="x", linestyle="none", **more)
 
 
 def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
     for k, each in enumerate(found):
         shift = 0.18 * (k - 0.5 * (len(found) - 1))
         places = np.arange(len(each.values)) + shift
-        panel.plot(places, factor * each.values, "o^v"[k % 3], color=ps.PALETTE[k], markersize=4.0)
+        for which, mark in ((~each.failed, "o^v"[k % 3]), (each.failed, "x")):
+            if which.any():
+                values = factor * each.values[which]
+                panel.plot(places[which], values, mark, color=ps.PALETTE[k], markersize=4.0)
         if math.isfinite(each.design):
             panel.axhline(factor * each.design, color=ps.PALETTE[k], linewidth=1.0)
     panel.set_ylim(bottom=0.0)
@@ -191,20 +212,23 @@ def profiles_figure(run: ProjectRun) -> Figure | None:
     Returns
     -------
     Figure or None
-        A panel for each bound: thin lines are motions, the thick one their mean or largest; None
-        where there are fewer than two storeys.
+        A panel for each bound: thin lines are motions, dotted ones those whose run failed, the
+        thick one their mean or largest; None where there are fewer than two storeys.
     """
     level = next(level.name for level in run.rules.levels if level.judges_structure)
     runs = {bound: data for bound, data in run.runs[level].items() if "reached_drift" in data}
     if not runs or peaks_of_runs(next(iter(runs.values())), "drift").shape[1:] < (2,):
         return None
     figure, panels = ps.panels_of(len(runs), len(runs), 3.0)
+    usable: list[bool] = []
     for k, (panel, (bound, data)) in enumerate(zip(panels, runs.items(), strict=True)):
         suite = raised_suite(data, run.moved.get(level, {}).get(bound), run.rules)
         _profile(panel, data, suite, ps.PALETTE[k])
         ps.caption(panel, x="storey drift ratio [%]", title=bound or "runs")
+        usable.append(suite.is_usable)
     panels[0].set_xlim(left=0.0)
-    ps.add_legend(figure, [], title="Storey drift of all motions, and what counts of it")
+    title = "Storey drift of all motions, and what counts of it"
+    ps.add_legend(figure, [], title=title if all(usable) else VOID_TITLE)
     return figure
 
 
@@ -212,13 +236,11 @@ def _profile(panel: Axes, data: xr.Dataset, suite: Suite, colour: str) -> None:
     values = 1e2 * peaks_of_runs(data, "drift")
     design = np.array([suite.value(column, "drift") for column in values.T])
     edges = np.arange(values.shape[1] + 1)
-    for motion in values:
-        panel.stairs(
-            motion, edges, orientation="horizontal", baseline=None, color=ps.GREY, linewidth=0.5
-        )
-    panel.stairs(
-        design, edges, orientation="horizontal", baseline=None, color=colour, linewidth=1.8
-    )
+    look: dict[str, Any] = {"orientation": "horizontal", "baseline": None}
+    for motion, failed in zip(values, suite.failed, strict=True):
+        line = ":" if failed else "-"
+        panel.stairs(motion, edges, color=ps.GREY, linewidth=0.5, linestyle=line, **look)
+    panel.stairs(design, edges, color=colour, linewidth=1.8, **look)
     panel.set_yticks(edges[:-1] + 0.5, names_of(data, "drift"))
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from frames.design.calculation.standing import LEGEND, standing_of
+from frames.design.codes.provisions import left_to_the_engineer
 from frames.design.codes.registry import code_named
 from frames.design.histories.demand_table import tables_of_levels
 from frames.design.histories.link_demands import largest_of_links
@@ -109,7 +110,9 @@ def report_in(
         doubts=run.doubts,
         legend=LEGEND,
         checks=[judged(check) for check in run.checks],
-        unchecked=run.unchecked,
+        unchecked=[one.what for one in run.provisions if one.state == "not checked"],
+        own=left_to_the_engineer(run.provisions),
+        provisions=words.table(_provisions(run)),
         limits=[judged(check) for check in run.equivalent.checks if check not in run.checks],
         structure=words.table(
             Table(("of the structure", "as described"), run.structure, frozenset({0, 1}))
@@ -178,6 +181,12 @@ _FACTS = {"azimuth_x": "azimuth of x [°]", "azimuth_y": "azimuth of y [°]", "s
 def _named(fact: str) -> str:
     # The head of a column of a table of motions, whose keys are names.
     return _FACTS.get(fact, fact.replace("_", " "))
+
+
+def _provisions(run: ProjectRun) -> Table:
+    head = ("provision", "clause", "is", "by, or why not")
+    rows = [(one.what, one.clause, one.state, one.how) for one in run.provisions]
+    return Table(head, rows, frozenset({0, 1, 2, 3}))
 
 
 def _friction(friction: pd.DataFrame) -> Table:

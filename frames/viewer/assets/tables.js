@@ -52,7 +52,7 @@ const Tables = (() => {
     table.replaceChildren(head, ...rows);
   }
 
-  const order = { FAILS: 0, "no value": 1, "needs agreement": 2, "does not apply": 3, raised: 4, ok: 5 };
+  const order = { FAILS: 0, "no value": 1, "needs agreement": 2, "does not apply": 3, raised: 4, "no limit": 5, ok: 6 };
 
   function checks(panel, list, choose) {
     panel.hidden = list.length === 0;
