@@ -258,9 +258,11 @@ def _demands(project, found, tally):
             tally.words(
                 name,
                 f"{level} {bound} statistic",
-                column.split(", ")[1][: len(said)] if ":" not in column else said,
+                said if said in column else column,
                 said,
             )
+            if ":" not in column:  # one statistic for all levels
+                tally.words(name, "void is marked", "no valid value" in column, bool(suite.void))
             if not np.isnan(each).all() and np.nanmax(each) > best[0]:
                 best = float(np.nanmax(each)), suite.names(quantity)[int(np.nanargmax(each))]
             if not np.isnan(values).all():

@@ -76,6 +76,7 @@ def _kind(heading, head):
         ("Equivalent-linear analysis", "bound"): _linear,
         ("Equivalent-linear analysis", "check"): _limits,
         ("Time histories", "quantity"): _demands,
+        ("Time histories", "level"): _failed_runs,
         ("Time histories", "largest"): _raised,
         ("Time histories", "motion"): _by_motion,
         ("Time histories", "members"): _members,
@@ -278,6 +279,21 @@ def _demands(project, head, rows, tally):
             else:
                 given_text = " ".join(given[full[title]].split())
                 tally.words("tables of the report", label, "" if text == "-" else text, given_text)
+
+
+def _failed_runs(project, head, rows, tally):
+    # Rows of a level and bound, by cause: their counts are those of the table of all motions.
+    own = project.table("demands-by-motion")
+    for level, bound in sorted({(row[0], row[1]) for row in rows}):
+        cells = [row[2] for row in rows if (row[0], row[1]) == (level, bound)]
+        runs = [row for row in own if (row["level"], row["bound"]) == (level, bound)]
+        failed = sum(row["failed"] == "yes" for row in runs)
+        label = f"failed runs {level} {bound}"
+        tally.same(
+            "tables of the report", label, sum(int(c.split(" / ")[0]) for c in cells), failed
+        )
+        every = {c.split(" / ")[1] for c in cells}
+        tally.words("tables of the report", label, every, {str(len(runs))})
 
 
 def _by_motion(project, head, rows, tally):
