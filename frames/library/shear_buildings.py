@@ -127,8 +127,9 @@ def shear_building(
     weight, not that of its tributary area; what floors weigh beside the base (P-Delta of the
     storeys) adds no moment. With overturning, nodes over the bearings have the rotary inertia of
     their share of the base's mass over a depth of 0.8 m, about x and y. This length is fixed: it
-    does not follow the scale of the building. `moment_frame` has it as `base_depth`. Without a plan one bearing stands for all: nothing is known of their
-    axial forces but the sum, and checks that need them are not evaluated.
+    does not follow the scale of the building. `moment_frame` has it as `base_depth`. Without a
+    plan one bearing stands for all: nothing is known of their axial forces but the sum, and checks
+    that need them are not evaluated.
 
     Examples
     --------
