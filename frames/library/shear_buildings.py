@@ -125,8 +125,11 @@ def shear_building(
     plane that fits the bearings best; an overturning moment M gives the forces
     ``M x_i / sum(x_i^2)`` as far as the base is rigid. Limits: every grid point carries the same
     weight, not that of its tributary area; what floors weigh beside the base (P-Delta of the
-    storeys) adds no moment. Without a plan one bearing stands for all: nothing is known of their
-    axial forces but the sum, and checks that need them are not evaluated.
+    storeys) adds no moment. With overturning, nodes over the bearings have the rotary inertia of
+    their share of the base's mass over a depth of 0.8 m, about x and y. This length is fixed: it
+    does not follow the scale of the building. `moment_frame` has it as `base_depth`. Without a
+    plan one bearing stands for all: nothing is known of their axial forces but the sum, and checks
+    that need them are not evaluated.
 
     Examples
     --------

@@ -21,7 +21,7 @@ from frames.kernels.peaks import (
 )
 from frames.peak_data import Devices, Reached, Shape
 from frames.recording.section_cuts import storey_rows
-from frames.results.measures import floor_shares, lines_of
+from frames.results.measures import Lines, floor_shares, lines_of
 from frames.results.peak_response import Extreme
 from frames.results.quantities import QUANTITIES
 from lir_element.device.sliders import interface_height
@@ -47,7 +47,7 @@ class Places(NamedTuple):
 
     level: IntArray  # (n_nodes,) level of each node, -1 for none
     height: FloatArray  # (n_levels,) [m]
-    lines: tuple[IntArray, IntArray, IntArray]  # lower node, upper node, its level
+    lines: Lines
     shares: FloatArray  # (n_nodes, 3) of each node in its level's mean acceleration
 
 
@@ -242,28 +242,23 @@ def _nodes_dofs(nodes: IntArray, dofs: int) -> IntArray:
     return np.asarray((6 * nodes[:, None] + np.arange(dofs)).ravel(), dtype=np.int64)
 
 
-def _mean_rows(transform: SparseMatrix, places: Places, dofs: int) -> SparseMatrix:
-    # Means over the nodes of each level of their first displacements.
-    blocks = []
-    for level in range(len(places.height)):
-        nodes = np.flatnonzero(places.level == level)
-        mean = sparse.kron(np.full((1, len(nodes)), 1.0 / len(nodes)), sparse.eye_array(dofs))
-        blocks.append(sparse.csr_array(mean @ transform[_nodes_dofs(nodes, dofs)]))
-    return sparse.csr_array(sparse.vstack(blocks))
-
-
 def _drift_rows(state: GravityState, places: Places) -> SparseMatrix:
-    # Drifts along x and y: of storeys, then of lines.
+    # Drifts along x and y: of storeys, the means of their lines; then of lines.
     transform, heights = sparse.csr_array(state.system.transform), places.height
     if len(heights) < 2:
         return sparse.csr_array((0, transform.shape[1]))
-    means = _mean_rows(transform, places, 2)
-    over_rise = sparse.diags_array(1.0 / np.repeat(np.diff(heights), 2))
-    lower, upper, level = places.lines
+    lower, upper, level, arm = places.lines
     low, high = (transform[_nodes_dofs(nodes, 2)] for nodes in (lower, upper))
-    over_line = sparse.diags_array(1.0 / np.repeat(heights[level] - heights[level - 1], 2))
-    storeys, lines = over_rise @ (means[2:] - means[:-2]), over_line @ (high - low)
-    return sparse.csr_array(sparse.vstack([storeys, lines]))
+    across = np.column_stack([-arm[:, 1], arm[:, 0]]).ravel()
+    at = np.arange(len(across)), np.repeat(np.arange(len(arm)), 2)
+    turned = sparse.csr_array((across, at), shape=(len(across), len(arm)))
+    turned.eliminate_zeros()
+    carried = turned @ transform[6 * lower + 5]
+    over_rise = sparse.diags_array(1.0 / np.repeat(heights[level] - heights[level - 1], 2))
+    lines = over_rise @ (high - low - carried)
+    own = [level == k for k in range(1, len(heights))]
+    means = sparse.kron(np.array([one / one.sum() for one in own]), sparse.eye_array(2))
+    return sparse.csr_array(sparse.vstack([means @ lines, lines]))
 
 
 def _acceleration_rows(state: GravityState, places: Places) -> SparseMatrix:

@@ -351,8 +351,6 @@ def present_quantities(piece: xr.Dataset) -> list[str]:
     lacking: set[str] = set() if levels else {"floor_plan", "floor_vertical"}
     if levels < 2:
         lacking |= {"drift", "line_drift", "storey_shear"}
-    elif not storeys_of_lines(piece)[0]:
-        lacking |= {"line_drift"}
     if "body_rotation" not in piece:
         lacking |= {"tilt"}
     if "temperature" not in piece:

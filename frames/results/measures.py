@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
 
 _SAME_PLACE = 1e-3  # m, in plan, of nodes that stand over one another
+_ROUND_OFF = 1e-9  # m, of coordinates
 
 ABSORBED = ENERGY_TERMS[1:]
 """Terms of the energy that take up the input."""
@@ -77,9 +78,10 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
     Returns
     -------
     xarray.DataArray
-        Drift ratio (time, storey, axis x and y) [-]: the mean displacement of a level's nodes
-        against that of the level below, over the storey height. These are components; "storey
-        drift" of `peaks`, of checks and of figures is the size of the vector of both.
+        Drift ratio (time, storey, axis x and y) [-]: the mean of `drift_by_line` over the lines of
+        the storey. Nodes that stand in one of both levels alone do not count. These are
+        components; "storey drift" of `peaks`, of checks and of figures is the size of the vector
+        of both, and never exceeds that of the worst line.
 
     Raises
     ------
@@ -99,12 +101,11 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
     >>> drift.dims, 1e-5 < float(abs(drift).max()) < 1e-2
     (('time', 'storey', 'axis'), True)
     """
-    heights = _level_heights(data)
-    means = _level_means(data, "node_displacement", ["ux", "uy"])
-    drift = np.diff(means, axis=1) / np.diff(heights)[None, :, None]
-    names = [str(name) for name in data["level"].to_numpy()[1:]]
+    drift = _of_lines(data, "storey_drift")
+    storey, names = lines_of(data).storey, [str(name) for name in data["level"].to_numpy()[1:]]
+    means = [drift[:, storey == k].mean(axis=1) for k in range(1, len(names) + 1)]
     return xr.DataArray(
-        drift,
+        np.stack(means, axis=1),
         dims=("time", "storey", "axis"),
         coords={"time": data["time"], "storey": names, "axis": ["x", "y"]},
         attrs={"units": "1", "long_name": "storey drift ratio"} | noted(data),
@@ -184,6 +185,9 @@ def floor_shares(data: xr.Dataset) -> FloatArray:
 def drift_by_line(data: xr.Dataset) -> xr.DataArray:
     """Take the drifts at every line of nodes that stand over one another: corners drift most.
 
+    A rigid motion in plan, turns about z included, has no drift. Tilt counts, as codes have it: a
+    building that leans by an angle drifts by it.
+
     Parameters
     ----------
     data : xarray.Dataset
@@ -194,7 +198,9 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
     xarray.DataArray
         Drift ratio (time, line, axis x and y) [-] between a node of a level and the node of the
         level below at the same place in plan; a line has the name of its upper node, and the
-        coordinate `storey` says which level that is of.
+        coordinate `storey` says which level that is of. If no node of a storey stands over
+        another, each upper node is compared with the place below it. This place moves with the
+        nearest node of the level below as with a rigid body.
 
     Raises
     ------
@@ -213,39 +219,49 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
     >>> drift_by_line(data).dims
     ('time', 'line', 'axis')
     """
-    require_recorded(data, "drift_by_line", "node_displacement")
-    require_whole_levels(data, "drift_by_line")
-    heights = _level_heights(data)
-    lower, upper, storey = lines_of(data)
-    moves = data["node_displacement"].sel(dof=["ux", "uy"]).to_numpy()
-    rise = heights[storey] - heights[storey - 1]
-    drift = (moves[:, upper] - moves[:, lower]) / rise[None, :, None]
+    drift = _of_lines(data, "drift_by_line")
+    lines = lines_of(data)
     return xr.DataArray(
         drift,
         dims=("time", "line", "axis"),
         coords={
             "time": data["time"],
-            "line": data["node"].to_numpy()[upper],
-            "storey": ("line", data["level"].to_numpy()[storey]),
+            "line": data["node"].to_numpy()[lines.upper],
+            "storey": ("line", data["level"].to_numpy()[lines.storey]),
             "axis": ["x", "y"],
         },
         attrs={"units": "1", "long_name": "storey drift ratio of a line of nodes"} | noted(data),
     )
 
 
-def lines_of(data: xr.Dataset) -> tuple[IntArray, IntArray, IntArray]:
-    """Return the lines of nodes over one another: lower node, upper node, its level, each (m,)."""
+class Lines(NamedTuple):
+    """Where drifts are measured: pairs of nodes of neighbouring levels, each (m,)."""
+
+    lower: IntArray
+    upper: IntArray
+    storey: IntArray  # level of the upper node
+    arm: FloatArray  # (m, 2) from the lower node to the place below the upper one, in plan [m]
+
+
+def lines_of(data: xr.Dataset) -> Lines:
+    """Return the lines of nodes over one another; where a storey has none, those nearest."""
     level = data["level_node"].to_numpy()
     place = data["node_position"].transpose("node", "axis").to_numpy()[:, :2]
     pairs = []
     for k in range(1, data.sizes["level"]):
         low, high = np.flatnonzero(level == k - 1), np.flatnonzero(level == k)
+        if not len(low):
+            continue
         apart = np.linalg.norm(place[high][:, None] - place[low][None], axis=-1)
         nearest = apart.argmin(axis=1)
         over = apart[np.arange(len(high)), nearest] < _SAME_PLACE
-        pairs += [(low[n], up, k) for up, n, fits in zip(high, nearest, over, strict=True) if fits]
+        chosen = over if over.any() else ~over
+        pairs += [
+            (low[n], up, k) for up, n, fits in zip(high, nearest, chosen, strict=True) if fits
+        ]
     lower, upper, storey = np.array(pairs, dtype=np.int64).reshape(-1, 3).T
-    return lower, upper, storey
+    arm = place[upper] - place[lower]
+    return Lines(lower, upper, storey, np.where(np.abs(arm) < _ROUND_OFF, 0.0, arm))
 
 
 def floor_spectrum(data: xr.Dataset, periods: npt.ArrayLike, damping: float = 0.05) -> xr.DataArray:
@@ -393,14 +409,16 @@ def centre_shift(data: xr.Dataset) -> FloatArray:
     return np.stack([x, y], axis=-1)
 
 
-def _level_means(data: xr.Dataset, name: str, dofs: list[str]) -> FloatArray:
-    # Means over the nodes of each level, (time, level, dof).
-    require_recorded(data, "means over levels", name)
-    require_whole_levels(data, "means over levels")
-    place, values = data["level_node"].to_numpy(), data[name].sel(dof=dofs).to_numpy()
-    return np.stack(
-        [values[:, place == k].mean(axis=1) for k in range(data.sizes["level"])], axis=1
-    )
+def _of_lines(data: xr.Dataset, what: str) -> FloatArray:
+    # Drift ratios of lines, (time, line, axis).
+    require_recorded(data, what, "node_displacement")
+    require_whole_levels(data, what)
+    heights, lines = _level_heights(data), lines_of(data)
+    values = data["node_displacement"].sel(dof=["ux", "uy", "rz"]).to_numpy()
+    low, high = values[:, lines.lower], values[:, lines.upper, :2]
+    rise = heights[lines.storey] - heights[lines.storey - 1]
+    carried = low[..., 2:] * np.column_stack([-lines.arm[:, 1], lines.arm[:, 0]])
+    return np.asarray((high - low[..., :2] - carried) / rise[None, :, None])
 
 
 def _level_heights(data: xr.Dataset) -> FloatArray:

@@ -122,6 +122,7 @@ def storeys_of_lines(data: xr.Dataset) -> tuple[list[str], list[str]]:
         both = (data.variables[key].to_numpy() for key in ("line", f"{REACHED}line_storey"))
         lines, storeys = ([str(name) for name in each] for each in both)
         return lines, storeys
-    _, upper, level = lines_of(data)
-    names, levels = data["node"].to_numpy(), data["level"].to_numpy()
-    return [str(names[k]) for k in upper], [str(levels[k]) for k in level]
+    if f"{REACHED}drift" in data.variables:  # of an earlier version, which kept none
+        return [], []
+    lines, names, levels = lines_of(data), data["node"].to_numpy(), data["level"].to_numpy()
+    return [str(names[k]) for k in lines.upper], [str(levels[k]) for k in lines.storey]

@@ -30,6 +30,10 @@ if TYPE_CHECKING:
     from frames._types import BoolArray
 
 
+_STILL = 1e-9
+"""Drift ratio of round-off: a storey that does not drift does not twist either."""
+
+
 class Peak(NamedTuple):
     """One line of the table: a number, and when and where it was reached."""
 
@@ -230,7 +234,8 @@ def _of_drifts(data: xr.Dataset) -> Iterator[Peak]:
     yield _peak("storey drift, maximum at any column line", "1", each, names)
     own = {name: k for k, name in enumerate(storeys)}
     of = np.array([own[name] for name in storey_of])
-    ratios = each.values / np.maximum(mean.values[of], 1e-12)
+    over = each.values / np.maximum(mean.values[of], _STILL)
+    ratios = np.where(each.values > _STILL, over, 1.0)
     worst = int(np.argmax(ratios))
     where = names[worst]
     yield Peak(

@@ -7,6 +7,7 @@ from frames.risk.campaign.measures import Measure as Measure
 from frames.risk.campaign.sampling import ParameterSample as ParameterSample
 from frames.risk.campaign.sampling import full_grid as full_grid
 from frames.risk.campaign.sampling import latin_hypercube as latin_hypercube
+from frames.risk.campaign.sampling import saltelli_sample as saltelli_sample
 from frames.risk.campaign.sampling import sobol_sample as sobol_sample
 from frames.risk.campaign.store import CampaignStatus as CampaignStatus
 from frames.risk.campaign.store import CampaignStore as CampaignStore
@@ -76,6 +77,7 @@ __all__ = [
     "mean_annual_frequency",
     "multiple_stripes",
     "open_campaign",
+    "saltelli_sample",
     "save_fragility",
     "sobol_indices",
     "sobol_sample",

@@ -98,7 +98,7 @@ def overturning_share(system: System) -> Overturning:
         ends = np.asarray(rows @ moved).reshape(-1, 2, 6)
         apart = ends[:, 1] - ends[:, 0]
         turn = apart[:, 4] if axis == 0 else -apart[:, 3]
-        levers = system.coordinates[tops, axis]
+        levers = system.coordinates[tops, axis] - system.coordinates[tops, axis].mean()
         return float((-axial * apart[:, 2] * levers + rocking * turn).sum())
 
     shares = []

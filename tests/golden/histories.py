@@ -125,25 +125,34 @@ def equal(values, time):
 
 
 def floors(run, statics):
-    """Return accelerations of levels by mass, drifts of their means, and drifts of lines."""
+    """Return accelerations of levels by mass, drifts of storeys, and drifts of lines.
+
+    A storey drifts by the mean of its columns: places in plan at which both of its levels have a
+    node. Rigid floors move the place below a node that stands over none.
+    """
     level, mass = statics["level_node"], statics["node_mass"]
     place, heights = statics["node_position"], statics["level_height"]
-    moves, pushed = run["node_displacement"][..., :2], run["node_acceleration"]
-    means, centres = [], []
+    moves, pushed = run["node_displacement"], run["node_acceleration"]
+    means, drifts, lines = [], [], []
     for k in range(len(heights)):
         on = level == k
         share = mass[on, :2] / mass[on, :2].sum(0) if mass[on, 0].sum() > 0.0 else 1.0 / on.sum()
         means.append((pushed[:, on, :2] * share).sum(1))
-        centres.append(moves[:, on].mean(1))
-    drifts, lines = [], []
     for k in range(1, len(heights)):
-        rise = heights[k] - heights[k - 1]
-        drifts.append(plan(centres[k] - centres[k - 1]) / rise)
-        low = np.flatnonzero(level == k - 1)
+        low, columns, apart = np.flatnonzero(level == k - 1), [], []
         for up in np.flatnonzero(level == k):
-            under = np.hypot(*(place[low, :2] - place[up, :2]).T)
-            if len(low) and under.min() < SAME_PLACE:
-                lines.append(plan(moves[:, up] - moves[:, low[under.argmin()]]) / rise)
+            from_low = place[up, :2] - place[low, :2]
+            apart.append(np.hypot(*from_low.T).min())
+            under = np.hypot(*from_low.T).argmin()
+            below, (dx, dy) = moves[:, low[under]], from_low[under]
+            turned = below[:, 5:] * np.array([-dy, dx])
+            columns.append(
+                (moves[:, up, :2] - below[:, :2] - turned) / (heights[k] - heights[k - 1])
+            )
+        stands = np.array(apart) < SAME_PLACE
+        chosen = [c for c, on in zip(columns, stands, strict=True) if on or not stands.any()]
+        drifts.append(plan(np.mean(chosen, axis=0)))
+        lines += [plan(column) for column in chosen]
     return np.stack(means, 1), np.array(drifts).T, np.array(lines).T
 
 

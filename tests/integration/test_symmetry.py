@@ -4,10 +4,22 @@ import math
 
 import numpy as np
 import pytest
+import xarray as xr
 from numpy.testing import assert_allclose
 
-from frames import GroundMotion, ModalDamping, floor_acceleration, lumped_mass, moment_frame
+from frames import (
+    GroundMotion,
+    ModalDamping,
+    Recording,
+    drift_by_line,
+    floor_acceleration,
+    lumped_mass,
+    moment_frame,
+    peaks,
+    storey_drift,
+)
 from lir_element import LIRBearing, VelocityFriction
+from tests.irregular import Building
 
 DT = 0.004
 N = 1  # bays a side
@@ -156,3 +168,152 @@ def test_floors_of_a_symmetric_building_move_alike(run, pulse):
     floors = floor_acceleration(data)
     size = float(np.abs(floors).max())
     assert float(np.abs(floors.sel(axis="y")).max()) < 1e-4 * size  # Newton's tolerance over mass
+
+
+SEEDS = (2, 3)  # rigid floors with two setbacks; floors of beams alone that end at three columns
+TORSION = "torsion: maximum at any column line over mean drift"
+LINES = "storey drift, maximum at any column line"
+
+
+@pytest.fixture(scope="module")
+def irregular(run, pulse):
+    """Runs of buildings with setbacks, by seed."""
+    return {seed: shaken(run, Building(seed), ground(pulse)) for seed in SEEDS}
+
+
+def shaken(run, building: Building, waves: np.ndarray, **options) -> xr.Dataset:
+    return run(building.frame(), GroundMotion(*waves.T, dt=DT), dt=DT, **options)
+
+
+def moved_rigidly(data: xr.Dataset) -> xr.Dataset:
+    """Return a result whose model goes aside, up, and turns in plan."""
+    place = data["node_position"].transpose("node", "axis").to_numpy()
+    moves = np.zeros(data["node_displacement"].shape)
+    angle = np.linspace(0.0, 5e-3, data.sizes["time"])[:, None]
+    moves[..., 0] = 0.3 - angle * place[:, 1]
+    moves[..., 1] = -0.2 + angle * place[:, 0]
+    moves[..., 2], moves[..., 5] = 0.05, angle
+    return data.assign(node_displacement=data["node_displacement"].copy(data=moves))
+
+
+def offset_stick(offset: float) -> xr.Dataset:
+    """Return the variables of two floors, the upper node beside the lower one."""
+    place = np.array([[1.0, 2.0, 0.0], [1.0 + offset, 2.0 - offset, 3.0]])
+    return xr.Dataset(
+        {
+            "node_displacement": (("time", "node", "dof"), np.zeros((2, 2, 6))),
+            "node_position": (("node", "axis"), place),
+            "level_node": ("node", [0, 1]),
+            "level_height": ("level", [0.0, 3.0]),
+        },
+        {
+            "dof": ["ux", "uy", "uz", "rx", "ry", "rz"],
+            "time": [0.0, 1.0],
+            "node": ["a", "b"],
+            "level": ["base", "floor"],
+        },
+    )
+
+
+@pytest.mark.parametrize("kind", [*SEEDS, "stick"])
+def test_rigid_motions_in_plan_are_no_drift(irregular, kind):
+    data = moved_rigidly(offset_stick(0.7) if kind == "stick" else irregular[kind])
+    for drift in (storey_drift(data), drift_by_line(data)):
+        assert drift.size > 0
+        assert float(np.abs(drift).max()) < 1e-15
+    if kind != "stick":
+        assert peaks(data).loc[TORSION, "value"] == 1.0
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_storey_drifts_by_the_mean_of_its_lines(run, pulse, irregular, seed):
+    """Of histories, and of what compiled code took up at every step."""
+    data = irregular[seed]
+    lines, means = drift_by_line(data), storey_drift(data)
+    u = data["node_displacement"].sel(dof=["ux", "uy"])
+    storeys = {str(name): own for name, own in lines.groupby("storey")}
+    tops = {level.name: level.nodes for level in Building(seed).frame().levels}
+    assert [len(own["line"]) for own in storeys.values()] == [len(tops[name]) for name in storeys]
+    assert len({len(nodes) for nodes in tops.values()}) > 2
+    for name, own in storeys.items():
+        below = [f"{int(str(node)[0]) - 1}{str(node)[1:]}" for node in own["line"].to_numpy()]
+        up = u.sel(node=own["line"].to_numpy()).to_numpy()
+        by_hand = (up - u.sel(node=below).to_numpy()).mean(axis=1) / 3.5
+        assert_allclose(means.sel(storey=name), by_hand, rtol=0.0, atol=1e-15)
+    worst = np.linalg.norm(lines, axis=-1).max(axis=0)
+    mean = dict(zip(storeys, np.linalg.norm(means, axis=-1).max(axis=0), strict=True))
+    for name in storeys:
+        assert mean[name] <= worst[lines["storey"].to_numpy() == name].max()
+    kept = shaken(run, Building(seed), ground(pulse), recording=Recording(every=50))
+    rows = [LINES, TORSION, "storey drift, mean"]
+    assert_allclose(peaks(kept).loc[rows, "value"], peaks(data).loc[rows, "value"], rtol=1e-9)
+    assert list(peaks(kept).loc[rows, "where"]) == list(peaks(data).loc[rows, "where"])
+    place = str(lines["storey"].to_numpy()[worst.argmax()])
+    assert peaks(data).loc[LINES, "where"] in tops[place]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"turn": 0.7},
+        {"turn": math.pi, "shift": (120.0, -35.0)},
+        {"mirror": True, "turn": -0.4},
+        {"reordered": True},
+    ],
+    ids=["turned", "moved", "mirrored", "reordered"],
+)
+def test_an_irregular_building_answers_alike_wherever_it_stands(
+    run, pulse, irregular, seed, change
+):
+    """Sizes in plan, forces and the places named do not change with axes, origin and order."""
+    waves = ground(pulse)
+    to = turned(change.get("turn", 0.0)) @ np.diag([-1.0 if "mirror" in change else 1.0, 1.0, 1.0])
+    data, other = irregular[seed], shaken(run, Building(seed, **change), waves @ to.T)
+    found, plain = peaks(other), peaks(data)
+    rows = [
+        name
+        for name in plain.index
+        if not name.startswith(("energy balance", "seconds", "residual", "torsion", "duration"))
+    ]
+    assert len(rows) > 15
+    assert_allclose(found.loc[rows, "value"], plain.loc[rows, "value"], rtol=1e-4, atol=1e-7)
+    assert list(found.loc[["storey drift, mean", LINES], "where"]) == list(
+        plain.loc[["storey drift, mean", LINES], "where"]
+    )
+
+
+def test_likeness_of_lengths_masses_and_times(run, pulse):
+    """Lengths by c, masses by m, times by sqrt(c) under one gravity: forces go by m."""
+    c, m = 2.5, 3.0
+
+    def scaled(c: float, m: float) -> LIRBearing:
+        return LIRBearing(
+            radius=(c * 1.0, c * 0.8),
+            slider_height=c * 0.1,
+            slider_radius=c * 0.12,
+            capacity=c * 0.08,
+            friction=VelocityFriction(0.06, 0.03, 20.0 / math.sqrt(c)),
+            interface_friction=0.14,
+            axial_stiffness=m / c * 2e9,
+            axial_damping=m / math.sqrt(c) * 5e5,
+            rim_stiffness=m / c * 2e8,
+            rim_damping=m / math.sqrt(c) * 3e5,
+            rim_overrun=c * 0.02,
+            slip_capacity=c * 0.12,
+            yield_displacement=c * 2.5e-4,
+            interface_yield_displacement=c * 2.5e-4,
+        )
+
+    waves, times = ground(pulse), math.sqrt(c)
+    plain = record(run, lumped_mass(scaled(1.0, 1.0), 1e5), waves)
+    other = run(
+        lumped_mass(scaled(c, m), m * 1e5), GroundMotion(*waves.T, dt=times * DT), dt=times * DT
+    )
+    assert float(plain["rim_force"].max()) > 0.0
+    assert float(plain["interface_slip_size"].max()) > 5e-3
+    for name, scale in (("bearing_displacement", c), ("interface_slip", c), ("rim_force", m)):
+        values = scale * plain[name].to_numpy()
+        assert_allclose(other[name], values, rtol=0.0, atol=1e-5 * np.abs(values).max())
+    values = c * m * plain["energy"].to_numpy()
+    assert_allclose(other["energy"], values, rtol=0.0, atol=1e-5 * np.abs(values).max())

@@ -2,10 +2,13 @@
 
 import subprocess  # this interpreter  # noqa: S404
 import sys
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.stats import lognorm, uniform
 
 from frames import Frame, GroundMotion, ModelError, Recording, lumped_mass, time_histories
@@ -16,17 +19,19 @@ from frames.risk import (
     FragilityError,
     Intensity,
     IntensityRuns,
+    LimitState,
     ParameterSample,
     full_grid,
     latin_hypercube,
     open_campaign,
     sobol_sample,
 )
-from frames.risk.campaign import packages, plan_description
+from frames.risk.campaign import batches, packages, plan_description
 from frames.risk.campaign.campaign import usual_batch
 from frames.risk.campaign.designs import with_parameters
 from frames.risk.campaign.lock import locked
 from frames.risk.campaign.plan import Plan, differences
+from frames.risk.campaign.response import failure_table, response_table
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
 
@@ -205,6 +210,17 @@ def test_failed_runs_are_rows_with_their_reason(tmp_path: Path) -> None:
     assert set(data["status"].to_numpy()[failed].tolist()) == {"not_built"}
     assert set(data["message"].to_numpy()[failed].tolist()) == {"no such radius in the catalogue"}
     assert data["reached_displacement"].isnull().all("bearing").to_numpy().tolist() == list(failed)
+    runs = IntensityRuns.from_dataset(
+        data, PULSES, Intensity(kind="PGA", measure="x"), parameters="all"
+    )
+    assert runs.table["outcome"].to_numpy()[failed].tolist() == ["not built"] * 4
+    assert len(runs.failed) == 0
+    assert np.isnan(runs.exceeded(LimitState.bearing_failure())[failed]).all()
+    assert np.isnan(runs.demand("bearing displacement")[failed]).all()
+    table = response_table({"choosy": runs})
+    assert (table["not built [-]"] == 0.5).all()
+    assert (table["analysis failed [-]"] == 0.0).all()
+    assert failure_table({"choosy": runs})["counts as"].tolist() == ["not built"]
 
 
 def test_a_model_that_cannot_be_set_up_spoils_no_other(tmp_path: Path) -> None:
@@ -223,6 +239,41 @@ def test_a_model_that_cannot_be_set_up_spoils_no_other(tmp_path: Path) -> None:
         data = campaign.run()
     assert data["status"].to_numpy().tolist() == ["ok"] * 2 + ["not_built"] * 2 + ["ok"] * 2
     assert str(refusal.value) in data["message"].to_numpy()[2]
+
+
+def test_parameters_that_change_nothing_give_one_run(tmp_path: Path, monkeypatch) -> None:
+    """Of a DCFP, whose sliders are one piece: each motion and scale is computed once."""
+
+    def plain(parameters: dict[str, float]) -> Frame:
+        return structure(replace(BEARING, interface_friction=parameters["hold"]).as_dcfp())
+
+    computed: list[int] = []
+    original = batches.time_histories
+
+    def counted(models: object, motions: object, **options: Any) -> xr.Dataset:
+        computed.append(len(options.get("cases") or ()))
+        return original(models, motions, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(batches, "time_histories", counted)
+    options = {"sample": full_grid({"hold": [0.14, 0.16, 0.2]}), "scales": [0.5, 1.0], "batch": 12}
+    record = Recording(every=10)
+    campaign = Campaign(plain, PULSES, store=tmp_path / "store", record=record, **options)
+    assert "12 runs, none done" in campaign._repr_html_()
+    data = campaign.run(workers=1)
+    assert sum(computed) == 4
+    assert "8 of them taken over" in campaign._repr_html_()
+    assert campaign.status().reused == 8
+    assert "12 of 12 runs done (8 of them taken over): 12 ok" in str(campaign.status())
+    table = data["peak"].to_numpy().reshape(3, 4, -1)
+    assert np.array_equal(table[0], table[1], equal_nan=True)
+    assert np.array_equal(table[0], table[2], equal_nan=True)
+    assert len(np.unique(data["reached_displacement"])) == 3  # small as it is is half of large
+    one, other = (campaign.store.histories(k)["bearing_displacement"] for k in (3, 11))
+    assert np.array_equal(one, other)
+    pair = {"LIR": lambda p: structure(replace(BEARING, interface_friction=p["hold"]))}
+    apart = Campaign(pair, PULSES, store=tmp_path / "other", **options)
+    apart.run(workers=1)
+    assert apart.status().reused == 0
 
 
 def test_a_mistake_of_the_function_ends_the_campaign(tmp_path: Path) -> None:

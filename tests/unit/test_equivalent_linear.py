@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from frames import Frame, MotionError, shear_building
+from frames import Frame, MotionError, Section, shear_building
 from frames.design import (
     ASCE7,
     EN1998,
@@ -743,6 +743,11 @@ def test_superstructure_of_a_frame() -> None:
     frame = shear_building(
         BEARING, [2e5, 2e5], 4e8, base_mass=3e5, storey_height=3.2, plan=((2, 1), (6.0, 5.0))
     )
+    frame.add_node("foot", 20.0, 0.0, 0.0)
+    frame.add_node("neighbour", 20.0, 0.0, frame.levels[1].z)
+    frame.fix("foot", "all")
+    frame.add_member("mast", "foot", "neighbour", Section.box(2.0, 2.0, 0.2))
+    frame.add_mass("neighbour", 7e4)  # stands on the ground
     above = Superstructure.from_frame(frame, R=5.0, wind_shear=1e5)
     assert above.storey_weights == pytest.approx((2e5 * 9.80665,) * 2)
     assert above.storey_heights == pytest.approx((3.2, 3.2))

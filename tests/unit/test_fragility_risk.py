@@ -17,6 +17,7 @@ from frames.risk import (
     fit_stripes,
     lognormal_fragility,
     mean_annual_frequency,
+    saltelli_sample,
     sobol_indices,
     tornado,
 )
@@ -159,8 +160,12 @@ def test_sobol_indices_of_ishigami() -> None:
     for kind, exact in (("first", [0.3139, 0.4424, 0.0]), ("total", [0.5576, 0.4424, 0.2437])):
         assert (table[f"{kind}, low"] < exact).all()
         assert (exact < table[f"{kind}, high"]).all()
-    again = sobol_indices(ishigami, dict.fromkeys("abc", angles), samples=1024)
+    sample = saltelli_sample(dict.fromkeys("abc", angles), 1024)
+    given = ishigami([sample[k] for k in range(len(sample))])
+    again = sobol_indices(given, dict.fromkeys("abc", angles), samples=1024)
     assert (again.table == table).all(axis=None)
+    with pytest.raises(FragilityError, match="return one number for each of 5120 sets"):
+        sobol_indices(given[:-1], dict.fromkeys("abc", angles), samples=1024)
 
 
 def test_what_makes_no_sense_is_refused() -> None:

@@ -162,6 +162,18 @@ def test_supports_of_the_roof_take_their_share_of_the_moment() -> None:
     assert f"carry {100.0 * min(share.x, share.y):.3g} % of" in share.sentence()
 
 
+@pytest.mark.filterwarnings("ignore::frames.ModelWarning")  # the roof's supports carry weight
+def test_the_share_of_the_moment_does_not_depend_on_the_origin() -> None:
+    """Supports on one side take weight, so that the bearings' forces have a sum."""
+    frame = moment_frame((2, 1), 3, bearing=BEARING)
+    for node in frame.levels[-1].nodes:
+        if frame.nodes[node].x > 7.0:
+            frame.fix(node, "uz")
+    system = gravity(frame).system
+    away = replace(system, coordinates=system.coordinates + np.array([100.0, -50.0, 0.0]))
+    assert_allclose(overturning_share(away)[:2], overturning_share(system)[:2], rtol=1e-9)
+
+
 def test_the_centre_of_mass_is_that_of_the_masses_whatever_the_loads_say() -> None:
     for level in (True, False):
         system = IsolationSystem.from_frame(stick(eccentricity=(0.03, 0.3), overturning=level))

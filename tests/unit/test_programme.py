@@ -453,6 +453,12 @@ def test_specimens_are_held_against_one_another(code: str, title: str, limit: fl
         assert (check.limit, check.passed) == (limit, expected <= limit)
         assert check.subject.startswith("200 mm, ")
         assert check.clause.startswith(code)
+    faded = of_specimen("A", fade=0.2)
+    longer = of_specimen("B", fade=0.2, cycles=5)
+    uneven = acceptance_checks((faded, longer), bearing(), code, bounds=BOUNDS)
+    assert (
+        next(k for k in uneven if k.title == title).demand < 1e-3
+    )  # of as many cycles as both have
     alone = acceptance_checks([of_specimen("A")], bearing(), code, bounds=BOUNDS)
     assert title not in {check.title for check in alone}
     europe = acceptance_checks(pair, bearing(), "EN 1998", bounds=BOUNDS)

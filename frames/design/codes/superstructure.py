@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.assembly.supports import above_bearings
 from frames.design._errors import CheckError
 from frames.statics.gravity import gravity
 from lir_element.argument_checks import require_non_negative, require_positive, require_vector
@@ -104,7 +105,7 @@ class Superstructure:
         ----------
         frame : Frame
             The model, whose lowest level is the base above the bearings (`Frame.add_level`); each
-            node's mass belongs to the level that is nearest in height.
+            node's mass above the bearings belongs to the level that is nearest in height.
         R, importance, storey_stiffness, wind_shear, service_displacement, vertical_period
             As in `Superstructure`.
 
@@ -126,7 +127,8 @@ class Superstructure:
             raise CheckError(msg)
         state = gravity(frame)
         away = np.abs(state.system.coordinates[:, 2, None] - levels)
-        mass = np.bincount(away.argmin(axis=1), state.system.node_mass[:, 0], len(levels))
+        own = np.where(above_bearings(state.system), state.system.node_mass[:, 0], 0.0)
+        mass = np.bincount(away.argmin(axis=1), own, len(levels))
         return cls(
             fixed_base_period=state.held_periods[0],
             storey_weights=tuple((frame.gravity * mass[1:]).tolist()),

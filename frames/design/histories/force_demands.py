@@ -226,7 +226,7 @@ def _void(suite: Suite) -> str:
 
 
 def _drifts(case: _Case, factor: float) -> pd.DataFrame:
-    # Of the means of the storeys' nodes.
+    # Of the means of the storeys' lines.
     import pandas as pd
 
     data, suite = case.data, case.suite

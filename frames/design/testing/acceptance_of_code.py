@@ -50,7 +50,8 @@ def checks_of_code(
     -------
     list of Check
         ASCE 7-22: post-elastic stiffness of each specimen within 15 % of their mean, cycle by
-        cycle. NCh2745: mean effective stiffness of specimens within 10 % of one another. EN 1998,
+        cycle. NCh2745: mean effective stiffness of specimens within 10 % of one another; of as many
+        cycles as all specimens have, both. EN 1998,
         by NTC 2018 11.9.8: friction of each cycle within 25 % of that of the third of its test.
     """
     found, by_specimen = [], _by_specimen(tests)
@@ -81,8 +82,10 @@ def _by_specimen(tests: Sequence[PrototypeTest]) -> dict[str, list[Cycle]]:
 
 
 def _means(by_specimen: dict[str, list[Cycle]]) -> list[_Compared]:
+    # Of as many cycles as all specimens have.
+    count = min(map(len, by_specimen.values()))
     means = {
-        name: sum(cycle.stiffness for cycle in each) / len(each)
+        name: sum(cycle.stiffness for cycle in each[:count]) / count
         for name, each in by_specimen.items()
     }
     least = min(means.values())

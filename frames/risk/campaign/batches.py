@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from frames._fingerprint import fingerprint
 from frames.batch.cases import NOT_BUILT
 from frames.batch.time_histories import time_histories
 from frames.frame import Frame
@@ -48,7 +49,7 @@ class Batch(NamedTuple):
     arrays: dict[str, Any]  # by name of variable, (runs, ...)
     histories: list[xr.Dataset]
     warnings: list[str]
-    reused: int = 0  # runs that were taken over
+    reused: int = 0  # runs that were taken over, or are those of another row
 
 
 class Reference(NamedTuple):
@@ -181,7 +182,8 @@ def compute(
         missing = sorted(set(missing) - set(places))
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always")
-        for places, found in _Runs(work, layout, workers, told).of(missing):
+        runs = _Runs(work, layout, workers, told)
+        for places, found in runs.of(missing):
             at = np.array(places) - rows.start
             if isinstance(found, str):
                 arrays["status"][at], arrays["message"][at] = NOT_BUILT, found
@@ -191,7 +193,7 @@ def compute(
                     histories.append(_recorded(found, layout, places))
     texts = [str(w.message) for w in heard if not issubclass(w.category, AnalysisWarning)]
     said = [text for text, _ in Counter(texts).most_common(_MOST_WARNINGS)]
-    return Batch(arrays, histories, said, len(rows) - len(missing))
+    return Batch(arrays, histories, said, len(rows) - len(missing) + runs.repeated)
 
 
 class _Runs:
@@ -201,6 +203,7 @@ class _Runs:
         self, work: Work, layout: xr.Dataset, workers: int | None, told: Told | None
     ) -> None:
         self._work, self._layout, self._workers, self._told = work, layout, workers, told
+        self.repeated = 0  # rows that are the run of another one
 
     def of(self, rows: Sequence[int]) -> Iterator[tuple[list[int], xr.Dataset | str]]:
         frames: dict[str, Frame] = {}
@@ -214,7 +217,28 @@ class _Runs:
                 frames[key] = self._work.build(run.model, run.parameters)
             except REFUSED as cause:
                 yield own, str(cause)
-        yield from self._parts(frames, {key: whole[key] for key in frames})
+        first, same = self._distinct(frames, {key: whole[key] for key in frames})
+        for places, found in self._parts(frames, first):
+            taken = sorted((row, k) for k, one in enumerate(places) for row in same[one])
+            own = [row for row, _ in taken]
+            yield own, found if isinstance(found, str) else found.isel(run=[k for _, k in taken])
+
+    def _distinct(
+        self, frames: dict[str, Frame], rows: dict[str, list[int]]
+    ) -> tuple[dict[str, list[int]], dict[int, list[int]]]:
+        # Rows to run, by model, and all rows that each is the run of: parameters that change
+        # nothing of a model, such as the interface of a plain DCFP, give one run.
+        digests = {key: fingerprint(frame) for key, frame in frames.items()}
+        runs: dict[tuple[str, str, str, float], list[int]] = {}
+        for key, own in rows.items():
+            for row in own:
+                run = self._work.plan.run(row)
+                case = run.model, digests[key], run.motion, run.scale
+                runs.setdefault(case, []).append(row)
+        same = {own[0]: own for own in runs.values()}
+        first = {key: [row for row in own if row in same] for key, own in rows.items()}
+        self.repeated = sum(len(own) - 1 for own in same.values())
+        return {key: own for key, own in first.items() if own}, same
 
     def _parts(
         self, frames: dict[str, Frame], rows: dict[str, list[int]]

@@ -26,6 +26,7 @@ from frames.risk.campaign.sampling import ParameterSample, whole
 from frames.risk.campaign.store import CampaignStatus, CampaignStore
 from lir_element.argument_checks import require_type
 from lir_element.errors import AnalysisWarning
+from lir_element.tables import html_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -157,6 +158,19 @@ class Campaign:
             f"Campaign({str(self.store.path)!r}: {plan.runs} runs = {len(plan.models)} models x "
             f"{sets}{len(plan.motions)} motions x {len(plan.scales)} scales)"
         )
+
+    def _repr_html_(self) -> str:
+        """Return a table for notebooks."""
+        plan = self._work.plan
+        rows = [
+            ("results database", str(self.store.path)),
+            ("models", ", ".join(plan.models)),
+            ("sets of parameters", str(plan.sets)),
+            ("motions", str(len(plan.motions))),
+            ("scales", ", ".join(f"{scale:g}" for scale in plan.scales)),
+            ("state", str(self.status()) if self.store.exists else f"{plan.runs} runs, none done"),
+        ]
+        return html_table("Campaign", rows)
 
     def run(
         self,

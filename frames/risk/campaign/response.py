@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from frames.risk.fragility.intensity import Intensity
-from frames.risk.fragility.runs import COMPLETE, FAILURE, UNKNOWN, IntensityRuns
+from frames.risk.fragility.runs import COMPLETE, FAILURE, UNBUILT, UNKNOWN, IntensityRuns
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -96,11 +96,12 @@ def response_table(models: Mapping[str, IntensityRuns]) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        A row a structure and factor: runs, shares in which a bearing failed and in which the
-        analysis failed [-], median and 84 % fractile of each quantity in SI units, as `fractiles`
-        has them.
+        A row a structure and factor: runs, shares in which a bearing failed, in which the analysis
+        failed and, where there are any, for which nothing could be built [-], median and 84 %
+        fractile of each quantity in SI units, as `fractiles` has them.
     """
     rows = []
+    unbuilt = any((runs.table["outcome"] == UNBUILT).any() for runs in models.values())
     for name, runs in models.items():
         outcome, scale = runs.table["outcome"].to_numpy(), runs.table["scale"].to_numpy()
         each = {q: fractiles(runs, q) for q in QUANTITIES if q in runs.units}
@@ -113,6 +114,8 @@ def response_table(models: Mapping[str, IntensityRuns]) -> pd.DataFrame:
                 "bearing failed [-]": float((own == FAILURE).mean()),
                 "analysis failed [-]": float((own == UNKNOWN).mean()),
             }
+            if unbuilt:
+                row["not built [-]"] = float((own == UNBUILT).mean())
             for quantity, values in each.items():
                 unit = runs.units[quantity].replace("1", "-")
                 row[f"{quantity}, median [{unit}]"] = values[factor][1]

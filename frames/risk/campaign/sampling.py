@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Protocol, TypeGuard
 import numpy as np
 
 from frames.risk._errors import CampaignError
+from frames.risk.fragility.sensitivity import saltelli_sets
 from lir_element.argument_checks import as_number, require_type
 
 if TYPE_CHECKING:
@@ -199,6 +200,48 @@ def sobol_sample(parameters: Mapping[str, Choice], size: int, *, seed: int = 0) 
     points = qmc.Sobol(len(given), rng=np.random.default_rng(seed))
     shares = points.random_base2(size.bit_length() - 1)
     return _at(given, shares, f"Sobol' points, seed {seed}")
+
+
+def saltelli_sample(
+    distributions: Mapping[str, Distribution], samples: int, *, seed: int = 1
+) -> ParameterSample:
+    """Return the sets of parameters of which `sobol_indices` are made, for a campaign.
+
+    Parameters
+    ----------
+    distributions : mapping of str to distribution
+        Independent distributions of the parameters.
+    samples : int
+        Samples n, a power of 2.
+    seed : int
+        Seed, the same as that of `sobol_indices`.
+
+    Returns
+    -------
+    ParameterSample
+        n (parameters + 2) sets: a sample A, a sample B, then A with one parameter of B after the
+        other.
+
+    Raises
+    ------
+    FragilityError
+        If an argument is out of its bounds.
+
+    Examples
+    --------
+    >>> from scipy.stats import uniform
+    >>> from frames.risk import saltelli_sample, sobol_indices
+    >>> inputs = {"radius": uniform(1.0, 1.0), "friction": uniform(0.04, 0.04)}
+    >>> sample = saltelli_sample(inputs, 64)
+    >>> sample.values.shape
+    (256, 2)
+    >>> results = sample.values @ [1.0, 2.0]  # one a set, as a campaign gives them
+    >>> sobol_indices(results, inputs, samples=64).table["first"].idxmax()
+    'radius'
+    """
+    sets = saltelli_sets(distributions, samples, seed)
+    values = np.array([list(each.values()) for each in sets])
+    return ParameterSample(tuple(distributions), values, f"Saltelli's sets, seed {seed}")
 
 
 def _at(parameters: Mapping[str, Choice], shares: FloatArray, origin: str) -> ParameterSample:

@@ -49,7 +49,8 @@ class CampaignStatus(NamedTuple):
     warnings : tuple of str
         What was warned of while batches were computed.
     reused : int
-        Runs that were taken over from other results databases.
+        Runs that were taken over from other results databases, or from an equal run of their batch:
+        parameters that change nothing of a model, such as the interface of a plain DCFP.
 
     Examples
     --------

@@ -33,8 +33,10 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
 
 COMPLETE, FAILURE, UNKNOWN = "complete", "bearing failure", "numerical failure"
+UNBUILT = "not built"
 """Outcomes: the run is complete; a bearing failed (`RunStatus.is_bearing_failure`), which is
-collapse; the analysis failed, which says nothing of the structure."""
+collapse; the analysis failed, which says nothing of the structure; a set of parameters makes no
+structure, so that nothing was analysed."""
 
 FIXED = ("motion", "scale", "im", "outcome", "status", "message")
 """Columns of the table before those of the demands."""
@@ -52,9 +54,9 @@ def outcome_of(status: str) -> str:
     -------
     str
         `COMPLETE` for "ok", "inaccurate" and "bearing_lost" (which went to their ends), `FAILURE`
-        where the bearing failed and the run with it, otherwise `UNKNOWN`, also for "not_built" of a
-        campaign. A structure that is beyond what it carries ends in Newton's failure, as other
-        things do: state a drift or a rotation as the limit.
+        where the bearing failed and the run with it, `UNBUILT` for "not_built" of a campaign,
+        otherwise `UNKNOWN`. A structure that is beyond what it carries ends in Newton's failure, as
+        other things do: state a drift or a rotation as the limit.
 
     Raises
     ------
@@ -62,7 +64,7 @@ def outcome_of(status: str) -> str:
         If it is no status.
     """
     if status == NOT_BUILT:
-        return UNKNOWN
+        return UNBUILT
     require_choice("status", status, [s.name.lower() for s in RunStatus], error=FragilityError)
     found = RunStatus[status.upper()]
     if found.is_complete:
@@ -253,7 +255,7 @@ class IntensityRuns(Shown):
         Returns
         -------
         ndarray, shape (n,)
-            1 or 0, NaN where the analysis failed.
+            1 or 0, NaN where the analysis failed or nothing was built.
 
         Raises
         ------
@@ -271,7 +273,7 @@ class IntensityRuns(Shown):
                 msg = f"{limit.name}: complete runs have no {limit.quantity!r}: take another limit"
                 raise FragilityError(msg)
             found = (demand > limit.limit).astype(np.float64)
-        return np.where(outcome == UNKNOWN, np.nan, found)
+        return np.where(np.isin(outcome, (COMPLETE, FAILURE)), found, np.nan)
 
     def joined(self, other: IntensityRuns) -> IntensityRuns:
         """Return these runs and others of the same structure and measure.

@@ -17,6 +17,8 @@ from lir_element.argument_checks import require_finite, require_type
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    import numpy.typing as npt
+
 INTERVAL_RESAMPLES = 200
 """Resamples of the confidence intervals of Sobol' indices."""
 
@@ -149,7 +151,7 @@ class SobolIndices:
 
 
 def sobol_indices(
-    results_of: Batch,
+    results_of: Batch | npt.ArrayLike,
     distributions: Mapping[str, Any],
     *,
     samples: int = 256,
@@ -160,8 +162,9 @@ def sobol_indices(
 
     Parameters
     ----------
-    results_of : callable
-        As for `tornado`; called once with ``samples * (parameters + 2)`` sets.
+    results_of : callable, or array_like of shape (samples * (parameters + 2),)
+        As for `tornado`; called once with all sets. Or results that are there, one for each set of
+        `saltelli_sample` of the same distributions, samples and seed: those of a campaign.
     distributions : mapping of str to distribution
         Independent distributions of the parameters: frozen ones of `scipy.stats`, such as
         ``scipy.stats.uniform(0.05, 0.02)``, or whatever has a method `ppf`.
@@ -296,8 +299,9 @@ def indices_of(table: FloatArray) -> FloatArray:
     return np.array([np.ravel(found.first_order), np.ravel(found.total_order)])
 
 
-def _results(results_of: Batch, sets: list[dict[str, float]]) -> FloatArray:
-    found = np.asarray(results_of(sets), dtype=np.float64)
+def _results(results_of: Batch | npt.ArrayLike, sets: list[dict[str, float]]) -> FloatArray:
+    given = results_of(sets) if callable(results_of) else results_of
+    found = np.asarray(given, dtype=np.float64)
     if found.shape != (len(sets),):
         msg = (
             f"results have the shape {found.shape}: return one number for each of {len(sets)} sets"
