@@ -6,8 +6,10 @@ by the very parts that the frame holds: they are frozen, so a frame that was cha
 
 from __future__ import annotations
 
+import gc
 import sys
 import threading
+import types
 import warnings
 from collections.abc import Mapping
 from time import perf_counter
@@ -33,6 +35,7 @@ MOST_BYTES = 64e6
 """Memory that a process keeps equilibria in [bytes]; one that is larger is found each time."""
 
 _TAKEN = threading.Lock()
+_CODE = (type, types.ModuleType, types.FunctionType, types.BuiltinFunctionType, types.MethodType)
 
 
 class _Kept:
@@ -41,7 +44,13 @@ class _Kept:
     def __init__(self, parts: list[object], case: object, state: GravityState) -> None:
         self.parts, self.case, self.state = parts, case, state
         self.doubts: tuple[str, ...] | None = None  # formed when it is first asked for again
-        self.bytes = _bytes(state)
+        self.bytes = _bytes(state)  # all of it once its first run is through: `weigh`
+        self.is_weighed = False
+
+    def weigh(self) -> None:
+        # Everything that is held by it, also what its runs formed.
+        if not self.is_weighed:
+            self.bytes, self.is_weighed = _held([self.parts, self.state]), True
 
     def fits(self, parts: list[object], case: object) -> bool:
         # Parts by identity: they are held here, so that no other object takes their place.
@@ -100,6 +109,8 @@ def _keep(new: _Kept) -> None:
     if new.bytes > MOST_BYTES:
         return
     with _TAKEN:
+        for kept in _KEPT:
+            kept.weigh()
         _KEPT.append(new)
         while sum(kept.bytes for kept in _KEPT) > MOST_BYTES:
             del _KEPT[0]
@@ -127,3 +138,15 @@ def _bytes(state: GravityState) -> float:
         arrays.append(state.part_shift)
     _ = state.has_light_nodes, state.resultants
     return float(sum(array.nbytes for array in arrays))
+
+
+def _held(roots: list[object]) -> float:
+    # Bytes of objects and of all that they refer to, but for code.
+    seen: dict[int, object] = {}
+    todo = roots
+    while todo:
+        fresh = {id(one): one for one in todo if id(one) not in seen and not isinstance(one, _CODE)}
+        seen |= fresh
+        todo = gc.get_referents(*fresh.values())
+        todo += [one.base for one in fresh.values() if isinstance(one, np.ndarray)]
+    return float(sum(map(sys.getsizeof, seen.values())))
