@@ -119,7 +119,9 @@ def _load_sets(tables: Tables, building: Building) -> dict[str, list[tuple[str, 
     found: dict[str, list[tuple[str, float]]] = {}
     used = {row.text(TEXT, "") for row in tables.rows("AREALOAD")}
     for row in tables.rows("SHELLUNIFORMLOADSET"):
-        if row.has("LOADPAT") and row.text("Set") in used:
+        if row.text("Set") not in used:
+            row.looked_at.clear()
+        elif row.has("LOADPAT"):
             part = (_pattern(row, building, "LOADPAT"), row.number("VALUE"))
             found.setdefault(row.text("Set"), []).append((part[0], part[1] * building.units.stress))
     return found
