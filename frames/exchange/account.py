@@ -150,7 +150,7 @@ class Account:
             message = (
                 f"{place or f'{self.file}, table {chr(34)}{table}{chr(34)}'}: {what} "
                 f"({self.some(names)}) would change the answer if left out: take it out of the "
-                f'model, or accept that with {argument("allow", [key])}'
+                f"model, or accept that with {argument('allow', [key])}"
             )
             raise ModelError(message)
         self._used.add(key)

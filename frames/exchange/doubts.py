@@ -138,7 +138,9 @@ def doubt_base(
     level = {frame.nodes[node].z for node in tops}
     every = {node: float(values[0]) for node, values in frame.masses.items()}
     base = sum(
-        mass for node, mass in every.items() if any(abs(frame.nodes[node].z - z) < 1e-3 for z in level)
+        mass
+        for node, mass in every.items()
+        if any(abs(frame.nodes[node].z - z) < 1e-3 for z in level)
     )
     whole = sum(every.values())
     if base < LIGHT_BASE * whole:

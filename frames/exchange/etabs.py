@@ -38,7 +38,9 @@ REFUSED = {
 """Beginnings of first words whose loss would change the answer: key of `allow`, what it is."""
 
 KNOWN = {
-    "": " ".join(["GUID NOTES COLOR Name Area Kind Ends", *(n for ns in NAMES.values() for n in ns)]),
+    "": " ".join(
+        ["GUID NOTES COLOR Name Area Kind Ends", *(n for ns in NAMES.values() for n in ns)]
+    ),
     "AREAASSIGN": "ADDRESTRAINT CARDINALPOINT DIAPHRAGMTOFLOOR LINECONSTRAINT MAXMESHSIZE MESHAT "
     "OBJMESHTYPE PIER SPANDREL TRANSFORMSTIFFNESSFOROFFSETS=NO",
     "COMBO": "*",

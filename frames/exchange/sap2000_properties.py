@@ -64,7 +64,10 @@ def read_properties(tables: Tables, building: Building) -> None:
     ModelError
         If a number is missing or wrong, or a name is not known.
     """
-    frames, areas = tables.rows("FRAME SECTION ASSIGNMENTS"), tables.rows("AREA SECTION ASSIGNMENTS")
+    frames, areas = (
+        tables.rows("FRAME SECTION ASSIGNMENTS"),
+        tables.rows("AREA SECTION ASSIGNMENTS"),
+    )
     sections, idle = in_use(by_name(tables.rows(SECTIONS), "SectionName"), map(section_of, frames))
     building.account.left_out(SECTIONS, "which nothing has", idle)
     kinds = (row.text("Section", "") for row in areas)

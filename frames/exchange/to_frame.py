@@ -36,9 +36,7 @@ _KINDS = (
 """Load cases of the frame, and the kinds of patterns that belong to them."""
 
 
-def fill(
-    frame: FrameEditor, building: Building, options: Options
-) -> dict[str, LIRBearing]:
+def fill(frame: FrameEditor, building: Building, options: Options) -> dict[str, LIRBearing]:
     """Add all of a building to an empty frame, on bearings.
 
     Parameters

@@ -198,8 +198,7 @@ def refuse_other_supports(
         )
     else:
         remedy = (
-            "name them in base_nodes, or if they shall stay, "
-            f"{argument('other_supports', tags)}"
+            f"name them in base_nodes, or if they shall stay, {argument('other_supports', tags)}"
         )
     message = f"nodes {listed(tags)} are supports that carry elements, but no base nodes: {remedy}"
     raise ModelError(message)

@@ -226,7 +226,7 @@ def old(text: str) -> str:
     """Return a file as ETABS 8 and 9 write it: mass and weight by M and W, combinations by LOAD."""
     lines = re.sub(r"WEIGHTPERVOLUME (\S+)  MASSPERVOLUME (\S+)", r"M \2  W \1", text)
     lines = re.sub(r'(COMBO "G"  )LOADCASE', r"\1LOAD", lines).replace('"Linear Add"', '"ADD"')
-    return lines.replace("  SLABTHICKNESS", "  TYPE \"SHELL\"  PLATETYPE \"THIN\"  TM")
+    return lines.replace("  SLABTHICKNESS", '  TYPE "SHELL"  PLATETYPE "THIN"  TM')
 
 
 def test_etabs_8_and_9_have_mass_and_weight_by_letters(tmp_path: Path) -> None:
@@ -246,8 +246,11 @@ def test_a_word_that_is_not_known_is_told_once_with_its_line(tmp_path: Path) -> 
         frame = Frame.from_etabs(written(tmp_path, text))
     said = [str(each.message) for each in told]
     assert len(said) == 2  # one for each first word
-    assert any(f'MATERIAL: words that are not known here were not read: ORTHOFACTOR = "0.3" '
-               f"(line {line})" in each for each in said)
+    assert any(
+        f'MATERIAL: words that are not known here were not read: ORTHOFACTOR = "0.3" '
+        f"(line {line})" in each
+        for each in said
+    )
     assert any('SWAY = "1"' in each and "more" in each for each in said)
     assert "words that are not known here" in str(frame.imported)
 

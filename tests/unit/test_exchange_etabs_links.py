@@ -180,6 +180,10 @@ def test_rubber_isolators_gaps_and_linear_links(tmp_path: Path) -> None:
     assert_allclose(np.abs(frame.links["K1-U2"].direction), (1.0, 0.0, 0.0), atol=1e-12)
     assert_allclose(frame.springs["K1-U3"].stiffness, (0, 7e5, 0, 0, 0, 0))
     assert frame.superelements["K1-fixed"].nodes == ("101-Base", "1-Base")
+    yielding = [prop.replace("U3KE 700 U3CE 30", "U3NONLIN YES U3K 5 U3YIELD 1") for prop in KINDS]
+    lines = [yielding[0].format("RUBBER ISOLATOR"), *yielding[1:]]
+    account = str(Frame.from_etabs(model(tmp_path, lines, LINKS)).imported)
+    assert "each of their directions for itself: K1, K2, K3, K4" in account  # each once
     law = read("GAP").links["K1-U2"].law
     assert isinstance(law, Gap)
     assert (law.stiffness, law.gap) == (5e6, 0.05)

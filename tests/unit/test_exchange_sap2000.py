@@ -324,7 +324,10 @@ def test_friction_isolators_become_bearings(tmp_path: Path) -> None:
     law, speed = bearing.frictions[0], 0.1 * 1.15 / 2.2
     assert_allclose(law.at_speed(speed) * 2.3 / 2.2, 0.06 - 0.03 * np.exp(-20.0 * 0.1))
     forces = dict(zip(frame.bearings, gravity(frame).axial_forces, strict=True))
-    for name, part in frame.bearings.items():  # strength over the stiffness before sliding, 20 kN/mm
+    for (
+        name,
+        part,
+    ) in frame.bearings.items():  # strength over the stiffness before sliding, 20 kN/mm
         slid = 0.06 * forces[name] / 20e6 / (2.3 / 2.2)
         assert_allclose(part.bearing.yield_displacement, slid, rtol=2e-2)
     assert_allclose(frame.links["5-U1"].direction, (-1.0, 0.0, 0.0))
@@ -372,7 +375,8 @@ def test_mass_and_weight_may_stand_in_the_first_table_of_materials(tmp_path: Pat
     frame, said = doubts(tmp_path, tables)
     row = tables["MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"][0]
     tables["MATERIAL PROPERTIES 01 - GENERAL"] = [
-        {"Material": "C30", "Type": "Concrete"} | {k: row.pop(k) for k in ("UnitWeight", "UnitMass")}
+        {"Material": "C30", "Type": "Concrete"}
+        | {k: row.pop(k) for k in ("UnitWeight", "UnitMass")}
     ]
     other, more = doubts(tmp_path, tables)
     assert other.check().weight == frame.check().weight
@@ -383,7 +387,9 @@ def test_a_field_that_is_not_known_is_told(tmp_path: Path) -> None:
     tables = models.building()
     tables["AREA LOADS - UNIFORM"][0] |= {"DistType": "One way"}
     _, said = doubts(tmp_path, tables)
-    assert 'AREA LOADS - UNIFORM: words that are not known here were not read: DistType = "One' in said
+    assert (
+        'AREA LOADS - UNIFORM: words that are not known here were not read: DistType = "One' in said
+    )
     tables["AREA LOADS - UNIFORM"][0] |= {"DistType": "Two way"}
     assert doubts(tmp_path, tables)[1] == ""
 
