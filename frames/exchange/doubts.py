@@ -10,6 +10,7 @@ from frames._remedies import argument
 from frames.exchange.area_loads import own_masses, own_weights
 from frames.exchange.building import AreaLoad, JointLoad
 from frames.exchange.geometry import area_normal
+from frames.exchange.supports import LEVEL_STEP
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -137,11 +138,8 @@ def doubt_base(
         )
     level = {frame.nodes[node].z for node in tops}
     every = {node: float(values[0]) for node, values in frame.masses.items()}
-    base = sum(
-        mass
-        for node, mass in every.items()
-        if any(abs(frame.nodes[node].z - z) < 1e-3 for z in level)
-    )
+    at_base = {n for n in every if any(abs(frame.nodes[n].z - z) < LEVEL_STEP for z in level)}
+    base = sum(every[node] for node in at_base)
     whole = sum(every.values())
     if base < LIGHT_BASE * whole:
         account.doubts.append(

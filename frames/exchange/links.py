@@ -274,16 +274,16 @@ class Links:
             if dof.fixed:
                 fixed.append((axes[k % 3], k >= 3))
                 continue
-            ends = (first, self._spring_at(link, name, dof, (first, last), axes[0]))
-            self._dof(link, prop, name, dof, ends, axes[k % 3])
+            at = self._spring_at(link, name, dof, last, axes[0])
+            self._dof(link, prop, name, dof, (first, at), axes[k % 3])
         if fixed:
             self._tie(link.name, first, last, fixed)
 
     def _spring_at(
-        self, link: LinkObject, name: str, dof: LinkDof, ends: tuple[str, str], along: FloatArray
+        self, link: LinkObject, name: str, dof: LinkDof, last: str, along: FloatArray
     ) -> str:
         # Where a shear spring is: at joint j, or on a rigid lever DJ from it towards joint i.
-        away, last = dof.values.get("place", 0.0), ends[1]
+        away = dof.values.get("place", 0.0)
         if name not in {"U2", "U3"} or abs(away) < 1e-6:
             return last
         node = f"{link.name}-{name}-place"

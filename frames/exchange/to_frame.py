@@ -105,7 +105,17 @@ def fill(frame: FrameEditor, building: Building, options: Options) -> dict[str, 
 def permanent(building: Building, options: Options) -> dict[str, tuple[float, str]]:
     """Return factor and case of the load patterns that are permanent loads of the frame.
 
-    Those that are left out are noted in the account.
+    Parameters
+    ----------
+    building : Building
+        With its patterns; its account notes those that are left out.
+    options : Options
+        As `permanent_shares`.
+
+    Returns
+    -------
+    dict of str to (float, str)
+        By pattern.
     """
     shares, account = permanent_shares(building, options), building.account
     account.left_out(

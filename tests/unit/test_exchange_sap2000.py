@@ -327,7 +327,7 @@ def test_friction_isolators_become_bearings(tmp_path: Path) -> None:
     for (
         name,
         part,
-    ) in frame.bearings.items():  # strength over the stiffness before sliding, 20 kN/mm
+    ) in frame.bearings.items():  # strength over 20 kN/mm
         slid = 0.06 * forces[name] / 20e6 / (2.3 / 2.2)
         assert_allclose(part.bearing.yield_displacement, slid, rtol=2e-2)
     assert_allclose(frame.links["5-U1"].direction, (-1.0, 0.0, 0.0))
@@ -374,10 +374,8 @@ def test_mass_and_weight_may_stand_in_the_first_table_of_materials(tmp_path: Pat
     tables = models.building()
     frame, said = doubts(tmp_path, tables)
     row = tables["MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"][0]
-    tables["MATERIAL PROPERTIES 01 - GENERAL"] = [
-        {"Material": "C30", "Type": "Concrete"}
-        | {k: row.pop(k) for k in ("UnitWeight", "UnitMass")}
-    ]
+    own = {field: row.pop(field) for field in ("UnitWeight", "UnitMass")}
+    tables["MATERIAL PROPERTIES 01 - GENERAL"] = [{"Material": "C30", "Type": "Concrete"} | own]
     other, more = doubts(tmp_path, tables)
     assert other.check().weight == frame.check().weight
     assert said == more == ""
@@ -387,9 +385,7 @@ def test_a_field_that_is_not_known_is_told(tmp_path: Path) -> None:
     tables = models.building()
     tables["AREA LOADS - UNIFORM"][0] |= {"DistType": "One way"}
     _, said = doubts(tmp_path, tables)
-    assert (
-        'AREA LOADS - UNIFORM: words that are not known here were not read: DistType = "One' in said
-    )
+    assert "AREA LOADS - UNIFORM: words that are not known here were not read: DistType =" in said
     tables["AREA LOADS - UNIFORM"][0] |= {"DistType": "Two way"}
     assert doubts(tmp_path, tables)[1] == ""
 
