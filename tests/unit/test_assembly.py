@@ -51,7 +51,7 @@ def mast_on_portal(modulus: float) -> Frame:
     frame.add_member("top", "t0", "t1", replace(section, elastic_modulus=modulus))
     frame.add_node("m", 0.0, 0.0, 5.0)
     frame.add_member("mast", "t0", "m", replace(section, torsion_constant=1e-6))
-    frame.add_mass("m", 100.0, 1.0)
+    frame.add_mass("m", 100.0)
     return frame
 
 
