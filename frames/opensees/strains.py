@@ -62,9 +62,10 @@ def strain_rows(
                     sections[tag] = _of_section(printed, tag, law)
                 ends.append(sections[tag])
         elif "A" in entry and (own := law(str(entry.get("material")))) is not None:
-            known = 0.0 < own.limit < np.inf and own.stiffness > 0.0
-            row = np.array([[1.0 / (own.stiffness * float(entry["A"]) * own.limit), 0.0, 0.0]])
-            ends = [row if known else row[:0]] * 2
+            stiff = own.stiffness * float(entry["A"])
+            known = 0.0 < own.limit < np.inf and stiff > 0.0
+            rows = [[1.0 / (stiff * own.limit), 0.0, 0.0]] if known else []
+            ends = [np.array(rows).reshape(-1, 3)] * 2
         else:
             continue
         if any(len(rows) for rows in ends):

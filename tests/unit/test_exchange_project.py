@@ -106,7 +106,7 @@ def test_sections_of_a_catalogue_have_the_constants_of_the_file(tmp_path: Path) 
     plain = project_of(parts, tmp_path, sections={}).frame()
     assert_allclose(plain.members["X1-Story1"].section.area, 156e-4, rtol=5e-3)  # of the tables
     path.write_text("\n".join(lines), encoding="utf-8")
-    with pytest.raises(ProjectError, match=r'"W24X62" without Area.*sections=\{"BEAM"'):
+    with pytest.raises(ProjectError, match=r'"W24X62" without Area.*sections = \{ "BEAM"'):
         project_of(parts, tmp_path, sections={}).frame()
     other = parts.file.structure.sections | {"BEAN": parts.file.structure.sections["BEAM"]}
     with pytest.raises(ProjectError, match=r'no frame of model.e2k has a section "BEAN"'):
