@@ -222,6 +222,12 @@ class Frame(FrameEditor):
         ImportError
             If openseespy, which has the shells, or openpyxl, which reads workbooks, is needed and
             not installed.
+
+        Warns
+        -----
+        ModelWarning
+            On what was probably not meant: words that are not known, mass without weight, supports
+            that do not let each bearing carry its column, a level on the bearings without mass.
         """
         from frames.exchange.options import Options
         from frames.exchange.sap2000 import read_sap2000
@@ -276,6 +282,11 @@ class Frame(FrameEditor):
             message has line, section and remedy.
         ImportError
             If openseespy, which has the shells, is needed and not installed.
+
+        Warns
+        -----
+        ModelWarning
+            As `from_sap2000` does.
         """
         from frames.exchange.etabs import read_etabs
         from frames.exchange.options import Options
@@ -292,12 +303,15 @@ class Frame(FrameEditor):
 
         frame = cls(building.name if name is None else name)
         with without_collection():  # loads by the hundred thousand: a third of the time
-            fill(frame, building, options)
+            devices = fill(frame, building, options)
+        frame = frame.with_bearings(devices) if devices else frame
         building.account.groups = {
             name: tuple(label for kind, label in members if kind in {"joint", "link"})
             for name, members in building.groups.items()
         }
         frame._imported = building.account
+        for doubt in building.account.doubts:
+            warnings.warn(doubt, ModelWarning, stacklevel=3)
         return frame
 
     def to_sap2000(

@@ -18,6 +18,7 @@ from scipy import linalg, sparse
 
 from frames._errors import ModelError
 from frames.assembly.coordinates import Basis as Basis
+from frames.assembly.dense_solver import solve_positive
 from frames.assembly.matrix_damping import with_matrix_damping
 from frames.assembly.natural_modes import UnstableError, natural_modes, symmetric, weakest
 from frames.model.damping import ModalDamping, RayleighDamping
@@ -136,7 +137,7 @@ def _static_following(
     block = stiffness[np.ix_(massless, massless)]
     right = np.column_stack([-stiffness[np.ix_(massless, kept)], system.load[massless]])
     try:
-        solution = linalg.solve(block, right, assume_a="pos")
+        solution = solve_positive(block, right, "stiffness", _labels(system, massless))
     except linalg.LinAlgError as error:
         label = _largest(system, weakest(block), massless)
         message = (
@@ -174,8 +175,13 @@ def _interface_modes(
             f'"{label}": reduce the loads or stiffen columns'
         )
         raise ModelError(message) from error
-    psi = -linalg.solve(symmetric(inner), k[n_b:, :n_b], assume_a="pos")
+    names = _labels(system, kept[n_b:])
+    psi = -solve_positive(symmetric(inner), k[n_b:, :n_b], "stiffness", names)
     return psi, phi, omega2, static
+
+
+def _labels(system: System, places: IntArray) -> list[str]:
+    return [system.dof_labels[place] for place in places.tolist()]
 
 
 def _largest(system: System, direction: FloatArray, places: IntArray) -> str:

@@ -9,6 +9,7 @@ from scipy import linalg, sparse
 from scipy.sparse import csgraph
 
 from frames._errors import ModelError
+from frames.assembly.dense_solver import solve_positive
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
@@ -132,7 +133,9 @@ def separate_massless(mass: SparseMatrix, labels: tuple[str, ...]) -> tuple[Spar
         if rank == len(cluster):
             continue
         first, last = order[:rank] - 1, order[rank:] - 1
-        lead = -linalg.solve(block[np.ix_(first, first)], block[np.ix_(first, last)])
+        names = [labels[place] for place in cluster[first].tolist()]
+        inner = block[np.ix_(first, first)]
+        lead = -solve_positive(inner, block[np.ix_(first, last)], "mass", names)
         turn[np.ix_(cluster[first], cluster[last])] = lead
         massless.extend(cluster[last].tolist())
     return sparse.csr_array(turn), np.array(sorted(massless), dtype=np.int64)

@@ -214,6 +214,7 @@ class Worker:
             seconds_loop=seconds,
             step_control="error" if math.isfinite(settings.error_tolerance) else "fixed",
             estimated_error=estimated_error(state, settings),
+            **recorder.strains.attrs(),
         )
         energy = recorder.out.energy[done - recorder.first].copy()
         whole, data = data, judgeable_of(data) if "time" in data.dims else data

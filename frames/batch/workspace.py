@@ -18,6 +18,7 @@ from frames.recording.peak_tracking import PeakTracker, can_track, devices_of, p
 from frames.recording.recording import require_known
 from frames.recording.reduction import Findings, judgeable_of, reduced, with_other_findings
 from frames.recording.size import bytes_of_step, bytes_over_time
+from frames.recording.strain_tracking import StrainGauge
 from frames.results.peak_response import Extreme
 from frames.statics.fresh_runs import restart, with_own_arrays
 from frames.statics.gravity import gravity
@@ -157,6 +158,7 @@ class PeakRecorder:
         self.out, self._states, _ = output_arrays(
             state.model, None, self._rows, part_sizes(state.parts)
         )
+        self.strains = StrainGauge(self._structure.model, state)
         self.seconds = 0.0
 
     def renew(self, motion: GroundMotion, ground: Ground) -> None:
@@ -166,6 +168,7 @@ class PeakRecorder:
             raise AssertionError(msg)
         self._motion, self._ground = motion, ground
         self.first, self._taken = 0, 0
+        self.strains.reset()
         self._gauge = PeakTracker(*self._structure.gauges)
         self._parts = PartGauge(self._structure.state, self._structure.model)
         rest = self._structure.state
@@ -213,6 +216,7 @@ class PeakRecorder:
         first, last = self._taken - self.first, done + 1 - self.first
         self._gauge.take(self._states, self.out, self._ground, first, last)
         self._parts.take(self.out, first, last)
+        self.strains.take(self.out, first, last)
         shaking = ground_at(self._ground, self.out.time[first:last])
         self._whole.take(self.out, self._states, shaking, first, last)
         self._taken = done + 1

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
+from frames._remedies import argument
 from lir_element.tables import text_table
+
+if TYPE_CHECKING:
+    from frames.exchange.tables import Row
 
 READ, READ_AS, LEFT_OUT = "read", "read as something else", "left out"
 """What becomes of objects of a file."""
@@ -62,6 +67,7 @@ class Account:
         self.file, self.allow = file, frozenset(allow)
         self.entries: list[Entry] = []
         self.groups: dict[str, tuple[str, ...]] = {}  # joints and links by group
+        self.doubts: list[str] = []  # what was probably not meant, for warnings
         self._used: set[str] = set()
 
     def __str__(self) -> str:
@@ -96,6 +102,27 @@ class Account:
         """Note objects that were left out and do not change the answer; none is not noted."""
         self._add(LEFT_OUT, table, what, names, weight, stiffness)
 
+    def unknown(self, fields: Collection[tuple[str, str, Row, int]]) -> None:
+        """Doubt fields of known tables that are not known here, once for each table.
+
+        Parameters
+        ----------
+        fields : collection of (str, str, Row, int)
+            Table, field, first row and count, as `Tables.unknown` returns them.
+        """
+        for table in dict.fromkeys(table for table, *_ in fields):
+            said = {
+                f'{field} = "{row.values[field]}" (line {row.line}{_more(count)})': row
+                for name, field, row, count in fields
+                if name == table
+            }
+            self.left_out(table, "words that are not known here", list(said))
+            self.doubts.append(
+                f"{self.file}, {table}: words that are not known here were not read: "
+                f"{self.some(said)}; look up in that program whether they change the model, and "
+                "model it without them if they do"
+            )
+
     def refuse(
         self, key: str, table: str, what: str, names: Collection[str], place: str = ""
     ) -> None:
@@ -123,7 +150,7 @@ class Account:
             message = (
                 f"{place or f'{self.file}, table {chr(34)}{table}{chr(34)}'}: {what} "
                 f"({self.some(names)}) would change the answer if left out: take it out of the "
-                f'model, or accept that with allow=["{key}"]'
+                f"model, or accept that with {argument('allow', [key])}"
             )
             raise ModelError(message)
         self._used.add(key)
@@ -180,6 +207,10 @@ class Account:
             first = tuple(str(name) for name in list(names)[: self.SHOWN])
             entry = Entry(fate, table, what, len(names), first, weight, stiffness)
             self.entries.append(entry)
+
+
+def _more(count: int) -> str:
+    return f" and {count - 1} more" if count > 1 else ""
 
 
 def _share(value: float | None) -> str:

@@ -49,6 +49,20 @@ NAMES = {
 }
 """Positional values of a line by its first word; what follows are words with values."""
 
+ALIASES = {
+    "MATERIAL": {"M": "MASSPERVOLUME", "W": "WEIGHTPERVOLUME"},
+    "SHELLPROP": {
+        "ONEWAY": "ONEWAYLOADDIST",
+        "SLABDEPTH": "DECKSLABDEPTH",
+        "RIBDEPTH": "DECKRIBDEPTH",
+        "RIBWIDTH": "DECKRIBWIDTHTOP",
+        "RIBSPACING": "DECKRIBSPACING",
+        "WEIGHT": "DECKUNITWEIGHT",
+    },
+    "COMBO": {"LOAD": "LOADCASE"},
+}
+"""Words of ETABS 8 and 9 by first word, and those of later versions that mean the same."""
+
 _ALL_POSITIONAL = {"POINT", "LINE", "UNITS", "MASSSOURCELOAD"}
 
 
@@ -139,14 +153,15 @@ def _row(file: str, section: str, line: int, text: str, decimal: Decimal) -> Row
 def _words(row: Row, tokens: list[tuple[str, bool]]) -> None:
     # A word without quotes, and the value after it; a word that comes again adds to a list, and
     # text where a word should be stands by itself.
-    at = 0
+    at, aliases = 0, ALIASES.get(str(row.values[""]), {})
     while at < len(tokens):
         word, quoted = tokens[at]
         if quoted:
             word, value = TEXT, word
             at -= 1
         else:
-            word, value = word.upper(), tokens[at + 1][0] if at + 1 < len(tokens) else ""
+            word = aliases.get(word.upper(), word.upper())
+            value = tokens[at + 1][0] if at + 1 < len(tokens) else ""
         if word in row.values:
             row.values[word] = f"{row.values[word]}\n{value}"
         else:

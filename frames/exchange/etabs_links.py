@@ -21,10 +21,11 @@ VALUES = {
     "CFAST": "fast",
     "RATE": "rate",
     "RADIUS": "radius",
+    "DJ": "place",
 }
 """Nonlinear numbers of a deformation by the word that follows its name, U2RADIUS."""
 
-_LINEAR = {"STIFF", "KE", "CE", "NONLIN", "FIXED", "DJ", "EXP"}
+_LINEAR = {"STIFF", "KE", "CE", "NONLIN", "FIXED", "EXP"}
 _HARMLESS = ("Link", "TYPE", "MASS", "WEIGHT", "RMASS", "PDM", "STIFF", "GUID", "COLOR", "NOTE")
 
 
@@ -75,11 +76,12 @@ class EtabsLinks:
             name = row.text("Link")
             joints, given = self._ends(row), assigned.get(name)
             words = {} if given is None else {k: v for k, v in given.values.items() if k != "Link"}
-            found = [v for value in words.values() for v in str(value).split("\n")]
-            found = [value for value in found if value in self._rows]
+            pairs = [(k, v) for k, value in words.items() for v in str(value).split("\n")]
+            found = [value for _, value in pairs if value in self._rows]
             if not joints or given is None or not found:
                 refused.append((name, row))
                 continue
+            given.looked_at.update(word for word, value in pairs if value in self._rows)
             other = joints[1] if len(joints) > 1 else None
             angle = given.number("ANG", 0.0)
             if name in self.building.links:

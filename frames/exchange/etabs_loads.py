@@ -117,8 +117,11 @@ def _line(row: Row, building: Building) -> None:
 def _load_sets(tables: Tables, building: Building) -> dict[str, list[tuple[str, float]]]:
     # Patterns of uniform load sets, and their pressures down [N/m2].
     found: dict[str, list[tuple[str, float]]] = {}
+    used = {row.text(TEXT, "") for row in tables.rows("AREALOAD")}
     for row in tables.rows("SHELLUNIFORMLOADSET"):
-        if row.has("LOADPAT"):
+        if row.text("Set") not in used:
+            row.looked_at.clear()
+        elif row.has("LOADPAT"):
             part = (_pattern(row, building, "LOADPAT"), row.number("VALUE"))
             found.setdefault(row.text("Set"), []).append((part[0], part[1] * building.units.stress))
     return found
@@ -195,7 +198,7 @@ def _read_combinations(tables: Tables, building: Building) -> None:
     other: set[str] = set()
     for row in tables.rows("COMBO"):
         name = row.text("Combo")
-        if row.has("TYPE") and row.text("TYPE").lower() != "linear add":
+        if row.has("TYPE") and row.text("TYPE").lower() not in {"linear add", "add"}:
             other.add(name)
         if row.has("LOADCASE"):
             part = row.text("LOADCASE")

@@ -114,6 +114,7 @@ class Objects:
             section = row.text("SECTION", "")
             if section.upper() in _NONE:
                 bare.append(label)
+                row.looked_at.clear()
                 continue
             if section not in self.building.sections:
                 message = f'SECTION "{section}" of line "{name}" is not defined as a FRAMESECTION'

@@ -56,6 +56,7 @@ def merged(rows: Sequence[Row], *fields: str) -> dict[tuple[str, ...], Row]:
         else:
             values: dict[str, Value] = dict(row.values)
             found[key] = Row(row.file, row.table, row.line, values, row.decimal)
+        row.looked_at = found[key].looked_at
     return found
 
 
@@ -121,13 +122,18 @@ def read_properties(
     ModelError
         If a number is missing or wrong, or a section is not known here.
     """
-    for (name,), row in merged(tables.rows("MATERIAL"), "Material").items():
-        if row.has("E") or row.has("E1"):
-            building.materials[name] = _material(row, name, building)
-    building.account.read("MATERIAL PROPERTIES", "materials", len(building.materials))
     frames = {row.text("SECTION", "") for row in tables.rows("LINEASSIGN")}
     areas = {row.text("SECTION", "") for row in tables.rows("AREAASSIGN")}
     given = merged(tables.rows("FRAMESECTION"), "Section")
+    shells = merged(tables.rows("SHELLPROP"), "Section")
+    used = {row.text("MATERIALOVERWRITE", "") for row in tables.rows("LINEASSIGN")}
+    for sections, names in ((given, frames), (shells, areas)):
+        rows = [row for (name,), row in sections.items() if name in names]
+        used |= {row.text(f"{word}MATERIAL", "") for row in rows for word in ("", "FILL", "CONC")}
+    for (name,), row in merged(tables.rows("MATERIAL"), "Material").items():
+        if name in used and (row.has("E") or row.has("E1")):
+            building.materials[name] = _material(row, name, building)
+    building.account.read("MATERIAL PROPERTIES", "materials in use", len(building.materials))
     constants, named = constants or {}, []
     wrong = [name for name in constants if (name,) not in given or name not in frames]
     if wrong:
@@ -149,7 +155,7 @@ def read_properties(
     building.account.read("FRAME SECTIONS", "cross-sections in use", len(building.sections))
     idle = [name for (name,) in given if name not in frames]
     building.account.left_out("FRAME SECTIONS", "which nothing has", idle)
-    for (name,), row in merged(tables.rows("SHELLPROP"), "Section").items():
+    for (name,), row in shells.items():
         if name in areas:
             building.area_sections[name] = _shell(row, name, building)
     building.account.read("SHELLPROP", "sections of areas in use", len(building.area_sections))
@@ -252,8 +258,10 @@ def _shell(row: Row, name: str, building: Building) -> AreaSection:
     if material not in building.materials:
         msg = f'MATERIAL "{material}" of section "{name}" is not defined'
         raise row.error(msg)
+    bending = 0.0
     if deck:
-        ribs = 0.5 * (row.number("DECKRIBWIDTHTOP", 0.0) + row.number("DECKRIBWIDTHBOTTOM", 0.0))
+        top = row.number("DECKRIBWIDTHTOP", 0.0)
+        ribs = 0.5 * (top + row.number("DECKRIBWIDTHBOTTOM", top))
         spacing = row.number("DECKRIBSPACING", 0.0)
         filled = row.number("DECKRIBDEPTH", 0.0) * ribs / spacing if spacing else 0.0
         thickness = row.number("DECKSLABDEPTH") + filled
@@ -263,20 +271,19 @@ def _shell(row: Row, name: str, building: Building) -> AreaSection:
         if not given:
             msg = f'section "{name}" has no thickness: {", ".join(fields)}'
             raise row.error(msg)
-        thickness = given[0]
+        thickness, bending = given[0], row.number("TB", 0.0)
     if thickness <= 0.0:
         msg = f'the thickness of section "{name}" must be positive'
         raise row.error(msg)
-    in_plane, bending = shell_factors(row, "{}{}MOD", building)
-    thickness *= units.length
+    in_plane, plate = shell_factors(row, "{}{}MOD", building)
     return AreaSection(
         name=name,
         material=material,
-        kind="membrane" if deck or "membrane" in kind else "shell",
-        thickness=thickness,
-        bending_thickness=thickness,
+        kind="membrane" if deck else next((k for k in ("membrane", "plate") if k in kind), "shell"),
+        thickness=thickness * units.length,
+        bending_thickness=(bending or thickness) * units.length,
         in_plane=in_plane,
-        bending=bending,
+        bending=plate,
         mass=row.number("MMOD", 1.0),
         weight=row.number("WMOD", 1.0),
         one_way=deck or row.text("ONEWAYLOADDIST", "No").lower() == "yes",

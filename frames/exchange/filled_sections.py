@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
+from frames._remedies import argument
 from frames.exchange.building import Modifiers
 from frames.exchange.section_shapes import shape_constants, with_constants
 
@@ -67,7 +68,7 @@ def filled_section(
     if wall is None or core is None:
         message = (
             f'section "{name}": TF = {sizes[2]:g} m and TW = {web:g} m differ; known are filled '
-            f'tubes of one thickness: give its constants, sections={{"{name}": ...}}'
+            f"tubes of one thickness: give its constants, {argument('sections', {name: ...})}"
         )
         raise row.error(message)
     stretch = fill.elastic_modulus / steel.elastic_modulus

@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from frames._errors import ModelError
+from frames._remedies import argument, bearing_for
+from frames.assembly.assemble import assemble
 from frames.exchange.building import LINK_DOFS
 from frames.exchange.geometry import frame_axes
+from frames.model.geometry_checks import POSITION_TOLERANCE
 from frames.model.laws import Bilinear, Gap, ViscousDamper
+from frames.statics.springs import first_displacement, spring_forces
 from lir_element import CoulombFriction, FrictionLaw, LIRBearing, VelocityFriction
 
 if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping
+
     from frames._types import FloatArray
     from frames.exchange.building import Building, LinkDof, LinkObject, LinkProperty
     from frames.exchange.supports import Places
     from frames.model.editing import FrameEditor
+    from frames.model.frame_data import FrameData
 
 SLIDER_HEIGHT, SLIDER_RADIUS = 0.1, 0.15
 """Slider of a bearing made of a friction isolator link, whose file has none [m]."""
@@ -26,7 +34,7 @@ PENDULUM_LINKS = ("friction isolator", "sliding isolator", "friction pendulum")
 """Kinds of links that are friction pendulums."""
 
 
-def equivalent_bearing(link: LinkProperty, place: str) -> LIRBearing:
+def equivalent_bearing(link: LinkProperty, place: str, height: float = 0.0) -> LIRBearing:
     """Return the DCFP that slides like a friction isolator link.
 
     Two equal surfaces of radius R_1 with L = 2 R_1 - h, the link's radius. At a displacement u each
@@ -40,11 +48,15 @@ def equivalent_bearing(link: LinkProperty, place: str) -> LIRBearing:
         Of a friction isolator.
     place : str
         Where a link of it stands, for messages.
+    height : float
+        Height of the link, which plates above and below the slider fill [m]; 0 where its joints are
+        at one place.
 
     Returns
     -------
     LIRBearing
-        The bearing; its slider's size is `SLIDER_HEIGHT` and `SLIDER_RADIUS`.
+        The bearing; its slider's size is `SLIDER_HEIGHT`, or the link's if that is less, and
+        `SLIDER_RADIUS`. Its yield displacement is the default.
 
     Raises
     ------
@@ -57,18 +69,19 @@ def equivalent_bearing(link: LinkProperty, place: str) -> LIRBearing:
     if len(found) < 2 or any(word not in values for values in found for word in words[:3]):
         message = (
             f'{place}: link property "{link.name}" needs nonlinear U2 and U3 with radius and '
-            'friction to become a bearing: give the bearing, bearing={"' + link.name + '": ...}'
+            "friction to become a bearing: give the bearing, " + bearing_for(link.name)
         )
         raise ModelError(message)
     pairs = [tuple(values.get(word, 0.0) for word in words) for values in found]
     if not np.allclose(pairs[0], pairs[1], rtol=1e-6) or not pairs[0][0] > 0.0:
         message = (
             f'{place}: link property "{link.name}" must have one positive radius and one friction '
-            'in U2 and U3 to become a bearing: give the bearing, bearing={"' + link.name + '": ...}'
+            "in U2 and U3 to become a bearing: give the bearing, " + bearing_for(link.name)
         )
         raise ModelError(message)
     radius, slow, fast, rate = pairs[0]
-    surface = 0.5 * (radius + SLIDER_HEIGHT)
+    slider = min(SLIDER_HEIGHT, height or SLIDER_HEIGHT)
+    surface = 0.5 * (radius + slider)
     share = radius / (2.0 * surface)
     law: FrictionLaw = CoulombFriction(share * fast)
     if fast > slow and rate > 0.0:
@@ -79,7 +92,8 @@ def equivalent_bearing(link: LinkProperty, place: str) -> LIRBearing:
     try:
         return LIRBearing(
             radius=surface,
-            slider_height=SLIDER_HEIGHT,
+            slider_height=slider,
+            plate_thickness=0.5 * (height - slider) if height else 0.0,
             slider_radius=SLIDER_RADIUS,
             friction=law,
             interface_friction=math.inf,
@@ -89,6 +103,39 @@ def equivalent_bearing(link: LinkProperty, place: str) -> LIRBearing:
     except ValueError as cause:
         message = f'{place}: link property "{link.name}": {cause}'
         raise ModelError(message) from cause
+
+
+def yield_displacements(frame: FrameData, stiffness: Mapping[str, float]) -> dict[str, LIRBearing]:
+    """Return bearings that are as stiff before sliding as the links whose place they take.
+
+    The strength Q is reached at a displacement of Q / K, at which a surface has slid by its share
+    R_i / L; Q is that of fast sliding under the permanent loads.
+
+    Parameters
+    ----------
+    frame : Frame
+        Complete, with its loads.
+    stiffness : mapping of str to float
+        K by bearing [N/m], > 0.
+
+    Returns
+    -------
+    dict of str to LIRBearing
+        Bearings that carry nothing have the load of the mean one.
+    """
+    system = assemble(frame)
+    found = spring_forces(system, first_displacement(system))
+    loads = dict(zip((b.name for b in system.bearings), found.tolist(), strict=True))
+    mean = float(np.mean([loads[name] for name in stiffness]))
+    devices = {}
+    for name, before in stiffness.items():
+        bearing = frame.bearings[name].bearing
+        load = loads[name] if loads[name] > 0.0 else mean
+        strength = bearing.effective_friction * load
+        slid = strength * bearing.effective_radius / (before * sum(bearing.radii))
+        if slid > 0.0:
+            devices[name] = replace(bearing, yield_displacement=float(f"{slid:.4g}"))
+    return devices
 
 
 class Links:
@@ -102,11 +149,17 @@ class Links:
         With the links.
     places : Places
         Where bearings stand in place of links.
+
+    Attributes
+    ----------
+    stiffness : dict of str to float
+        Of friction isolators before they slide, by bearing [N/m].
     """
 
     def __init__(self, frame: FrameEditor, building: Building, places: Places) -> None:
         self.frame, self.building, self.places = frame, building, places
         self._as: dict[str, list[str]] = {}
+        self.stiffness: dict[str, float] = {}
 
     def add(self) -> None:
         """Add all links.
@@ -123,23 +176,44 @@ class Links:
                 self._note("links, in whose place the given bearing stands", name)
             elif prop.kind.lower().startswith(PENDULUM_LINKS):
                 self._refuse_unknown(link, prop)
-                self._bearing(link, equivalent_bearing(prop, link.place))
-                what = (
-                    "friction isolators, as DCFP of the same radius and friction, two equal "
-                    f"surfaces and a rigid slider of radius {SLIDER_RADIUS:g} m without rims"
-                )
-                self._note(what, name)
+                self._bearing(link, equivalent_bearing(prop, link.place, self._rise(link)))
+                self._note_pendulum(link, prop)
             else:
                 self._refuse_unknown(link, prop)
                 self._plain(link, prop)
         for what, names in self._as.items():
-            self.building.account.read_as("links", what, names)
+            self.building.account.read_as("links", what, list(dict.fromkeys(names)))
 
     def _refuse_unknown(self, link: LinkObject, prop: LinkProperty) -> None:
         if prop.unknown:
             what = f'words of link property "{prop.name}" that are not known here'
             account = self.building.account
             account.refuse("link properties", "links", what, prop.unknown, link.place)
+
+    def _rise(self, link: LinkObject) -> float:
+        # Height of a link between two joints, one above the other.
+        if link.j is None:
+            return 0.0
+        (x, y, z), (u, v, w) = (self.frame.nodes[name].position for name in (link.i, link.j))
+        return abs(w - z) if math.hypot(u - x, v - y) < POSITION_TOLERANCE else 0.0
+
+    def _note_pendulum(self, link: LinkObject, prop: LinkProperty) -> None:
+        what = (
+            "friction isolators, as DCFP of the same radius, friction and stiffness before "
+            f"sliding, two equal surfaces and a rigid slider of radius {SLIDER_RADIUS:g} m"
+        )
+        self._note(f"{what} without rims", link.name)
+        values = [dof.values for name, dof in prop.dofs.items() if name in {"U2", "U3"}]
+        first, last = (value.get("stiffness", 0.0) for value in values)
+        if first > 0.0 and math.isclose(first, last, rel_tol=1e-6):
+            self.stiffness[link.name] = first
+        else:
+            what = "friction isolators without one stiffness before sliding, with that of bearings"
+            self._note(what, link.name)
+        rise = self._rise(link)
+        if any(abs(value.get("place", 0.0) - 0.5 * rise) > 1e-3 for value in values):
+            what = "friction isolators, their shear force at half their height, in place of DJ"
+            self._note(what, link.name)
 
     def _note(self, what: str, name: str) -> None:
         self._as.setdefault(what, []).append(name)
@@ -157,12 +231,19 @@ class Links:
             frame.add_bearing(link.name, low, high, device)
         except ModelError as cause:
             if not self._only_carries(low):
-                message = f'{link.place}, link "{link.name}": {cause}'
+                message = f'{link.place}, link "{link.name}": {cause}{self._plates(link, device)}'
                 raise ModelError(message) from cause
             x, y, z = frame.nodes[high].position
             frame.add_node(f"ground-{link.name}", x, y, z - device.height)
             frame.fix(f"ground-{link.name}", "all")
             frame.add_bearing(link.name, f"ground-{link.name}", high, device)
+
+    def _plates(self, link: LinkObject, device: LIRBearing) -> str:
+        rise = self._rise(link) - device.slider_height
+        if rise <= 0.0:
+            return ""
+        plates = argument("plate_thickness", float(f"{0.5 * rise:.6g}"))
+        return f"; or let plates fill the height of the link, {plates} of the bearing"
 
     def _only_carries(self, joint: str) -> bool:
         # A joint of the ground that nothing but this link needs.
@@ -193,9 +274,24 @@ class Links:
             if dof.fixed:
                 fixed.append((axes[k % 3], k >= 3))
                 continue
-            self._dof(link, prop, name, dof, (first, last), axes[k % 3])
+            at = self._spring_at(link, name, dof, last, axes[0])
+            self._dof(link, prop, name, dof, (first, at), axes[k % 3])
         if fixed:
             self._tie(link.name, first, last, fixed)
+
+    def _spring_at(
+        self, link: LinkObject, name: str, dof: LinkDof, last: str, along: FloatArray
+    ) -> str:
+        # Where a shear spring is: at joint j, or on a rigid lever DJ from it towards joint i.
+        away = dof.values.get("place", 0.0)
+        if name not in {"U2", "U3"} or abs(away) < 1e-6:
+            return last
+        node = f"{link.name}-{name}-place"
+        x, y, z = (np.array(self.frame.nodes[last].position) - away * along).tolist()
+        self.frame.add_node(node, x, y, z)
+        every = [(axis, turns) for turns in (False, True) for axis in np.eye(3)]
+        self._tie(node, last, node, every)
+        return node
 
     def _dof(
         self,
@@ -231,10 +327,12 @@ class Links:
             return values[word]
 
         if nonlinear and kind.startswith("gap") and not turns:
+            self._note_unused(link, values, {"stiffness", "open"})
             law = Gap(gap=values.get("open", 0.0), stiffness=needed("stiffness"))
             self.frame.add_link(part, *ends, law, (-axis).tolist())
             self._note("gaps, which push only", link.name)
         elif nonlinear and kind.startswith(("rubber", "plastic")):
+            self._note_unused(link, values, {"stiffness", "yield", "ratio"})
             law_b = Bilinear(
                 stiffness=needed("stiffness"),
                 yield_force=needed("yield"),
@@ -252,6 +350,12 @@ class Links:
         if dof.damping > 0.0 and not nonlinear:
             damper = ViscousDamper(coefficient=dof.damping)
             self.frame.add_link(f"{part}-damper", *ends, damper, direction)
+
+    def _note_unused(
+        self, link: LinkObject, values: dict[str, float], used: Collection[str]
+    ) -> None:
+        for word in sorted(w for w in values if values[w] and w not in {*used, "place"}):
+            self._note(f"nonlinear links, without their {word.replace('_', ' ')}", link.name)
 
     def _spring(
         self, part: str, ends: tuple[str, str], axis: FloatArray, stiffness: float, *, turns: bool

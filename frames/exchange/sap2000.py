@@ -73,6 +73,43 @@ HARMLESS = (
 )
 """Tables of objects that the linear model does not need, by the beginning of the name."""
 
+KNOWN = {
+    "": "GUID Notes Color Joint Frame Area Link Name Material Section SectionName LoadPat "
+    "Length CentroidX CentroidY CentroidZ",
+    "AREA LOADS": "CoordSys=GLOBAL CoordSys=Local DistType=Twoway",
+    "AREA SECTION PROPERTIES": "Arc CoordSys DrillDOF InComp MatAngle TotalMass TotalWt",
+    "AREA SECTION ASSIGNMENTS": "MatProp=Default",
+    "CASE - STATIC 1": "*",
+    "COMBINATION DEFINITIONS": "*",
+    "CONNECTIVITY - AREA": "AreaArea NumJoints Perimeter",
+    "CONSTRAINT DEFINITIONS": "CoordSys=GLOBAL MultiLevel",
+    "FRAME AUTO MESH": "AtFrames=No MaxDegrees MaxLength NumSegments",
+    "FRAME INSERTION POINT": "CoordSys=GLOBAL Mirror2=No Mirror3=No",
+    "FRAME LOADS": "AbsDist AbsDistA AbsDistB CoordSys=GLOBAL CoordSys=Local RelDist RelDistA "
+    "RelDistB",
+    "FRAME LOCAL AXES": "Angle",
+    "FRAME OFFSET": "OffsetType Type",
+    "FRAME SECTION ASSIGNMENTS": "AutoSelect DesignSect SectionType",
+    "FRAME SECTION PROPERTIES": "ConcBeam ConcCol CGOffset2 CGOffset3 EccV2 EccV3 FileName "
+    "FilletRadius FromFile I23 PNAOffset2 PNAOffset3 R22 R33 S22 S22Left S22Neg S22Pos S22Right "
+    "S33 S33Bot S33Neg S33Pos S33Top SectInFile TotalMass TotalWt Z22 Z33",
+    "GROUPS": "*",
+    "JOINT ADDED MASS": "CoordSys=GLOBAL CoordSys=Local",
+    "JOINT COORDINATES": "CoordSys CoordType SpecialJt T XorR Y Z",
+    "JOINT CONSTRAINT": "Type",
+    "JOINT LOCAL AXES": "AdvanceAxes=No AdvancedAxes=No",
+    "LINK LOCAL AXES": "AdvanceAxes=No AdvancedAxes=No",
+    "LINK PROPERTY ASSIGNMENTS": "LinkFDProp=None LinkType",
+    "LINK PROPERTY DEFINITIONS 01": "DefArea DefLength PDM2I PDM2J PDM3I PDM3J RotInert1=0 "
+    "RotInert2=0 RotInert3=0",
+    "LOAD PATTERN": "AutoLoad",
+    "MASS SOURCE": "Elements IsDefault LoadPat Loads MassSource Masses Multiplier",
+    "MATERIAL PROPERTIES 01": "Grade SymType=Isotropic SymType=Uniaxial TempDepend=No Type",
+    "MATERIAL PROPERTIES 02": "A1",
+    "PROGRAM CONTROL": "*",
+}
+"""Fields without effect on the frame, as `Tables.unknown` takes them."""
+
 _OBJECTS = ("CONNECTIVITY", "CONSTRAINT DEFINITIONS", "JOINT ", "FRAME ", "AREA ", "LINK ")
 
 
@@ -143,6 +180,7 @@ def _judge_rest(tables: Tables, account: Account) -> None:
             rows = tables.rows(name)
             what = f"a table that is not known here, {count} rows"
             account.refuse("other tables", name, what, [_first(rows[0].values)], rows[0].place)
+    account.unknown(tables.unknown(KNOWN))
     rest = [f"{name} ({count})" for name, count in tables.unread().items()]
     account.left_out("other tables", "what the linear model does not need, with rows", rest)
 

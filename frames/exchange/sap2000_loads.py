@@ -264,7 +264,8 @@ def _read_source(tables: Tables, building: Building) -> None:
         elements = any(r.yes("Elements", default=False) for r in own)
         added = any(r.yes("Masses", default=False) for r in own)
         loads = {_pattern(r, building): r.number("Multiplier") for r in own if r.has("LoadPat")}
-        building.mass_source = MassSource(elements, added, loads)
+        counted = loads if any(r.yes("Loads", default=True) for r in own) else {}
+        building.mass_source = MassSource(elements, added, counted)
         others = {r.text("MassSource", "") for r in rows} - {name}
         building.account.left_out("MASS SOURCE", "mass sources besides the default", others)
     old = tables.rows("MASSES 1 - MASS SOURCE")

@@ -18,7 +18,12 @@ from frames.exchange.building import (
     Vector,
 )
 from frames.exchange.geometry import frame_axes
-from frames.exchange.sap2000_properties import known, section_modifiers, shell_factors
+from frames.exchange.sap2000_properties import (
+    known,
+    section_modifiers,
+    section_of,
+    shell_factors,
+)
 from frames.exchange.tables import by_name
 
 if TYPE_CHECKING:
@@ -99,7 +104,7 @@ def _read_frames(tables: Tables, building: Building) -> None:
         if assigned is None:
             message = f'frame "{name}" has no row in FRAME SECTION ASSIGNMENTS: export that table'
             raise row.error(message)
-        section = assigned.text("AnalSect", assigned.text("Section", "None"))
+        section = section_of(assigned)
         if row.yes("IsCurved", default=False):
             what = "curved frames, taken as straight ones"
             building.account.refuse("curved frames", FRAMES, what, [name], row.place)

@@ -20,6 +20,8 @@ from frames.exchange.tables import by_name
 from frames.exchange.units import link_scales
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from frames.exchange.tables import Row, Tables
 
 MATERIALS = "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"
@@ -38,6 +40,7 @@ LINK_VALUES = {
     "Fast": "fast",
     "Rate": "rate",
     "Radius": "radius",
+    "DJ": "place",
     "TransOpen": "open",
     "RotOpen": "open",
     "TransC": "damping",
@@ -61,17 +64,41 @@ def read_properties(tables: Tables, building: Building) -> None:
     ModelError
         If a number is missing or wrong, or a name is not known.
     """
-    tables.rows("MATERIAL PROPERTIES 01 - GENERAL")
-    for name, row in by_name(tables.rows(MATERIALS), "Material").items():
-        building.materials[name] = _material(row, name, building)
-    building.account.read(MATERIALS, "materials", len(building.materials))
-    for name, row in by_name(tables.rows(SECTIONS), "SectionName").items():
+    frames, areas = (
+        tables.rows("FRAME SECTION ASSIGNMENTS"),
+        tables.rows("AREA SECTION ASSIGNMENTS"),
+    )
+    sections, idle = in_use(by_name(tables.rows(SECTIONS), "SectionName"), map(section_of, frames))
+    building.account.left_out(SECTIONS, "which nothing has", idle)
+    kinds = (row.text("Section", "") for row in areas)
+    shells, idle = in_use(by_name(tables.rows(AREA_SECTIONS), "Section"), kinds)
+    building.account.left_out(AREA_SECTIONS, "which nothing has", idle)
+    used = {row.text("Material", "") for row in (*sections.values(), *shells.values())}
+    used |= {row.text("MatProp", "") for row in frames}
+    rows, idle = in_use(by_name(tables.rows(MATERIALS), "Material"), used)
+    building.account.left_out(MATERIALS, "which nothing has", idle)
+    heads = by_name(tables.rows("MATERIAL PROPERTIES 01 - GENERAL"), "Material")
+    for name, row in rows.items():
+        building.materials[name] = _material(row, name, building, heads.get(name, row))
+    building.account.read(MATERIALS, "materials in use", len(rows))
+    for name, row in sections.items():
         building.sections[name] = _section(row, name, building)
-    building.account.read(SECTIONS, "cross-sections", len(building.sections))
-    for name, row in by_name(tables.rows(AREA_SECTIONS), "Section").items():
+    building.account.read(SECTIONS, "cross-sections in use", len(building.sections))
+    for name, row in shells.items():
         building.area_sections[name] = _area_section(row, name, building)
-    building.account.read(AREA_SECTIONS, "sections of areas", len(building.area_sections))
+    building.account.read(AREA_SECTIONS, "sections of areas in use", len(building.area_sections))
     _read_links(tables, building)
+
+
+def in_use(rows: dict[str, Row], names: Iterable[str]) -> tuple[dict[str, Row], list[str]]:
+    """Return the rows that some name refers to, and the names of the others."""
+    wanted = set(names)
+    return {k: r for k, r in rows.items() if k in wanted}, [k for k in rows if k not in wanted]
+
+
+def section_of(row: Row) -> str:
+    """Return the section of a row of assignments to frames."""
+    return row.text("AnalSect", row.text("Section", "None"))
 
 
 def known(row: Row, field: str, name: str, names: dict[str, object] | object) -> str:
@@ -83,7 +110,8 @@ def known(row: Row, field: str, name: str, names: dict[str, object] | object) ->
     return name
 
 
-def _material(row: Row, name: str, building: Building) -> Material:
+def _material(row: Row, name: str, building: Building, head: Row) -> Material:
+    # Mass and weight stand in either table of materials.
     units = building.units
     modulus = row.number("E1") * units.stress
     poisson = row.number("U12", 0.0)
@@ -99,8 +127,8 @@ def _material(row: Row, name: str, building: Building) -> Material:
         modulus,
         shear,
         poisson,
-        row.number("UnitMass", 0.0) * units.density,
-        row.number("UnitWeight", 0.0) * units.weight,
+        row.number("UnitMass", head.number("UnitMass", 0.0)) * units.density,
+        row.number("UnitWeight", head.number("UnitWeight", 0.0)) * units.weight,
     )
 
 
@@ -229,10 +257,13 @@ def shell_factors(row: Row, building: Building) -> tuple[float, float]:
 
 
 def _read_links(tables: Tables, building: Building) -> None:
-    general = by_name(tables.rows(f"{LINKS} 01 - GENERAL"), "Link")
+    placed = (row.text("LinkProp", "") for row in tables.rows("LINK PROPERTY ASSIGNMENTS"))
+    general, idle = in_use(by_name(tables.rows(f"{LINKS} 01 - GENERAL"), "Link"), placed)
+    building.account.left_out(LINKS, "which nothing has", idle)
     dofs: dict[str, dict[str, LinkDof]] = {name: {} for name in general}
     for row in tables.starting(LINKS):
-        if not row.has("DOF"):
+        if not row.has("DOF") or row.text("Link") in idle:
+            row.looked_at.clear()
             continue
         name, dof = known(row, "Link", row.text("Link"), general), row.text("DOF").upper()
         if dof not in LINK_DOFS:
@@ -247,7 +278,7 @@ def _read_links(tables: Tables, building: Building) -> None:
             row.number("Mass", 0.0) * building.units.mass,
             row.number("Weight", 0.0) * building.units.force,
         )
-    building.account.read(LINKS, "link properties", len(general))
+    building.account.read(LINKS, "link properties in use", len(general))
 
 
 def _link_dof(row: Row, building: Building, *, turns: bool) -> LinkDof:

@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
+from frames._remedies import argument
 from frames.exchange.building import FrameSection
 from frames.model.rolled_shapes import catalogue_dimensions
 from frames.model.sections import Section
@@ -110,8 +111,8 @@ def section_by_shape(
             f'section "{name}" is a "{shape}" without Area, I33, I22 and torsion constant: known '
             "by dimensions are rectangles, circles, I shapes, tubes of one thickness and pipes, by "
             "name IPE, HEA, HEB and HEM; define it as a general section, or of an ETABS model give "
-            f'its constants, sections={{"{name}": ...}}, or the file of the program that has them, '
-            'library="AISC14.xml"'
+            f"its constants, {argument('sections', {name: ...})}, or the file of the program that "
+            f"has them, {argument('library', ['AISC14.xml'])}"
         )
         raise row.error(message)
     return with_constants(name, material, shape, found, sizes)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
+from frames._remedies import argument
 from frames.model.components import DOFS, bearing_height
 
 if TYPE_CHECKING:
@@ -50,9 +51,13 @@ class Places:
         for name, device in {**self.joints, **self.links}.items():
             bearing_height(name, device)
         if not self.joints and not self.links:
+            low = min((joint.z for joint in building.joints.values()), default=0.0)
+            some = [*building.groups, *building.link_properties]
+            some += [n for n, joint in building.joints.items() if joint.z - low < LEVEL_STEP]
             message = (
                 f"{building.account.file} has no joint that is restrained vertically to put a "
-                'bearing under: name groups, joints, links or link properties, at=["..."]'
+                "bearing under: name groups, joints, links or link properties, "
+                f"{argument('at', some[:4])}"
             )
             raise ModelError(message)
 
@@ -94,7 +99,9 @@ def standing(building: Building) -> list[str]:
     return [name for name, held in building.restraints.items() if "uz" in held and "ux" in held]
 
 
-def add_supports(frame: FrameEditor, building: Building, places: Places, options: Options) -> None:
+def add_supports(
+    frame: FrameEditor, building: Building, places: Places, options: Options
+) -> list[str]:
     """Fix supports, put bearings under joints, add springs to the ground.
 
     Parameters
@@ -108,12 +115,17 @@ def add_supports(frame: FrameEditor, building: Building, places: Places, options
     options : Options
         Of the import.
 
+    Returns
+    -------
+    list of str
+        Joints on bearings whose rotations about horizontal axes are held.
+
     Raises
     ------
     ModelError
         If a bearing cannot stand where it should.
     """
-    stay = [joint for joint in building.restraints if joint not in places.joints]
+    stay, turned = [joint for joint in building.restraints if joint not in places.joints], []
     for joint, held in building.restraints.items():
         if joint not in places.joints:
             frame.fix(joint, *held)
@@ -131,6 +143,7 @@ def add_supports(frame: FrameEditor, building: Building, places: Places, options
             turns = ["rx", "ry"] if options.base_rotations == "fixed" else []
         if turns:
             frame.fix(joint, *turns)
+            turned.append(joint)
     if places.joints:
         what = "supports, each of them a bearing on the ground"
         building.account.read_as("supports", what, list(places.joints))
@@ -138,6 +151,9 @@ def add_supports(frame: FrameEditor, building: Building, places: Places, options
         frame.add_node(f"spring-{joint}", *frame.nodes[joint].position)
         frame.fix(f"spring-{joint}", "all")
         frame.add_spring(f"spring-{joint}", f"spring-{joint}", joint, stiffness)
+    what = "joints on bearings whose rotations are held, as stiff beams at the base would"
+    building.account.read_as("supports", what, turned)
+    return turned
 
 
 def add_constraints(

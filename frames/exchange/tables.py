@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Literal, TypeAlias
 
 from frames._errors import ModelError
+from frames._remedies import argument
 
 Value: TypeAlias = str | float | bool
 """A cell: text of a text file, or what a workbook holds."""
@@ -33,15 +34,21 @@ class Row:
         Values by field.
     decimal : {".", ","}
         Decimal sign of the file.
+
+    Attributes
+    ----------
+    looked_at : set of str
+        Fields that the reader has asked for.
     """
 
-    __slots__ = ("decimal", "file", "line", "table", "values")
+    __slots__ = ("decimal", "file", "line", "looked_at", "table", "values")
 
     def __init__(
         self, file: str, table: str, line: int, values: dict[str, Value], decimal: Decimal = "."
     ) -> None:
         self.file, self.table, self.line = file, table, line
         self.values, self.decimal = values, decimal
+        self.looked_at: set[str] = set()
 
     @property
     def place(self) -> str:
@@ -54,6 +61,7 @@ class Row:
 
     def has(self, *fields: str) -> bool:
         """Return whether every field has a value."""
+        self.looked_at.update(fields)
         return all(self.values.get(field, "") != "" for field in fields)
 
     def text(self, field: str, default: str | None = None) -> str:
@@ -76,6 +84,7 @@ class Row:
         ModelError
             If there is none.
         """
+        self.looked_at.add(field)
         value = self.values.get(field, "")
         if value == "":
             if default is None:
@@ -111,6 +120,7 @@ class Row:
         ModelError
             If it is absent, no number or not finite.
         """
+        self.looked_at.add(field)
         value = self.values.get(field, "")
         if value == "" and default is not None:
             return default
@@ -148,7 +158,8 @@ def as_number(row: Row, field: str, text: str) -> float:
         remedy = "give a number"
         if other in text:
             remedy = (
-                f"it was written with the other decimal sign: read the file with decimal={other!r}"
+                "it was written with the other decimal sign: read the file with "
+                f"{argument('decimal', other)}"
             )
         msg = f'{field} = "{text}" is no number: {remedy}'
         raise row.error(msg) from None
@@ -202,6 +213,36 @@ class Tables:
         """Return the tables that nobody asked for, and how many rows they have."""
         return {name: len(self._rows[name]) for name in self if name not in self._read}
 
+    def unknown(self, known: Mapping[str, str]) -> list[tuple[str, str, Row, int]]:
+        """Return fields that have a value, that nobody asked for and that are not known.
+
+        Parameters
+        ----------
+        known : mapping of str to str
+            Fields without effect by the beginning of a table's name, "" of every table. A field
+            with a value, "Mirror2=No", is without effect where it has this value; "*" is any field.
+
+        Returns
+        -------
+        list of (str, str, Row, int)
+            Table, field, the first row that has it, and how many have it.
+        """
+        found: dict[tuple[str, str], tuple[Row, int]] = {}
+        for name in self:
+            if name not in self._read:
+                continue
+            given = " ".join(text for start, text in known.items() if name.startswith(start))
+            fields = set(given.upper().split())
+            if "*" in fields:
+                continue
+            for row in self._rows[name]:
+                for field in row.values.keys() - row.looked_at if row.looked_at else ():
+                    text = "".join(str(row.values[field]).upper().split())
+                    if text and not fields & {field.upper(), f"{field.upper()}={text}"}:
+                        first, count = found.get((name, field), (row, 0))
+                        found[name, field] = (first, count + 1)
+        return [(*key, row, count) for key, (row, count) in sorted(found.items())]
+
 
 def by_name(rows: Sequence[Row], field: str) -> dict[str, Row]:
     """Return rows by the text of a field; a name that comes twice is refused.
@@ -226,6 +267,7 @@ def by_name(rows: Sequence[Row], field: str) -> dict[str, Row]:
     found: dict[str, Row] = {}
     for row in rows:
         name = row.text(field)
+        row.looked_at.discard(field)  # a row of which the name alone is read is not looked at
         if name in found:
             message = (
                 f'{field} "{name}" stands in line {found[name].line} already: keep one of the two'

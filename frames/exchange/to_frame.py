@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
+from frames._remedies import argument
 from frames.exchange.area_loads import OWN_MASS, Loading
 from frames.exchange.building import MassSource
 from frames.exchange.choose_shells import choose_shells, meet_joints
-from frames.exchange.links import Links
+from frames.exchange.doubts import doubt_base, doubt_weights
+from frames.exchange.links import Links, yield_displacements
 from frames.exchange.members import Sections, add_members
 from frames.exchange.mesh import Mesh, mesh_areas
 from frames.exchange.notes import note_areas, note_members
@@ -23,6 +26,7 @@ if TYPE_CHECKING:
     from frames.exchange.options import Options
     from frames.exchange.stations import Divided, Points
     from frames.model.editing import FrameEditor
+    from lir_element import LIRBearing
 
 _KINDS = (
     ("D", ("dead", "super dead", "superdead", "superimposed dead")),
@@ -31,13 +35,8 @@ _KINDS = (
 )
 """Load cases of the frame, and the kinds of patterns that belong to them."""
 
-_NO_MASS = (
-    "has no mass source: define it (Define > Mass Source) and export the file again, or say what "
-    'is mass by shares of load patterns, mass={"DEAD": 1.0, "LIVE": 0.25}'
-)
 
-
-def fill(frame: FrameEditor, building: Building, options: Options) -> None:
+def fill(frame: FrameEditor, building: Building, options: Options) -> dict[str, LIRBearing]:
     """Add all of a building to an empty frame, on bearings.
 
     Parameters
@@ -48,6 +47,11 @@ def fill(frame: FrameEditor, building: Building, options: Options) -> None:
         What was read; its account is added to.
     options : Options
         Of the import.
+
+    Returns
+    -------
+    dict of str to LIRBearing
+        Devices to be put in place of those of some bearings, now that their loads are known.
 
     Raises
     ------
@@ -77,23 +81,59 @@ def fill(frame: FrameEditor, building: Building, options: Options) -> None:
     sections = Sections(building)
     add_members(frame, divided, sections)
     _add_shells(frame, building, mesh)
-    add_supports(frame, building, places, options)
+    turned = add_supports(frame, building, places, options)
     _hold_edges(frame, building, places, mesh)
     _hold_pins(frame, building, divided, mesh)
-    Links(frame, building, places).add()
+    links = Links(frame, building, places)
+    links.add()
     add_constraints(frame, building, places, options)
     loading = Loading(building, {one.frame.name: one for one in divided}, mesh)
     slabs = Slabs(frame, building)
     _add_masses(frame, building, loading, slabs, source, under_loads(divided, joints))
     loading.put(frame, slabs, factors, own=False)
     _add_levels(frame, building, places)
+    if options.loads is None or options.loads == "all":  # others are the choice of the user
+        shares = permanent_shares(building, replace(options, loads=None))
+        doubt_weights(building, shares, source, frame.gravity)
+    doubt_base(frame, building, places, options, turned)
     note_members(building, sections, divided)
     note_areas(building, slabs, mesh)
     building.account.finish()
+    return yield_displacements(frame, links.stiffness) if links.stiffness else {}
 
 
 def permanent(building: Building, options: Options) -> dict[str, tuple[float, str]]:
     """Return factor and case of the load patterns that are permanent loads of the frame.
+
+    Parameters
+    ----------
+    building : Building
+        With its patterns; its account notes those that are left out.
+    options : Options
+        As `permanent_shares`.
+
+    Returns
+    -------
+    dict of str to (float, str)
+        By pattern.
+    """
+    shares, account = permanent_shares(building, options), building.account
+    account.left_out(
+        "load patterns",
+        "which are no permanent loads here",
+        [name for name in building.patterns if not shares.get(name)],
+    )
+    part = [f"{name} by {share:g}" for name, share in shares.items() if share not in {0.0, 1.0}]
+    account.read_as("load patterns", "permanent loads by a factor", part)
+    return {
+        name: (share, case_of(building.patterns[name].kind) or "D")
+        for name, share in shares.items()
+        if share and name in building.patterns
+    }
+
+
+def permanent_shares(building: Building, options: Options) -> dict[str, float]:
+    """Return the factors of the load patterns that are permanent loads of the frame.
 
     Parameters
     ----------
@@ -104,8 +144,8 @@ def permanent(building: Building, options: Options) -> dict[str, tuple[float, st
 
     Returns
     -------
-    dict of str to (float, str)
-        By pattern; those that are left out are noted in the account.
+    dict of str to float
+        By pattern.
 
     Raises
     ------
@@ -137,19 +177,7 @@ def permanent(building: Building, options: Options) -> dict[str, tuple[float, st
         for name, pattern in building.patterns.items():
             if case_of(pattern.kind) == "D":
                 shares.setdefault(name, 1.0)
-    account = building.account
-    account.left_out(
-        "load patterns",
-        "which are no permanent loads here",
-        [name for name in building.patterns if not shares.get(name)],
-    )
-    part = [f"{name} by {share:g}" for name, share in shares.items() if share not in {0.0, 1.0}]
-    account.read_as("load patterns", "permanent loads by a factor", part)
-    return {
-        name: (share, case_of(building.patterns[name].kind) or "D")
-        for name, share in shares.items()
-        if share and name in building.patterns
-    }
+    return shares
 
 
 def case_of(kind: str) -> str:
@@ -161,7 +189,14 @@ def case_of(kind: str) -> str:
 def _source(building: Building, options: Options) -> MassSource:
     if options.mass is None:
         if building.mass_source is None:
-            message = f"{building.account.file} {_NO_MASS}"
+            live = [name for name, p in building.patterns.items() if case_of(p.kind) == "L"]
+            dead = [name for name, p in building.patterns.items() if case_of(p.kind) == "D"]
+            shares = dict.fromkeys(dead or ["DEAD"], 1.0) | dict.fromkeys(live, 0.25)
+            message = (
+                f"{building.account.file} has no mass source: define it (Define > Mass Source) and "
+                "export the file again, or say what is mass by shares of load patterns, "
+                f"{argument('mass', shares)}"
+            )
             raise ModelError(message)
         return building.mass_source
     unknown = [name for name in options.mass if name not in building.patterns]
@@ -169,7 +204,7 @@ def _source(building: Building, options: Options) -> MassSource:
         some = ", ".join(building.patterns) or "none"
         message = f'mass: "{unknown[0]}" is no load pattern of {building.account.file}: {some}'
         raise ModelError(message)
-    return MassSource(elements=False, added=True, patterns=dict(options.mass))
+    return MassSource(elements=False, added=False, patterns=dict(options.mass))
 
 
 def _points(building: Building) -> Points:

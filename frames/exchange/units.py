@@ -84,6 +84,7 @@ def link_scales(units: Units, *, turns: bool) -> dict[str, float]:
         "rate": 1.0 / units.length,
         "radius": units.length,
         "open": 1.0 if turns else units.length,
+        "place": units.length,
     }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -10,7 +10,7 @@ import numpy as np
 from frames._errors import ModelError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from frames._types import FloatArray, IntArray
 
@@ -65,6 +65,9 @@ class PartElements:
         What else the superelement holds.
     shells : tuple of ShellElement
         Shells that are all of the superelement's stiffness; none where they are not, or not known.
+    strains : mapping of str to (ndarray, ndarray)
+        Of elements that may leave their stiffness, by name: strains over those up to which they
+        keep it, (k, 3) at ends i and j over N [N], My and Mz [N m].
     """
 
     names: tuple[str, ...] = ()
@@ -74,6 +77,7 @@ class PartElements:
     middle: FloatArray
     without: tuple[WithoutForces, ...] = ()
     shells: tuple[ShellElement, ...] = ()
+    strains: Mapping[str, tuple[FloatArray, FloatArray]] = field(default_factory=dict)
 
     def scaled(self, factor: float) -> PartElements:
         """Return the same under permanent loads multiplied by a factor [-]."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
+from frames._remedies import argument
 from frames.assembly.basis import bearing_rows
 from frames.assembly.natural_modes import is_stable, weakest
 from frames.model.superelement import asymmetry
@@ -147,7 +148,8 @@ def judge_elements(
         if not accept:
             message = (
                 f"{text}: they yield, open or crack, and are not linear in this state; take the "
-                "model over before, or pass accept_nonlinear=True to freeze their present stiffness"
+                f"model over before, or freeze their present stiffness, "
+                f"{argument('accept_nonlinear', True)}"
             )
             raise ModelError(message)
         notes.append(f"{text}: their present stiffness is kept")
@@ -195,7 +197,9 @@ def refuse_other_supports(
             f"{between[0].tag}) and so on ({len(between)} in all)"
         )
     else:
-        remedy = "name them in base_nodes, or in other_supports if they shall stay"
+        remedy = (
+            f"name them in base_nodes, or if they shall stay, {argument('other_supports', tags)}"
+        )
     message = f"nodes {listed(tags)} are supports that carry elements, but no base nodes: {remedy}"
     raise ModelError(message)
 

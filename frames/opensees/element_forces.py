@@ -12,6 +12,7 @@ from frames.opensees.element_loads import element_loads, middle_of
 from frames.opensees.element_stiffness import apart_from_assembled, geometry, stiffnesses
 from frames.opensees.materials import printed_model
 from frames.opensees.natures import BARS, LINEAR
+from frames.opensees.strains import strain_rows
 from lir_element.argument_checks import listed
 
 if TYPE_CHECKING:
@@ -72,6 +73,7 @@ def line_elements(ops: Any, model: OpenSeesModel, options: Options) -> PartEleme
         else:
             kept.append(k)
             middle.append(own)
+    strains = strain_rows(ops, printed, [lines[k] for k in kept])
     in_si = np.array([*[1.0] * 3, *[options.length_unit] * 3]) * options.force_unit
     both = np.tile(in_si, 2)
     moves = np.tile([*[1.0 / options.length_unit] * 3, *[1.0] * 3], 2)
@@ -81,6 +83,10 @@ def line_elements(ops: Any, model: OpenSeesModel, options: Options) -> PartEleme
         rows=both[:, None] * rows[kept] * moves,
         rest=rest[kept] * both,
         middle=np.array(middle).reshape(-1, 6) * in_si,
+        strains={
+            f"{PREFIX}{tag}": (first / in_si[[0, 4, 5]], last / in_si[[0, 4, 5]])
+            for tag, (first, last) in strains.items()
+        },
         without=_told(others),
     )
 

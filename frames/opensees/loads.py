@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
+from frames._remedies import argument, in_python
 from frames.model.superelement import lumped
 from lir_element.units import STANDARD_GRAVITY
 
@@ -53,8 +54,8 @@ def permanent_load(structure: Structure, options: Options) -> tuple[FloatArray, 
     if options.gravity is None and not is_loaded:
         message = (
             f"the OpenSees model carries a vertical load of {weight:.4g} N, its masses would weigh "
-            f"{usual:.4g} N: analyse its gravity loads first, or pass gravity=9.81 to make its "
-            "masses weigh"
+            f"{usual:.4g} N: analyse its gravity loads first, or let its masses weigh, "
+            f"{argument('gravity', 9.81)}"
         )
         raise ModelError(message)
     if options.gravity is not None and is_loaded:
@@ -107,8 +108,9 @@ def rigid_damping(structure: Structure, options: Options) -> list[str]:
     return [
         f"the damping of the OpenSees model (mass-proportional or modal) also damps the motion of "
         f"the whole building on its bearings, by {100.0 * ratio:.1f} % of critical at their "
-        f"period of {2.0 * math.pi / omega:.2f} s, as it does in OpenSees; damping=False leaves it "
-        "out, frame.set_damping(ModalDamping(0.02)) damps the structure alone"
+        f"period of {2.0 * math.pi / omega:.2f} s, as it does in OpenSees; "
+        f"{argument('damping', False)} leaves it out"
+        + in_python(", frame.set_damping(ModalDamping(0.02)) damps the structure alone")
     ]
 
 
@@ -133,6 +135,7 @@ def light_base(structure: Structure, options: Options) -> list[str]:
         return []
     return [
         f"the base nodes have {moved[bases].sum():.4g} kg of {moved.sum():.4g} kg: a base without "
-        "mass rings, and steps become small; add the slab above the bearings, "
-        'frame.add_mass("<tag>", kg), which also weighs'
+        "mass rings, and steps become small; give them the mass of the slab above the bearings, "
+        f"ops.mass({options.base_nodes[0]}, ...) and so on before"
+        + in_python(f', or frame.add_mass("{options.base_nodes[0]}", kg) afterwards')
     ]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames._errors import ModelError
+from frames._remedies import argument, in_python
 from frames.opensees.materials import DASHPOTS, DEPARTURE, Printed, law_of, printed_model
 from lir_element.argument_checks import listed
 
@@ -188,14 +189,17 @@ def refuse_one_sided(found: list[Nature], *, accept: bool) -> list[str]:
     if accept:
         return [
             f"{text} (elements {tags} are like that): it is frozen at its present stiffness, as "
-            "asked for by accept_nonlinear=True, and neither opens, closes nor slackens"
+            "asked for by accept_nonlinear, and neither opens, closes nor slackens"
         ]
     i, j = element.nodes[0], element.nodes[-1]
+    afterwards = in_python(
+        f', and add to the frame afterwards frame.add_link("link-{element.tag}", "{i}", "{j}", '
+        f"law, direction) with {instead}"
+    )
     message = (
         f"{text}: no linear stiffness stands for it (elements {tags} are like that); remove it "
-        f"before, ops.remove('element', {element.tag}), and add to the frame afterwards "
-        f'frame.add_link("link-{element.tag}", "{i}", "{j}", law, direction) with {instead}; or '
-        "pass accept_nonlinear=True to freeze the present stiffness"
+        f"before, ops.remove('element', {element.tag}){afterwards}; or freeze the present "
+        f"stiffness, {argument('accept_nonlinear', True)}"
     )
     raise ModelError(message)
 

@@ -200,22 +200,41 @@ def _sections() -> FloatArray:
 _SECTIONS = _sections()
 
 
-def _element_rows(system: System) -> _Rows:
-    # Of the line elements of superelements, in the same way.
-    table = system.elements
-    count, height = len(table.names), 3 * _SIX
-    blocks = _SECTIONS @ table.rows
+def element_sections(system: System, kept: Sequence[int]) -> tuple[SparseMatrix, FloatArray]:
+    """Return the forces at the sections of line elements of superelements.
+
+    Parameters
+    ----------
+    system : System
+        The structure.
+    kept : sequence of int
+        Places of the elements in its table.
+
+    Returns
+    -------
+    tuple of csr_array (18 n, n_free) and ndarray (18 n,)
+        Over the free displacements, and where these are nought; `MEMBER_FORCES` at `STATIONS`.
+    """
+    table, at = system.elements, np.array(kept, dtype=np.int64)
+    count, height = len(at), 3 * _SIX
+    blocks = _SECTIONS @ table.rows[at]
     row = np.repeat(np.arange(height * count), 12)
-    column = np.repeat(element_dofs(table.nodes), height, axis=0).ravel()
+    column = np.repeat(element_dofs(table.nodes[at]), height, axis=0).ravel()
     size = (height * count, 6 * len(system.node_names))
     over_u = sparse.csr_array(sparse.coo_array((blocks.ravel(), (row, column)), shape=size))
-    rest = table.rest @ _SECTIONS.T
-    rest[:, _SIX : 2 * _SIX] += table.middle
+    rest = table.rest[at] @ _SECTIONS.T
+    rest[:, _SIX : 2 * _SIX] += table.middle[at]
+    return sparse.csr_array(over_u @ system.transform), rest.ravel()
+
+
+def _element_rows(system: System) -> _Rows:
+    # Of the line elements of superelements, in the same way.
+    over_q, rest = element_sections(system, range(len(system.elements.names)))
     return _Rows(
-        q=sparse.csr_array(over_u @ system.transform),
-        beyond=sparse.csr_array((size[0], system.parts.node_rows.shape[0])),
-        bearings=sparse.csr_array((size[0], 12 * len(system.bearings))),
-        rest=rest.ravel(),
+        q=over_q,
+        beyond=sparse.csr_array((len(rest), system.parts.node_rows.shape[0])),
+        bearings=sparse.csr_array((len(rest), 12 * len(system.bearings))),
+        rest=rest,
     )
 
 

@@ -28,6 +28,7 @@ from frames.recording.size import (
     require_memory,
     require_room,
 )
+from frames.recording.strain_tracking import StrainGauge
 from frames.results.peak_response import largest, with_exceeded
 from frames.statics.fresh_runs import once
 from frames.statics.resultants import Plausibility
@@ -104,6 +105,8 @@ class Recorder:
         self._rows = rows
         self._reduction = Reduction(recording)
         self._forces = ForceTracker(maps or force_maps(model, state)) if recording.forces else None
+        self.strains = StrainGauge(model, state)
+        """Of imported members that may yield."""
         self.first = 0
         """Base step in the first row of `out`."""
         self.seconds = 0.0
@@ -145,6 +148,7 @@ class Recorder:
         began = perf_counter()
         rows = done - self.first + 1
         self._take_forces(rows)
+        self.strains.take(self.out, 0, rows)
         self._reduction.take(self._dataset(rows), self.first, final=False)
         for array in self.out:
             array[:_OVERLAP] = array[rows - _OVERLAP : rows]
@@ -165,6 +169,7 @@ class Recorder:
         xarray.Dataset
             With the attribute `features_left_out` alone.
         """
+        self.strains.take(self.out, 0, done - self.first + 1)
         data = self._dataset(done - self.first + 1, kept=self._is_whole)
         if self._is_whole:
             return data

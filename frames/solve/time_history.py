@@ -297,26 +297,30 @@ def _run_from(
     end = ended(state, code)
     counts = state.run.counts[0]
     data = recorder.data(int(state.run.clock["done"][0]))
-    data.attrs = attrs | {
-        "recording": str(options.recording),
-        "method": options.method,
-        "integrator": options.integrator,
-        "spectral_radius": options.spectral_radius,
-        "dt": float(options.base),
-        "step_control": "error" if math.isfinite(tolerance) else "fixed",
-        "tolerance": tolerance if math.isfinite(tolerance) else math.nan,
-        "estimated_error": estimated_error(state, settings),
-        "steps": int(counts["steps"]),
-        "newton_iterations": int(counts["iterations"]),
-        "halvings": int(counts["halvings"]),
-        "state_determinations": int(counts["trials"]),
-        "tangents": int(counts["tangents"]),
-        "shared_tangents": int(counts["shared_tangents"]),
-        "degrees_of_freedom": int(state.system.mass.shape[0]),
-        "modes": len(state.run.e),
-        "seconds_gravity": state.seconds,
-        "seconds_loop": seconds,
-    }
+    data.attrs = (
+        attrs
+        | recorder.strains.attrs()
+        | {
+            "recording": str(options.recording),
+            "method": options.method,
+            "integrator": options.integrator,
+            "spectral_radius": options.spectral_radius,
+            "dt": float(options.base),
+            "step_control": "error" if math.isfinite(tolerance) else "fixed",
+            "tolerance": tolerance if math.isfinite(tolerance) else math.nan,
+            "estimated_error": estimated_error(state, settings),
+            "steps": int(counts["steps"]),
+            "newton_iterations": int(counts["iterations"]),
+            "halvings": int(counts["halvings"]),
+            "state_determinations": int(counts["trials"]),
+            "tangents": int(counts["tangents"]),
+            "shared_tangents": int(counts["shared_tangents"]),
+            "degrees_of_freedom": int(state.system.mass.shape[0]),
+            "modes": len(state.run.e),
+            "seconds_gravity": state.seconds,
+            "seconds_loop": seconds,
+        }
+    )
     seen = recorder.judgeable(data)
     seen.attrs = data.attrs
     outcome = concluded(seen, state, end)

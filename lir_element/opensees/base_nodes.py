@@ -148,13 +148,14 @@ def check_ties(ops: Any, bases: list[int], groups: list[list[int]]) -> None:
             raise ValueError(msg)
 
 
-def doubts(ops: Any, bases: list[int]) -> list[str]:
+def doubts(ops: Any, bases: list[int], up: int) -> list[str]:
     """Say what holds base nodes beside their bearings, and whether the base lacks mass."""
     notes = []
+    along = {1, 2, 3} - {up + 1}  # nodes of a plane frame hold one of these
     held = {
         int(tag)
         for tag in ops.getFixedNodes() or ()
-        if {1, 2, 3}.intersection(ops.getFixedDOFs(tag))
+        if up + 1 in ops.getFixedDOFs(tag) or along <= set(ops.getFixedDOFs(tag))
     } - set(bases)
     beside = []
     for element in ops.getEleTags() or ():

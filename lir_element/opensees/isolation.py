@@ -241,7 +241,7 @@ def isolate(
     elements = new_tags(element_tags(), tags, bases, "tags", "element")
     groups = by_elevation(ops, bases, up, metre) if base_diaphragm else []
     check_ties(ops, bases, groups)
-    notes = doubts(ops, bases)
+    notes = doubts(ops, bases, up)
     routes: dict[int, str] = {}
     made: list[int] = []
     axis = [float(k == up) for k in range(3)]

@@ -1,6 +1,7 @@
 """isolate: bearings under a model of OpenSees in one call, against putting them by hand."""
 
 import importlib.util
+import warnings
 
 import numpy as np
 import pytest
@@ -221,6 +222,19 @@ def test_what_holds_the_base_besides_is_told(ops):
     assert "elements 60 join base nodes to supports beside their bearings" in found.notes[0]
     assert "the base nodes have no mass" in found.notes[1]
     assert found.notes[0] in str(found)
+
+
+@pytest.mark.parametrize("up", ["z", "y"])
+def test_columns_of_a_plane_frame_are_no_supports(ops, up):
+    # all upper nodes hold the axis across the plane: their columns are not beside the bearings
+    table(ops, up)
+    for tag in range(11, 15):
+        ops.fix(tag, 0, *((1, 0) if up == "z" else (0, 1)), 0, 0, 0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = isolate([1, 2, 3, 4], DEVICE, vertical=up)
+    assert found.notes == ()
+    assert {1, 2, 3, 4} <= set(ops.getEleTags())
 
 
 def ghost(ops):

@@ -15,6 +15,7 @@ import scipy.linalg
 from numpy.testing import assert_allclose
 from scipy.sparse.linalg import spsolve
 
+from frames._errors import ModelWarning
 from frames.assembly.assemble import (
     System,
     assemble,
@@ -22,12 +23,49 @@ from frames.assembly.assemble import (
     member_axial_forces,
     member_end_forces,
 )
+from frames.assembly.dense_solver import solve_positive
+from frames.demo import bearing_for
 from frames.frame import Frame
 from frames.library.models import moment_frame
 from frames.model.sections import Section
+from frames.statics.gravity import gravity
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing
+
+
+def mast_on_portal(modulus: float) -> Frame:
+    """Return a portal whose top beam is rigid by its modulus, with a soft mast without inertia."""
+    device = bearing_for(400e3)
+    frame, section = Frame("mast"), Section.rectangle(0.4, 0.4, elastic_modulus=30e9)
+    for k, x in enumerate((0.0, 6.0)):
+        for name, z in (("g", 0.0), ("a", device.height), ("t", 3.0)):
+            frame.add_node(f"{name}{k}", x, 0.0, z)
+        frame.fix(f"g{k}", "all")
+        frame.fix(f"a{k}", "rx")
+        frame.add_bearing(f"b{k}", f"g{k}", f"a{k}", device)
+        frame.add_member(f"c{k}", f"a{k}", f"t{k}", section)
+        frame.add_mass(f"t{k}", 20e3)
+        frame.add_mass(f"a{k}", 20e3)
+    frame.add_member("base", "a0", "a1", section)
+    frame.add_member("top", "t0", "t1", replace(section, elastic_modulus=modulus))
+    frame.add_node("m", 0.0, 0.0, 5.0)
+    frame.add_member("mast", "t0", "m", replace(section, torsion_constant=1e-6))
+    frame.add_mass("m", 100.0)
+    return frame
+
+
+def test_round_off_of_stiff_and_soft_parts_is_scaled_away(recwarn: pytest.WarningsRecorder) -> None:
+    rigid, stiff = (gravity(mast_on_portal(modulus)).axial_forces for modulus in (1e21, 1e15))
+    assert_allclose(rigid, stiff, rtol=1e-7)
+    assert not recwarn.list  # none of the libraries'
+
+
+def test_round_off_that_cannot_be_scaled_away_is_a_doubt_by_name() -> None:
+    labels = [f"n{k} ux" for k in range(12)]
+    with pytest.warns(ModelWarning, match=r'the stiffness near "n\d+ ux" is lost in the round-off'):
+        solve_positive(scipy.linalg.hilbert(12), np.eye(12), "stiffness", labels)
+
 
 Array = npt.NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from numpy.testing import assert_allclose
 
-from frames import Frame, ModelError
+from frames import Frame, ModelError, ModelWarning
 from frames.demo import bearing_for
 from lir_element.opensees import opensees
 from tests import etabs_models, sap2000_models
@@ -69,7 +69,7 @@ BAD = {
     "not a model": ("hello", r"is no ETABS text file"),
     "decimal comma": (
         changed("HEIGHT 3.0", "HEIGHT 3,0"),
-        r'line \d+, table "STORIES.*decimal=\',',
+        r'line \d+, table "STORIES.*decimal=","',
     ),
     "story twice": (changed('"Story2"  HEIGHT', '"Story1"  HEIGHT'), r"two stories have one name"),
     "unknown story": (changed('"C1"  "Story1"', '"C1"  "Roof"'), r'story "Roof" is not defined'),
@@ -84,6 +84,10 @@ BAD = {
     "units": (changed('"KN"  "M"', '"stone"  "M"'), r'UNITS "stone" "M" must be a force'),
     "shape": (changed("AREA 0.2", "AREB 0.2"), r'is a "General" without Area'),
     "restraint": (changed("UX UY UZ", "UX UY UX9"), r'RESTRAINT "UX9" must be of'),
+    "stages": (
+        with_lines('  LOADCASE "Seq"  TYPE  "Nonlinear Static Staged Construction"'),
+        r'stages of construction.*\(Seq\).*allow=\["staged construction"\]',
+    ),
     "hinges": (with_lines('  HINGEASSIGN "C1" "Story1"'), r'allow=\["hinges"\]'),
     "links": (with_lines('  LINK "K1" POINT "1" "2"'), r'allow=\["links"\]'),
     "towers": (with_lines('  TOWER "T1"', '  TOWER "T2"'), r"several towers are not read"),
@@ -218,6 +222,65 @@ def test_bearings_stand_under_the_points_of_groups(tmp_path: Path) -> None:
     assert len(frame.fixed_dofs["3-Base"]) == 6
 
 
+def old(text: str) -> str:
+    """Return a file as ETABS 8 and 9 write it: mass and weight by M and W, combinations by LOAD."""
+    lines = re.sub(r"WEIGHTPERVOLUME (\S+)  MASSPERVOLUME (\S+)", r"M \2  W \1", text)
+    lines = re.sub(r'(COMBO "G"  )LOADCASE', r"\1LOAD", lines).replace('"Linear Add"', '"ADD"')
+    return lines.replace("  SLABTHICKNESS", '  TYPE "SHELL"  PLATETYPE "THIN"  TM')
+
+
+def test_etabs_8_and_9_have_mass_and_weight_by_letters(tmp_path: Path) -> None:
+    one = Frame.from_etabs(written(tmp_path, TEXT), BEARING, loads="G")
+    text = old(TEXT)
+    assert "WEIGHTPERVOLUME" not in text
+    two = Frame.from_etabs(written(tmp_path, text), BEARING, loads="G")
+    assert two.check().weight == one.check().weight
+    assert two.check().mass == one.check().mass
+
+
+def test_a_word_that_is_not_known_is_told_once_with_its_line(tmp_path: Path) -> None:
+    text = changed("  MASSPERVOLUME", "  ORTHOFACTOR 0.3  MASSPERVOLUME")
+    text = text.replace('AUTOMESH "YES"', 'AUTOMESH "YES"  SWAY 1')
+    line = 1 + text[: text.index("ORTHOFACTOR")].count("\n")
+    with pytest.warns(ModelWarning) as told:
+        frame = Frame.from_etabs(written(tmp_path, text))
+    said = [str(each.message) for each in told]
+    assert len(said) == 2  # one for each first word
+    assert any(
+        f'MATERIAL: words that are not known here were not read: ORTHOFACTOR = "0.3" '
+        f"(line {line})" in each
+        for each in said
+    )
+    assert any('SWAY = "1"' in each and "more" in each for each in said)
+    assert "words that are not known here" in str(frame.imported)
+
+
+IDLE = """$ IDLE
+  MATERIAL  "BAD"  TYPE "Steel"  SYMTYPE "Isotropic"  E -1  U 7  MAGIC 3
+  FRAMESECTION  "IDLE"  MATERIAL "nowhere"  SHAPE "Auto Select List"  MAGIC 3
+  SHELLPROP  "IDLE"  MATERIAL "nowhere"  MAGIC 3
+  SHELLUNIFORMLOADSET "IDLE"  LOADPAT "nowhere"  VALUE many
+  LINKPROP  "IDLE"  TYPE "MAGIC"  DOF "U9"
+  POINTSPRING  "IDLE"  UX soft
+  LOADPATTERN "IDLE"  TYPE  "Magic"  SELFWEIGHT  0
+
+$ MASS SOURCE"""
+
+
+def test_what_nothing_has_never_stops_an_import(tmp_path: Path) -> None:
+    frame = Frame.from_etabs(written(tmp_path, changed("$ MASS SOURCE", IDLE)))
+    assert "which nothing has" in str(frame.imported)
+
+
+def test_material_without_weight_is_doubted(tmp_path: Path) -> None:
+    text = re.sub(r"WEIGHTPERVOLUME \S+ ", "", TEXT)
+    with pytest.warns(ModelWarning) as told:
+        Frame.from_etabs(written(tmp_path, text))
+    said = " ".join(str(each.message) for each in told)
+    assert 'material "C30" has no weight, and pattern "Dead" has own weight' in said
+    assert "of the mass has no weight" in said
+
+
 def test_mutated_files_end_in_models_or_messages(tmp_path: Path) -> None:
     for seed in range(250):
         rng = random.Random(seed)  # noqa: S311
@@ -237,6 +300,7 @@ def test_mutated_files_end_in_models_or_messages(tmp_path: Path) -> None:
                 lines[k] = lines[k][:at] + new + lines[k][at + (how > 3) :]
         with warnings.catch_warnings():
             warnings.simplefilter("error")
+            warnings.simplefilter("ignore", ModelWarning)  # words that are not known
             survive(written(tmp_path, "\n".join(lines)))
 
 

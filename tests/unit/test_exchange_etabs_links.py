@@ -4,13 +4,15 @@ yield; words that are not known are refused where they count.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from frames import Frame, ModelError
+from frames import Frame, ModelError, gravity
+from frames._remedies import in_project_file
 from frames.demo import bearing_for
 from frames.exchange.links import SLIDER_HEIGHT
 from frames.model.laws import Bilinear, Gap
@@ -79,7 +81,11 @@ def test_friction_isolators_are_bearings_of_their_radius_and_friction(
     frame = Frame.from_etabs(model(tmp_path, isolator(units), LINKS, units))
     assert list(frame.bearings) == ["K1", "K2", "K3", "K4"]
     part = frame.bearings["K2"]
-    assert part.j == "2-Base"
+    assert (part.i, part.j) == ("102-Base", "2-Base")  # plates fill the height of the link
+    assert_allclose(part.bearing.height, 0.3)
+    forces = dict(zip(frame.bearings, gravity(frame).axial_forces, strict=True))
+    slid = 0.06 * forces["K2"] / 20e6 / (2.5 / 2.4)  # strength over the stiffness before sliding
+    assert_allclose(part.bearing.yield_displacement, slid, rtol=2e-2)
     bearing = part.bearing
     assert_allclose(bearing.effective_radius, 2.4)
     assert_allclose(bearing.radii, 0.5 * (2.4 + SLIDER_HEIGHT))
@@ -174,6 +180,10 @@ def test_rubber_isolators_gaps_and_linear_links(tmp_path: Path) -> None:
     assert_allclose(np.abs(frame.links["K1-U2"].direction), (1.0, 0.0, 0.0), atol=1e-12)
     assert_allclose(frame.springs["K1-U3"].stiffness, (0, 7e5, 0, 0, 0, 0))
     assert frame.superelements["K1-fixed"].nodes == ("101-Base", "1-Base")
+    yielding = [prop.replace("U3KE 700 U3CE 30", "U3NONLIN YES U3K 5 U3YIELD 1") for prop in KINDS]
+    lines = [yielding[0].format("RUBBER ISOLATOR"), *yielding[1:]]
+    account = str(Frame.from_etabs(model(tmp_path, lines, LINKS)).imported)
+    assert "each of their directions for itself: K1, K2, K3, K4" in account  # each once
     law = read("GAP").links["K1-U2"].law
     assert isinstance(law, Gap)
     assert (law.stiffness, law.gap) == (5e6, 0.05)
@@ -188,6 +198,46 @@ def test_a_linear_link_has_its_stiffness_as_the_program_writes_it(tmp_path: Path
     frame = Frame.from_etabs(model(tmp_path, prop, LINKS))
     assert_allclose(frame.springs["K4-U1"].stiffness, (0, 0, 901e3, 0, 0, 0))
     assert_allclose(frame.springs["K4-U3"].stiffness, (0, 903e3, 0, 0, 0, 0))
+
+
+def test_the_shear_spring_stands_where_the_file_has_it(tmp_path: Path) -> None:
+    # U2 of 900 kN/m at DJ below joint j: a shear V makes the moments V DJ above, V (h - DJ) below
+    for away in (0.0, 0.15, 0.3):
+        prop = ['  LINKPROP  "FP"  TYPE "LINEAR"  ', '  LINKPROP  "FP"  DOF "U1 U2 U3"  ']
+        prop += [f'  LINKPROP  "FP"  U{k}STIFF 900 U{k}DJ {away} ' for k in (1, 2, 3)]
+        frame = Frame.from_etabs(model(tmp_path, prop, LINKS))
+        spring = frame.springs["K1-U2"]
+        assert_allclose(frame.nodes[spring.j].z, frame.nodes["1-Base"].z - away, atol=1e-12)
+        assert ("K1-U2-place" in frame.nodes) == (away > 0.0)
+        if away:
+            tie = frame.superelements["K1-U2-place-fixed"]
+            assert tie.nodes == ("1-Base", "K1-U2-place")
+            rigid = np.zeros(12)  # a turn about y moves the lower end along x
+            rigid[[4, 10]], rigid[6] = 1.0, -away
+            assert_allclose(tie.equations @ rigid, 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+def test_a_given_bearing_has_plates_that_fill_the_link(tmp_path: Path, parallel: bool) -> None:
+    links = LINKS
+    if parallel:  # two links between the same joints
+        links = [*links, links[0].replace("K1", "K9"), links[4].replace("K1", "K9")]
+    else:  # on a pedestal
+        pedestal = '  LINE  "P1"  BEAM  "101"  "102"  0\n\n$ AREA CONN'
+        assign = '  LINEASSIGN  "P1"  "Base"  SECTION "BEAM"\n\n$ AREA ASS'
+    path = model(tmp_path, isolator(), links)
+    if not parallel:
+        text = path.read_text(encoding="utf-8").replace("$ AREA CONN", pedestal, 1)
+        path.write_text(text.replace("$ AREA ASS", assign, 1), encoding="utf-8")
+    device = replace(bearing_for(400e3), slider_height=0.2)
+    message = r"plates fill the height of the link, plate_thickness=0.05 of the bearing"
+    with pytest.raises(ModelError, match=message):
+        Frame.from_etabs(path, {"FP": device})
+    with in_project_file(), pytest.raises(ModelError, match=r'plate_thickness = "0.05 m"|0.05 m'):
+        Frame.from_etabs(path, {"FP": device})
+    frame = Frame.from_etabs(path, {"FP": replace(device, plate_thickness=0.05)})
+    assert frame.bearings["K1"].i == "101-Base"
+    assert len(Frame.from_etabs(path).bearings) == len(links) // 2  # the assumed ones fit
 
 
 BAD = {

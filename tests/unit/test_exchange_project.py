@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import pytest
 from numpy.testing import assert_allclose
 
+from frames import ModelWarning
 from frames.design._errors import ProjectError
 from frames.design.project import example
 from frames.design.project.inputs import ProjectInputs
@@ -50,6 +52,39 @@ def test_what_cannot_be_is_an_error_of_the_section(tmp_path: Path) -> None:
         project(tmp_path, 'kind = "etabs"\nfile = "model.e2k"\nmesh = "-1 m"')
 
 
+def test_remedies_speak_the_language_of_the_file_and_cure(tmp_path: Path) -> None:
+    model = tmp_path / "model.e2k"
+    kind = 'kind = "etabs"\nfile = "model.e2k"'
+
+    def read(text: str, more: str = "") -> str:
+        parts = project(tmp_path, f"{kind}\n{more}")
+        model.write_text(text, encoding="utf-8")
+        try:
+            parts.frame()
+        except ProjectError as error:
+            return str(error)
+        return ""
+
+    whole = etabs_models.building()
+    hinge = whole.replace("$ MASS", '$ MORE\n  HINGEASSIGN "C1" "Story1"\n\n$ MASS', 1)
+    said = {
+        whole.replace("  MASSSOURCE  ", "  MASSSAUCE  "): 'mass = { "Dead" = 1.0, "Live" = 0.25 }',
+        hinge: 'allow = ["hinges"]',
+        whole.replace("HEIGHT 3.0", "HEIGHT 3,0"): 'decimal = ","',
+        whole.replace("RESTRAINT", "RESTRAINED"): 'bearings_at = ["1-Base", "2-Base", ',
+    }
+    for text, remedy in said.items():
+        assert remedy in read(text)
+        line = f"{remedy.rstrip(', ')}{']' if remedy.startswith('bear') else ''}"
+        if remedy.startswith("decimal"):
+            text = text.replace(".", ",")
+            text = text.replace("21,0,0", "21.0.0").replace("model,e2k", "model.e2k")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ModelWarning)  # words that were misspelled
+            found = read(text, line)
+        assert "is no number" not in found if remedy.startswith("decimal") else not found
+
+
 def test_sections_of_a_catalogue_have_the_constants_of_the_file(tmp_path: Path) -> None:
     own = 'sections = { "BEAM" = { i_shape = ["600 mm", "220 mm", "19 mm", "12 mm"] } }'
     parts = project(tmp_path, f'kind = "etabs"\nfile = "model.e2k"\n{own}')
@@ -71,7 +106,7 @@ def test_sections_of_a_catalogue_have_the_constants_of_the_file(tmp_path: Path) 
     plain = project_of(parts, tmp_path, sections={}).frame()
     assert_allclose(plain.members["X1-Story1"].section.area, 156e-4, rtol=5e-3)  # of the tables
     path.write_text("\n".join(lines), encoding="utf-8")
-    with pytest.raises(ProjectError, match=r'"W24X62" without Area.*sections=\{"BEAM"'):
+    with pytest.raises(ProjectError, match=r'"W24X62" without Area.*sections = \{ "BEAM"'):
         project_of(parts, tmp_path, sections={}).frame()
     other = parts.file.structure.sections | {"BEAN": parts.file.structure.sections["BEAM"]}
     with pytest.raises(ProjectError, match=r'no frame of model.e2k has a section "BEAN"'):

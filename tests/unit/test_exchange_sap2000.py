@@ -14,7 +14,7 @@ import openpyxl
 import pytest
 from numpy.testing import assert_allclose
 
-from frames import Frame, ModelError
+from frames import Frame, ModelError, ModelWarning, gravity
 from frames.demo import bearing_for
 from frames.exchange.geometry import cardinal_shift, frame_axes
 from frames.exchange.links import equivalent_bearing
@@ -45,7 +45,7 @@ BAD = {
     "not a table": ("hello\n", r"holds no tables of SAP2000.*Export"),
     "decimal comma": (
         changed("XorR=6.0", "XorR=6,0"),
-        r'line \d+, table "JOINT COORDINATES": XorR = "6,0" .*decimal=\',',
+        r'line \d+, table "JOINT COORDINATES": XorR = "6,0" .*decimal=","',
     ),
     "no number": (
         changed("Y=5.0", "Y=five"),
@@ -205,6 +205,7 @@ def survive(tmp_path: Path, seed: int) -> None:
     path = written(tmp_path, mutated(random.Random(seed), TEXT))  # noqa: S311
     with warnings.catch_warnings():
         warnings.simplefilter("error")
+        warnings.simplefilter("ignore", ModelWarning)  # words that are not known
         try:
             frame = Frame.from_sap2000(path)
         except ModelError:
@@ -322,6 +323,13 @@ def test_friction_isolators_become_bearings(tmp_path: Path) -> None:
     assert_allclose(bearing.effective_friction, 0.06)
     law, speed = bearing.frictions[0], 0.1 * 1.15 / 2.2
     assert_allclose(law.at_speed(speed) * 2.3 / 2.2, 0.06 - 0.03 * np.exp(-20.0 * 0.1))
+    forces = dict(zip(frame.bearings, gravity(frame).axial_forces, strict=True))
+    for (
+        name,
+        part,
+    ) in frame.bearings.items():  # strength over 20 kN/mm
+        slid = 0.06 * forces[name] / 20e6 / (2.3 / 2.2)
+        assert_allclose(part.bearing.yield_displacement, slid, rtol=2e-2)
     assert_allclose(frame.links["5-U1"].direction, (-1.0, 0.0, 0.0))
     assert "friction isolators, as DCFP" in str(frame.imported)
     given = Frame.from_sap2000(isolated(tmp_path), {"FP": BEARING})
@@ -334,6 +342,116 @@ def test_a_friction_isolator_without_radius_needs_a_bearing(tmp_path: Path) -> N
     del link.dofs["U3"].values["radius"]
     with pytest.raises(ModelError, match=r"needs nonlinear U2 and U3 with radius"):
         equivalent_bearing(link, "here")
+
+
+IDLE: models.Rows = {
+    "FRAME SECTION PROPERTIES 01 - GENERAL": [{"SectionName": "A", "Shape": "Auto Select"}],
+    "AREA SECTION PROPERTIES": [{"Section": "A", "Material": "nowhere", "Thickness": -1}],
+    "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES": [{"Material": "BAD", "E1": -1}],
+    "LOAD PATTERN DEFINITIONS": [{"LoadPat": "IDLE", "DesignType": "Magic", "SelfWtMult": 0}],
+    "LINK PROPERTY DEFINITIONS 01 - GENERAL": [{"Link": "A", "LinkType": "Magic"}],
+    "LINK PROPERTY DEFINITIONS 02 - LINEAR": [{"Link": "A", "DOF": "U9"}],
+}
+
+
+def test_what_nothing_has_never_stops_an_import(tmp_path: Path) -> None:
+    tables = models.building()
+    for name, rows in IDLE.items():
+        tables[name] = [*tables.get(name, []), *rows]
+    frame = Frame.from_sap2000(written(tmp_path, models.text(tables)))
+    assert "which nothing has: A" in str(frame.imported)
+
+
+def doubts(tmp_path: Path, tables: models.Rows, **options: object) -> tuple[Frame, str]:
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        path = written(tmp_path, models.text(tables))
+        frame = Frame.from_sap2000(path, BEARING, **options)  # type: ignore[arg-type]
+    return frame, " ".join(str(each.message) for each in told)
+
+
+def test_mass_and_weight_may_stand_in_the_first_table_of_materials(tmp_path: Path) -> None:
+    tables = models.building()
+    frame, said = doubts(tmp_path, tables)
+    row = tables["MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"][0]
+    own = {field: row.pop(field) for field in ("UnitWeight", "UnitMass")}
+    tables["MATERIAL PROPERTIES 01 - GENERAL"] = [{"Material": "C30", "Type": "Concrete"} | own]
+    other, more = doubts(tmp_path, tables)
+    assert other.check().weight == frame.check().weight
+    assert said == more == ""
+
+
+def test_a_field_that_is_not_known_is_told(tmp_path: Path) -> None:
+    tables = models.building()
+    tables["AREA LOADS - UNIFORM"][0] |= {"DistType": "One way"}
+    _, said = doubts(tmp_path, tables)
+    assert "AREA LOADS - UNIFORM: words that are not known here were not read: DistType =" in said
+    tables["AREA LOADS - UNIFORM"][0] |= {"DistType": "Two way"}
+    assert doubts(tmp_path, tables)[1] == ""
+
+
+def test_mass_without_weight_is_doubted_and_its_remedy_cures_it(tmp_path: Path) -> None:
+    tables = models.building()
+    plain = doubts(tmp_path, tables)[0].check()
+    joints = range(7, 13)
+    tables["JOINT ADDED MASS ASSIGNMENTS"] = [
+        {"Joint": k, "Mass1": 5.0, "Mass2": 5.0, "Mass3": 5.0} for k in joints
+    ]
+    frame, said = doubts(tmp_path, tables)
+    check = frame.check()
+    assert_allclose([check.mass - plain.mass, check.weight], [30e3, plain.weight])
+    assert "30 t added to joints" in said
+    assert 'mass={"LIVE": 0.3, "DEAD": 1.0}' in said
+    cured, more = doubts(tmp_path, tables, mass={"DEAD": 1.0, "LIVE": 0.3})
+    assert more == ""
+    assert_allclose(cured.check().mass * cured.gravity, cured.check().weight, rtol=1e-9)
+
+
+def tied(tables: models.Rows, *free: str) -> None:
+    flags = {dof: dof not in free for dof in ("UX", "UY", "UZ", "RX", "RY", "RZ")}
+    tables["CONSTRAINT DEFINITIONS - EQUAL"] = [{"Name": "TIE", "CoordSys": "GLOBAL"} | flags]
+    tables["JOINT CONSTRAINT ASSIGNMENTS"] += [
+        {"Joint": k, "Constraint": "TIE", "Type": "Equal"} for k in range(1, 7)
+    ]
+
+
+def test_a_constraint_that_ties_the_settlements_is_doubted(tmp_path: Path) -> None:
+    tables = models.building()
+    plain = gravity(doubts(tmp_path, tables)[0]).axial_forces
+    tied(tables)
+    frame, said = doubts(tmp_path, tables, base_diaphragm=False)
+    forces = gravity(frame).axial_forces
+    assert_allclose(forces, forces.mean(), rtol=1e-6)  # all carry the same
+    assert 'constraint "TIE" ties uz of 6 joints on bearings, which settle by the same' in said
+    tied(tables := models.building(), "UZ", "RX", "RY")
+    frame, said = doubts(tmp_path, tables, base_diaphragm=False)
+    assert said == ""
+    assert_allclose(gravity(frame).axial_forces, plain, rtol=1e-6)
+
+
+def test_rotations_that_supports_hold_beside_beams_are_doubted(tmp_path: Path) -> None:
+    tables = models.building()
+    models._frame(tables, "B", 1, 2, "BEAM")
+    _, said = doubts(tmp_path, tables)
+    assert "the supports hold the rotations of 6 joints on bearings" in said
+    assert 'base_rotations="free"' in said
+    assert doubts(tmp_path, tables, base_rotations="free")[1] == ""
+
+
+def test_a_base_without_mass_is_doubted(tmp_path: Path) -> None:
+    tables = models.building()
+    modifiers = [
+        {"Frame": row["Frame"], "MassMod": 1e-3, "WeightMod": 1e-3}
+        for row in tables["CONNECTIVITY - FRAME"]
+        if str(row["Frame"]).startswith("C")
+    ]
+    tables["FRAME PROPERTY MODIFIERS"] = modifiers
+    _, said = doubts(tmp_path, tables)
+    assert "the level on the bearings has 0.00" in said
+    tables["JOINT ADDED MASS ASSIGNMENTS"] = [
+        {"Joint": k} | {f"Mass{i}": 1.0 for i in (1, 2, 3)} for k in range(1, 7)
+    ]
+    assert "the level on the bearings" not in doubts(tmp_path, tables)[1]
 
 
 def test_bearings_stand_where_groups_say(tmp_path: Path) -> None:

@@ -5,11 +5,21 @@ import subprocess  # a fresh interpreter  # noqa: S404
 import sys
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy import sparse
 
-from frames import Frame, ModelError, ModelWarning, gravity
+from frames import (
+    Frame,
+    GroundMotion,
+    ModelError,
+    ModelWarning,
+    Recording,
+    gravity,
+    time_histories,
+    time_history,
+)
 from frames.opensees.checks import refuse_unsymmetric
 from frames.opensees.model import read_model
 from lir_element import CoulombFriction, LIRBearing
@@ -216,10 +226,10 @@ def test_supports_that_are_meant_stay(ops):
     assert len(frame.fixed_dofs["2"]) == 6
 
 
-def yielding(ops, push):
+def yielding(ops, push, strength=3e8):
     """Let a push yield the fibre columns of the portal, or not."""
     corners(ops)
-    ops.uniaxialMaterial("Steel01", 1, 3e8, 2e11, 0.01)
+    ops.uniaxialMaterial("Steel01", 1, strength, 2e11, 0.01)
     ops.section("Fiber", 1, "-GJ", 1e7)
     ops.patch("rect", 1, 10, 2, -0.1, -0.1, 0.1, 0.1)
     ops.beamIntegration("Lobatto", 1, 1, 4)
@@ -243,6 +253,37 @@ def test_elements_in_yield_are_refused_and_others_named(ops):
     notes = frame.superelements["opensees"].notes
     assert "their present stiffness is kept" in notes[0]
     assert len(told) == len(notes) == 2
+
+
+@pytest.mark.parametrize("whole", [True, False])
+def test_a_run_says_how_far_imported_members_would_have_yielded(ops, whole):
+    yielding(ops, push=0.0, strength=3e7)
+    with pytest.warns(ModelWarning, match=r"up to a strain of 0.0001"):
+        frame = Frame.from_opensees([1, 2], BEARING, base_rotations="fixed")
+    pulse = np.sin(np.linspace(0.0, 2.0 * np.pi, 101))
+    for size in (0.5, 3.0):
+        motion = GroundMotion(x=size * pulse, dt=0.01)
+        kept = Recording(forces=True)
+        data = time_history(frame, motion, recording=kept)
+        extremes = data["reached_member_force"].sel(station=["i", "j"]).to_numpy()
+        n, _, _, _, y, z = np.moveaxis(extremes.reshape(-1, 6), 1, 0)
+        # 10 x 2 fibres of 20 x 100 mm, in one of 200 x 200 mm
+        at, area = np.array([-0.09, -0.07, -0.05, -0.03, -0.01]), 0.02 * 0.1
+        about_z, about_y = 4.0 * area * (at**2).sum(), 20 * area * 0.05**2
+        strain = np.abs(n) / 0.04 + np.abs(y) * 0.05 / about_y + np.abs(z) * 0.09 / about_z
+        ratio = float(strain.max() / 2e11 / 0.0001)
+        if whole:
+            data = time_history(frame, motion)
+        else:
+            data = time_histories(frame, {"a": motion}).isel(run=0)
+        assert (ratio > 1.0) == (size > 1.0)
+        told = [line for line in str(data.attrs.get("audit") or data["audit"].item()).splitlines()]
+        told = [line for line in told if "keeps its stiffness" in line]
+        assert len(told) == (ratio > 1.0)
+        if told:
+            assert told[0].startswith("! yielding: element-")
+            assert f"strains {ratio:.3g} times as far" in told[0]
+            assert "(2 imported members are beyond that)" in told[0]
 
 
 def test_unsymmetric_matrices_are_refused(ops):

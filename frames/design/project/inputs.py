@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
+from frames._remedies import in_project_file
 from frames.assembly.assemble import assemble
 from frames.design._errors import ProjectError
 from frames.design.codes.bounds import PropertyBounds, PropertyModificationFactors
@@ -287,19 +288,20 @@ def _imported(given: ImportedModel, bearing: LIRBearing, name: str, folder: Path
         shapes = {k: named_section(v, column=False).section for k, v in given.sections.items()}
         library = [folder / file for file in given.library]
         read = partial(Frame.from_etabs, sections=shapes, library=library)
-    return read(
-        path,
-        bearing,
-        at=given.bearings_at or None,
-        loads=given.loads,
-        mass=given.mass,
-        allow=given.allow,
-        mesh=given.mesh,
-        base_rotations=given.base_rotations,
-        base_diaphragm=given.base_diaphragm,
-        decimal=given.decimal,
-        name=name,
-    )
+    with in_project_file():
+        return read(
+            path,
+            bearing,
+            at=given.bearings_at or None,
+            loads=given.loads,
+            mass=given.mass,
+            allow=given.allow,
+            mesh=given.mesh,
+            base_rotations=given.base_rotations,
+            base_diaphragm=given.base_diaphragm,
+            decimal=given.decimal,
+            name=name,
+        )
 
 
 def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path) -> Frame:
@@ -312,13 +314,13 @@ def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path
     opensees().wipe()
     with RunningScript(script, "script"):
         runpy.run_path(script.name, run_name="__main__")
-    return Frame.from_opensees(
-        given.base_nodes,
-        bearing,
-        length_unit=given.length_unit,
-        force_unit=given.force_unit,
-        name=name,
-    )
+    with in_project_file():
+        return Frame.from_opensees(
+            given.base_nodes,
+            bearing,
+            **given.model_dump(exclude={"kind", "script", "base_nodes"}),
+            name=name,
+        )
 
 
 def motions_of(given: MotionSource, folder: Path) -> MotionSet:

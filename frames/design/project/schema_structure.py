@@ -11,6 +11,7 @@ from pydantic import Field, field_validator, model_validator
 from frames.design.codes.registry import MOST_IMPORTANT
 from frames.design.project.derived import Table
 from frames.design.project.quantities import (
+    Acceleration,
     AreaMass,
     Eccentricity,
     Force,
@@ -150,6 +151,14 @@ class OpenSeesModel(Table):
     base_nodes: tuple[int, ...] = Field(min_length=1)
     length_unit: Size = 1.0
     force_unit: Annotated[Force, Positive] = 1.0
+    vertical: Literal["y", "z"] | None = None
+    base_rotations: Literal["kept", "free", "fixed"] = "kept"
+    base_diaphragm: bool = True
+    gravity: Annotated[Acceleration, Positive] | None = None
+    damping: bool = True
+    other_supports: tuple[int, ...] = ()
+    accept_nonlinear: bool = False
+    vertical_mass: Literal["horizontal"] | None = None
 
 
 class ImportedModel(Table):

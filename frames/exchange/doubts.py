@@ -1,0 +1,202 @@
+"""What of an imported building was probably not meant: doubts, which its user sees as warnings."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames._remedies import argument
+from frames.exchange.area_loads import own_masses, own_weights
+from frames.exchange.building import AreaLoad, JointLoad
+from frames.exchange.geometry import area_normal
+from frames.exchange.supports import LEVEL_STEP
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from frames.exchange.building import Building, LineLoad, MassSource
+    from frames.exchange.options import Options
+    from frames.exchange.supports import Places
+    from frames.model.frame_data import FrameData
+
+LIGHT_BASE = 0.01
+"""Share of the mass that the level on the bearings needs, below which it is doubted [-]."""
+
+WEIGHTLESS = 0.05
+"""Share of the volume of all elements that may have no weight [-]."""
+
+MASS_OVER_WEIGHT = (0.5, 1.05)
+"""Mass times gravity over the permanent loads that belong to it, which is not doubted [-]."""
+
+
+def doubt_weights(
+    building: Building, shares: Mapping[str, float], source: MassSource, gravity: float
+) -> None:
+    """Doubt materials without weight, and a mass that does not fit the permanent loads.
+
+    Parameters
+    ----------
+    building : Building
+        What was read; its account is added to.
+    shares : mapping of str to float
+        Factors of the patterns that are permanent loads, of live loads those in the mass source.
+    source : MassSource
+        What is mass.
+    gravity : float
+        Acceleration of gravity [m/s2].
+    """
+    account, size = building.account, _Sizes(building)
+    heavy = [name for name, pattern in building.patterns.items() if pattern.self_weight]
+    without = size.without_weight()
+    if heavy and sum(without.values()) > WEIGHTLESS * size.volume:
+        part = 100.0 * sum(without.values()) / size.volume
+        account.doubts.append(
+            f'{account.file}: material {_quoted(without)} has no weight, and pattern "{heavy[0]}" '
+            f"has own weight: {part:.3g} % of the volume of all elements do not weigh; give the "
+            "material its weight in that program, and export it again"
+        )
+    loads: list[LineLoad | AreaLoad | JointLoad] = [
+        *building.line_loads,
+        *building.area_loads,
+        *building.joint_loads,
+    ]
+    down = size.down(loads)
+    for name in heavy:
+        own = size.down(own_weights(building, name)).get(name, 0.0)
+        down[name] = down.get(name, 0.0) + building.patterns[name].self_weight * own
+    weight = sum(share * down.get(name, 0.0) for name, share in shares.items())
+    parts = {
+        "of load patterns": sum(s * down.get(name, 0.0) for name, s in source.patterns.items()),
+        "of elements": sum(size.down(own_masses(building, gravity)).values())
+        if source.elements
+        else 0.0,
+        "added to joints": gravity * sum(0.5 * (v[0] + v[1]) for v in building.masses.values())
+        if source.added
+        else 0.0,
+    }
+    mass = sum(parts.values())
+    if mass <= 0.0 or weight <= 0.0:
+        return
+    low, high = MASS_OVER_WEIGHT
+    if low <= mass / weight <= high:
+        return
+    said = ", ".join(f"{1e-3 * v / gravity:.4g} t {word}" for word, v in parts.items() if v)
+    what = (
+        f"{100.0 * (1.0 - weight / mass):.3g} % of the mass has no weight, so that the bearings "
+        "carry too little"
+        if mass > weight
+        else f"{100.0 * (1.0 - mass / weight):.3g} % of the permanent loads are no mass"
+    )
+    same = {name: share for name, share in shares.items() if share and down.get(name, 0.0) > 0.0}
+    account.doubts.append(
+        f"{account.file}: the mass ({said}) would weigh {1e-3 * mass:.4g} kN, and the permanent "
+        f"loads are {1e-3 * weight:.4g} kN: {what}; mend the file, or let what weighs be the mass, "
+        f"{argument('mass', same)}"
+    )
+
+
+def doubt_base(
+    frame: FrameData, building: Building, places: Places, options: Options, turned: list[str]
+) -> None:
+    """Doubt supports that do not let the bearings carry what stands above them, and a light base.
+
+    Parameters
+    ----------
+    frame : Frame
+        Complete.
+    building : Building
+        What was read; its account is added to.
+    places : Places
+        Where bearings stand.
+    options : Options
+        Of the import.
+    turned : list of str
+        Joints on bearings whose rotations the supports hold.
+    """
+    account = building.account
+    tops = {part.j for part in frame.bearings.values()}
+    if not tops:
+        return
+    for part in building.constraints.values():
+        tied = tops.intersection(part.joints)
+        if part.kind in {"equal", "body"} and "uz" in part.dofs and len(tied) > 1:
+            how = "settle by the same" if part.kind == "equal" else "settle as one rigid block"
+            account.doubts.append(
+                f'{account.file}: constraint "{part.name}" ties uz of {len(tied)} joints on '
+                f"bearings, which {how}: a bearing does not carry the column above it; take UZ out "
+                "of the constraint, and RX and RY with it, unless the base is that stiff"
+            )
+    beams = [m.name for m in frame.members.values() if {m.i, m.j} <= tops]
+    held = sorted(set(turned) & tops)
+    if options.base_rotations == "kept" and held and beams:
+        account.doubts.append(
+            f"{account.file}: the supports hold the rotations of {len(held)} joints on bearings "
+            f'({account.some(held)}), and beams join them ("{beams[0]}"): moments of the columns '
+            "go to the ground in place of the beams and the bearings; let the beams hold them, "
+            f"{argument('base_rotations', 'free')}"
+        )
+    level = {frame.nodes[node].z for node in tops}
+    every = {node: float(values[0]) for node, values in frame.masses.items()}
+    at_base = {n for n in every if any(abs(frame.nodes[n].z - z) < LEVEL_STEP for z in level)}
+    base = sum(every[node] for node in at_base)
+    whole = sum(every.values())
+    if base < LIGHT_BASE * whole:
+        account.doubts.append(
+            f"{account.file}: the level on the bearings has {1e-3 * base:.3g} t, "
+            f"{100.0 * base / whole:.2g} % of the mass: friction shakes it as no floor is shaken, "
+            "and its accelerations mean nothing; model the slab or the beams there, or add their "
+            "mass to these joints"
+        )
+
+
+class _Sizes:
+    # Lengths, areas and volumes of objects, and what loads on them come to.
+
+    def __init__(self, building: Building) -> None:
+        self._building = building
+        place = {name: np.array(joint.position) for name, joint in building.joints.items()}
+        self._size = {
+            name: float(np.linalg.norm(place[f.j] - place[f.i]))
+            for name, f in building.frames.items()
+        }
+        self._area = {
+            name: area_normal(np.array([place[j] for j in area.joints]))[1]
+            for name, area in building.areas.items()
+        }
+        self._volumes: dict[str, float] = {}
+        for name, frame in building.frames.items():
+            section = building.sections[frame.section]
+            self._add(frame.material or section.material, self._size[name] * section.area)
+        for name, area in building.areas.items():
+            if found := building.area_sections.get(area.section):
+                self._add(found.material, self._area[name] * found.thickness)
+        self.volume = sum(self._volumes.values())
+
+    def _add(self, material: str, volume: float) -> None:
+        self._volumes[material] = self._volumes.get(material, 0.0) + volume
+
+    def without_weight(self) -> dict[str, float]:
+        """Return the volumes of materials that have no weight [m3]."""
+        known = self._building.materials
+        return {k: v for k, v in self._volumes.items() if k in known and not known[k].weight}
+
+    def down(self, loads: Iterable[LineLoad | AreaLoad | JointLoad]) -> dict[str, float]:
+        """Return what loads come to downwards, by pattern [N]."""
+        found: dict[str, float] = {}
+        for load in loads:
+            if isinstance(load, JointLoad):
+                force = load.forces[2]
+            elif isinstance(load, AreaLoad):
+                force = load.load[2] * self._area[load.area]
+            elif load.point:
+                force = load.start[2]
+            else:
+                span = (load.b - load.a) * self._size[load.frame]
+                force = 0.5 * (load.start[2] + load.end[2]) * span
+            found[load.pattern] = found.get(load.pattern, 0.0) - force
+        return found
+
+
+def _quoted(names: Iterable[str]) -> str:
+    return ", ".join(f'"{name}"' for name in names)
