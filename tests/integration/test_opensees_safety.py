@@ -36,7 +36,7 @@ import multiprocessing, os, signal, socket, subprocess, sys, time
 import psutil
 from tests.integration.stand import Stand
 from lir_element.opensees import ServerError, bearing_response, bearing_tags, opensees
-from lir_element.opensees import connection
+
 from lir_element.opensees.plugin import _SESSION
 
 ops = opensees()
@@ -222,7 +222,7 @@ def test_only_our_own_process_is_connected_with(route: str) -> None:
         class Blind:
             def __init__(self, pid): pass
             def net_connections(self, kind): return []
-        connection.psutil.Process = Blind
+        psutil.Process = Blind
         stand.begin()
         ops.node(1, 0.0, 0.0, 0.0)
         ops.node(2, 0.0, 0.0, 0.0)

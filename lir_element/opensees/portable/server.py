@@ -217,6 +217,10 @@ class Service:
     def _do_outcome(self, key: int) -> Any:
         return self._hosted[key].outcome()
 
+    def _do_clock(self, key: int) -> tuple[float, float]:
+        block = self._hosted[key].block
+        return float(block["committed_time"][0]), float(block["step"][0])
+
     def _do_forget(self, key: int) -> None:
         self._channels.pop(key, None)
         del self._hosted[key]
