@@ -377,7 +377,7 @@ def test_a_new_analysis_goes_on_from_the_state(stand: Any) -> None:
     assert np.array_equal(np.vstack([first, stand.run(30)]), plain)
 
 
-def test_reset_goes_back_to_the_start(stand: Any) -> None:
+def test_reset_goes_back_to_the_start(stand: Any, capfd: Any) -> None:
     ops = stand.ops
     stand.build()
     at_rest = {name: bearing_response(1, name) for name in ("slip", "axial_force", "axis")}
@@ -385,6 +385,8 @@ def test_reset_goes_back_to_the_start(stand: Any) -> None:
     stand.shaking(2.8)
     plain = stand.run()
     ops.reset()
+    assert "revert" not in capfd.readouterr().err
+    assert ops.eleType(1) == "LIRBearing"
     for name, value in at_rest.items():
         assert np.array_equal(bearing_response(1, name), value), name
     ops.remove("loadPattern", 1)
