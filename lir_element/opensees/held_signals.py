@@ -35,11 +35,11 @@ def signals_held() -> Generator[None]:
         yield
     finally:
         # Ctrl-C raises an exception as soon as it has its handler back: last
-        for number in sorted(handlers, key=lambda each: each == signal.SIGINT):
-            signal.signal(number, handlers[number])
-            restart_reads(number)
-        for number, frame in caught:
-            handlers[number](number, frame)
+        for each in sorted(handlers, key=lambda number: number == signal.SIGINT):
+            signal.signal(each, handlers[each])
+            restart_reads(each)
+        for came, frame in caught:
+            handlers[came](came, frame)
 
 
 def restart_reads(*numbers: int, restart: bool | None = None) -> None:

@@ -70,6 +70,7 @@ class _Session:
             self.server = Server()
         return self.server
 
+    @signals_held()  # an element that was left out would write to a closed connection for ever
     def close(self) -> None:
         """End the process in good order: OpenSees' own exit comes after Python's."""
         for bearing in self.bearings.values():

@@ -157,12 +157,12 @@ def test_a_server_killed_while_idle_is_noticed() -> None:
 
 
 CTRL_C = """
-import random
+import random, select
 KILLER = (
     "import os, random, signal, sys, time\\n"
     "random.seed(int(sys.argv[2]))\\n"
-    "for _ in range(100):\\n"
-    "    time.sleep(0.004 * random.random())\\n"
+    "for _ in range(60):\\n"
+    "    time.sleep(0.002 + 0.004 * random.random())\\n"
     "    (os.killpg if sys.argv[3] == 'group' else os.kill)(int(sys.argv[1]), signal.SIGINT)"
 )
 
@@ -170,16 +170,26 @@ def shot_at(how, seed, work):
     # Do a piece of work again and again while Ctrl-C comes at random instants; how many came.
     signal.signal(signal.SIGINT, signal.default_int_handler)  # as notebooks do before each cell
     killer = subprocess.Popen(
-        [sys.executable, "-c", KILLER, str(os.getpid()), str(seed), how], start_new_session=True
+        [sys.executable, "-c", KILLER, str(os.getpid()), str(seed), how],
+        start_new_session=True,
+        stdout=subprocess.PIPE,
     )
-    hits, done, ended = 0, False, False
-    while not (done and ended):
+    hits = []
+    def go_on():
+        while True:
+            try:
+                while True:
+                    ended = select.select([killer.stdout], [], [], 0.0)[0]  # at its end
+                    if work() and ended:
+                        return
+            except KeyboardInterrupt:
+                hits.append(1)
+    while True:
         try:
-            done = work()
-            ended = killer.poll() is not None
-        except KeyboardInterrupt:
-            hits += 1
-    return hits
+            go_on()
+            return len(hits)
+        except KeyboardInterrupt:  # shot at where the last shot was counted
+            hits.append(1)
 """
 
 

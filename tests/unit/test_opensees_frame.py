@@ -13,6 +13,7 @@ from frames import Frame, ModelError, ModelWarning, gravity
 from frames.opensees.checks import refuse_unsymmetric
 from frames.opensees.model import read_model
 from lir_element import CoulombFriction, LIRBearing
+from lir_element.opensees import builtin_element
 from validation.opensees.model import gravity_analysis, permanent_loads
 
 pytestmark = pytest.mark.skipif(
@@ -268,7 +269,8 @@ def test_isolators_are_refused_by_their_tags(ops):
     ops.geomTransf("Linear", 1, 1.0, 0.0, 0.0)
     ops.element("elasticBeamColumn", 5, 2, 3, 0.02, 2e11, 8e10, 1e-4, 2e-4, 2e-4, 1)
     builtin_element("singleFPBearing", 15, 1, 2, BEARING.as_dcfp(rims=False), axial_load=4e5)
-    load(ops, 0.0, -4e5)
+    permanent_loads(ops)
+    ops.load(3, 0.0, 0.0, -4e5, 0.0, 0.0, 0.0)
     gravity_analysis(ops)
     with pytest.raises(
         ModelError, match=r"one of 15 \(SingleFPSimple3d\); .*remove\('element', tag"
