@@ -42,15 +42,19 @@ def refuse_unsymmetric(model: OpenSeesModel) -> None:
     Raises
     ------
     ModelError
-        If one is not; the message names a node.
+        If one is not; the message names a node and its elements.
     """
     for word in ("mass", "damping", "stiffness"):
         apart, largest, row = asymmetry(getattr(model, word))
         if apart > _SYMMETRY * largest:
+            node = model.tags[row // model.ndf]
+            there = [each for each in model.elements if node in each.nodes]
+            ends = listed([f"{each.tag} ({each.kind})" for each in there])
             message = (
-                f"the {word} of the OpenSees model is not symmetric near node "
-                f"{model.tags[row // model.ndf]} (entries differ by {apart:.3g} of "
-                f"{largest:.3g}): an element with friction or follower forces is there; remove it"
+                f"the {word} of the OpenSees model is not symmetric near node {node} (entries "
+                f"differ by {apart:.3g} of {largest:.3g}): an element with friction or follower "
+                f"forces ends there, one of {ends}; import the model as it stands without its "
+                "isolators: remove them by ops.remove('element', tag)"
             )
             raise ModelError(message)
 

@@ -10,8 +10,6 @@ import os
 import socket
 from typing import TYPE_CHECKING, Any
 
-import psutil
-
 from lir_element.opensees.block.protocol import vector_length
 
 if TYPE_CHECKING:
@@ -69,18 +67,38 @@ def add_host_element(ops: Any, tag: int, placement: Placement) -> socket.socket:
         )
         try:
             return _accept_own(listener, port, tag)
-        except ConnectionError:
+        except BaseException:
             ops.remove("element", tag)  # before the port closes: its farewell must find an end
             raise
 
 
+def own_connections() -> list[Any]:
+    """Return this process's TCP connections, as psutil does, that have another end.
+
+    Returns
+    -------
+    list
+        Each with `laddr`, `raddr` and `fd`.
+
+    Raises
+    ------
+    ImportError
+        If psutil is not installed.
+    """
+    try:
+        import psutil
+    except ImportError as cause:
+        msg = (
+            "psutil is not installed, which finds the bearing's connection to OpenSees: "
+            'pip install "lir-dcfp[opensees]"'
+        )
+        raise ImportError(msg) from cause
+    return [each for each in psutil.Process(os.getpid()).net_connections("tcp4") if each.raddr]
+
+
 def _accept_own(listener: socket.socket, port: int, tag: int) -> socket.socket:
     # Take the connection that this process made; whoever else knocked is sent away.
-    own = {
-        c.laddr.port
-        for c in psutil.Process(os.getpid()).net_connections("tcp4")
-        if c.raddr and c.raddr.port == port
-    }
+    own = {each.laddr.port for each in own_connections() if each.raddr.port == port}
     while own:
         try:
             connection, (address, peer) = listener.accept()

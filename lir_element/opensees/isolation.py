@@ -20,6 +20,7 @@ from lir_element.opensees.base_nodes import (
     new_tags,
     release,
 )
+from lir_element.opensees.held_signals import signals_held
 from lir_element.opensees.library import opensees
 from lir_element.opensees.plugin import (
     ROUTES,
@@ -128,6 +129,7 @@ class Isolation:
         return "\n".join([*lines, *self.notes])
 
 
+@signals_held()  # Ctrl-C in between would leave half of it
 def isolate(
     base_nodes: Sequence[int],
     bearing: LIRBearing | Mapping[int, LIRBearing],
@@ -277,7 +279,7 @@ def isolate(
     for group in groups:
         ops.rigidDiaphragm(up + 1, *group)
     for note in notes:
-        warnings.warn(note, IsolationWarning, stacklevel=2)
+        warnings.warn(note, IsolationWarning, stacklevel=3)
     return Isolation(
         elements=elements,
         grounds=grounds,

@@ -43,7 +43,9 @@ def opensees() -> Any:
     if _NAME in sys.modules:
         return sys.modules[_NAME]
     if importlib.util.find_spec("openseespy") is None:
-        msg = 'openseespy is not installed: pip install "lir-dcfp[opensees]"'
+        other = "xara" if importlib.util.find_spec("xara") else ""
+        note = f" ({other} is, in which the bearing is not tried)" if other else ""
+        msg = f'openseespy is not installed{note}: pip install "lir-dcfp[opensees]"'
         raise ImportError(msg)
     _load_bundled_libraries()
     try:

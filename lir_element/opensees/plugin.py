@@ -14,33 +14,21 @@ from lir_element.argument_checks import require_choice
 from lir_element.device.bearing import LIRBearing
 from lir_element.element import LEVELS, Level
 from lir_element.opensees.connection import add_host_element
-from lir_element.opensees.element_memory import ElementMemory
+from lir_element.opensees.element_memory import ElementMemory, entries_of
 from lir_element.opensees.fast.in_process_element import Grafted
 from lir_element.opensees.fast.portable_responses import Manners
 from lir_element.opensees.fast.selftest import why_not_fast
 from lir_element.opensees.fast.symbols import NotPossibleError
+from lir_element.opensees.held_signals import restart_reads, signals_held
 from lir_element.opensees.library import opensees
 from lir_element.opensees.placement import Placement, place
-from lir_element.opensees.portable.remote import Orphans, Remote, Server, ServerError
+from lir_element.opensees.portable.remote import Orphans, Remote, RouteWarning, Server, ServerError
 
 Route = Literal["auto", "fast", "portable"]
 ROUTES = ("auto", "fast", "portable")
 Tangent = Literal["consistent", "symmetric"]
 TANGENTS = ("consistent", "symmetric")
 _LARGEST_TAG = 2**31 - 1
-
-
-class RouteWarning(UserWarning):
-    """The in-process coupling is not possible; the portable one is taken.
-
-    Examples
-    --------
-    >>> import warnings
-    >>> from lir_element.opensees import RouteWarning
-    >>> with warnings.catch_warnings():
-    ...     warnings.simplefilter("error", RouteWarning)  # rather fail than run out of process
-    ...     # ... bearing_element(10, 1, 2, bearing)
-    """
 
 
 class _Session:
@@ -82,6 +70,7 @@ class _Session:
             self.server = Server()
         return self.server
 
+    @signals_held()  # an element that was left out would write to a closed connection for ever
     def close(self) -> None:
         """End the process in good order: OpenSees' own exit comes after Python's."""
         for bearing in self.bearings.values():
@@ -206,7 +195,10 @@ def bearing_element(
     placement = place(ops, i, j, bearing, orient, length_unit, force_unit)
     chosen = _choose(route)
     add = _add_fast if chosen == "fast" else _add_portable
-    _SESSION.bearings[tag] = add(ops, tag, bearing, level, placement, tangent == "symmetric")
+    if chosen == "fast":
+        entries_of(level)  # compiles on first use, which Ctrl-C may end
+    with signals_held():
+        _SESSION.bearings[tag] = add(ops, tag, bearing, level, placement, tangent == "symmetric")
     return chosen
 
 
@@ -367,6 +359,8 @@ def _add_portable(
         remote.connect(connection)
         if not why_not_fast():
             remote.teach(Manners(tag, bearing, level, placement))
+        else:
+            restart_reads(restart=True)
     except (ServerError, ValueError, NotPossibleError):
         ops.remove("element", tag)
         remote.release()

@@ -36,7 +36,7 @@ import multiprocessing, os, signal, socket, subprocess, sys, time
 import psutil
 from tests.integration.stand import Stand
 from lir_element.opensees import ServerError, bearing_response, bearing_tags, opensees
-from lir_element.opensees import connection
+
 from lir_element.opensees.plugin import _SESSION
 
 ops = opensees()
@@ -153,6 +153,134 @@ def test_a_server_killed_while_idle_is_noticed() -> None:
         "portable",
     )
     assert errors.count("the analysis cannot go on") == 2
+    assert "KrylovNewton" not in errors  # a step that failed for another reason
+
+
+CTRL_C = """
+import random, select
+KILLER = (
+    "import os, random, signal, sys, time\\n"
+    "random.seed(int(sys.argv[2]))\\n"
+    "for _ in range(60):\\n"
+    "    time.sleep(0.002 + 0.004 * random.random())\\n"
+    "    (os.killpg if sys.argv[3] == 'group' else os.kill)(int(sys.argv[1]), signal.SIGINT)"
+)
+
+def shot_at(how, seed, work):
+    # Do a piece of work again and again while Ctrl-C comes at random instants; how many came.
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # as notebooks do before each cell
+    killer = subprocess.Popen(
+        [sys.executable, "-c", KILLER, str(os.getpid()), str(seed), how],
+        start_new_session=True,
+        stdout=subprocess.PIPE,
+    )
+    hits = []
+    def go_on():
+        while True:
+            try:
+                while True:
+                    ended = select.select([killer.stdout], [], [], 0.0)[0]  # at its end
+                    if work() and ended:
+                        return
+            except KeyboardInterrupt:
+                hits.append(1)
+    while True:
+        try:
+            go_on()
+            return len(hits)
+        except KeyboardInterrupt:  # shot at where the last shot was counted
+            hits.append(1)
+"""
+
+
+@pytest.mark.parametrize("how", ["group", "process"])
+@pytest.mark.parametrize("route", ROUTES)
+def test_ctrl_c_leaves_the_model_as_it_was(route: str, how: str) -> None:
+    """Of a terminal, to all processes of the group, or of a notebook, to the one of the model."""
+    errors = run(
+        CTRL_C
+        + f"""
+os.setsid()
+TOTAL = 150
+
+def work():
+    left = TOTAL - round(ops.getTime() / 0.002)
+    if left > 0:
+        assert ops.analyze(min(left, 10), 0.002) == 0
+    for tag in (1, 2):  # the answer to each question is its own
+        assert bearing_response(tag, "slip").shape == (2,)
+        assert bearing_response(tag, "status") == 0
+    return left <= 0
+
+begin(2)
+assert ops.analyze(TOTAL, 0.002) == 0
+names = ("slip", "force", "displacement", "time", "axis")
+expected = [ops.nodeDisp(2), *(bearing_response(1, each).tolist() for each in names)]
+hits = 0
+for seed in range(3):
+    ops.wipe()
+    begin(2)
+    hits += shot_at({how!r}, seed, work)
+    found = [ops.nodeDisp(2), *(bearing_response(1, each).tolist() for each in names)]
+    assert found == expected, (found, expected)
+assert hits > 5, hits
+
+built = []
+def build():
+    ops.wipe()
+    stand.build(count=2)
+    built.append(sorted(bearing_tags()) == sorted(ops.getEleTags()) == [1, 2])
+    return True
+
+for seed in range(2):
+    shot_at({how!r}, seed, build)
+    assert set(ops.getEleTags()) == set(bearing_tags())
+assert all(built)
+ops.wipe()
+begin(2)
+assert ops.analyze(TOTAL, 0.002) == 0 and ops.nodeDisp(2) == expected[0]
+ops.wipe()
+""",
+        route,
+    )
+    assert "have ended" not in errors
+
+
+def test_an_exchange_that_breaks_says_that_the_model_is_lost() -> None:
+    """Never an answer to another question."""
+    errors = run(
+        """
+        begin()
+        advance()
+        class Broken:
+            def __init__(self, pipe): self.pipe = pipe
+            def __getattr__(self, name): return getattr(self.pipe, name)
+            def recv_bytes(self): raise MemoryError
+        server = _SESSION.server
+        server._pipe = Broken(server._pipe)
+        try:
+            bearing_response(1, "slip")
+        except MemoryError:
+            pass
+        else:
+            sys.exit("no error")
+        for ask in (lambda: bearing_response(1, "slip"), lambda: stand.put(2, 1, 3)):
+            try:
+                ops.node(3, 0.0, 0.0, 0.0)
+                ask()
+            except ServerError as error:
+                assert "wipe the model and build it again" in str(error)
+            else:
+                sys.exit("no error")
+        assert ops.analyze(1, 0.005) != 0
+        ops.wipe()
+        begin()
+        assert not any(advance())
+        """,
+        "portable",
+    )
+    assert errors.count("their states are lost") == 1
+    assert "KrylovNewton" not in errors
 
 
 @pytest.mark.parametrize(
@@ -222,7 +350,7 @@ def test_only_our_own_process_is_connected_with(route: str) -> None:
         class Blind:
             def __init__(self, pid): pass
             def net_connections(self, kind): return []
-        connection.psutil.Process = Blind
+        psutil.Process = Blind
         stand.begin()
         ops.node(1, 0.0, 0.0, 0.0)
         ops.node(2, 0.0, 0.0, 0.0)

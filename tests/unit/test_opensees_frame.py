@@ -23,6 +23,7 @@ from frames import (
 from frames.opensees.checks import refuse_unsymmetric
 from frames.opensees.model import read_model
 from lir_element import CoulombFriction, LIRBearing
+from lir_element.opensees import builtin_element
 from validation.opensees.model import gravity_analysis, permanent_loads
 
 pytestmark = pytest.mark.skipif(
@@ -294,6 +295,30 @@ def test_unsymmetric_matrices_are_refused(ops):
     skew[6 * 2, 1] += 0.01 * model.stiffness.max()
     with pytest.raises(ModelError, match="stiffness of the OpenSees model is not symmetric near"):
         refuse_unsymmetric(replace(model, stiffness=sparse.csr_array(skew)))
+
+
+def test_isolators_are_refused_by_their_tags(ops):
+    """Without them, as the message says, the model is imported."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    for tag, z in ((1, 0.0), (2, BEARING.height), (3, 3.0)):
+        ops.node(tag, 0.0, 0.0, z)
+        ops.mass(tag, 2e4, 2e4, 2e4, 0.0, 0.0, 0.0)
+    ops.fix(1, 1, 1, 1, 1, 1, 1)
+    ops.fix(2, 0, 0, 0, 1, 1, 1)
+    ops.fix(3, 0, 0, 0, 0, 0, 1)
+    ops.geomTransf("Linear", 1, 1.0, 0.0, 0.0)
+    ops.element("elasticBeamColumn", 5, 2, 3, 0.02, 2e11, 8e10, 1e-4, 2e-4, 2e-4, 1)
+    builtin_element("singleFPBearing", 15, 1, 2, BEARING.as_dcfp(rims=False), axial_load=4e5)
+    permanent_loads(ops)
+    ops.load(3, 0.0, 0.0, -4e5, 0.0, 0.0, 0.0)
+    gravity_analysis(ops)
+    with pytest.raises(
+        ModelError, match=r"one of 15 \(SingleFPSimple3d\); .*remove\('element', tag"
+    ):
+        Frame.from_opensees([2], BEARING)
+    ops.remove("element", 15)
+    assert list(Frame.from_opensees([2], BEARING).bearings)
 
 
 def leaning(ops, *, tied=False, load=2e5, hinge=1e-3):

@@ -19,6 +19,9 @@ GUARD_FIELDS = (
     Field("inbox", "-", "", "what is thrown away", (MOST_DOFS * MOST_DOFS,)),
     Field("message", "", "", "address of what the user is told", (), "i8"),
     Field("message_size", "-", "", "its length", (), "i8"),
+    Field(
+        "hinted", "", "", "address of a word: 1 keeps a failed step from being explained", (), "i8"
+    ),
     Field("receive_flags", "-", "", "of `recv`: do not wait", (), "i8"),
     Field("send_flags", "-", "", "of `send`: do not wait, no signal", (), "i8"),
     Field("poll", "", "", "addresses of the system's functions", (), "i8"),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from lir_element.errors import RunStatus
 from lir_element.opensees.block.layout import (
     HINT,
@@ -16,6 +18,9 @@ from lir_element.opensees.block.layout import (
 
 if TYPE_CHECKING:
     from lir_element.opensees.placement import Placement
+
+HINTED = np.zeros(1, dtype=np.int64)
+"""1 once a failed step of this process was explained."""
 
 
 def bearing_messages(tag: int, design_load: float, placement: Placement) -> dict[int, str]:

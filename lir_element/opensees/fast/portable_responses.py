@@ -1,23 +1,42 @@
 """What an out-of-process element says of itself, where the build of OpenSees allows it.
 
 Its states are determined in another process. What recorders ask for by the names of OpenSees'
-bearings, its line in a printed model, and that a database does not hold it, is done here.
+bearings, its line in a printed model, and that a database does not hold it, is done here. So is
+what keeps the other process in step: the motion that is committed, and signals held back.
 """
 
 from __future__ import annotations
 
+import ctypes
+import signal
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lir_element.opensees.block.layout import HOST
+from lir_element.opensees.block.layout import HOST, MOST_DOFS
 from lir_element.opensees.block.messages import bearing_messages
 from lir_element.opensees.block.responses import host_responses
+from lir_element.opensees.fast.symbols import addresses
 from lir_element.opensees.fast.vtable_patch import Graft, common_functions
 
 if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing
     from lir_element.opensees.placement import Placement
+
+_HOST = {"tangent": "tangent_stiff", "initial": "initial_stiff", "commit": "commit_state"}
+_OWN = {
+    "update": "update_remote",
+    "commit_state": "commit_remote",
+    "tangent_stiff": "tangent_remote",
+    "initial_stiff": "initial_remote",
+    "resisting_force": "force_remote",
+    "resisting_force_with_inertia": "force_remote",
+    "damping": "zero_matrix",
+    "mass": "zero_matrix",
+    "revert_to_last_commit": "revert_remote",
+    "revert_to_start": "restart_remote",
+}
+"""Callbacks in the place of the host's functions."""
 
 
 class Manners:
@@ -46,6 +65,12 @@ class Manners:
         block = np.zeros(1, dtype=HOST)
         block["dofs"] = placement.dofs
         block["remote"] = 1
+        block["all_signals"] = -1
+        block["mask_mode"] = signal.SIG_SETMASK
+        block["set_signals"] = ctypes.cast(ctypes.CDLL(None).pthread_sigmask, ctypes.c_void_p).value
+        where = addresses()
+        for name in ("update", "tangent", "initial", "commit"):
+            block[f"host_{name}"] = where[_HOST.get(name, name)]
         load = bearing.resolved()["design_load"]
         self._graft = Graft(tag, placement, block, bearing_messages(tag, load, placement))
         self._graft.set_responses(host_responses(placement))
@@ -56,7 +81,9 @@ class Manners:
             level=level,
             route="portable",
         )
-        own = {"revert_to_last_commit": callbacks.revert_remote.address}
+        zeros = self._graft.keep(np.zeros(MOST_DOFS * MOST_DOFS))
+        block["zero_matrix"] = self._graft.matrix(zeros.ctypes.data, placement.dofs)
+        own = {name: getattr(callbacks, each).address for name, each in _OWN.items()}
         self._graft.replace(common_functions() | own)
 
     def undo(self) -> None:

@@ -30,6 +30,9 @@ REPLACED = {
 }
 """Virtual functions of the host element."""
 
+OPTIONAL = {"class_type": "_ZNK13GenericClient12getClassTypeEv"}
+"""One that is replaced where the library exports it: the compiler may leave it out."""
+
 REPLACED_AGAIN = {
     "send_self": "_ZThn16_N13GenericClient8sendSelfEiR7Channel",
     "receive_self": "_ZThn16_N13GenericClient8recvSelfEiR7ChannelR16FEM_ObjectBroker",
@@ -114,10 +117,12 @@ def addresses() -> dict[str, int]:
     """
     found = {}
     again = {f"again_{name}": symbol for name, symbol in REPLACED_AGAIN.items()}
-    for name, symbol in {**REPLACED, **again, **CALLED}.items():
+    for name, symbol in {**REPLACED, **OPTIONAL, **again, **CALLED}.items():
         try:
             function = getattr(library(), symbol)
         except AttributeError as cause:
+            if name in OPTIONAL:
+                continue
             msg = f"the OpenSees library does not export {symbol}"
             raise NotPossibleError(msg) from cause
         found[name] = int(ctypes.cast(function, ctypes.c_void_p).value or 0)

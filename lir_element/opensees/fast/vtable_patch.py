@@ -18,12 +18,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lir_element.opensees.block.layout import (
-    CONSTANT,
-    RESPONSE,
-    offset_of,
-)
+from lir_element.opensees.block.layout import CONSTANT, RESPONSE, offset_of
+from lir_element.opensees.block.messages import HINTED
 from lir_element.opensees.fast.symbols import (
+    OPTIONAL,
     REPLACED,
     REPLACED_AGAIN,
     NotPossibleError,
@@ -45,7 +43,7 @@ _SECOND = 16
 """Where the second base class begins in an element, in bytes."""
 _OBJECT_BYTES = 256
 """More than a Vector or a Matrix of OpenSees takes."""
-_HINTED = np.zeros(1, dtype=np.int64)
+_TYPE = np.frombuffer(b"LIRBearing\0", dtype=np.uint8)
 
 
 class Graft:
@@ -103,7 +101,8 @@ class Graft:
         block["host_table"] = where["table"] + 8 * self._tables[0]
         block["stream_slot"] = _stream_slot()
         block["write"] = ctypes.cast(ctypes.CDLL(None).write, ctypes.c_void_p).value
-        block["hinted"] = _HINTED.ctypes.data
+        block["hinted"] = HINTED.ctypes.data
+        block["type_name"] = _TYPE.ctypes.data
         self._set_messages(messages)
 
     @property
@@ -199,6 +198,8 @@ class Graft:
         new = self.keep(np.zeros(len(old) + 1, dtype=np.int64))
         new[0], new[1:] = self.block.ctypes.data, old
         for name, function in functions.items():
+            if name in OPTIONAL and name not in where:
+                continue
             slots = np.flatnonzero(old[head:] == where[name])
             if len(slots) != 1:
                 symbol = REPLACED.get(name, name)
@@ -229,6 +230,7 @@ def common_functions() -> dict[str, int]:
         "set_response",
         "get_response",
         "print_element",
+        "class_type",
         "send_self",
         "receive_self",
         "destroy",

@@ -6,8 +6,11 @@ out-of-process coupling calls, takes that of the block.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from numba import carray
 
+from lir_element._compile.jit import counting as kernel
 from lir_element._compile.jit import entry_point
 from lir_element.opensees.block.layout import HOST, NOT_SAVED, RESPONSE
 from lir_element.opensees.block.pointers import (
@@ -31,8 +34,13 @@ from lir_element.opensees.kernels.motion import (
     fill_response,
     find_response,
     give_hint,
+    read_committed_motion,
     read_displacements,
+    read_motion,
 )
+
+if TYPE_CHECKING:
+    from lir_element.opensees.block.layout import Host
 
 FIRST_RESPONSE = 1000
 """Number of the first of our responses, above those of the host element."""
@@ -72,12 +80,77 @@ def revert_to_last_commit(element: int) -> int:
     return 0
 
 
+@kernel
+def call_host(h: Host, function: int, element: int) -> int:
+    """Call a function of the host element that talks to another process, all signals held back.
+
+    OpenSees takes a read that a signal interrupts for one of -1 bytes. Another thread of the
+    process handles the signal.
+    """
+    call_write(h.set_signals, h.mask_mode, h.all_signals.ctypes.data, h.own_signals.ctypes.data)
+    result = call_word(function, element)
+    call_write(h.set_signals, h.mask_mode, h.own_signals.ctypes.data, 0)
+    return result
+
+
+@entry_point("int32(int64)")
+def update_remote(element: int) -> int:
+    """Send the trial motion to the process that determines the states."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    h.step = read_motion(h)
+    call_host(h, h.host_update, element)
+    return 0
+
+
+@entry_point("int32(int64)")
+def commit_remote(element: int) -> int:
+    """Let the other process commit the state at the motion that is committed."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    if read_committed_motion(h):
+        call_host(h, h.host_update, element)
+    call_host(h, h.host_commit, element)
+    return 0
+
+
+@entry_point("int64(int64)")
+def tangent_remote(element: int) -> int:
+    """Return the other process's tangent stiffness, a Matrix."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    return call_host(h, h.host_tangent, element)
+
+
+@entry_point("int64(int64)")
+def initial_remote(element: int) -> int:
+    """Return the other process's stiffness at rest, a Matrix."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    return call_host(h, h.host_initial, element)
+
+
+@entry_point("int64(int64)")
+def force_remote(element: int) -> int:
+    """Return the other process's resisting force, a Vector."""
+    h = carray(pointer(block_of(element)), 1, HOST)[0]
+    return call_host(h, h.host_force, element)
+
+
 @entry_point("int32(int64)")
 def revert_remote(element: int) -> int:
     """Do what there is to do in the model's process where another one determines the states."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
     give_hint(h)
     return 0
+
+
+@entry_point("int32(int64)")
+def restart_remote(_element: int) -> int:
+    """Do nothing: a motion that is all zero at time 0 restarts the bearing in the other process."""
+    return 0
+
+
+@entry_point("int64(int64)")
+def class_type(element: int) -> int:
+    """Return the element's type, a C string."""
+    return carray(pointer(block_of(element)), 1, HOST)[0].type_name
 
 
 @entry_point("int32(int64)")
@@ -133,7 +206,7 @@ def get_response(element: int, number: int, information: int) -> int:
     table = carray(pointer(h.responses), h.response_count, RESPONSE)
     response = table[number - FIRST_RESPONSE]
     if h.remote == 1:
-        copy_vector(call_word(h.host_force, element), h.dofs, 0, h.force)
+        copy_vector(call_host(h, h.host_force, element), h.dofs, 0, h.force)
         read_displacements(h)
     fill_response(h, response)
     return call_int(h.set_vector, information, response.vector)

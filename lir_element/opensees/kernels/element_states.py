@@ -111,7 +111,9 @@ def map_tangent(h: Host) -> None:
 def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     """Determine the trial state at `host_u`, `host_v`, a step `dt` after the last commit.
 
-    A trial at rest (all velocities exactly zero) is static: its time is no time. At the committed
+    A trial at rest (all velocities exactly zero) is static: its time is no time. A step of 0 in a
+    motion is one of which the integrator sets the time later: until then it is as long as the last
+    one. At the committed
     place a moving bearing has the committed force: an explicit integrator asks for it there with
     velocities that are none. Returns a RunStatus code; a committed state beyond a limit of the
     bearing is refused here.
@@ -134,7 +136,8 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     if old[0].status != _OK:
         return refuse(h, old[0].status)
     look_at_load(h, old[0].axial_force, moves)
-    time = old[0].time + (max(dt, 0.0) if moves else 0.0)
+    h.step = 0.0 if not moves else dt if dt > 0.0 else h.last_step
+    time = old[0].time + h.step
     code = bearing_trial(
         carray(pointer(h.props), 1, PROPS),
         old,
@@ -155,6 +158,19 @@ def host_trial(h: Host, contacts: Contacts | None, dt: float) -> int:
     h.element_made = 0
     set_force(h, old[0].force if begins else new[0].force)
     return _OK
+
+
+@kernel
+def host_retry(h: Host, contacts: Contacts | None) -> None:
+    """Determine the state anew at the motion that is committed, the step `step` after the last one.
+
+    Without a state there the committed one stays, and says so: later trials are refused.
+    """
+    if h.step <= 0.0:
+        h.last_step = 0.0  # the time was set back
+    code = host_trial(h, contacts, h.step)
+    if code != _OK and h.has_tangent != 2:
+        carray(pointer(h.old), 1, STATE)[0].status = code
 
 
 @kernel
@@ -254,6 +270,8 @@ def host_commit(h: Host, contacts: Contacts | None) -> None:
         h.loaded = 1
     h.commits += 1
     h.committed_time = h.time
+    if h.step > 0.0:
+        h.last_step = h.step
     h.refused, h.unfinished, h.failures = _OK, 0, 0
     begin_iteration(h, old[0].displacement, old[0].force)
     if h.record_every > 0:
@@ -324,6 +342,7 @@ def host_restart(h: Host) -> None:
         )
         forget(carray(pointer(h.search_old), 1, SEARCH)[0])
     h.time, h.committed_time, h.loaded = 0.0, 0.0, 0
+    h.step, h.last_step = 0.0, 0.0
     h.record_count, h.commits = 0, 0
     h.refused, h.unfinished, h.failures, h.load_seen = _OK, 0, 0, 0
     host_revert(h)

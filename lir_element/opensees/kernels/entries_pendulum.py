@@ -11,8 +11,19 @@ from numba import carray
 from lir_element._compile.jit import entry_point
 from lir_element.opensees.block.layout import HOST
 from lir_element.opensees.block.pointers import pointer
-from lir_element.opensees.kernels.element_states import host_commit, host_tangent, host_trial
-from lir_element.opensees.kernels.motion import block_of, fail, read_motion, tell
+from lir_element.opensees.kernels.element_states import (
+    host_commit,
+    host_retry,
+    host_tangent,
+    host_trial,
+)
+from lir_element.opensees.kernels.motion import (
+    block_of,
+    fail,
+    read_committed_motion,
+    read_motion,
+    tell,
+)
 
 
 @entry_point("int32(int64, float64)")
@@ -48,8 +59,11 @@ def update(element: int) -> int:
 
 @entry_point("int32(int64)")
 def commit_state(element: int) -> int:
-    """Accept the trial state."""
+    """Accept the state at the motion that is committed."""
     h = carray(pointer(block_of(element)), 1, HOST)[0]
+    if read_committed_motion(h):
+        host_retry(h, None)
+        tell(h)
     host_commit(h, None)
     return 0
 

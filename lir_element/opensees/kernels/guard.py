@@ -9,6 +9,7 @@ from numba import carray
 from lir_element._compile.jit import counting as kernel
 from lir_element._compile.jit import entry_point
 from lir_element.opensees.block.guard_layout import GUARD
+from lir_element.opensees.block.layout import WORDS
 from lir_element.opensees.block.pointers import call_poll, call_transfer, call_write, pointer
 from lir_element.opensees.block.protocol import END
 
@@ -51,7 +52,8 @@ def wait_for_end(g: GuardBlock) -> bool:
 
 @kernel
 def tell(g: GuardBlock) -> None:
-    """Write to standard error why there are no answers."""
+    """Write to standard error why there are no answers; that explains failed steps as well."""
+    carray(pointer(g.hinted), 1, WORDS)[0] = 1
     call_write(g.write, _STDERR, g.message, g.message_size)
 
 

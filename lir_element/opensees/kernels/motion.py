@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 
 _STDERR = 2
 _PATIENCE = 2  # refused steps in a row
+_SAME_STEP = 1e-6  # of its length: times far from zero have round-off
 HASH_START = -3750763034362895579
 HASH_FACTOR = 1099511628211
 """Of the hash of a response's name: Fowler, Noll, Vo (1a), 64 bits."""
@@ -45,35 +46,71 @@ def block_of(element: int) -> int:
 
 
 @kernel
-def copy_vector(vector: int, count: int, first: int, target: Floats) -> None:
-    """Copy the entries of an OpenSees Vector (its data's address is its second word)."""
+def copy_vector(vector: int, count: int, first: int, target: Floats) -> bool:
+    """Copy the entries of an OpenSees Vector (its data's address is its second word).
+
+    Returns whether that changed the target.
+    """
     data = word_at(vector + 8)
+    changed = False
     for k in range(count):
-        target[first + k] = number_at(data + 8 * k)
+        value = number_at(data + 8 * k)
+        changed = changed or value != target[first + k]
+        target[first + k] = value
+    return changed
 
 
 @kernel
-def read_displacements(h: Host) -> None:
-    """Set the block's displacements to the nodes' trial ones."""
+def read_displacements(h: Host) -> bool:
+    """Set the block's displacements to the nodes' trial ones; returns whether that changed them."""
     half = h.dofs // 2
-    copy_vector(call_word(h.get_displacement, h.node_i), half, 0, h.host_u)
-    copy_vector(call_word(h.get_displacement, h.node_j), half, half, h.host_u)
+    below = copy_vector(call_word(h.get_displacement, h.node_i), half, 0, h.host_u)
+    above = copy_vector(call_word(h.get_displacement, h.node_j), half, half, h.host_u)
+    return below or above
+
+
+@kernel
+def read_velocities(h: Host) -> bool:
+    """Set the block's velocities to the nodes' trial ones; returns whether that changed them."""
+    half = h.dofs // 2
+    below = copy_vector(call_word(h.get_velocity, h.node_i), half, 0, h.host_v)
+    above = copy_vector(call_word(h.get_velocity, h.node_j), half, half, h.host_v)
+    return below or above
 
 
 @kernel
 def read_motion(h: Host) -> float:
     """Set the block's motion to the nodes' trial motion; returns the step since the commit.
 
-    Explicit integrators set the domain's time after their trials: the step then is that from the
-    last committed trial.
+    The step is 0 where an integrator sets the domain's time after its trials.
     """
-    half = h.dofs // 2
     read_displacements(h)
-    copy_vector(call_word(h.get_velocity, h.node_i), half, 0, h.host_v)
-    copy_vector(call_word(h.get_velocity, h.node_j), half, half, h.host_v)
+    read_velocities(h)
     h.time = call_number(h.get_time, h.domain)
     step = number_at(h.step_size)
-    return step if step > 0.0 else h.time - h.committed_time
+    h.domain_time = h.time - step
+    return step
+
+
+@kernel
+def read_committed_motion(h: Host) -> bool:
+    """Set the block's motion and step to those that the domain commits.
+
+    Returns whether they are others than those of the last trial. Methods with an alpha or a theta
+    try states within the step or beyond it, explicit ones set the time later, some move the nodes
+    without a trial: only at the commit do displacement, velocity and time belong together.
+    """
+    moved = read_displacements(h)
+    moved = read_velocities(h) or moved
+    h.time = call_number(h.get_time, h.domain)
+    step = h.time - h.domain_time
+    moves = False
+    for k in range(h.dofs):
+        moves = moves or h.host_v[k] != 0.0
+    other = moves and abs(step - h.step) > _SAME_STEP * max(abs(step), abs(h.step))
+    if other:
+        h.step = step
+    return moved or other
 
 
 @kernel

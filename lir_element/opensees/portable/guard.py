@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lir_element.opensees.block.guard_layout import GUARD, MOST_CHANNELS
+from lir_element.opensees.block.messages import HINTED
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
@@ -42,7 +43,8 @@ class Guard:
         self._reader, self._writer = os.pipe()
         self._block = np.zeros(1, dtype=GUARD)
         self._block["channels"][0, :, 0] = -1
-        self._block["answer"] = np.nan
+        self._block["answer"].view(np.int64)[:] = -1  # not a number, from whichever byte on
+        self._block["hinted"] = HINTED.ctypes.data
         self._block["pipe"] = -1 if pipe is None else pipe.fileno()
         self._block["stop"] = self._reader
         self._block["message"] = self._text.ctypes.data

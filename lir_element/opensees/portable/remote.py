@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle  # noqa: S403
 import socket
 import subprocess  # noqa: S404  # our own server, by our own interpreter
 import sys
@@ -12,11 +13,11 @@ from dataclasses import replace
 from multiprocessing import Pipe, reduction
 from typing import TYPE_CHECKING, Any
 
-import psutil
-
 from lir_element.device.friction import without_class
 from lir_element.opensees.block.protocol import vector_length
-from lir_element.opensees.library import child_environment
+from lir_element.opensees.connection import own_connections
+from lir_element.opensees.held_signals import signals_held
+from lir_element.opensees.library import child_environment, opensees
 from lir_element.opensees.portable.guard import Guard
 
 if TYPE_CHECKING:
@@ -36,6 +37,22 @@ class ServerError(RuntimeError):
     >>> issubclass(ServerError, RuntimeError)  # so that `except RuntimeError` catches it
     True
     """
+
+
+class RouteWarning(UserWarning):
+    """The in-process coupling is not possible; the portable one is taken, or cannot serve.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> from lir_element.opensees import RouteWarning
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("error", RouteWarning)  # rather fail than run out of process
+    ...     # ... bearing_element(10, 1, 2, bearing)
+    """
+
+
+_SAME_CLOCK = 1e-3  # of a step: an explicit integrator sets its time a whole step later
 
 
 def _without_classes(bearing: LIRBearing) -> LIRBearing:
@@ -90,6 +107,7 @@ class Remote:
         self._outcome = (0, False, 0.0)
         self._recording = False
         self._manners: Manners | None = None
+        self._tag, self._warned = tag, False
         sent = _without_classes(bearing)
         server.ask("prepare", self._key, tag, sent, level, placement, symmetric)
 
@@ -117,7 +135,9 @@ class Remote:
 
     def response(self, name: str) -> Any:
         """Return a response of the committed state by name."""
-        return self._server.ask("response", self._key, name)
+        answer = self._server.ask("response", self._key, name)
+        self._compare_clocks()
+        return answer
 
     def start_recording(self, every: int) -> None:
         """Record every so many commits from now on; 0: none."""
@@ -128,7 +148,9 @@ class Remote:
         """Return what `ElementMemory.recorded` does."""
         if self._records is not None:  # the element is gone, its records were kept
             return self._records
-        return tuple(self._server.ask("recorded", self._key))
+        answer = tuple(self._server.ask("recorded", self._key))
+        self._compare_clocks()
+        return answer
 
     def outcome(self) -> tuple[int, bool, float]:
         """Return what `ElementMemory.outcome` does."""
@@ -188,6 +210,21 @@ class Remote:
         guard.add(far, self._words)
         return far
 
+    def _compare_clocks(self) -> None:
+        # The element says what it commits (`Manners`), or the server takes its last trial for it.
+        if self._manners is not None or self._warned:
+            return
+        committed, step = self._server.ask("clock", self._key)
+        away = abs(opensees().getTime() - committed)
+        if _SAME_CLOCK * step < away < (1.0 - _SAME_CLOCK) * step:
+            self._warned = True
+            msg = (
+                f"bearing element {self._tag}: the integrator tries states at {committed:g} s that "
+                f"it commits {away:g} s apart, and this build of OpenSees does not let the bearing "
+                "see that: rates of sliding are wrong. Take integrator Newmark or TRBDF2"
+            )
+            warnings.warn(msg, RouteWarning, stacklevel=4)
+
     def _undo(self) -> None:
         if self._manners is not None:
             self._manners.undo()
@@ -225,11 +262,7 @@ class Orphans:
             "one was forked from; the analysis cannot go on: wipe the model and build it again.\n"
         )
         self._guard = Guard(None, message)
-        own = {
-            (tuple(c.laddr), tuple(c.raddr)): c.fd
-            for c in psutil.Process(os.getpid()).net_connections("tcp4")
-            if c.raddr
-        }
+        own = {(tuple(each.laddr), tuple(each.raddr)): each.fd for each in own_connections()}
         self._kept = [remote.abandon(own, self._guard) for remote in remotes]
         self._guard.start()
 
@@ -248,11 +281,13 @@ class Server:
         ours, theirs = Pipe()
         module = "lir_element.opensees.portable.server"
         command = [sys.executable, "-m", module, str(theirs.fileno()), str(os.getpid())]
-        options: dict[str, Any] = {"pass_fds": [theirs.fileno()]}
+        # in a session of its own: Ctrl-C in a terminal goes to all processes of the model's
+        options: dict[str, Any] = {"pass_fds": [theirs.fileno()], "start_new_session": True}
         if sys.platform == "win32":
             os.set_handle_inheritable(theirs.fileno(), True)
             handles = subprocess.STARTUPINFO(lpAttributeList={"handle_list": [theirs.fileno()]})
-            options = {"startupinfo": handles}
+            group = subprocess.CREATE_NEW_PROCESS_GROUP
+            options = {"startupinfo": handles, "creationflags": group}
         self._process = subprocess.Popen(  # noqa: S603
             command, stdin=subprocess.DEVNULL, env=child_environment(), **options
         )
@@ -302,15 +337,20 @@ class Server:
         ServerError
             If the server is gone.
         """
-        try:
-            with self._lock:
-                self._pipe.send((what, key, *arguments))
+        message = reduction.ForkingPickler.dumps((what, key, *arguments))
+        with signals_held(), self._lock:
+            try:
+                self._pipe.send_bytes(message)
                 if sock is not None:
                     self._hand_over(sock)
-                good, answer = self._pipe.recv()
-        except (EOFError, OSError) as cause:
-            self._process.wait()
-            raise ServerError(self.end_message()) from cause
+                reply = self._pipe.recv_bytes()
+            except (EOFError, OSError) as cause:
+                self._process.wait()
+                raise ServerError(self.end_message()) from cause
+            except BaseException:  # the next answer would be that to this request
+                self._process.kill()
+                raise
+        good, answer = pickle.loads(reply)  # noqa: S301  # of our own server
         if not good:
             raise answer
         return answer

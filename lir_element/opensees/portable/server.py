@@ -30,7 +30,8 @@ if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
 _QUICK = getattr(socket, "TCP_QUICKACK", None)  # Linux: without it small messages wait some 40 ms
-_NO_FORCE = np.full(MOST_DOFS, np.nan)  # the protocol knows no failure; no test accepts this
+_NO_FORCE = np.full(MOST_DOFS * MOST_DOFS, -1).view(np.float64)
+"""The protocol knows no failure; no test accepts this, from whichever byte on it is read."""
 _GRACE = 1e-3
 """How long a message may be on its way, in another stream than a request sent after it [s]."""
 _AWAKE = 2e-3
@@ -80,13 +81,17 @@ class Channel:
         elif action == protocol.COMMIT:
             self.hosted.commit()
         elif action == protocol.GET_FORCE:
-            self._send(self.hosted.force if self._status is RunStatus.OK else _NO_FORCE)
+            good = self._status is RunStatus.OK
+            self._send(self.hosted.force if good else _NO_FORCE[: len(self._out)])
         elif action == protocol.GET_TANGENT:
             self._send(self.hosted.tangent_by_columns())
         elif action == protocol.GET_INITIAL:
             self._send(self.hosted.initial)
         elif action in protocol.ANSWERED:  # damping and mass: none
             self.sock.sendall(self._zeros)
+        elif action != protocol.END:
+            msg = f"{self._inbox[0]:g} is no action of a host element: its messages are out of step"
+            raise ValueError(msg)
         return action != protocol.END
 
     def _trial(self) -> None:
@@ -211,6 +216,10 @@ class Service:
 
     def _do_outcome(self, key: int) -> Any:
         return self._hosted[key].outcome()
+
+    def _do_clock(self, key: int) -> tuple[float, float]:
+        block = self._hosted[key].block
+        return float(block["committed_time"][0]), float(block["step"][0])
 
     def _do_forget(self, key: int) -> None:
         self._channels.pop(key, None)
