@@ -233,14 +233,16 @@ def said_of_runs(parts: ProjectInputs, motions: MotionSet) -> str:
         f"{level.name} (motions times {level.factor:g})" if level.factor > 1.0 else level.name
         for level in levels
     )
+    lacking = [end for end in ("lower", "upper") if end not in bounds]
+    without = f"; without the bound {' and '.join(lacking)}" if lacking else ""
     what = f"{len(motions)} motions, bounds {', '.join(bounds)}, level{'s' * (len(levels) > 1)}"
     said = f"{count} time histories: {what} {named}"
     share = parts.rules().accidental_eccentricity
     if not share:
-        return f"{said}; accidental eccentricity is left out"
+        return f"{said}; accidental eccentricity is left out{without}"
     every = parts.file.analysis.accidental_eccentricity_motions == "all"
     more = len(WAYS) * (count if every else len(levels) * len(bounds))
     return (
         f"{said}; {more} more with the masses moved by {100.0 * share:g} % of the plan each way, "
-        f"{more / count:.2g} times the time of these"
+        f"{more / count:.2g} times the time of these{without}"
     )

@@ -144,7 +144,7 @@ def _of_devices(
 
 
 def _without_effect(file: ProjectFile, types: Mapping[str, str]) -> Iterator[str]:
-    # Keys that the code does not read, bearings that stand nowhere, bounds that are left out.
+    # Keys that the code does not read, bearings that stand nowhere.
     above, code = file.superstructure, code_named(file.project.code)
     for key, instead in code.unread.items():
         given = above is not None and key in above.model_fields_set and getattr(above, key)
@@ -158,10 +158,4 @@ def _without_effect(file: ProjectFile, types: Mapping[str, str]) -> Iterator[str
         yield (
             "[bearing] stands under no column: every bearing carries more than the least `above` "
             "of [bearings]; look at its unit, or raise it"
-        )
-    ends = {"lower", "upper"} - set(file.analysis.bounds)
-    if len(ends) == 1:
-        yield (
-            f'[analysis] bounds leave out "{min(ends)}": displacements are largest at the lower '
-            "bound, forces at the upper one; name both"
         )
