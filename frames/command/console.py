@@ -12,6 +12,8 @@ from contextlib import contextmanager
 import typer
 from rich.console import Console
 
+from frames.command.toml_words import in_toml
+
 FAILED_CHECKS, BAD_INPUT, FAILED_ANALYSIS, INTERRUPTED = 1, 2, 3, 130
 
 out, err = Console(), Console(stderr=True)
@@ -40,15 +42,17 @@ def told() -> Generator[None, None, None]:
         before: set[str] = set()
 
         def once(message: Warning | str, *_: object, **__: object) -> None:
-            if str(message) not in before:
-                before.add(str(message))
-                err.print(f"warning: {message}", markup=False, highlight=False, soft_wrap=True)
+            text = in_toml(str(message))
+            if text not in before:
+                before.add(text)
+                err.print(f"warning: {text}", markup=False, highlight=False, soft_wrap=True)
 
         warnings.showwarning = once
         try:
             yield
         except (ProjectError, CheckError, ModelError, MotionError, CampaignError) as cause:
-            err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)
+            text = in_toml(str(cause))
+            err.print(f"error: {text}", markup=False, highlight=False, soft_wrap=True)
             raise typer.Exit(BAD_INPUT) from cause
         except AnalysisError as cause:
             err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from frames.command.console import say, told
+from frames.command.console import FAILED_CHECKS, err, say, told
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -19,8 +19,9 @@ if TYPE_CHECKING:
     from frames.design.project.verification import Verified
     from frames.design.sizing.candidate import Candidate
     from frames.design.sizing.proposal import Design
-    from frames.design.sizing.selection import Objective
+    from frames.design.sizing.selection import Impossible, Objective
     from frames.design.sizing.target import DesignTarget
+    from frames.design.sizing.trial import Trial
 
 OBJECTIVES: dict[str, Objective] = {
     "base-shear": "base shear",
@@ -66,8 +67,9 @@ def propose(
 ) -> None:
     """Propose LIR-DCFP bearings, beside plain ones, and print them as a section of the file.
 
-    All candidates, with why each fell out, are in candidates.csv and candidates.png. With --verify
-    the best are put to the time histories and checks of the project: verified.csv.
+    All candidates, with why each fell out, are in candidates.csv and candidates.png. The best are
+    sized on one mass under the project's motions: one_mass.csv. With --verify they are put to the
+    time histories and checks of the project as well: verified.csv.
     """
     from frames.design.project.inputs import ProjectInputs
     from frames.design.project.reading import read_project
@@ -79,14 +81,93 @@ def propose(
         parts = ProjectInputs(read_project(file), file.resolve().parent)
         target = parts.target()
         found = _found(parts, target, sizes, least, results)
-        say(f"{found}\n")
+        say(_written(found.candidates, found, target, results))
         _summary(found, objective, top)
-        _written(found.candidates, found, target, results)
+        trials = _tried(parts, found, found.ranked[:top], results, every=verify)
+        best = _best(trials)
+        if best is not None:
+            found = found.proposing(best.tried, best.sized)
+            _written(found.candidates, found, target, results)
+        say(f"\n{found}")
         chosen = found.chosen
         if verify:
-            chosen = _verify(parts, found.ranked[:top], results) or chosen
+            sized = [one.sized for one in trials] or found.ranked[:top]
+            chosen = _verify(parts, sized, results) or chosen
         for bearing in chosen.bearings:
             say(f"\n{section_of(bearing)}")
+        _leave(best)
+
+
+def _leave(best: Trial | None) -> None:
+    # With the code of a check that fails where the proposal does.
+    if best is not None and best.failures(1.0):
+        raise typer.Exit(FAILED_CHECKS)
+
+
+def _tried(
+    parts: ProjectInputs,
+    found: Design,
+    candidates: Sequence[Candidate],
+    folder: Path,
+    *,
+    every: bool,
+) -> list[Trial]:
+    # Until one passes on one mass, or each of them; none where there are no motions to try.
+    import pandas as pd
+
+    from frames.design._errors import ProjectError
+    from frames.design.project.preliminary import scaled_motions
+    from frames.design.sizing.trial import MARGIN, OneMass, tried_on_one_mass
+
+    try:
+        motions = parts.motions()
+    except ProjectError as cause:
+        err.print(
+            f"warning: the proposal is of the formula alone, no motions to try it: {cause}",
+            markup=False,
+            highlight=False,
+            soft_wrap=True,
+        )
+        return []
+    rules, spectrum, at = parts.rules(), parts.spectrum(), parts.file.analysis.bounds
+    how = OneMass(
+        lambda analysis: scaled_motions(parts, spectrum, analysis),
+        spectrum,
+        rules,
+        parts.bounds(),
+        at,
+        progress=True,
+    )
+    levels = ", ".join(f"{each.name} x {each.factor:g}" for each in rules.levels)
+    say(
+        f"\nOne mass (a rigid building) under {len(motions)} motions as the project scales them, "
+        f"times 1 and {MARGIN:g}: levels {levels}; bounds {', '.join(at)}. "
+        "One mass does not overturn: uplift is for the time histories of the project"
+    )
+    done: list[Trial] = []
+    for one in candidates:
+        say(f"\nradius {one.radius:g} m, friction {one.friction.f_max:g}: tried ...")
+        done.append(tried_on_one_mass(found, one, how))
+        rows = [row for each in done for row in each.rows()]
+        pd.DataFrame(rows).to_csv(folder / "one_mass.csv", index=False)
+        say(str(done[-1]))
+        if done[-1].passed and not every:
+            break
+    say(f"\nruns on one mass: {folder / 'one_mass.csv'}")
+    return done
+
+
+def _best(trials: Sequence[Trial]) -> Trial | None:
+    # The first that passes; else the one with the fewest failures, which is said.
+    from frames.design.sizing.trial import FACTORS, MARGIN
+
+    passed = next((one for one in trials if one.passed), None)
+    if passed is not None or not trials:
+        return passed
+    best = min(trials, key=lambda one: [one.failures(factor) for factor in FACTORS])
+    counts = f"{best.failures(1.0)} runs fail, {best.failures(MARGIN)} at {MARGIN:g} times"
+    say(f"none passes on one mass; the section below is of the one with the fewest: {counts}")
+    return best
 
 
 def _found(
@@ -109,8 +190,8 @@ def _found(
             least=least,
         )
     except NoCandidateError as cause:
-        _written(cause.candidates, None, target, results)
-        _reasons(cause.candidates)
+        say(_written(cause.candidates, None, target, results, cause.impossible))
+        _reasons(cause.candidates, cause.impossible)
         raise
 
 
@@ -175,11 +256,11 @@ def _summary(found: Design, objective: str, top: int) -> None:
     # The best by the objective, the Pareto set, and why the others fell out.
     ranked, best = found.ranked, found.pareto
     say(
-        f"{len(found.candidates)} candidates tried, {len(ranked)} keep what is asked, "
-        f"{len(best)} of them Pareto-optimal (none has less displacement, base shear and plan "
-        "diameter at once)"
+        f"{len(found.candidates) + len(found.impossible)} candidates tried, {len(ranked)} keep "
+        f"what is asked, {len(best)} of them Pareto-optimal (none has less displacement, base "
+        "shear and plan diameter at once)"
     )
-    _reasons(found.candidates)
+    _reasons(found.candidates, found.impossible)
     shown = list(dict.fromkeys((*ranked[:top], *best)))
     say(f"\nThe best {min(top, len(ranked))} by {objective}, and the Pareto set\n")
     say(_listed(shown, found.chosen))
@@ -198,22 +279,33 @@ def _listed(shown: Sequence[Candidate], chosen: Candidate) -> str:
     return text_table(rows_of(shown_table), ("", *map(str, shown_table.columns)))
 
 
-def _reasons(found: Sequence[Candidate]) -> None:
+def _reasons(found: Sequence[Candidate], impossible: Sequence[Impossible]) -> None:
     causes = Counter(one.governing.what for one in found if one.lacks)
+    causes.update("cannot be made" for _ in impossible)
     if causes:
         listed = ", ".join(f"{what} {count}" for what, count in causes.most_common())
         say(f"fell out, by what they lack most: {listed}")
+    for reason in dict.fromkeys(one.reason for one in impossible):
+        say(f"cannot be made: {reason}")
 
 
 def _written(
-    candidates: Sequence[Candidate], found: Design | None, target: DesignTarget, folder: Path
-) -> None:
+    candidates: Sequence[Candidate],
+    found: Design | None,
+    target: DesignTarget,
+    folder: Path,
+    impossible: Sequence[Impossible] = (),
+) -> str:
+    # Table and picture; returns where they are.
     from frames.design.plots import design_candidates  # with matplotlib
     from frames.design.sizing.selection import table_of
 
     folder.mkdir(parents=True, exist_ok=True)
-    chosen = None if found is None else found.chosen
-    table_of(candidates, chosen).to_csv(folder / "candidates.csv", index=False)
-    figure = design_candidates(candidates if found is None else found, target=target)
-    figure.savefig(folder / "candidates.png", dpi=150)
-    say(f"all candidates: {folder / 'candidates.csv'}, {folder / 'candidates.png'}")
+    table = table_of(candidates, None, impossible) if found is None else found.to_dataframe()
+    table.to_csv(folder / "candidates.csv", index=False)
+    written = str(folder / "candidates.csv")
+    if candidates:
+        figure = design_candidates(candidates if found is None else found, target=target)
+        figure.savefig(folder / "candidates.png", dpi=150)
+        written += f", {folder / 'candidates.png'}"
+    return f"all candidates: {written}"

@@ -195,7 +195,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
         (
             "[limits]",
             "[superstructure]\nR = 6.0\nimportance = 5.0\n[limits]",
-            "importance = 5.0 must be less than or equal to 3",
+            "importance = 5.0 must be at most 3",
         ),
         ("scale = 0.8", "scale = 0", 'scale = 0 must be "spectrum", or a factor'),
         ("scale = 0.8", "scale = inf", 'must be "spectrum", or a factor'),

@@ -5,10 +5,12 @@ import math
 import warnings
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from scipy.optimize import brentq
+from scipy.signal import lfilter
 
-from frames import gravity, shear_building
+from frames import GroundMotion, gravity, shear_building
 from frames.design import (
     ASCE7,
     EN1998,
@@ -16,19 +18,25 @@ from frames.design import (
     DesignLimits,
     DesignTarget,
     IsolationSystem,
+    MotionSet,
     NCh2745,
     NoCandidateError,
     PropertyBounds,
     PropertyModificationFactors,
     Spectrum,
+    code_named,
     design,
     device_checks,
     equivalent_linear,
+    pair_spectrum,
+    period_range,
 )
+from frames.design.codes.outcome import EquivalentLinear
 from frames.design.devices.capacity import engagement_checks
 from frames.design.plots import design_candidates
 from frames.design.sizing.fitting import rounded_up
 from frames.design.sizing.size_groups import grouped
+from frames.design.sizing.trial import MARGIN, OneMass, Place, tried_on_one_mass
 from lir_element import CoulombFriction, DesignWarning, LIRBearing
 
 G = 9.80665
@@ -381,3 +389,77 @@ def test_a_building_stands_on_what_is_proposed() -> None:
 def test_rounding_goes_up_and_forgives_round_off() -> None:
     assert rounded_up(0.1251, 0.005) == 0.13
     assert rounded_up(0.125 + 1e-12, 0.005) == 0.125
+
+
+def test_a_device_that_cannot_be_made_leaves_the_others() -> None:
+    """Plates that are to go as far as D without rims overlap, those of the proposal do not."""
+    deep = Spectrum.asce7(s_ms=2.0, s_m1=1.5, s_1=0.75)
+    light = replace(SYSTEM, loads=(8e5,) * 6, combinations={})
+    found = design(light, deep, bounds=BOUNDS, target=replace(ONE, least_pressure=1e6))
+    free = "DCFP without rim contact"
+    with pytest.raises(CheckError, match=rf"the {free} of 1\d+ mm cannot be made: slider_height"):
+        found.bearings(free)
+    table = found.table()
+    assert table.loc["LIR-DCFP", "capacity [m]"] == found.bearings()[0].lateral_capacity
+    assert math.isnan(table.loc[free, "capacity [m]"])
+    assert "the plates overlap at rest" in str(found)
+
+
+def test_pairs_of_which_no_bearing_can_be_made_leave_the_others() -> None:
+    """No slider fits a bowl of its own size."""
+    target = replace(ONE, radii=(0.1, 2.0), frictions=(0.05,))
+    found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=target)
+    assert [one.radius for one in found.candidates] == [2.0]
+    assert [one[:2] for one in found.impossible] == [(0.1, 0.05)]
+    assert "does not fit a concave surface of radius 0.1 m" in found.impossible[0].reason
+    table = found.to_dataframe()
+    assert list(table["outcome"]) == ["proposed", "cannot be made"]
+    with pytest.raises(NoCandidateError, match=r"none of 1 pairs.*use a smaller slider") as none:
+        design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=replace(target, radii=(0.1,)))
+    assert len(none.value.impossible) == 1
+
+
+def of_long_period(seed: int) -> GroundMotion:
+    """Return noise of 20 s of which periods below some 3 s are filtered out."""
+    draw = np.random.default_rng(seed)
+    k = math.exp(-2.0 * math.pi * 0.02 / 0.5)
+    envelope = np.sin(np.linspace(0.0, math.pi, 1001)) ** 2
+    both = [envelope * lfilter([1 - k], [1, -k], draw.normal(0.0, 4.0, 1001)) for _ in "xy"]
+    return GroundMotion(*(each - each.mean() for each in both), dt=0.02)
+
+
+@pytest.mark.meant("few|factor|g of")
+def test_a_proposal_is_sized_on_one_mass_by_the_motions() -> None:
+    """Motions that exceed the target at T_M take the bearing of the formula beyond its rims."""
+    code, target = code_named("NCh2745"), Spectrum.nch2745(soil="III", zone=3)
+    given = MotionSet({str(seed): of_long_period(seed) for seed in (1, 2, 3)})
+
+    def scaled(linear: EquivalentLinear) -> MotionSet:
+        return given.scaled_to(target, rule=code.name, periods=period_range(linear), least=3)
+
+    one = replace(ONE, radii=(1.5,), frictions=(0.04,))
+    found = design(SYSTEM, target, bounds=BOUNDS, target=one, code="NCh2745")
+    how = OneMass(scaled, target, code.histories, BOUNDS, ("lower",))
+    trial = tried_on_one_mass(found, found.chosen, how)
+    period, mean, asked = trial.excess
+    assert period == found.chosen.analysis.bounds["lower"].period
+    each = scaled(found.chosen.analysis).values()
+    level = [pair_spectrum(one, [period], 0.05, "SRSS")[0] for one in each]
+    assert mean == pytest.approx(np.mean(level) / target.acceleration(period), rel=1e-12)
+    assert mean > 1.3 * asked
+    assert trial.passed
+    assert not trial.sized.lacks
+    t, before = trial.sized.trace, found.chosen.trace
+    assert t.value("D_EL") == pytest.approx(before.value("D"), rel=1e-6)
+    assert t.value("D") >= trial.free > 1.2 * before.value("D")
+    assert set(trial.runs) == {
+        Place(level, factor, "lower") for level in ("design", "maximum") for factor in (1.0, MARGIN)
+    }
+    narrow = replace(one, max_displacement=1.1 * before.value("D"))
+    found = design(SYSTEM, target, bounds=BOUNDS, target=narrow, code="NCh2745")
+    kept = tried_on_one_mass(found, found.chosen, how)
+    assert kept.failures(1.0) > 0
+    assert kept.sized is found.chosen
+    assert "displacement" in kept.larger_lacks[0]
+    assert kept.outcome == "fails"
+    assert f"{mean:.2f} times the target at {period:.2f} s" in str(kept)

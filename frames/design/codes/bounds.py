@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, TypeVar
 
@@ -11,7 +12,7 @@ from frames.design.calculation.trace import Trace
 from frames.design.codes.isolation import IsolationSystem
 from frames.design.codes.pendulum import FrictionPendulum
 from frames.frame import Frame
-from lir_element import LIRBearing
+from lir_element import DesignWarning, LIRBearing
 from lir_element.argument_checks import (
     require_choice,
     require_non_negative,
@@ -238,10 +239,8 @@ def with_property_bounds(
     Raises
     ------
     CheckError
-        If a word is no bound.
-    ValueError
-        If a bearing cannot be: friction of 1 and more, an interface that slides before the
-        surfaces do.
+        If a word is no bound, or a bearing cannot be at it: friction of 1 and more, an interface
+        that slides before the surfaces do.
 
     Examples
     --------
@@ -256,7 +255,16 @@ def with_property_bounds(
     require_type("bounds", bounds, PropertyBounds, "PropertyBounds")
     factor = bounds.friction.at(bound)
     inner = bounds.interface_factors.at(bound if interface is None else interface)
-    return _with_factors(what, factor, inner, bound)
+    try:
+        with warnings.catch_warnings():  # told of the nominal bearing; checks judge the bounds
+            warnings.simplefilter("ignore", DesignWarning)
+            return _with_factors(what, factor, inner, bound)
+    except ValueError as cause:
+        msg = (
+            f"at the {bound} bound, friction times {factor:g} and interface friction times "
+            f"{inner:g}: {cause}; or give narrower factors (`bounds`)"
+        )
+        raise CheckError(msg) from cause
 
 
 def _with_factors(what: Bounded, factor: float, inner: float, bound: str) -> Bounded:

@@ -379,6 +379,7 @@ _LOADS = LoadRule(
 CODE = DesignCode(
     name=EN1998.name,
     aliases=("EN 1998-1", "EN 1998-1:2004", "Eurocode 8"),
+    unread={"R": "has the behaviour factor q = 1.5 in its place (EN 1998-1 10.10)"},
     title="Design of structures for earthquake resistance, with EN 15129, Anti-seismic devices",
     edition="EN 1998-1:2004, EN 1998-2:2005, EN 15129:2009; not the second generation",
     values=VALUES,
@@ -453,6 +454,7 @@ CODE = DesignCode(
         {
             "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
             "kind = 1\n",
+            "superstructure": "importance = 1.0\n",
             "bearing": example_bearing("2 m", 200, 270, 0.04, 0.098, "beyond gamma_x d_bd"),
         },
     ),

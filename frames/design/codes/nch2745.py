@@ -375,7 +375,7 @@ CODE = DesignCode(
             ActionLevel(MAXIMUM, NCH_MAXIMUM, judges="isolation"),
         ),
     ),
-    uses_importance=False,
+    unread={"importance": "has formulas and a spectrum without an importance factor here"},
     spectrum=Spectrum.nch2745,
     spectrum_keys={
         "soil": SpectrumKey(Literal["I", "II", "III"]),

@@ -208,8 +208,8 @@ class DesignCode(HazardRules):
         What it makes of dead, live and snow load.
     example : ExampleProject, optional
         What ``lir new`` writes; without it there is no example.
-    uses_importance : bool
-        Whether its formulas or its spectrum have the importance factor of the superstructure.
+    unread : mapping of str to str
+        Keys of ``[superstructure]`` that its formulas do not read, with their reason in words.
 
     Raises
     ------
@@ -238,7 +238,7 @@ class DesignCode(HazardRules):
     acceptance: str = NO_LIMITS
     loads: LoadRule = LOADS_OF_ASCE
     example: ExampleProject | None = None
-    uses_importance: bool = True
+    unread: Mapping[str, str] = field(default_factory=dict)
     factors: Callable[..., PropertyModificationFactors] = field(default=factors_by_source)
     spectrum_by_points: Callable[..., Spectrum] | None = None
     points_keys: Mapping[str, SpectrumKey] = field(default_factory=dict)

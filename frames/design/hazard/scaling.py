@@ -161,7 +161,7 @@ def _warn_of(
     if far:
         msg = (
             f"factors out of {low:g} to {high:g}: {', '.join(far)}; take records of a strength "
-            "like that of the target, or pass limits="
+            "like that of the target"
         )
         warnings.warn(msg, MotionWarning, stacklevel=4)
     if len(factors) < least:

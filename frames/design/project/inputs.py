@@ -159,7 +159,8 @@ class ProjectInputs:
         above = self.file.superstructure
         if above is None:
             return None
-        given = above.model_dump()
+        given = above.model_dump(exclude_none=True)
+        given.setdefault("R", 1.0)  # of codes that do not read it
         if isinstance(self.file.structure, ShearBuilding):  # others have no stiffness of a storey
             given["storey_stiffness"] = self.file.structure.storey_stiffness
         return in_section("superstructure", lambda: Superstructure.from_frame(frame, **given))
@@ -197,9 +198,9 @@ class ProjectInputs:
             return self.code().factors(**given.model_dump(exclude_unset=True))
         return PropertyModificationFactors(*given)
 
-    def limits(self) -> DesignLimits:
-        """Return what the engineer allows."""
-        given = self.file.limits.model_dump(exclude_none=True)
+    def limits(self, **others: float) -> DesignLimits:
+        """Return what the engineer allows; others count where the file gives none."""
+        given = others | self.file.limits.model_dump(exclude_none=True)
         return in_section("limits", lambda: DesignLimits(**given))
 
     def rules(self) -> HistoryRules:
@@ -225,9 +226,8 @@ class ProjectInputs:
     def target(self) -> DesignTarget:
         """Return what ``lir design`` chooses from."""
         given = self.file.design.model_dump(exclude_none=True)
-        limits = self.file.limits.model_dump(exclude_none=True)
-        limits = {"interface_pressure": INTERFACE_PRESSURE} | limits
-        return in_section("design", lambda: DesignTarget(**given, limits=DesignLimits(**limits)))
+        limits = self.limits(interface_pressure=INTERFACE_PRESSURE)
+        return in_section("design", lambda: DesignTarget(**given, limits=limits))
 
     def motions(self) -> MotionSet:
         """Return the motions as they are given, not scaled to the spectrum."""

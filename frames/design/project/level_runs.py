@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames._errors import ModelError, MotionError
 from frames.batch.time_histories import time_histories
+from frames.design._errors import ProjectError
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.demand_table import at_levels
 from frames.design.histories.eccentricity import WAY, WAYS
@@ -15,7 +17,7 @@ from frames.design.histories.suite import suite_of
 from frames.recording.recording import Recording
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     import pandas as pd
@@ -73,18 +75,7 @@ def histories_at_levels(
     }
     places = [(level, bound) for level in levels for bound in given.bounds]
     cases = [(bound, name, level.factor) for level, bound in places for name in motions]
-    record = _recording(parts)
-    data = time_histories(
-        models,
-        motions,
-        cases=cases,
-        level=given.level,
-        dt=given.dt,
-        workers=given.workers,
-        progress=progress,
-        record=record,
-        resume=resume,
-    )
+    data = _of_all(parts, models, motions, cases, progress, resume)
     found: LevelRuns = {level.name: {} for level in levels}
     for k, (level, bound) in enumerate(places):
         rows = slice(k * len(motions), (k + 1) * len(motions))
@@ -146,17 +137,8 @@ def moved_at_levels(
             own = [(way, name) for way in moved for name in names]
             places.append((level.name, bound, [way for way, _ in own]))
             cases += [(f"{bound}, masses {way}", name, level.factor) for way, name in own]
-    data = time_histories(
-        models,
-        motions,
-        cases=cases,
-        level=given.level,
-        dt=given.dt,
-        workers=given.workers,
-        progress=progress,
-        record=_recording(parts),
-        resume=None if resume is None else resume / MOVED,
-    )
+    kept = None if resume is None else resume / MOVED
+    data = _of_all(parts, models, motions, cases, progress, kept)
     found: LevelRuns = {level.name: {} for level in rules.levels}
     begin = 0
     for name, bound, ways in places:
@@ -166,9 +148,33 @@ def moved_at_levels(
     return found
 
 
-def _recording(parts: ProjectInputs) -> Recording:
-    # Of all runs alike: what they reached, and their histories where the project asks for these.
-    return Recording(every=1 if parts.file.analysis.histories == "all" else None, forces=True)
+def _of_all(
+    parts: ProjectInputs,
+    models: Mapping[str, Frame],
+    motions: MotionSet,
+    cases: Sequence[tuple[str, str, float]],
+    progress: Callable[[BatchProgress], None] | bool | None,
+    resume: Path | None,
+) -> xr.Dataset:
+    # All runs alike: with what they reached, and their histories where the project asks for these.
+    given = parts.file.analysis
+    try:
+        return time_histories(
+            models,
+            motions,
+            cases=cases,
+            level=given.level,
+            dt=given.dt,
+            workers=given.workers,
+            progress=progress,
+            record=Recording(every=1 if given.histories == "all" else None, forces=True),
+            resume=resume,
+        )
+    except (ModelError, MotionError):
+        raise
+    except ValueError as cause:  # of steps, and of results that would not fit the memory
+        msg = f"[analysis] {cause}"
+        raise ProjectError(msg) from cause
 
 
 def governing_motion(data: xr.Dataset, rules: HistoryRules) -> str:
@@ -227,14 +233,16 @@ def said_of_runs(parts: ProjectInputs, motions: MotionSet) -> str:
         f"{level.name} (motions times {level.factor:g})" if level.factor > 1.0 else level.name
         for level in levels
     )
+    lacking = [end for end in ("lower", "upper") if end not in bounds]
+    without = f"; without the bound {' and '.join(lacking)}" if lacking else ""
     what = f"{len(motions)} motions, bounds {', '.join(bounds)}, level{'s' * (len(levels) > 1)}"
     said = f"{count} time histories: {what} {named}"
     share = parts.rules().accidental_eccentricity
     if not share:
-        return f"{said}; accidental eccentricity is left out"
+        return f"{said}; accidental eccentricity is left out{without}"
     every = parts.file.analysis.accidental_eccentricity_motions == "all"
     more = len(WAYS) * (count if every else len(levels) * len(bounds))
     return (
         f"{said}; {more} more with the masses moved by {100.0 * share:g} % of the plan each way, "
-        f"{more / count:.2g} times the time of these"
+        f"{more / count:.2g} times the time of these{without}"
     )

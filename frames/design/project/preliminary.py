@@ -5,9 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import re
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from frames._errors import ModelError, ModelWarning, MotionWarning
@@ -17,10 +19,13 @@ from frames.design.codes.analysis import equivalent_linear
 from frames.design.hazard.sanity_checks import factor_doubts, twins
 from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
+from frames.design.project.inputs import in_section
 from frames.design.project.moat_checks import clearance_checks
 from frames.design.project.sanity_checks import file_doubts, wind_doubts
 from frames.design.project.schema import ImportedModel, OpenSeesModel
+from frames.design.project.value_doubts import value_doubts
 from frames.library.moved_masses import with_moved_masses
+from frames.recording.size import number_of_steps
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
@@ -106,15 +111,25 @@ def preliminary(parts: ProjectInputs) -> Preliminary:
             warnings.simplefilter("always")
             known = _made(parts)
     finally:
-        for each in told:
+        for each in _once(told):
             warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
     kinds = (ModelWarning, MotionWarning)
     doubts = dict.fromkeys(str(each.message) for each in told if issubclass(each.category, kinds))
     return replace(known, doubts=tuple(doubts))
 
 
+def _once(told: list[warnings.WarningMessage]) -> list[warnings.WarningMessage]:
+    # The first of those that differ by numbers alone: one thing under several loads.
+    return list({_NUMBERS.sub("#", str(each.message)): each for each in reversed(told)}.values())[
+        ::-1
+    ]
+
+
+_NUMBERS = re.compile(r"(?<![\w-])\d[\d.e+-]*")
+
+
 def _made(parts: ProjectInputs) -> Preliminary:
-    parts.limits(), parts.rules()  # refused before anything is run
+    parts.limits(), parts.rules(), parts.target()  # refused before anything is run
     _warn(file_doubts(parts.file))
     frame, spectrum = parts.frame(), parts.spectrum()
     _refuse_other_devices(frame)
@@ -128,7 +143,10 @@ def _made(parts: ProjectInputs) -> Preliminary:
         superstructure=above,
         code=parts.analysis(),
     )
+    types = parts.types()
+    _warn(value_doubts(parts.file, system, equivalent, parts.devices(), types))
     motions = scaled_motions(parts, spectrum, equivalent)
+    _refuse_steps(parts, motions)
     gap = parts.limits().moat_gap
     room = [] if gap is None else clearance_checks(parts.code(), equivalent, gap)
     return Preliminary(
@@ -139,9 +157,16 @@ def _made(parts: ProjectInputs) -> Preliminary:
         equivalent=equivalent,
         motions=motions,
         moved=moved_frames(parts, frame),
-        types=parts.types(),
+        types=types,
         checks=equivalent.checks + room,
     )
+
+
+def _refuse_steps(parts: ProjectInputs, motions: MotionSet) -> None:
+    # Steps that no run of these motions can have.
+    dt = parts.file.analysis.dt
+    for motion in motions.values():
+        in_section("analysis", partial(number_of_steps, motion.duration, dt, motion.dt))
 
 
 def _refuse_other_devices(frame: Frame) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import re
 import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, get_args
@@ -89,7 +90,8 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
         msg = f"{file} is no text in UTF-8 ({cause}): save it as UTF-8"
         raise ProjectError(msg) from cause
     except tomllib.TOMLDecodeError as cause:
-        msg = f"{file}: TOML syntax error: {cause}: {_mended(str(cause))}"
+        given = file.read_text(encoding="utf-8")
+        msg = f"{file}: TOML syntax error: {cause}: {_mended(str(cause), given)}"
         raise ProjectError(msg) from cause
     try:
         return kind.model_validate(data)
@@ -102,17 +104,25 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
 
 def _told(errors: Sequence[Any]) -> list[Any]:
     # Without those of a table where its keys are told: the other way of giving it was not meant.
+    # A list whose entries are told has no wrong number of them, an unknown code no spectrum.
     inside = {tuple(_place(error)[:-1]) for error in errors if _place(error)}
-    return [
-        error
-        for error in errors
-        if not (isinstance(error["input"], dict) and tuple(_place(error)) in inside)
-        or error["type"] == "missing"
-    ]
+    no_code = any(_place(error) == ["project", "code"] for error in errors)
+
+    def is_told_elsewhere(error: Any) -> bool:
+        place, kind = tuple(_place(error)), error["type"]
+        if no_code and place == ("spectrum",) and kind.startswith("union_tag"):
+            return True
+        return place in inside and (isinstance(error["input"], dict) or kind in _LENGTHS)
+
+    return [error for error in errors if not is_told_elsewhere(error) or error["type"] == "missing"]
 
 
-def _mended(error: str) -> str:
+def _mended(error: str, text: str) -> str:
     # What is to be done about an error of syntax.
+    line = re.search(r"at line (\d+)", error)
+    written = text.splitlines()[int(line[1]) - 1 :][:1] if line else []
+    if written and (comma := re.search(r"=\s*(\d+),(\d+)\s*(?:#|$)", written[0])):
+        return f"decimals have a point: {comma[1]}.{comma[2]}"
     if "overwrite" in error or "twice" in error:
         return "the key or the section is there twice: keep one of them"
     return 'a line is `key = value`, texts and numbers with a unit in quotes, "250 mm"'
@@ -138,6 +148,9 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
         known = _known(data, error["loc"], whole)
         near = difflib.get_close_matches(place[-1], _lacking(data, place, known), n=1)
         meant = f'; is "{near[0]}" meant?' if near else f": it has {', '.join(known)}"
+        own = [section for section in _sections_with(place[-1], whole) if section != place[0]]
+        if own and len(place) > 1:
+            meant = f": it is a key of [{'] and ['.join(own)}]; move it there"
         return f"{name}: {key} is not known{meant}"
     if kind.startswith("union_tag"):
         return _of_a_kind(name, key, error)
@@ -155,10 +168,45 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
     if kind in _TABLES:
         return f"{name}: {key} must be a table: write [{key}] and its keys below, {hint}"
     text = error["msg"].removeprefix("Value error, ").replace("Input should", "must")
+    if kind in _BOUNDS:
+        text = _beyond(error)
+    if kind == "float_parsing":
+        text = f"must be a pure number, without quotes and unit{_first_number(error['input'])}"
     value = error["input"]
     if isinstance(value, (dict, list)):
         return f"{name}: {key}: {text}"
     return f"{name}: {key} = {json.dumps(value, default=str)} {text[0].lower()}{text[1:]}"
+
+
+_BOUNDS = {
+    "greater_than": "above",
+    "greater_than_equal": "at least",
+    "less_than": "below",
+    "less_than_equal": "at most",
+}
+"""Kinds of errors of numbers out of their bounds, in words."""
+
+
+def _beyond(error: Any) -> str:
+    # Its bound, and what was probably meant.
+    bound, value = next(iter(error["ctx"].values())), error["input"]
+    text = f"must be {_BOUNDS[error['type']]} {bound:g}"
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if number and error["type"].startswith("less") and bound <= 1.0 < value <= 100.0 * bound:
+        return f'{text}: give {value / 100.0:g}, or "{value:g} %" if per cent are meant'
+    return f"{text}: give a number within that bound"
+
+
+def _first_number(given: object) -> str:
+    # As it would be right; empty where there is none.
+    found = re.match(r"\s*(-?\d+(?:\.\d+)?)", str(given))
+    return f": write {found[1]}" if found else ""
+
+
+def _sections_with(key: str, whole: type[Table]) -> list[str]:
+    # Sections that have a key, of those with one table.
+    tables = {name: _section(field.annotation, {}) for name, field in whole.model_fields.items()}
+    return [name for name, table in tables.items() if key in getattr(table, "model_fields", {})]
 
 
 _LISTS = {"tuple_type", "list_type"}
@@ -205,7 +253,9 @@ def _known(data: dict[str, Any], place: Sequence[Any], whole: type[Table]) -> li
             annotation = field.annotation
             found = _section(annotation, data.get(part, {}))
             model = found if hasattr(found, "model_fields") else model
-    return sorted(model.model_fields)
+    return sorted(
+        set(model.model_fields) - {"code"} if place[0] == "spectrum" else model.model_fields
+    )
 
 
 def _named(annotation: Any, name: str) -> Any:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames.design.codes.registry import code_named
 from frames.design.codes.service import least_strength
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
@@ -21,6 +20,9 @@ if TYPE_CHECKING:
 SOFT = 0.5
 """Period of what is on a storey over the number of storeys above its floor and one more [s], from
 which on it is strange: whole buildings have about 0.1 s a storey."""
+
+STIFF = 0.005
+"""The same over the number of storeys above its floor [s], up to which it is strange."""
 
 FLOOR_MASS = (50.0, 6000.0)
 """Mass of a storey over its plan [kg/m2]; buildings have 300 to 1500."""
@@ -189,6 +191,12 @@ def _of_storeys(file: ProjectFile) -> list[str]:
     for k, stiffness in enumerate(given.storey_stiffness):
         above = sum(given.storey_mass[k:])
         period, most = 2.0 * math.pi * math.sqrt(above / stiffness), SOFT * (1 + count - k)
+        if period < STIFF * (count - k):
+            return [
+                f"[structure] storey_stiffness[{k}] = {1e-6 * stiffness:.4g} kN/mm lets the "
+                f"{1e-3 * above:.4g} t above it swing with {period:.3g} s; storeys of buildings "
+                f"stay above {STIFF * (count - k):.3g} s: look at its unit"
+            ]
         if period > most:
             return [
                 f"[structure] storey_stiffness[{k}] = {1e-6 * stiffness:.4g} kN/mm lets the "
@@ -202,14 +210,6 @@ def _of_importance(file: ProjectFile) -> list[str]:
     above, spectrum = file.superstructure, file.spectrum
     if above is None:
         return []
-    if not code_named(file.project.code).uses_importance:
-        if math.isclose(above.importance, 1.0):
-            return []
-        return [
-            f"[superstructure] importance = {above.importance:g} changes nothing: "
-            f"{file.project.code}'s formulas and spectrum are without an importance factor here; "
-            "leave it out"
-        ]
     own = getattr(spectrum, "importance", None)
     if own is None or above.importance == own:
         return []

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Self, Union
 
 from pydantic import Field, create_model, model_validator
 
-from frames.design.codes.registry import DesignCode, known_codes
+from frames.design.codes.registry import DesignCode, code_named, known_codes
 from frames.design.hazard.code_rules import canonical
 from frames.design.project.derived import Table
 from frames.design.project.schema_analysis import Analysis as Analysis
@@ -76,6 +76,17 @@ class ProjectFile(Table):
                 f"[limits] moat_gap = {1e3 * clear:.5g} mm is more than [moat] gap = "
                 f"{1e3 * wall.gap:.5g} mm: what meets the wall in the runs would be called clear "
                 f"of it; give {1e3 * wall.gap:.5g} mm at most, or leave moat_gap out"
+            )
+            raise ValueError(msg)
+        return self
+
+    @model_validator(mode="after")
+    def _reduced_as_the_code_has_it(self) -> Self:
+        above, code = self.superstructure, code_named(self.project.code)
+        if above is not None and above.R is None and "R" not in code.unread:
+            msg = (
+                f"superstructure.R is missing: {code.name} divides forces by it, R = 2.0; of the "
+                "structure on a fixed base"
             )
             raise ValueError(msg)
         return self

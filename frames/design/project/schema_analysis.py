@@ -17,13 +17,23 @@ class Analysis(Table):
     level: Literal["pendulum", "contact"] = "contact"
     dt: Annotated[Time, Positive] | None = None
     workers: int | None = Field(default=None, ge=1)
-    bounds: tuple[Literal["lower", "nominal", "upper"], ...] = ("lower", "nominal", "upper")
+    bounds: tuple[Literal["lower", "nominal", "upper"], ...] = Field(
+        default=("lower", "nominal", "upper"), min_length=1
+    )
     uplift_allowed: bool | None = None
     least_gap: Length | None = None
     nonstructural: str | None = None
     histories: Literal["governing", "all"] = "governing"
     accidental_eccentricity: Ratio | Literal["none"] | None = None
     accidental_eccentricity_motions: Literal["governing", "all"] = "governing"
+
+    @field_validator("bounds")
+    @classmethod
+    def _each_once(cls, names: tuple[str, ...]) -> tuple[str, ...]:
+        if len(set(names)) < len(names):
+            msg = 'must name each bound once: ["lower", "nominal", "upper"] are all'
+            raise ValueError(msg)
+        return names
 
     @field_validator("accidental_eccentricity")
     @classmethod

@@ -86,10 +86,11 @@ class Motions(MotionSource):
 
     scale: Literal["spectrum"] | float = "spectrum"
 
-    @field_validator("scale")
+    @field_validator("scale", mode="before")
     @classmethod
-    def _scale(cls, scale: str | float) -> str | float:
-        if not isinstance(scale, str) and not 0.0 < scale < math.inf:
+    def _scale(cls, scale: object) -> object:
+        is_number = isinstance(scale, (int, float)) and not isinstance(scale, bool)
+        if scale != "spectrum" and not (is_number and 0.0 < float(str(scale)) < math.inf):
             msg = 'must be "spectrum", or a factor on the accelerations above 0'
             raise ValueError(msg)
         return scale

@@ -35,6 +35,9 @@ from frames.design.project.schema_sections import (
     WallTable,
 )
 
+MOST_REDUCING = 12.0
+"""Largest response modification factor [-]; codes have 1 to 11."""
+
 _PRESSURE = re.compile(r"N\s*/\s*m|Pa|lbf|psf|kip")
 
 
@@ -142,6 +145,16 @@ class ShearBuilding(Table):
     base_mass: Annotated[Mass, NotNegative] | None = None
     eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
 
+    @model_validator(mode="after")
+    def _one_stiffness_each(self) -> Self:
+        if len(self.storey_mass) != len(self.storey_stiffness):
+            msg = (
+                f"storey_mass has {len(self.storey_mass)} entries, storey_stiffness "
+                f"{len(self.storey_stiffness)}: give one of each for every storey"
+            )
+            raise ValueError(msg)
+        return self
+
 
 class OpenSeesModel(Table):
     """``[structure]`` of kind "opensees": a script that builds a model with OpenSeesPy."""
@@ -197,7 +210,7 @@ Structure = Annotated[
 class SuperstructureTable(Table):
     """``[superstructure]``: what design formulas need of it besides the model."""
 
-    R: float = Field(gt=0.0)
+    R: float | None = Field(default=None, ge=1.0, le=MOST_REDUCING)
     importance: float = Field(default=1.0, gt=0.0, le=MOST_IMPORTANT)
     wind_shear: Annotated[Force, NotNegative] = 0.0
     service_displacement: Annotated[Length, NotNegative] = 0.0

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pandas as pd
 
 from frames._errors import ModelError, MotionError
-from frames.design._errors import CheckError
+from frames.design._errors import CheckError, ProjectError
 from frames.design.project.design_run import run_project
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.schema import bearing_table
@@ -165,7 +165,7 @@ def verified(
             raise CheckError(msg)
         try:
             run = run_project(on_bearing(parts, candidate.bearings[0]), progress=progress)
-        except (CheckError, ModelError, MotionError, AnalysisError) as cause:
+        except (CheckError, ProjectError, ModelError, MotionError, AnalysisError) as cause:
             yield Verified(candidate, None, str(cause))
         else:
             yield Verified(candidate, run)

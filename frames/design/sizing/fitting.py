@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design.calculation.check import Checks
 from frames.design.calculation.trace import Trace
@@ -37,6 +37,21 @@ _WHATEVER_SLIDER = frozenset({"P_1", "P_2", "H_slip"})
 """Demands that a larger slider does not lessen."""
 
 
+class Asked(NamedTuple):
+    """Demands of time histories on one mass, beside those of the formula.
+
+    Attributes
+    ----------
+    displacement : float
+        Largest displacement that bearings without rims must allow [m].
+    slip : float
+        Slip that the interface must bear [m].
+    """
+
+    displacement: float = 0.0
+    slip: float = 0.0
+
+
 def fitted(
     radius: float,
     friction: FrictionLaw,
@@ -45,6 +60,7 @@ def fitted(
     target: DesignTarget,
     bounds: PropertyBounds | None,
     analyse: Analyse,
+    asked: Asked,
 ) -> Candidate:
     """Return a radius and a friction with slider, rims and interface that fit them.
 
@@ -67,6 +83,8 @@ def fitted(
         Lower and upper bound friction properties.
     analyse : callable
         Equivalent-linear analysis of the system on one bearing.
+    asked : Asked
+        Demands of time histories.
 
     Returns
     -------
@@ -77,6 +95,8 @@ def fitted(
     ------
     CheckError
         If there is no equivalent-linear displacement.
+    ValueError
+        If no bearing can be made of radius and friction.
     """
     radii, height = [_by_pressure(size, target) for size in sizes], 0.0
     while True:
@@ -90,7 +110,7 @@ def fitted(
             interface_friction=math.inf,
         )
         analysis = analyse(plain)
-        t = _measures(plain, analysis, system, target, bounds)
+        t = _measures(plain, analysis, system, target, bounds, asked)
         if t.value("e_plate") >= LARGEST_SINE * radius:
             return _impossible(radius, friction, analysis, t, sizes, target)
         if t.value("h_min") > height:
@@ -173,23 +193,25 @@ def _measures(
     system: IsolationSystem,
     target: DesignTarget,
     bounds: PropertyBounds | None,
+    asked: Asked,
 ) -> Trace:
     # Rims, slip and interface of bearings that go as far as those without rims.
     t = Trace()
     t.given("W", system.seismic_weight, "N")
     t.given("V_b", analysis.base_shear, "N", note="largest, without rims")
-    t.given(
-        "D",
-        analysis.allowed_displacement,
-        "m",
-        shown="mm",
-        note="that bearings must allow, without rims",
-    )
+    allowed, note = analysis.allowed_displacement, "that bearings must allow, without rims"
+    if asked.displacement > allowed:
+        t.given("D_EL", allowed, "m", shown="mm", note=note)
+        note = "the same by time histories on one mass"
+        t.given("D_TH", asked.displacement, "m", shown="mm", note=note)
+        t("D", "max(D_EL, D_TH)", "m", shown="mm")
+    else:
+        t.given("D", allowed, "m", shown="mm", note=note)
     t.given("R", plain.radii[0], "m")
     t.given("a", plain.slider_radius, "m", shown="mm", note="largest slider")
     t.given("h", plain.slider_height, "m", shown="mm")
     t("L", "2 * R - h", "m")
-    _place_rims(t, analysis, target)
+    _place_rims(t, analysis, target, asked)
     t("e_plate", "U_cap * R / L + a", "m", shown="mm", note="edge of the concave surfaces")
     t.given("c", target.clearance, "m", shown="mm", note="between the plates' edges at rest")
     t(
@@ -216,7 +238,7 @@ def _measures(
     return t
 
 
-def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget) -> None:
+def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget, asked: Asked) -> None:
     # As told; else by intent where the code has a rule for it, beyond all its checks where not.
     rule, share, source = code_named(analysis.code).rims, target.rim_share, "docs/design_checks.md"
     if share is None and rule.least < 1.0:
@@ -232,14 +254,17 @@ def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget) -> N
         t("U_cap", "m_r * max(D, D_held)", "m", shown="mm", source=source)
         t("r", "U_cap / D", note="share of D at which the rims are met")
     if t.value("r") < 1.0:
-        formula = "D - U_cap"
+        formula, note = "D - U_cap", "left to the interface"
         if target.slip_margin > 1.0:
             t.given("m_s", target.slip_margin, note="margin of the slip")
             formula = "m_s * (D - U_cap)"
-        t("s", formula, "m", shown="mm", note="left to the interface")
     else:
         t.given("r_s", target.slip_reserve, note="reserve, rims not being met")
-        t("s", "r_s * D", "m", shown="mm", note="reserve of the interface")
+        formula, note = "r_s * D", "reserve of the interface"
+    if asked.slip > 0.0:
+        t.given("s_TH", asked.slip, "m", shown="mm", note="slip of time histories on one mass")
+        formula = f"max({formula}, s_TH)"
+    t("s", formula, "m", shown="mm", note=note)
 
 
 def _rimmed(plain: LIRBearing, slider_radius: float, t: Trace) -> LIRBearing:

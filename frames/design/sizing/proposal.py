@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
 from frames.design._errors import CheckError
@@ -11,9 +12,10 @@ from frames.design.codes.analysis import equivalent_linear
 from frames.design.codes.isolation import IsolationSystem
 from frames.design.hazard.spectrum import Spectrum
 from frames.design.sizing.candidate import Candidate
-from frames.design.sizing.fitting import fitted
+from frames.design.sizing.fitting import Asked, fitted
 from frames.design.sizing.selection import (
     OBJECTIVES,
+    Impossible,
     NoCandidateError,
     Objective,
     pareto,
@@ -28,6 +30,8 @@ from lir_element.argument_checks import require_choice, require_type
 from lir_element.tables import html_table, text_table
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import pandas as pd
 
     from frames.design.codes.bounds import PropertyBounds
@@ -35,9 +39,18 @@ if TYPE_CHECKING:
     from frames.design.codes.registry import AnalysisMethod
     from frames.design.codes.superstructure import Superstructure
     from lir_element import LIRBearing
+    from lir_element.device.friction import FrictionLaw
 
 Device = Literal["LIR-DCFP", "DCFP", "DCFP without rim contact"]
 DEVICES: tuple[Device, ...] = ("LIR-DCFP", "DCFP", "DCFP without rim contact")
+
+_OF_SLIDERS = {
+    "slider radius [m]": "slider_radius",
+    "slider height [m]": "slider_height",
+    "capacity [m]": "lateral_capacity",
+    "interface friction [-]": "interface_friction",
+}
+"""Numbers of a device in a table, by the name of the bearing's."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -56,6 +69,10 @@ class Design:
         Which of the chosen bearings stands at each place.
     least : str
         What was made least.
+    impossible : tuple of Impossible
+        Pairs of radius and friction of which no bearing can be made, and why.
+    fit : callable
+        Fits a bearing to radius, friction and demands (`Asked`), as the candidates were fitted.
 
     Examples
     --------
@@ -76,6 +93,8 @@ class Design:
     candidates: tuple[Candidate, ...]
     sizes: tuple[int, ...]
     least: Objective = "base shear"
+    impossible: tuple[Impossible, ...] = ()
+    fit: Callable[[float, FrictionLaw, Asked], Candidate] = field(kw_only=True)
 
     @property
     def pareto(self) -> tuple[Candidate, ...]:
@@ -100,6 +119,11 @@ class Design:
         -------
         tuple of LIRBearing, (n_bearings,)
             In the order of the system.
+
+        Raises
+        ------
+        CheckError
+            If plates that large cannot be made with sliders of this height: they would overlap.
         """
         require_choice("device", device, DEVICES, error=CheckError)
         made = self.chosen.bearings
@@ -108,7 +132,11 @@ class Design:
         if device == "DCFP without rim contact":
             t = self.chosen.trace
             free = max(t.value("D"), t.value("U_cap"))
-            made = tuple(replace(one, capacity=free) for one in made)
+            try:
+                made = tuple(replace(one, capacity=free) for one in made)
+            except ValueError as cause:
+                msg = f"the {device} of {1e3 * free:.0f} mm cannot be made: {cause}"
+                raise CheckError(msg) from cause
         return tuple(made[size] for size in self.sizes)
 
     def isolated(self, frame: Frame, device: Device = "LIR-DCFP") -> Frame:
@@ -138,24 +166,55 @@ class Design:
         by_name = dict(zip(frame.bearings, made, strict=True))
         return frame.with_bearings(by_name, f"{frame.name}, {device}")
 
+    def proposing(self, tried: Candidate, sized: Candidate) -> Design:
+        """Return the same design with a candidate sized further, and proposed.
+
+        Parameters
+        ----------
+        tried : Candidate
+            Of `candidates`.
+        sized : Candidate
+            What takes its place.
+
+        Returns
+        -------
+        Design
+            A copy.
+        """
+        every = tuple(sized if one is tried else one for one in self.candidates)
+        return replace(self, chosen=sized, candidates=every)
+
     def table(self) -> pd.DataFrame:
-        """Return the three devices side by side, numbers in SI units: a row for each."""
+        """Return the three devices side by side, numbers in SI units.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each; NaN where a device cannot be made: `bearings` says why.
+        """
         import pandas as pd
 
         t, rows = self.chosen.trace, {}
         for device in DEVICES:
-            largest = max(self.bearings(device), key=lambda one: one.slider_radius)
             free = device == "DCFP without rim contact"
             rows[device] = {
                 "radius [m]": self.chosen.radius,
                 "friction [-]": self.chosen.friction.f_max,
-                "slider radius [m]": largest.slider_radius,
-                "slider height [m]": largest.slider_height,
-                "capacity [m]": largest.lateral_capacity,
-                "interface friction [-]": largest.interface_friction,
+                **dict.fromkeys(_OF_SLIDERS, math.nan),
                 "plan diameter [m]": t.value("d_plan_free" if free else "d_plan"),
             }
+            if not self._refused(device):
+                largest = max(self.bearings(device), key=lambda one: one.slider_radius)
+                rows[device] |= {key: getattr(largest, name) for key, name in _OF_SLIDERS.items()}
         return pd.DataFrame.from_dict(rows, orient="index")
+
+    def _refused(self, device: Device) -> str:
+        # Why a device cannot be made; empty where it can.
+        try:
+            self.bearings(device)
+        except CheckError as cause:
+            return str(cause)
+        return ""
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return all candidates, a row for each, numbers in SI units.
@@ -167,7 +226,7 @@ class Design:
             none beats it in displacement, base shear and plan diameter at once, its numbers, what
             limits it most, what it lacks, and warnings.
         """
-        return table_of(self.candidates, self.chosen)
+        return table_of(self.candidates, self.chosen, self.impossible)
 
     def __repr__(self) -> str:
         """Return the proposal on one line."""
@@ -184,6 +243,7 @@ class Design:
         head, rows = self._cells()
         beyond = self.chosen.beyond_procedure
         note = f"\n\nNeeds a time history: {'; '.join(beyond)}." if beyond else ""
+        note += "".join(f"\n\n{why}" for why in map(self._refused, DEVICES) if why)
         calculation = "\n".join(step.text() for step in self.chosen.trace)
         return f"{text_table(rows, head)}\n\n{calculation}\n\n{self.chosen.checks}{note}"
 
@@ -194,7 +254,8 @@ class Design:
     def _cells(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
         table = self.table().T
         rows = [
-            (str(name), *(f"{value:.4g}" for value in row)) for name, *row in table.itertuples()
+            (str(name), *("-" if math.isnan(value) else f"{value:.4g}" for value in row))
+            for name, *row in table.itertuples()
         ]
         return ("", *map(str, table.columns)), rows
 
@@ -291,17 +352,21 @@ def design(
             )
         return known[key]
 
-    found = tuple(
-        fitted(radius, law, system, loads, target, bounds, analyse)
-        for radius in target.radii
-        for law in target.laws
-    )
+    def fit(radius: float, law: FrictionLaw, asked: Asked) -> Candidate:
+        return fitted(radius, law, system, loads, target, bounds, analyse, asked)
+
+    found, impossible = [], []
+    for radius, law in ((r, law) for r in target.radii for law in target.laws):
+        try:
+            found.append(fit(radius, law, Asked()))
+        except ValueError as cause:
+            impossible.append(Impossible(radius, law.f_max, str(cause)))
     best = ranked(found, least)
     if not best:
-        raise NoCandidateError(found)
+        raise NoCandidateError(tuple(found), tuple(impossible))
     for text in best[0].warnings:
         warnings.warn(text, DesignWarning, stacklevel=2)
-    return Design(system, best[0], found, places, least)
+    return Design(system, best[0], tuple(found), places, least, tuple(impossible), fit=fit)
 
 
 def _system(structure: Frame | IsolationSystem, spectrum: Spectrum) -> IsolationSystem:

@@ -27,13 +27,31 @@ OBJECTIVES: Mapping[str, Callable[[Candidate], float]] = {
 _WEIGHED = ("displacement", "base shear", "plan diameter")
 
 
+class Impossible(NamedTuple):
+    """A pair of radius and friction of which no bearing can be made.
+
+    Attributes
+    ----------
+    radius, friction : float
+        Of the concave surfaces [m, -].
+    reason : str
+        Why, with value, bound and remedy.
+    """
+
+    radius: float
+    friction: float
+    reason: str
+
+
 class NoCandidateError(CheckError):
     """No candidate keeps what is asked; the message names the nearest and what it lacks.
 
     Parameters
     ----------
     candidates : tuple of Candidate
-        All that were tried, with their reasons.
+        All that were fitted, with their reasons.
+    impossible : tuple of Impossible
+        Pairs of which no bearing can be made.
 
     Examples
     --------
@@ -51,15 +69,23 @@ class NoCandidateError(CheckError):
     ['displacement', 'displacement']
     """
 
-    def __init__(self, candidates: tuple[Candidate, ...]) -> None:
-        near = min(candidates, key=lambda one: (len(one.lacks), one.governing.ratio))
-        super().__init__(
-            f"none of {len(candidates)} pairs of radius and friction keeps what is asked; nearest: "
-            f"radius {near.radius:g} m, friction {near.friction.f_max:g}, where "
-            f"{'; '.join(near.lacks)}. Offer other radii and frictions, rims at a larger share of "
-            "the displacement (rim_share), or narrower bounds of the interface friction"
-        )
-        self.candidates = candidates
+    def __init__(
+        self, candidates: tuple[Candidate, ...], impossible: tuple[Impossible, ...] = ()
+    ) -> None:
+        count = len(candidates) + len(impossible)
+        said = f"none of {count} pairs of radius and friction keeps what is asked"
+        if candidates:
+            near = min(candidates, key=lambda one: (len(one.lacks), one.governing.ratio))
+            said += (
+                f"; nearest: radius {near.radius:g} m, friction {near.friction.f_max:g}, where "
+                f"{'; '.join(near.lacks)}. Offer other radii and frictions, rims at a larger share "
+                "of the displacement (rim_share), or narrower bounds of the interface friction"
+            )
+        else:
+            first = impossible[0]
+            said += f": radius {first.radius:g} m, friction {first.friction:g}: {first.reason}"
+        super().__init__(said)
+        self.candidates, self.impossible = candidates, impossible
 
 
 class Place(NamedTuple):
@@ -142,15 +168,35 @@ def placed(found: Sequence[Candidate], chosen: Candidate | None) -> tuple[Place,
     )
 
 
-def table_of(found: Sequence[Candidate], chosen: Candidate | None = None) -> pd.DataFrame:
-    """Return all candidates, a row for each, numbers in SI units, with their outcome."""
+def table_of(
+    found: Sequence[Candidate],
+    chosen: Candidate | None = None,
+    impossible: Sequence[Impossible] = (),
+) -> pd.DataFrame:
+    """Return all candidates, numbers in SI units, with their outcome.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row for each; then pairs of which no bearing can be made, with the reason.
+    """
     import pandas as pd
 
     best = {id(one) for one in pareto(found)}
-    return pd.DataFrame(
-        [
-            {"outcome": place.outcome, "Pareto-optimal": id(place.candidate) in best}
-            | place.candidate.row()
-            for place in placed(found, chosen)
-        ]
-    )
+    rows: list[dict[str, object]] = [
+        {"outcome": place.outcome, "Pareto-optimal": id(place.candidate) in best}
+        | place.candidate.row()
+        for place in placed(found, chosen)
+    ]
+    rows += [
+        {
+            "outcome": "cannot be made",
+            "Pareto-optimal": False,
+            "radius [m]": one.radius,
+            "friction [-]": one.friction,
+            "limited by": "cannot be made",
+            "lacks": one.reason,
+        }
+        for one in impossible
+    ]
+    return pd.DataFrame(rows)

@@ -136,10 +136,19 @@ class DesignTarget:
             "friction_step",
         ):
             require_positive(name, getattr(self, name), error=CheckError)
-        for name in ("max_displacement", "max_base_shear", "max_plan_diameter"):
+        for name, unit, most in (
+            ("max_displacement", "m", 5.0),
+            ("max_base_shear", "-", 5.0),
+            ("max_plan_diameter", "m", 10.0),
+        ):
             value = getattr(self, name)
             if value is not None:
-                require_positive(name, value, error=CheckError)
+                require_between(name, value, 1e-3, most, unit, error=CheckError)
+        try:
+            _ = self.laws  # refused here, not when it is tried
+        except ValueError as cause:
+            msg = f"frictions: {cause}"
+            raise CheckError(msg) from cause
         require_type("limits", self.limits, DesignLimits, "DesignLimits(...)")
 
     @property

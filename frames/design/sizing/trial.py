@@ -1,0 +1,296 @@
+"""A proposed bearing under one mass and the motions of a project: sized until it stands them."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from frames.batch.time_histories import time_histories
+from frames.design.codes.bounds import with_property_bounds
+from frames.design.codes.registry import code_named
+from frames.design.hazard.pair_spectra import pair_spectrum
+from frames.design.histories.suite import peaks_of_runs, suite_of
+from frames.design.sizing.fitting import Asked
+from frames.library.models import lumped_mass
+from lir_element import DesignWarning
+from lir_element.errors import AnalysisWarning
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from frames.batch.cases import BatchProgress
+    from frames.design.codes.bounds import BoundName, PropertyBounds
+    from frames.design.codes.history_rules import HistoryRules
+    from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.hazard.motion_set import MotionSet
+    from frames.design.hazard.spectrum import Spectrum
+    from frames.design.sizing.candidate import Candidate
+    from frames.design.sizing.proposal import Design
+    from lir_element import LIRBearing
+
+MARGIN = 1.1
+"""Factor on the motions under which no run may fail [-]: a choice, for what one mass lacks."""
+
+FACTORS = (1.0, MARGIN)
+"""Factors on the motions at which bearings with rims are run [-]."""
+
+GROWTH = 1.1
+"""Factor on the displacement that is asked where a run still fails [-]."""
+
+ROUNDS = 8
+"""How often a bearing is made larger before it is given up."""
+
+
+class Place(NamedTuple):
+    """Where a suite of runs stands: level of the seismic action, factor on it, bound."""
+
+    level: str
+    factor: float
+    bound: BoundName
+
+
+class OneMass(NamedTuple):
+    """How a candidate is tried: a rigid building, its motions and its bounds.
+
+    Attributes
+    ----------
+    motions : callable
+        Motions scaled for an equivalent-linear analysis, whose periods make the range.
+    spectrum : Spectrum
+        The target of their scaling.
+    rules : HistoryRules
+        Levels of the seismic action, and how runs count.
+    bounds : PropertyBounds
+        Lower and upper bound friction properties.
+    at : sequence of str
+        Bounds that are run.
+    progress : callable or bool, optional
+        As for `frames.time_histories`.
+    """
+
+    motions: Callable[[EquivalentLinear], MotionSet]
+    spectrum: Spectrum
+    rules: HistoryRules
+    bounds: PropertyBounds
+    at: Sequence[BoundName]
+    progress: Callable[[BatchProgress], None] | bool | None = None
+
+
+class Excess(NamedTuple):
+    """Mean spectrum of the motions over the target, at the effective period.
+
+    Attributes
+    ----------
+    period : float
+        Effective period at the bound with the largest displacement [s].
+    ratio, asked : float
+        Mean over target, and the least that the rule of scaling asks for [-].
+    """
+
+    period: float
+    ratio: float
+    asked: float
+
+    def __str__(self) -> str:
+        """Return it in words."""
+        return (
+            f"the mean spectrum of the motions is {self.ratio:.2f} times the target at "
+            f"{self.period:.2f} s, the rule asks for {self.asked:.2f}"
+        )
+
+
+class Trial(NamedTuple):
+    """A candidate that was tried on one mass.
+
+    Attributes
+    ----------
+    tried, sized : Candidate
+        By the formula, and as it was made larger.
+    runs : mapping of Place to xarray.Dataset
+        Of the sized one, with its rims.
+    free : float
+        Displacement without rims for design, torsion and the code's factor included [m].
+    failed : mapping of Place to int
+        Number of runs that failed.
+    excess : Excess
+        Of the motions.
+    larger_lacks : tuple of str
+        Why it was made no larger, though a run fails or goes farther; empty where none does.
+    """
+
+    tried: Candidate
+    sized: Candidate
+    runs: dict[Place, xr.Dataset]
+    free: float
+    failed: dict[Place, int]
+    excess: Excess
+    larger_lacks: tuple[str, ...]
+
+    def failures(self, factor: float) -> int:
+        """Return how many runs fail under the motions times a factor of `FACTORS`."""
+        return sum(count for place, count in self.failed.items() if place.factor == factor)
+
+    @property
+    def passed(self) -> bool:
+        """Whether it is as large as the motions ask for, and no run fails, with the margin."""
+        return not self.larger_lacks and not any(self.failed.values())
+
+    @property
+    def outcome(self) -> str:
+        """Whether it passes, in words."""
+        if self.failures(1.0):
+            return "fails"
+        return "passes" if self.passed else "passes without the margin"
+
+    def rows(self) -> list[dict[str, object]]:
+        """Return a row for each level and bound, numbers in SI units."""
+        slip = min(each.resolved()["slip_capacity"] for each in self.sized.bearings)
+        return [
+            {
+                "radius [m]": self.sized.radius,
+                "friction [-]": self.sized.friction.f_max,
+                "outcome": self.outcome,
+                "level": place.level,
+                "factor on the motions [-]": place.factor,
+                "bound": place.bound,
+                "runs": data.sizes["run"],
+                "failed runs": self.failed[place],
+                "largest displacement [m]": float(peaks_of_runs(data, "displacement").max()),
+                "capacity [m]": self.sized.trace.value("U_cap"),
+                "largest slip [m]": float(peaks_of_runs(data, "slip").max()),
+                "slip capacity [m]": slip,
+                "displacement, formula [m]": self.tried.displacement,
+                "displacement, one mass [m]": self.free,
+                "period [s]": self.excess.period,
+                "mean spectrum over target [-]": self.excess.ratio,
+                "least by the rule [-]": self.excess.asked,
+            }
+            for place, data in self.runs.items()
+        ]
+
+    def __str__(self) -> str:
+        """Return what came of it, in words."""
+        said = (
+            f"without rims it goes {1e3 * self.free:.0f} mm, torsion as by the formula, which "
+            f"gives {1e3 * self.tried.displacement:.0f} mm; {self.excess}\n"
+        )
+        if self.sized is not self.tried:
+            ways = {"capacity": "U_cap", "slip": "s", "slider radius": "a"}
+            each = [
+                f"{name} {self.tried.trace.value(symbol) * 1e3:.0f} to "
+                f"{self.sized.trace.value(symbol) * 1e3:.0f} mm"
+                for name, symbol in ways.items()
+            ]
+            said += f"made larger: {', '.join(each)}\n"
+        for factor in FACTORS:
+            runs = sum(d.sizes["run"] for place, d in self.runs.items() if place.factor == factor)
+            said += f"{self.failures(factor)} of {runs} runs fail at {factor:g} times the motions; "
+        said = said.removesuffix("; ")
+        if self.larger_lacks:
+            said += f"\nlarger it falls out: {'; '.join(self.larger_lacks)}"
+        return said
+
+
+def tried_on_one_mass(found: Design, candidate: Candidate, how: OneMass) -> Trial:
+    """Try a candidate on one mass, and make it larger until no run fails.
+
+    The mass is the mean load of the bearings, its bearing the one with the smallest slider, at the
+    level "pendulum". Runs without rims give the displacement to size for. Runs with rims give the
+    slip, and none of them may fail, also under the motions times `MARGIN`.
+
+    Parameters
+    ----------
+    found : Design
+        The proposal.
+    candidate : Candidate
+        Of those that keep what is asked.
+    how : OneMass
+        Motions, levels and bounds.
+
+    Returns
+    -------
+    Trial
+        The candidate as it was sized, with its runs.
+
+    Raises
+    ------
+    CheckError
+        If a bearing cannot be at a bound.
+    MotionError
+        If the motions cannot be scaled.
+    """
+    mass = found.system.seismic_weight / len(found.sizes) / found.system.gravity
+    motions = how.motions(candidate.analysis)
+    excess = _excess(candidate, motions, how)
+    free = _runs(candidate.bearings[0].as_dcfp(rims=False), mass, motions, how, (1.0,))
+    factor = _torsion(candidate) * how.rules.displacement_factor
+    needed = factor * _for_design(free, "displacement", how.rules)
+    asked, sized, runs = Asked(needed), candidate, dict[Place, xr.Dataset]()
+    for _ in range(ROUNDS):
+        larger = candidate
+        if asked.displacement > candidate.displacement or asked.slip > 0.0:
+            larger = found.fit(candidate.radius, candidate.friction, asked)
+        if not larger.lacks:
+            sized = larger
+            motions = how.motions(sized.analysis)
+        if not larger.lacks or not runs:
+            runs = _runs(sized.bearings[0], mass, motions, how, FACTORS)
+        slip = _for_design(runs, "slip", how.rules)
+        fails = any(_failed(runs, how.rules).values())
+        if larger.lacks or (not fails and slip <= sized.trace.value("s")):
+            break
+        asked = Asked(sized.displacement * (GROWTH if fails else 1.0), max(slip, asked.slip))
+    failed = _failed(runs, how.rules)
+    return Trial(candidate, sized, runs, needed, failed, excess, larger.lacks)
+
+
+def _runs(
+    bearing: LIRBearing, mass: float, motions: MotionSet, how: OneMass, factors: tuple[float, ...]
+) -> dict[Place, xr.Dataset]:
+    # At each level, factor and bound; failures are counted by who called.
+    frame = lumped_mass(bearing, mass)
+    places = [
+        (Place(level.name, factor, bound), level.factor)
+        for level in how.rules.levels
+        for factor in factors
+        for bound in how.at
+    ]
+    cases = [(at.bound, name, at.factor * more) for at, more in places for name in motions]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AnalysisWarning)
+        warnings.simplefilter("ignore", DesignWarning)  # the stable slip is among the checks
+        models = {bound: with_property_bounds(frame, bound, how.bounds) for bound in how.at}
+        data = time_histories(models, motions, cases=cases, progress=how.progress)
+    n = len(motions)
+    return {at: data.isel(run=slice(k * n, (k + 1) * n)) for k, (at, _) in enumerate(places)}
+
+
+def _failed(runs: Mapping[Place, xr.Dataset], rules: HistoryRules) -> dict[Place, int]:
+    return {place: sum(suite_of(data, rules).failed) for place, data in runs.items()}
+
+
+def _for_design(runs: Mapping[Place, xr.Dataset], name: str, rules: HistoryRules) -> float:
+    # The largest of all levels and bounds of what the code makes of the motions, times 1.
+    return max(
+        suite_of(data, rules).value(peaks_of_runs(data, name).max(axis=1))
+        for place, data in runs.items()
+        if place.factor < MARGIN
+    )
+
+
+def _torsion(candidate: Candidate) -> float:
+    # Total over central displacement, as the formula has them.
+    each = candidate.analysis.bounds.values()
+    return max(one.total_displacement / one.displacement for one in each)
+
+
+def _excess(candidate: Candidate, motions: MotionSet, how: OneMass) -> Excess:
+    each = candidate.analysis.bounds.values()
+    period = max(each, key=lambda one: one.allowed_displacement).period
+    rule = code_named(candidate.analysis.code).scaling[0]
+    of_pairs = [pair_spectrum(one, [period], 0.05, rule.measure)[0] for one in motions.values()]
+    target = float(how.spectrum.acceleration(period, 0.05))
+    return Excess(period, float(np.mean(of_pairs)) / target, rule.part)
