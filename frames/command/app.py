@@ -87,6 +87,7 @@ def new(
 @app.command()
 def check(file: File = FILE) -> None:
     """Check a project's file, its model and motions; analyse it equivalent-linearly."""
+    from frames.design.histories.motions import motion_checks
     from frames.design.project.bearing_types import columns_by_type
     from frames.design.project.level_runs import said_of_runs
     from frames.design.project.preliminary import preliminary
@@ -98,11 +99,12 @@ def check(file: File = FILE) -> None:
         parts = _parts(file)
         ground = preliminary(parts)
         say(parts.code().cited)
-        say(text_table(structure_rows(parts.file, ground.frame), left=2))
+        say(text_table(structure_rows(parts.file, ground.frame, ground.spectrum), left=2))
         for kind, columns in columns_by_type(ground.types).items():
             say(f"type {kind}: {', '.join(columns)}")
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
+        _checks("Motions", motion_checks(ground.motions, ground.spectrum, ground.equivalent))
         say(repr(ground.equivalent))
         _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
         _say_each(unchecked(parts.file))

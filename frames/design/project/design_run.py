@@ -256,7 +256,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         about=parts.file.project,
         types=known.types,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
-        structure=tuple(structure_rows(parts.file, frame)),
+        structure=tuple(structure_rows(parts.file, frame, known.spectrum)),
         unchecked=unchecked(parts.file),
         tables=parts.tables(),
     )
