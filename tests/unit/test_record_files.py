@@ -298,3 +298,19 @@ def test_rows_of_a_table_are_refused_by_their_cause(
     if cure:
         path.write_text(f"name,x,unit,dt,order,skip\n{row}{cure}\n")
         assert MotionSet.from_folder(folder)["a"].n_steps == len(TIME)
+
+
+def test_the_page_names_what_is_read() -> None:
+    """Its table of tries adds up to its sentence, and it has a row for each kind of format."""
+    page = (Path(__file__).parents[2] / "docs/motion_files.md").read_text(encoding="utf-8")
+    tried, read, refused = map(
+        int, re.findall(r"(\d+) (?:public files|of them read|refused with)", page)
+    )
+    counts = re.findall(r"^\| [^|]+ \| (\d+) \| (\d+) \| (\d+) \|$", page, re.MULTILINE)
+    sums = np.array(counts, dtype=int).sum(axis=0)
+    assert sums.tolist() == [tried, read, refused]
+    assert tried == read + refused
+    named = page.split("## Files that were tried")[1].count("`")
+    assert named == 2 * tried
+    for each in FORMATS:
+        assert all(word in page for word in re.findall(r"[A-Z][A-Za-z-]{2,}", each.name)), each.name
