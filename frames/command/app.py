@@ -104,7 +104,9 @@ def check(file: File = FILE) -> None:
             say(f"type {kind}: {', '.join(columns)}")
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
-        _checks("Motions", motion_checks(ground.motions, ground.spectrum, ground.equivalent))
+        for each in motion_checks(ground.motions, ground.spectrum, ground.equivalent):
+            if not each.passed:
+                say(f"`lir run` will find: {each.statement} does not hold [{each.clause}]")
         say(repr(ground.equivalent))
         _checks("Equivalent-linear analysis, rims left out", ground.equivalent.checks)
         _say_each(unchecked(parts.file))

@@ -314,4 +314,4 @@ def test_the_page_names_what_is_read() -> None:
     named = page.split("## Files that were tried")[1].count("`")
     assert named == 2 * tried
     for each in FORMATS:
-        assert all(word in page for word in re.findall(r"[A-Z][A-Za-z-]{2,}", each.name)), each.name
+        assert re.split(r"[ ,]", each.name)[0] in page, each.name
