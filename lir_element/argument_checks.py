@@ -73,6 +73,32 @@ def listed(names: Iterable[object], most: int = 8) -> str:
     return first if len(every) <= most else f"{first} and {len(every) - most} more"
 
 
+def unreal(values: object) -> str:
+    """Return why an array is none of real numbers, all there; empty if it is.
+
+    Parameters
+    ----------
+    values : object
+        An array, or what makes one. Conversion to floats drops imaginary parts and masks.
+
+    Returns
+    -------
+    str
+        The end of a sentence whose subject is the array's name, with a remedy.
+
+    Examples
+    --------
+    >>> unreal([1.0, 2.0]), unreal(np.array([1.0, 2.0j]))
+    ('', 'holds complex numbers: give real ones, as values.real')
+    """
+    if np.ma.isMaskedArray(values) and np.ma.getmaskarray(values).any():
+        count = int(np.ma.getmaskarray(values).sum())
+        return f"has {count} masked values: fill them in, as values.filled(0.0), or leave them out"
+    if np.iscomplexobj(values):
+        return "holds complex numbers: give real ones, as values.real"
+    return ""
+
+
 def as_number(name: str, value: object, unit: str = "") -> float:
     """Return `value` as a float, infinity and NaN included.
 

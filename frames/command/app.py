@@ -88,6 +88,7 @@ def new(
 @app.command()
 def check(file: File = FILE) -> None:
     """Check a project's file, its model and motions; analyse it equivalent-linearly."""
+    from frames.design.histories.motions import motion_checks
     from frames.design.project.bearing_types import columns_by_type
     from frames.design.project.level_runs import said_of_runs
     from frames.design.project.preliminary import preliminary
@@ -99,11 +100,14 @@ def check(file: File = FILE) -> None:
         parts = _parts(file)
         ground = preliminary(parts)
         say(parts.code().cited)
-        say(text_table(structure_rows(parts.file, ground.frame), left=2))
+        say(text_table(structure_rows(parts.file, ground.frame, ground.spectrum), left=2))
         for kind, columns in columns_by_type(ground.types).items():
             say(f"type {kind}: {', '.join(columns)}")
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())
+        for each in motion_checks(ground.motions, ground.spectrum, ground.equivalent):
+            if not each.passed:
+                say(f"`lir run` will find: {each.statement} does not hold [{each.clause}]")
         say(repr(ground.equivalent))
         _checks("Equivalent-linear analysis, rims left out", ground.checks)
         _provisions(provisions_of(parts, ground, (), is_run=False))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import MotionError
-from lir_element.argument_checks import require_positive
+from lir_element.argument_checks import require_positive, unreal
 from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, TIMES, meant
 
 if TYPE_CHECKING:
@@ -28,6 +28,10 @@ LONGEST_STEP = 2.0
 
 def checked_component(axis: str, values: object) -> FloatArray:
     """Return a copy of one component, checked."""
+    odd = unreal(values)
+    if odd:
+        msg = f"{axis} {odd}"
+        raise MotionError(msg)
     try:
         array = np.array(values, dtype=np.float64)
     except (TypeError, ValueError) as cause:

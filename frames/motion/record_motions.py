@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Self
 
 from frames._errors import MotionWarning
 from frames.motion import transforms
+from frames.motion.columns import ColumnLayout, Source, column_traces
 from frames.motion.components import AXES
 from frames.motion.motion_data import MotionData
-from frames.motion.records import (
-    AccelerationTrace,
-    ColumnLayout,
-    PathLike,
-    Source,
-    at2_traces,
-    column_traces,
-    common_step,
-)
+from frames.motion.record_files import record_traces
+from frames.motion.records import AccelerationTrace, PathLike, at2_traces, common_step
 from frames.motion.sanity_checks import record_doubts
 
 
@@ -62,10 +57,65 @@ class RecordedMotion(MotionData):
         -----
         MotionWarning
             If the ground still moves at the end of a component, its time step gives it
-            displacements that no ground has, or it was cut in its strong phase.
+            displacements that no ground has, it was cut in its strong phase, it is stronger than
+            all that was recorded, or x and y are one history.
         """
         traces, label = at2_traces(x, y, z)
-        return cls._from_traces(traces, label if name is None else name, scale)
+        return cls.from_traces(traces, label if name is None else name, scale)
+
+    @classmethod
+    def from_record(
+        cls,
+        *paths: PathLike,
+        x: str | None = None,
+        y: str | None = None,
+        z: str | None = None,
+        scale: float | Sequence[float] = 1.0,
+        name: str | None = None,
+    ) -> Self:
+        """Read files in the formats of networks (`frames.motion.formats.FORMATS`), and PEER AT2.
+
+        Units, time steps and directions are those of the headers. Of K-NET and KiK-net the mean is
+        taken off, because their numbers are counts about an offset.
+
+        Parameters
+        ----------
+        *paths : str or path
+            The files of one record: one with all components, or one for each.
+        x, y, z : str, optional
+            Directions as the files name them, such as "90 Deg" or "N-S". Without any, x and y are
+            the horizontal components in the order of the files; z is the vertical one, turned up.
+        scale : float or sequence of three
+            Factor on all components, or one for each [-].
+        name : str, optional
+            Name of the motion; the first file's name if left out.
+
+        Returns
+        -------
+        GroundMotion
+            The motion in m/s2.
+
+        Raises
+        ------
+        MotionError
+            If no file is given, a format is not known, a file cannot be used, a direction is not
+            there, or time steps or lengths differ.
+
+        Warns
+        -----
+        MotionWarning
+            As for `from_at2`; and if the samples miss the peak that a header names.
+
+        Examples
+        --------
+        >>> GroundMotion.from_record(
+        ...     "AOM0011801241951.EW", "AOM0011801241951.NS", "AOM0011801241951.UD"
+        ... )  # doctest: +SKIP
+        >>> GroundMotion.from_record("CE89146.V2", x="90 Deg", y="360 Deg")  # doctest: +SKIP
+        """
+        traces, _ = record_traces(paths, {"x": x, "y": y, "z": z})
+        label = Path(paths[0]).stem if name is None else name
+        return cls.from_traces(traces, label, scale)
 
     @classmethod
     def from_columns(
@@ -82,9 +132,12 @@ class RecordedMotion(MotionData):
         skip: int = 0,
         comments: str = "#",
         delimiter: str | None = None,
+        order: str = "columns",
+        decimal: str = ".",
+        width: int | None = None,
         name: str | None = None,
     ) -> Self:
-        """Read columns of text files (`frames.motion.records.read_columns`).
+        """Read text files of numbers (`frames.motion.columns.read_columns`).
 
         Parameters
         ----------
@@ -93,7 +146,7 @@ class RecordedMotion(MotionData):
         x, y, z : int, str, path or (path, int), optional
             Where each component is: a column of `path`, counted from 0; a file of its own, with
             one column besides the times; or a file and its column.
-        unit : {"g", "m/s2", "cm/s2", "gal"}
+        unit : {"g", "m/s2", "cm/s2", "gal", "mm/s2", "g/10"}
             Unit of the accelerations in the files.
         time : int, optional
             Column of the times [s] in each file. Give it or `dt`.
@@ -106,7 +159,16 @@ class RecordedMotion(MotionData):
         comments : str
             What starts a comment.
         delimiter : str, optional
-            What separates the columns; white space if left out.
+            What separates the numbers; white space, or semicolons where there are some, if left
+            out. Beside semicolons a comma is the decimal sign.
+        order : {"columns", "rows", "pairs"}
+            How the numbers follow one another: a history down each column; one history row by row,
+            several values a line; or times and values in turn, several pairs a line. A file of
+            the last two is one component, and the latter needs neither `time` nor `dt`.
+        decimal : {".", ","}
+            The decimal sign.
+        width : int, optional
+            Characters of each number where they may touch, as in "-9.643590-13.350390" (10).
         name : str, optional
             Name of the motion; the first file's name if left out.
 
@@ -123,8 +185,7 @@ class RecordedMotion(MotionData):
         Warns
         -----
         MotionWarning
-            If the ground still moves at the end of a component, its time step gives it
-            displacements that no ground has, or it was cut in its strong phase.
+            As for `from_at2`; and if the numbers seem to follow one another in another order.
 
         Examples
         --------
@@ -137,19 +198,47 @@ class RecordedMotion(MotionData):
         ...     x="E.ATH", y="N.ATH", z="V.ATH", dt=0.005, unit="g"
         ... )  # doctest: +SKIP
         """
-        layout = ColumnLayout(unit, time, dt, skip, comments, delimiter)
+        layout = ColumnLayout(unit, time, dt, skip, comments, delimiter, order, decimal, width)
         traces, label = column_traces(path, x, y, z, layout)
-        return cls._from_traces(traces, label if name is None else name, scale)
+        return cls.from_traces(traces, label if name is None else name, scale)
 
     @classmethod
-    def _from_traces(
-        cls, traces: dict[str, AccelerationTrace], name: str, scale: float | Sequence[float]
+    def from_traces(
+        cls,
+        traces: Mapping[str, AccelerationTrace],
+        name: str = "",
+        scale: float | Sequence[float] = 1.0,
     ) -> Self:
-        """Join components that share their time step, and scale them."""
+        """Join components that were read from files, and look at them as records.
+
+        Parameters
+        ----------
+        traces : mapping of str to AccelerationTrace
+            Components [m/s2] with their time step [s] by axis, "x", "y" and "z".
+        name : str
+            Name of the motion.
+        scale : float or sequence of three
+            Factor on all components, or one for each [-].
+
+        Returns
+        -------
+        GroundMotion
+            The motion in m/s2.
+
+        Raises
+        ------
+        MotionError
+            If a component cannot be used, or time steps or lengths differ.
+
+        Warns
+        -----
+        MotionWarning
+            As for `from_at2`.
+        """
         arrays = {axis: trace.acceleration for axis, trace in traces.items()}
         x, y, z = (arrays.get(axis) for axis in AXES)
         motion = cls._made(x, y, z, common_step(traces), name)
         motion._warn_of_drift(recorded=True)
-        for doubt in record_doubts(arrays, motion.dt):
+        for doubt in record_doubts(motion._given(), motion.dt):
             warnings.warn(f"{name}: {doubt}", MotionWarning, stacklevel=3)
         return motion._with(transforms.scaled(motion._given(), scale))

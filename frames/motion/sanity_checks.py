@@ -1,4 +1,4 @@
-"""Whether a component of a record can be one: its time step, and whether its end is there.
+"""Whether a component of a record can be one: its peak, its time step, its end, its partner.
 
 The bounds stand well outside what records measure. Of the 100 components of FEMA P695, PGV / PGA is
 0.03 to 0.47 s, PGD at most 2.4 m, and the last twentieth of the duration holds at most 0.3 % of the
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.motion.baseline import LEAST_RECORD, corrected, drift_of
+from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,6 +24,15 @@ USUAL_RATIO = (0.02, 0.6)
 
 LARGEST_DISPLACEMENT = 3.0
 """Displacement of the ground above which the time step is looked at [m]."""
+
+STRONGEST_RECORDED = 4.4 * STANDARD_GRAVITY
+"""Largest acceleration that was recorded in an earthquake [m/s2]."""
+
+SAME = 0.9999
+"""Correlation of two components from which they are one [-]."""
+
+LEAST_PART = 2.0
+"""Duration from which a motion of a file shall end quietly, and x and y differ [s]."""
 
 LAST_PART, LARGEST_END = 0.05, 0.02
 """Part of the duration at the end [-], and the share of the Arias intensity that it may hold."""
@@ -41,14 +51,42 @@ def record_doubts(given: Mapping[str, FloatArray], dt: float) -> tuple[str, ...]
     Returns
     -------
     tuple of str
-        About the time step, and about an end that is missing. Motions shorter than 8 s are pulses,
-        and vertical components count in neither.
+        About peaks, components that are the same, the time step, and an end that is missing.
+        Motions shorter than 8 s may be pulses of any step, those below 2 s any pulses, and vertical
+        components count in the first alone.
     """
-    size = max(len(values) for values in given.values())
-    if (size - 1) * dt < LEAST_RECORD:
-        return ()
+    length = (max(len(values) for values in given.values()) - 1) * dt
     flat = {axis: values for axis, values in given.items() if axis != "z" and values.any()}
-    return (*_of_step(flat, dt), *_of_end(flat))
+    found = _of_peak(given)
+    if length >= LEAST_RECORD:
+        found += _of_step(flat, dt)
+    if length >= LEAST_PART:
+        found += [*_of_end(flat), *_of_components(flat)]
+    return tuple(found)
+
+
+def _of_peak(given: Mapping[str, FloatArray]) -> list[str]:
+    for axis, values in given.items():
+        peak = float(np.abs(values).max())
+        if peak > STRONGEST_RECORDED:
+            return [
+                f"{axis} peaks at {peak:.4g} m/s2 = {peak / STANDARD_GRAVITY:.3g} g, the strongest "
+                "record known has some 4.4 g: its unit is probably another; "
+                f"{meant(peak, 'm/s2', ACCELERATIONS, 0.05, 30.0)}"
+            ]
+    return []
+
+
+def _of_components(flat: Mapping[str, FloatArray]) -> list[str]:
+    if len(flat) == 2:
+        x, y = (values / np.linalg.norm(values) for values in flat.values())
+        if len(x) == len(y) and abs(float(x @ y)) > SAME:
+            return [
+                "x and y are one history, or proportional: the ground moves along one line, in "
+                "directions between them more than in either; give the other component of the "
+                "record, or x alone"
+            ]
+    return []
 
 
 def _of_step(flat: Mapping[str, FloatArray], dt: float) -> list[str]:

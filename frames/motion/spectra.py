@@ -28,7 +28,7 @@ import numpy as np
 import xarray as xr
 
 from frames._errors import MotionError
-from lir_element.argument_checks import require_between
+from lir_element.argument_checks import require_between, unreal
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -92,6 +92,9 @@ def response_spectrum(
 def checked_oscillators(periods: npt.ArrayLike, damping: float) -> tuple[FloatArray, float]:
     """Return periods (m,) [s] and damping [-] of oscillators, or raise a MotionError."""
     ratio = require_between("damping", damping, 0.0, 1.0, remedy="5 % is 0.05", error=MotionError)
+    if odd := unreal(periods):
+        msg = f"periods {odd}"
+        raise MotionError(msg)
     period = np.atleast_1d(np.asarray(periods, dtype=np.float64))
     bad = period[~(np.isfinite(period) & (period >= 0.0))]
     if period.ndim != 1 or bad.size:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import xarray as xr
 
-from lir_element.argument_checks import require_choice, require_positive
+from lir_element.argument_checks import require_choice, require_positive, unreal
 from lir_element.bundles.contact_data import contact_arrays
 from lir_element.bundles.rig_data import rig_run
 from lir_element.device.bearing import STANDARD_GRAVITY
@@ -156,6 +156,9 @@ def _follow(run: RigRun, contacts: Contacts | None) -> RunStatus:
 
 
 def _path(displacement: ArrayLike) -> Floats:
+    if odd := unreal(displacement):
+        msg = f"displacement {odd}"
+        raise ValueError(msg)
     path = np.asarray(displacement, dtype=np.float64)
     if path.ndim == 1:
         path = np.column_stack([path, np.zeros_like(path)])
@@ -181,6 +184,9 @@ def _tell_of_small_loads(bearing: LIRBearing, largest: float) -> None:
 
 
 def _loads(axial_load: float | ArrayLike, displacement: ArrayLike) -> Floats:
+    if odd := unreal(axial_load):
+        msg = f"axial_load {odd}"
+        raise ValueError(msg)
     count = len(np.asarray(displacement))
     loads = np.asarray(axial_load, dtype=np.float64)
     if loads.ndim > 1 or (loads.ndim == 1 and len(loads) != count):

@@ -461,6 +461,12 @@ def test_no_warning_without_failure() -> None:
         ({"displacement": np.zeros((3, 3))}, ValueError, r"displacement has shape \(3, 3\)"),
         ({"displacement": np.zeros((3, 1))}, ValueError, r"displacement has shape \(3, 1\)"),
         ({"displacement": np.zeros((2, 2, 2))}, ValueError, r"shape \(2, 2, 2\)"),
+        ({"displacement": np.array([0.0, 1.0j])}, ValueError, "displacement holds complex"),
+        (
+            {"axial_load": np.ma.masked_less([1e5, -1.0, 1e5], 0.0)},
+            ValueError,
+            "axial_load has 1 masked values",
+        ),
         ({"displacement": [0.0, math.nan]}, ValueError, r"displacement\[1\].*not finite"),
         ({"displacement": [[0.0, 0.0], [0.0, math.inf]]}, ValueError, r"displacement\[1\]"),
         ({"axial_load": 0.0}, ValueError, r"axial_load = 0 N.*positive"),

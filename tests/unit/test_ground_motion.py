@@ -16,6 +16,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from frames import MotionWarning
+from frames.motion.columns import ColumnLayout, read_columns
 from frames.motion.ground_motion import GroundMotion, MotionError
 from frames.motion.records import read_at2
 
@@ -73,6 +74,14 @@ class TestAT2:
             ("ACCELERATION IN UNITS OF CM/S/S", 0.01),
             ("Units: cm/sec/sec", 0.01),
             ("ACCELERATION TIME SERIES", G),
+            ("ACCELERATION, M/S2", 1.0),
+            ("ACCELERATION TIME HISTORY, UNITS (M/S2)", 1.0),
+            ("UNITS [M/S/S]", 1.0),
+            ("ACCELERATION (CM / SEC / SEC), SAN FRANCISCO N/S COMP", 0.01),
+            ("ACCELERATION IN MM/S2", 0.001),
+            ("ACCELERATION IN GAL", 0.01),
+            ("THE UNITS ARE (G)", G),
+            ("ACCELERATION IN UNITS OF G/10", 0.1 * G),
         ],
     )
     def test_unit_of_line_3(
@@ -81,10 +90,61 @@ class TestAT2:
         motion = GroundMotion.from_at2(write("rec.AT2", at2_text(unit=line)))
         assert_allclose(motion.x, np.array(VALUES) * factor, rtol=1e-12, atol=0.0)
 
-    def test_velocity_file_is_refused(self, write: Callable[[str, str], Path]) -> None:
-        path = write("rec.VT2", at2_text(unit="VELOCITY TIME SERIES IN UNITS OF CM/S"))
-        with pytest.raises(MotionError, match=r"rec.VT2: the unit 'CM/S' in line 3.*give the file"):
+    @pytest.mark.parametrize(
+        ("line", "unit"),
+        [
+            ("VELOCITY TIME SERIES IN UNITS OF CM/S", "CM/S"),
+            ("VELOCITY TIME SERIES", "VELOCITY"),
+            ("DISPLACEMENT, CM", "DISPLACEMENT"),
+            ("ACCELERATION, FT/S2", "FT/S2"),
+            ("ACCELERATION IN UNITS OF LIGHT", "LIGHT"),
+        ],
+    )
+    def test_other_units_are_refused(
+        self, write: Callable[[str, str], Path], line: str, unit: str
+    ) -> None:
+        path = write("rec.VT2", at2_text(unit=line))
+        with pytest.raises(MotionError, match=rf"rec.VT2: the unit '{unit}' in line 3.*give the f"):
             read_at2(path)
+
+    def test_decimal_commas_touching_numbers_and_zeros_that_fill_up(
+        self, write: Callable[[str, str], Path]
+    ) -> None:
+        """Each reads as the plain file does, because NPTS tells how many numbers there are."""
+        wanted = read_at2(write("plain.AT2", at2_text()))
+        comma = at2_text(sizes="NPTS= 7, DT= 5,0E-3").replace("0000E", "0000E")
+        head, body = comma.split("5,0E-3")
+        rows = [VALUES[:5], VALUES[5:]]
+        touching = "\n".join("".join(f"{value:15.8E}" for value in row) for row in rows)
+        texts = {
+            "comma": f"{head}5,0E-3{body.replace('.', ',')}",
+            "touching": at2_text().rpartition("SEC")[0] + "SEC\n" + touching.replace(" ", "+"),
+            "filled": at2_text((*VALUES, 0.0, 0.0, 0.0)),
+        }
+        for name, text in texts.items():
+            read = read_at2(write(f"{name}.AT2", text))
+            assert read.dt == wanted.dt, name
+            assert_allclose(read.acceleration, wanted.acceleration, rtol=1e-12, atol=0.0)
+        with pytest.raises(MotionError, match="DT = 5 in 'MS': write it in seconds"):
+            read_at2(write("ms.AT2", at2_text(sizes="NPTS= 7, DT= 5 MS")))
+
+    def test_from_columns_reads_what_is_no_at2_file(
+        self, write: Callable[[str, str], Path]
+    ) -> None:
+        path = write("rec.AT2", at2_text(sizes="El Centro"))
+        with pytest.raises(MotionError, match='order="rows", skip=<lines of the header>, dt='):
+            read_at2(path)
+        read = GroundMotion.from_columns(x=path, order="rows", skip=4, dt=0.005, unit="g")
+        assert_allclose(read.x, np.array(VALUES) * G, rtol=1e-12, atol=0.0)
+
+    def test_a_peak_above_all_that_was_recorded_is_doubted(
+        self, write: Callable[[str, str], Path]
+    ) -> None:
+        path = write("rec.AT2", at2_text(tuple(80.0 * v for v in VALUES), unit="UNITS OF M/S2"))
+        assert GroundMotion.from_at2(path).peak["x"] == pytest.approx(40.0)
+        strong = write("gal.AT2", at2_text(tuple(784.0 * v for v in VALUES), unit="UNITS OF M/S2"))
+        with pytest.warns(MotionWarning, match=r"392 m/s2 = 40 g, the strongest.*cm/s2 are 3.92"):
+            GroundMotion.from_at2(strong)
 
     @pytest.mark.parametrize(
         ("values", "message"),
@@ -120,6 +180,25 @@ class TestAT2:
         assert_allclose(motion.components[5:, 2], 0.0, rtol=0.0, atol=0.0)  # filled up
         assert motion.peak["z"] == pytest.approx(0.5 * G, rel=1e-12)
 
+    def test_records_that_were_cut_or_are_one_history(
+        self, write: Callable[[str, str], Path]
+    ) -> None:
+        """The strongest 3 s of 15 s, and one file for x and y; whole and different ones pass."""
+        time = DT * np.arange(1501)
+        envelope = np.sin(np.pi * time / 15.0) ** 2
+        for name, first, last in (("whole", 0, 1501), ("cut", 600, 900)):
+            for axis, pulsation in (("E", 8.0), ("N", 11.0)):
+                wave = (0.3 * envelope * np.sin(pulsation * time))[first:last]
+                sizes = f"NPTS= {len(wave)}, DT= {DT} SEC"
+                write(f"{name}-{axis}.AT2", at2_text(tuple(wave), sizes))
+        folder = write("x", "").parent
+        both = [folder / f"whole-{axis}.AT2" for axis in "EN"]
+        assert GroundMotion.from_at2(*both).duration == 15.0
+        with pytest.warns(MotionWarning, match="x and y are one history, or proportional"):
+            GroundMotion.from_at2(both[0], both[0])
+        with pytest.warns(MotionWarning, match="was probably cut in its strong phase"):
+            GroundMotion.from_at2(*(folder / f"cut-{axis}.AT2" for axis in "EN"))
+
     def test_unlike_steps(self, write: Callable[[str, str], Path]) -> None:
         other = write("N.AT2", at2_text(sizes="7 0.01 NPTS, DT"))
         with pytest.raises(MotionError, match=r"x 0.005 s, y 0.01 s.*resample"):
@@ -129,6 +208,18 @@ class TestAT2:
         with pytest.raises(MotionError, match="at least one of x, y and z"):
             GroundMotion.from_at2()
 
+
+DT = 0.01
+CURED = {
+    "touch.*width=10": (10.64359, 15.35039),
+    "'head' is text.*skip=2": (0.0, 0.0),
+    'decimal comma.*decimal=","': (2.0, 2.0),
+    'separated by commas.*delimiter=","': (2.0, 2.0),
+    "line 3: 'End'.*remove the line": (2.0, 2.0),
+    "line 2 holds 1 numbers.*repair line 2": (3.0, 3.0),
+    r"line 1: '\*+' is not a number.*repair": (0.0, 0.0),
+}
+"""What the cured file's last row has more than its first."""
 
 BBP = """# Station: somewhere
 # Column 1: Time (s)
@@ -172,7 +263,7 @@ class TestColumns:
             (BBP, {"x": 1, "time": -1, "unit": "g"}, r"time = -1 must be at least 0"),
             (BBP.replace("1.000000e-02", "1.5e-02"), {"x": 1, "time": 0, "unit": "g"}, "evenly"),
             (BBP.replace("5.000000e-03", "nan"), {"x": 1, "time": 0, "unit": "g"}, "evenly"),
-            ("a b\n1 2\n", {"x": 1, "time": 0, "unit": "g"}, "not a table of numbers.*skip its"),
+            ("a b\n1 2\n", {"x": 1, "time": 0, "unit": "g"}, r"line 1: 'a' is text.*skip=1"),
             ("# only this\n", {"x": 1, "time": 0, "unit": "g"}, "holds no values after 0 skipped"),
         ],
     )
@@ -191,6 +282,80 @@ class TestColumns:
         with pytest.raises(MotionError, match=r"has 4 columns: say which one.*\(path, column\)"):
             GroundMotion.from_columns(x=write("station.bbp", BBP), time=0, unit="g")
 
+    def test_several_values_a_line(self, write: Callable[[str, str], Path]) -> None:
+        """Row by row, in pairs: what the message says reads the file, to the digits."""
+        time = DT * np.arange(2000)
+        wave = np.sin(9.0 * time) * np.sin(0.15 * time) ** 2 * 3.0
+        rows = wave.reshape(-1, 5)
+        text = "\n".join("".join(f"{value:10.5f}" for value in row) for row in rows)
+        path = write("rows.acc", text)
+        options = {"unit": "m/s2", "dt": DT}
+        with pytest.raises(MotionError, match=r'5 columns.*one history, row by row.*order="rows"'):
+            GroundMotion.from_columns(x=path, **options)
+        with pytest.warns(MotionWarning, match=r"every 5th sample; read it with order=\"rows\""):
+            GroundMotion.from_columns(x=(path, 0), **options)
+        read = GroundMotion.from_columns(x=path, order="rows", **options)
+        assert_allclose(read.x, wave, rtol=0.0, atol=5.1e-6)
+        short = write("short.acc", text + "\n   0.00000   0.00000")
+        with pytest.raises(MotionError, match=r'line 401 holds 2 numbers.*order="rows"'):
+            GroundMotion.from_columns(x=(short, 0), **options)
+        assert GroundMotion.from_columns(x=short, order="rows", **options).n_steps == 2002
+        pairs = np.column_stack([time, wave]).reshape(-1, 10)
+        path = write("pairs.v1", "\n".join(" ".join(f"{v:.7g}" for v in row) for row in pairs))
+        with pytest.raises(MotionError, match=r'pairs of time and value.*order="pairs", without'):
+            GroundMotion.from_columns(x=(path, 1), time=0, unit="m/s2")
+        read = GroundMotion.from_columns(x=path, order="pairs", unit="m/s2")
+        assert read.dt == DT
+        assert_allclose(read.x, wave, rtol=1e-6, atol=1e-12)
+        table = write("table.txt", "\n".join(f"{t:.3f} {v:.6f}" for t, v in pairs[:, :2]))
+        with pytest.raises(MotionError, match=r"column 0 holds even times.*time=0"):
+            GroundMotion.from_columns(x=table, order="rows", **options)
+        both = np.column_stack([wave, np.roll(wave, 700)])
+        np.savetxt(path, both)
+        layout = ColumnLayout("m/s2", dt=DT, order="rows")
+        with pytest.warns(MotionWarning, match=r"seem to be 2 components.*order=\"columns\""):
+            read_columns(path, None, layout)
+        read = GroundMotion.from_columns(path, x=0, order="columns", **options)
+        assert_allclose(read.x, wave, rtol=1e-12, atol=1e-15)
+
+    @pytest.mark.parametrize(
+        ("text", "message", "cure"),
+        [
+            (" -9.643590-13.350390\n  1.000000  2.000000", "touch.*width=10", {"width": 10}),
+            ("head\nmore\n1.0 2.0\n1.0 2.0\n", "'head' is text.*skip=2", {"skip": 2}),
+            ("1,0 2,0\n3,0 4,0\n", 'decimal comma.*decimal=","', {"decimal": ","}),
+            ("1.0,2.0\n3.0,4.0\n", 'separated by commas.*delimiter=","', {"delimiter": ","}),
+            ("1.0 2.0\n3.0 4.0\nEnd of data\n", "line 3: 'End'.*remove the line", "End of data"),
+            ("1.0 2.0\n3.0\n4.0 5.0\n", "line 2 holds 1 numbers.*repair line 2", "3.0\n"),
+            ("1.0 *****\n3.0 4.0\n", r"line 1: '\*+' is not a number.*repair", "1.0 *****\n"),
+        ],
+    )
+    def test_causes_and_cures(
+        self, write: Callable[[str, str], Path], text: str, message: str, cure: object
+    ) -> None:
+        path = write("odd.txt", text)
+        options = {"unit": "m/s2", "dt": 0.1}
+        with pytest.raises(MotionError, match=message):
+            GroundMotion.from_columns(x=(path, 0), **options)
+        if isinstance(cure, dict):
+            options |= cure
+        else:
+            path.write_text(text.replace(str(cure), "3.0 4.0\n"))
+        read = GroundMotion.from_columns(path, x=0, y=1, **options)
+        assert_allclose(read.components[-1, :2] - read.components[0, :2], CURED[message])
+
+    def test_spreadsheets_marks_and_what_is_no_text(
+        self, write: Callable[[str, str], Path]
+    ) -> None:
+        path = write("semi.csv", "\ufeff0,0;1,5\n0,1;2,5D+00\n")
+        read = GroundMotion.from_columns(x=path, time=0, unit="mm/s2")
+        assert_allclose(read.x, [0.0015, 0.0025], rtol=1e-15)
+        path.write_text("0.0\t1.5\n0.1\t2.5\n", encoding="utf-16")
+        assert GroundMotion.from_columns(x=path, time=0, unit="m/s2").x.tolist() == [1.5, 2.5]
+        path.write_bytes(b"\x00\x01" * 300)
+        with pytest.raises(MotionError, match=r"is binary.*GroundMotion\(x="):
+            GroundMotion.from_columns(x=path, time=0, unit="m/s2")
+
     def test_column_of_no_file(self) -> None:
         with pytest.raises(MotionError, match="y = 2 is a column of no file: give the file"):
             GroundMotion.from_columns(y=2, dt=0.1, unit="g")
@@ -207,6 +372,11 @@ class TestChecks:
             ({"y": [[1.0, 2.0]], "dt": 0.1}, r"y has shape \(1, 2\)"),
             ({"z": [1.0, math.nan, 2.0], "dt": 0.1}, r"z\[1\] = nan must be finite"),
             ({"x": "record.AT2", "dt": 0.1}, r"x must be a 1-D array.*use from_at2"),
+            ({"x": np.array([1.0, 2.0j]), "dt": 0.1}, r"x holds complex numbers.*values.real"),
+            (
+                {"y": np.ma.masked_equal([1.0, 9.0, 2.0], 9.0), "dt": 0.1},
+                r"y has 1 masked values.*values.filled",
+            ),
             (
                 {"x": np.zeros(100), "y": np.zeros(79), "dt": 0.1},
                 r"y has 79 samples and x has 100.*at most 20",
@@ -417,6 +587,7 @@ class TestSpectrum:
         [
             ({"periods": [1.0, -0.5]}, r"periods hold -0.5"),
             ({"periods": [[1.0]]}, r"periods have shape \(1, 1\)"),
+            ({"periods": [1.0j]}, "periods holds complex numbers"),
             ({"periods": [1.0], "damping": 5.0}, r"damping = 5 must be.*5 % is 0.05"),
             ({"periods": [1.0], "component": "z"}, r"component = 'z' must be one of x, y"),
         ],

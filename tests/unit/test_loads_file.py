@@ -185,6 +185,25 @@ def test_check_says_the_loads(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    "spectrum",
+    ["s_ms = 1.0", 'points = [["0 s", "0.4 g"], ["0.3 s", "1 g"], ["5 s", "0.1 g"]]\ns_ms = 1.0'],
+)
+def test_the_statement_has_the_combinations_that_are_analysed(
+    tmp_path: Path, spectrum: str
+) -> None:
+    """Of a spectrum by points too: 1.2 D + 0.2 S_MS D, and 0.9 D less the same."""
+    parts = parts_of(tmp_path, BARE + LOADS)
+    text = (tmp_path / "project.toml").read_text()
+    new = spectrum if "points" in spectrum else SPECTRA["ASCE 7-22"]
+    (tmp_path / "project.toml").write_text(text.replace(SPECTRA["ASCE 7-22"], new))
+    parts = ProjectInputs(read_project(tmp_path / "project.toml"), tmp_path)
+    rows = dict(structure_rows(parts.file, parts.frame(), parts.spectrum()))
+    for name, factors in isolator_combinations(1.0).items():
+        said = " + ".join(f"{value:g} {case}" for case, value in factors.items() if value > 0.0)
+        assert rows[f"{name} combination, no horizontal earthquake"] == said
+
+
+@pytest.mark.parametrize(
     ("text", "said"),
     [
         ('live = "3000 kN/m2"', "live = 3000 kN/m2 is more than 25"),

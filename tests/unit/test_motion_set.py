@@ -232,7 +232,15 @@ def test_fault_axes_by_vectors(azimuths: tuple[float, float], strike: float) -> 
 
 
 def test_what_has_no_fault_is_not_turned() -> None:
-    assert SEVEN.fault_normal()["shaken 1"] is SEVEN["shaken 1"]
+    fault = {"strike": 0.0, "azimuth_x": 90.0, "azimuth_y": 0.0}
+    far = {name: {"near_fault": False} for name in SEVEN}
+    mixed = MotionSet(SEVEN, far | {"shaken 0": fault})
+    assert mixed.fault_normal()["shaken 1"] is SEVEN["shaken 1"]
+    with pytest.warns(MotionWarning, match="shaken 1, shaken 2.*stay as recorded"):
+        MotionSet(SEVEN, {"shaken 0": fault}).fault_normal()
+    for facts in ({}, far):  # nothing would be turned
+        with pytest.raises(MotionError, match=r"no motion has a strike.*strike, azimuth_x and"):
+            MotionSet(SEVEN, facts).fault_normal()
     with pytest.raises(MotionError, match="strike"):
         MotionSet({"a": shaken(1)}, {"a": {"near_fault": True}}).fault_normal()
     facts = {"strike": 10.0, "azimuth_x": 0.0, "azimuth_y": 45.0}
@@ -285,8 +293,35 @@ def test_a_folder_of_peer_files(tmp_path: Path) -> None:
     assert read.facts["RSN1044_NORTHR_NWH"] == {"azimuth_x": 90.0, "azimuth_y": 360.0}
     assert read.facts["RSN1507_CHICHI_TCU071"] == {"azimuth_x": 90.0, "azimuth_y": 0.0}
     (tmp_path / "RSN1044_NORTHR_NWH090.AT2").unlink()
-    with pytest.raises(MotionError, match="no pair"):
+    with pytest.warns(MotionWarning, match=r"not used: .*NWH360.AT2 \(no pair of hor.*from_folder"):
+        assert list(MotionSet.from_at2_folder(tmp_path)) == ["RSN1507_CHICHI_TCU071"]
+    for path in tmp_path.glob("*CHICHI*"):
+        path.unlink()
+    with pytest.raises(MotionError, match=r"no pair of AT2 files: .*use from_folder"):
         MotionSet.from_at2_folder(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("ends", "turned"),
+    [
+        (("EW", "NS", "UD"), 1.0),
+        (("-L", "-T", "-V"), 1.0),
+        ((".BH1.00", ".BH2.00", ".BHZ.00"), 1.0),
+        ((".HNE", ".HNN", ".HNZ"), 1.0),
+        (("_H1", "_H2", "_UP"), 1.0),
+        (("-XX", "-YY", "-Z"), 1.0),
+        (("-hor1", "-hor2", "-DN"), -1.0),
+    ],
+)
+def test_names_of_directions(tmp_path: Path, ends: tuple[str, ...], turned: float) -> None:
+    motion = shaken(4)
+    for end, values in zip(ends, (motion.x, motion.y, motion.x), strict=True):
+        write_at2(tmp_path / f"RSN1_A_CCM{end}.AT2", values / G)
+    write_at2(tmp_path / "odd.AT2", motion.x / G)
+    with pytest.warns(MotionWarning, match="not used: odd.AT2 .its name ends in no direction"):
+        (read,) = MotionSet.from_at2_folder(tmp_path).values()
+    np.testing.assert_allclose(read.components[:, :2], motion.components[:, :2], atol=1e-7)
+    np.testing.assert_allclose(read.z, turned * motion.x, atol=1e-7)
 
 
 TARGET = Spectrum.asce7(1.0, 0.6)

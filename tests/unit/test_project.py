@@ -129,6 +129,12 @@ def folder(tmp_path: Path, put_example: Callable[..., Path]) -> Path:
         (0.05, "", 0.05),
         ("0.05", "", 0.05),
         ("0.35 m/s^2", "m/s^2", 0.35),
+        ("50 psf", "N/m^2", 50.0 * 4.4482216152605 / 0.3048**2),
+        ("50 psf", "kg/m^2", 50.0 * 0.45359237 / 0.3048**2),
+        ("1 plf", "N/m", 4.4482216152605 / 0.3048),
+        ("2 klf", "N/m", 2000.0 * 4.4482216152605 / 0.3048),
+        ("150 pcf", "kg/m^3", 150.0 * 0.45359237 / 0.3048**3),
+        ("4 ksf", "N/m^2", 4000.0 * 4.4482216152605 / 0.3048**2),
     ],
 )
 def test_units_are_si(text: object, unit: str, value: float) -> None:
@@ -147,6 +153,12 @@ def test_units_are_si(text: object, unit: str, value: float) -> None:
         (True, "", "no number"),
         (math.inf, "", "not finite"),
         ("3 m", "", "a pure number"),
+        ("1,5 m", "m", 'has a comma: write "1.5 m"'),
+        ("1 2 m", "m", 'has "2 m" where a unit belongs'),
+        ("3 )", "m", "where a unit belongs"),
+        ("3 m**", "m", "where a unit belongs"),
+        ("3 m/0", "m", "where a unit belongs"),
+        ("3 psf", "m", "no unit of m"),
     ],
 )
 def test_what_is_no_quantity_is_refused(text: object, unit: str, words: str) -> None:
@@ -693,6 +705,7 @@ def test_check_ends_with_the_documented_codes(folder: Path) -> None:
     assert fine.exit_code == 0, fine.output
     assert "does not apply no restrainer contact at the total displacement" in fine.stdout
     assert "FAILS" not in fine.stdout
+    assert "`lir run` will find: pairs of motions: 3 >= 7 does not hold" in fine.stdout
 
 
 def test_what_counts_as_uplift_is_of_the_file(folder: Path) -> None:

@@ -11,6 +11,7 @@ import pytest
 pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 
+from frames import MotionWarning
 from frames.design import (
     ProjectError,
     PropertyBounds,
@@ -91,6 +92,21 @@ def test_points_of_a_codes_spectrum_give_what_its_formulas_give(
             assert result.trace.value(symbol) == pytest.approx(expected, rel=2e-3)
 
 
+def test_points_that_end_below_the_period_are_doubted() -> None:
+    """At 3 s a multi-period spectrum that ends at 2 s is a guess, and none that ends there is."""
+    periods, levels = np.array(POINTS)[:5].T
+    short = Spectrum.asce7_multi_period(periods, levels)
+    with pytest.warns(MotionWarning, match=r"T = 2\.\d+ s lies beyond its last point, 2 s: it is"):
+        equivalent_linear(SYSTEM, short, bounds=BOUNDS)
+    periods, levels = np.array(POINTS)[:6].T  # to 4 s
+    longer = Spectrum.asce7_multi_period(periods, levels)
+    equivalent_linear(SYSTEM, longer, bounds=BOUNDS)
+    assert "last point, 2 s" in short.beyond_points(3.0)
+    assert not short.beyond_points(1.9)
+    assert "4 s: it is continued" in longer.beyond_points(12.0)
+    assert not Spectrum.asce7_multi_period(*np.array(POINTS).T).beyond_points(12.0)
+
+
 def test_lists_and_tables_are_the_same(tmp_path: Path) -> None:
     in_list = spectrum_of(tmp_path, LIST)
     for unit, factor in (("g", 1.0), ("m/s2", G), ("gal", 100.0 * G)):
@@ -99,6 +115,11 @@ def test_lists_and_tables_are_the_same(tmp_path: Path) -> None:
         table = spectrum_of(tmp_path, 'points = "site.csv"\n')
         assert np.allclose(table.points, in_list.points, rtol=1e-10)
         assert table.parameters["S_MS"] == pytest.approx(0.9 * 1.4)
+    for cut, code in ((";", "utf-8-sig"), ("\t", "utf-16"), (",", "utf-8-sig")):
+        text = f"period [s]{cut}acceleration [g]\n" + "\n".join(f"{t}{cut}{a}" for t, a in POINTS)
+        (tmp_path / "site.csv").write_text(text if cut == "," else text.replace(".", ","), code)
+        table = spectrum_of(tmp_path, 'points = "site.csv"\n')
+        assert np.allclose(table.points, in_list.points, rtol=1e-12)
     own = spectrum_of(tmp_path, LIST + 's_m1 = 0.75\nt_l = "6 s"\nv_s30 = "500 m/s"\n')
     assert (own.parameters["S_M1"], own.parameters["T_L"]) == (0.75, 6.0)
     europe = spectrum_of(tmp_path, LIST, "EN 1998-1")
@@ -123,6 +144,10 @@ def test_lists_and_tables_are_the_same(tmp_path: Path) -> None:
         ('points = "odd.csv"\n', "NCh2745", 'odd.csv begins with "T,Sa": its first line must be'),
         ('points = "unit.csv"\n', "NCh2745", "accelerations in ft/s2: give them in g"),
         ('points = "row.csv"\n', "NCh2745", "row.csv, line 3: 1.0,x must be two numbers"),
+        ('points = "comma.csv"\n', "EN 1998", "line 2: 0,0,1,5 must be.*need semicolons"),
+        ('points = "quoted.csv"\n', "EN 1998", "line 2: 0,5 has a decimal comma, and commas sep"),
+        ('points = "thousands.csv"\n', "EN 1998", "line 2: 1.000,5 has signs of thousands"),
+        ('points = "latin.csv"\n', "EN 1998", "latin.csv: is no text in UTF-8.*save it as UTF-8"),
         (LIST + 'soil = "II"\n', "NCh2745", "spectrum.soil is not known"),
         ("s_ms = 1.0\n", "ASCE 7-22", "spectrum.s_m1 is missing"),
     ],
@@ -130,6 +155,11 @@ def test_lists_and_tables_are_the_same(tmp_path: Path) -> None:
 def test_what_is_no_spectrum_is_refused(tmp_path: Path, text: str, code: str, words: str) -> None:
     (tmp_path / "odd.csv").write_text("T,Sa\n0,1\n1,1\n")
     (tmp_path / "unit.csv").write_text("period [s],acceleration [ft/s2]\n0,1\n1,1\n")
+    head = "period [s],acceleration [g]\n"
+    (tmp_path / "comma.csv").write_text(f"{head}0,0,1,5\n")
+    (tmp_path / "quoted.csv").write_text(f'{head}"0,5","1,5"\n')
+    (tmp_path / "thousands.csv").write_text(f"{head.replace(',', ';')}0,5;1.000,5\n")
+    (tmp_path / "latin.csv").write_bytes(b"\xe9\n")
     (tmp_path / "row.csv").write_text("period [s],acceleration [g]\n0,1\n1.0,x\n")
     with pytest.raises(ProjectError, match=words):
         spectrum_of(tmp_path, text, code)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from frames._errors import MotionWarning
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
 from frames.design.calculation.standing import MEMORY
@@ -211,6 +213,8 @@ class ASCE7:
 
         start = system.gravity * s_m1 / 10.0
         t, rounds = iterate_displacement(step, start, _SYMBOLS, held_by(system, spectrum))
+        if doubt := spectrum.beyond_points(t.value("T_M")):
+            warnings.warn(doubt, MotionWarning, stacklevel=4)
         for pendulum in system.pendulums:
             pendulum.require_sliding(t.value("D_M"))
         self._total(t, system)

@@ -32,6 +32,10 @@ TABLE_PERIODS = (0.0, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.
 """Periods of `Spectrum.table` where none are given [s]."""
 
 
+LAST_OF_ASCE = 10.0
+"""Longest period of the multi-period spectra of ASCE/SEI 7-22 [s]."""
+
+
 @dataclass(frozen=True, repr=False, slots=True)
 class ElasticSpectrum:
     """What every spectrum holds and gives; parameters as in `Spectrum`."""
@@ -153,6 +157,28 @@ class ElasticSpectrum:
         periods = self._checked_periods(period)
         found = self.acceleration(periods, damping) * (periods / (2.0 * np.pi)) ** 2
         return cast("Values", found if periods.ndim else float(found))
+
+    def beyond_points(self, period: float) -> str:
+        """Return a doubt if a period [s] lies beyond the points of a multi-period spectrum.
+
+        Parameters
+        ----------
+        period : float
+            The longest period that is asked for [s].
+
+        Returns
+        -------
+        str
+            A sentence; empty if the points reach it, or 10 s, where those of ASCE/SEI 7-22 end.
+        """
+        last = self.points[-1][0] if self.points else np.inf
+        if self.shape != "asce7_multi_period" or last >= min(period, LAST_OF_ASCE):
+            return ""
+        return (
+            f"{self.name}: T = {period:.3g} s lies beyond its last point, {last:g} s: it is "
+            "continued as 1/T, which ASCE/SEI 7-22 does after 10 s only; give points to "
+            f"{math.ceil(period)} s or more"
+        )
 
     def scaled(self, factor: float, *, name: str = "") -> Self:
         """Return the spectrum times a factor, its parameters as well; no longer that of a site.

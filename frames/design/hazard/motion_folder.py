@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 import re
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-import pandas as pd
-
-from frames._errors import MotionError
+from frames._csv import csv_lines
+from frames._errors import MotionError, MotionWarning
 from frames.motion.components import AXES
 from frames.motion.ground_motion import GroundMotion
+from frames.motion.record_files import is_record, record_traces, single_traces
+from lir_element.argument_checks import listed
 
 if TYPE_CHECKING:
     from frames.motion.records import PathLike
@@ -20,10 +22,18 @@ if TYPE_CHECKING:
 Facts = dict[str, object]
 Loaded = tuple[dict[str, GroundMotion], dict[str, Facts]]
 
-_READ = {"name", "dt", "unit", *AXES}
+_OPTIONS = {"dt", "unit", "order", "skip", "width", "decimal", "delimiter"}
+_READ = {"name", "record", *_OPTIONS, *AXES}
 _YES_NO = {"yes": True, "true": True, "no": False, "false": False}
-_VERTICAL = re.compile(r"[-_.]?(UP|VER|VRT|V|DWN|DN|Z)$", re.IGNORECASE)
-_HORIZONTAL = re.compile(r"[-_.]?(\d{3}|[NS]\d{2}[EW]|EW|NS|E|N)$", re.IGNORECASE)
+_VERTICAL = re.compile(
+    r"(?:[-_.]?(UP|VERT?|VRT|UD|DWN|DN|[BHEL][HNL]Z|V|Z)|[-_.](H?3|U))$", re.IGNORECASE
+)
+_HORIZONTAL = re.compile(
+    r"(?:[-_.]?(\d{3}|[NS]\d{2}[EW]|EW|NS|[BHEL][HNL][ENXY12]|HOR[12]|H[12]|E|N)"
+    r"|[-_.]([LTXYWS12]|XX|YY|LONG?|TRANS?|TR))$",
+    re.IGNORECASE,
+)
+_LOCATION = re.compile(r"\.\d\d$")
 _AZIMUTHS = {"N": 0.0, "NS": 0.0, "E": 90.0, "EW": 90.0}
 
 
@@ -33,77 +43,114 @@ def read_table(folder: PathLike, table: str) -> Loaded:
     if not path.is_file():
         msg = f"{path} is no file: give the folder of the motions, and table= as it is named there"
         raise MotionError(msg)
-    rows = pd.read_csv(path, dtype=str, keep_default_na=False, skipinitialspace=True)
-    rows.columns = rows.columns.str.strip()
-    if "name" not in rows or not set(AXES) & set(rows.columns):
-        msg = f"{table} has the columns {list(rows.columns)}: it needs name, and x, y or z"
+    try:
+        lines = csv_lines(path)
+    except (OSError, ValueError) as cause:
+        msg = f"{table}: {cause}"
+        raise MotionError(msg) from cause
+    heads = [head.strip() for head in lines[0][1]] if lines else []
+    if "name" not in heads or not {*AXES, "record"} & set(heads):
+        msg = f"{table} has the columns {heads}: it needs name, and x, y or z, or record"
         raise MotionError(msg)
     motions: dict[str, GroundMotion] = {}
     facts: dict[str, Facts] = {}
-    for row in rows.to_dict("records"):
-        given = {str(key): str(value).strip() for key, value in row.items() if str(value).strip()}
+    for line, cells in lines[1:]:
+        if len(cells) > len(heads):
+            msg = (
+                f"{table}, line {line} has {len(cells)} cells, its head {len(heads)}: a comma in a "
+                "number or a name needs semicolons between the cells"
+            )
+            raise MotionError(msg)
+        row = zip(heads, cells, strict=False)
+        given = {key: value.strip() for key, value in row if value.strip()}
         name = given.get("name", "")
         if not name or name in motions:
             msg = f"{table}: name = {name!r} is empty or there twice: give each motion its own"
             raise MotionError(msg)
-        motions[name] = _motion(Path(folder), given)
-        facts[name] = {key: _value(given[key]) for key in given if key not in _READ}
+        motions[name], read = _motion(Path(folder), given, table)
+        said = {key: _value(given[key]) for key in given if key not in _READ}
+        facts[name] = read | said
     return motions, facts
 
 
-def _motion(folder: Path, row: Mapping[str, str]) -> GroundMotion:
-    """Return the motion of one row."""
-    files = {axis: folder / row[axis] for axis in AXES if axis in row}
-    absent = [path for path in files.values() if not path.is_file()]
+def _motion(folder: Path, row: Mapping[str, str], table: str) -> tuple[GroundMotion, Facts]:
+    """Return the motion of one row, and azimuths that its files name."""
+    name = row["name"]
+    named = row["record"].split("|") if "record" in row else [row[a] for a in AXES if a in row]
+    files = [folder / each.strip() for each in named]
+    absent = [path for path in files if not path.is_file()]
     if absent or not files:
-        found = f"{absent[0]} is no file" if absent else "no x, y or z is given"
-        msg = f"{row['name']}: {found}: name a file of the folder in x, y and z"
+        found = f"{absent[0]} is no file" if absent else "no x, y, z or record is given"
+        msg = f"{name}: {found}: name a file of the folder in x, y and z"
         raise MotionError(msg)
-    name, (x, y, z) = row["name"], (files.get(axis) for axis in AXES)
-    if all(path.suffix.lower() == ".at2" for path in files.values()):
-        return GroundMotion.from_at2(x, y, z, name=name)
+    if "record" in row:
+        traces, azimuths = record_traces(files, {axis: row.get(axis) for axis in AXES})
+        return GroundMotion.from_traces(traces, name), dict(azimuths)
+    by_axis = dict(zip((axis for axis in AXES if axis in row), files, strict=True))
+    x, y, z = (by_axis.get(axis) for axis in AXES)
+    if all(path.suffix.lower() == ".at2" for path in files):
+        return GroundMotion.from_at2(x, y, z, name=name), {}
+    if not set(row) & _OPTIONS and all(is_record(path) for path in files):
+        traces, azimuths = single_traces(by_axis)
+        return GroundMotion.from_traces(traces, name), dict(azimuths)
     if "unit" not in row:
-        msg = f"{name}: files of columns need their unit in the column unit: g, m/s2, cm/s2, gal"
+        msg = (
+            f"{name}: files of columns need their unit in the column unit: g, m/s2, cm/s2, gal, "
+            "mm/s2, g/10"
+        )
         raise MotionError(msg)
-    step = _value(row["dt"]) if "dt" in row else None
-    if step is not None and not isinstance(step, float):
-        msg = f"{name}: dt = {row['dt']} is no number: give the time step in s"
-        raise MotionError(msg)
-    return GroundMotion.from_columns(
-        x=x, y=y, z=z, unit=row["unit"], dt=step, time=0 if step is None else None, name=name
-    )
+    options: dict[str, Any] = {key: row[key] for key in _OPTIONS & set(row)}
+    for key, kind in {"dt": float, "skip": int, "width": int}.items():
+        try:
+            options |= {key: kind(row[key])} if key in row else {}
+        except ValueError as cause:
+            step = "the time step in s" if key == "dt" else "a whole number"
+            msg = f"{name}: {key} = {row[key]} is no number: give {step}"
+            raise MotionError(msg) from cause
+    timed = "dt" not in row and options.get("order", "columns") == "columns"
+    try:
+        motion = GroundMotion.from_columns(
+            x=x, y=y, z=z, time=0 if timed else None, name=name, **options
+        )
+    except MotionError as cause:
+        msg = f"{name}: {cause} ({', '.join(sorted(_OPTIONS))} are columns of {table})"
+        raise MotionError(msg) from cause
+    return motion, {}
 
 
 def _value(text: str) -> object:
     """Return an entry as yes or no, as a number, or as the text it is."""
     if text.lower() in _YES_NO:
         return _YES_NO[text.lower()]
-    number = pd.to_numeric(text, errors="coerce")
-    return text if math.isnan(number) else float(number)
+    try:
+        number = float(text)
+    except ValueError:
+        return text
+    return text if math.isnan(number) else number
 
 
 def read_at2_folder(folder: PathLike) -> Loaded:
     """Return the motions that PEER files of a folder make; names as in `from_at2_folder`."""
     groups: dict[str, dict[str, Path]] = {}
+    odd: list[str] = []
     for path in sorted(p for p in Path(folder).iterdir() if p.suffix.lower() == ".at2"):
-        vertical, horizontal = _VERTICAL.search(path.stem), _HORIZONTAL.search(path.stem)
-        found = vertical or horizontal
+        stem = _LOCATION.sub("", path.stem)  # of an instrument, in names of broad-band stations
+        found = _VERTICAL.search(stem) or _HORIZONTAL.search(stem)
         if found is None:
-            msg = f"{path.name}: the name ends in no azimuth and no direction: use from_folder"
-            raise MotionError(msg)
-        groups.setdefault(path.stem[: found.start()], {})[found[1].upper()] = path
-    if not groups:
-        msg = f"{folder} holds no AT2 file: give the folder of the records"
-        raise MotionError(msg)
+            odd.append(f"{path.name} (its name ends in no direction)")
+            continue
+        mark = str(found[1] or found[2]).upper()
+        where = stem[: found.start()] + path.stem[len(stem) :]
+        groups.setdefault(where, {})[mark] = path
     motions: dict[str, GroundMotion] = {}
     facts: dict[str, Facts] = {}
     for name, files in groups.items():
-        up = [mark for mark in files if not _HORIZONTAL.fullmatch(mark)]
+        up = [mark for mark, path in files.items() if _is_vertical(path)]
         flat = [mark for mark in files if mark not in up]
         if len(flat) != 2 or len(up) > 1:
             held = ", ".join(path.name for path in files.values())
-            msg = f"{name}: {held} make no pair of horizontal components: use from_folder"
-            raise MotionError(msg)
+            odd.append(f"{held} (no pair of horizontal components)")
+            continue
         scale = (1.0, 1.0, -1.0 if up and up[0] in {"DWN", "DN"} else 1.0)
         z = files[up[0]] if up else None
         motions[name] = GroundMotion.from_at2(
@@ -112,7 +159,18 @@ def read_at2_folder(folder: PathLike) -> Loaded:
         azimuths = [_azimuth(mark) for mark in flat]
         keys = ("azimuth_x", "azimuth_y")
         facts[name] = {k: a for k, a in zip(keys, azimuths, strict=True) if a is not None}
+    if not motions:
+        why = f"no pair of AT2 files: {listed(odd)}; use from_folder" if odd else "no AT2 file"
+        msg = f"{folder} holds {why}: give the folder of the records"
+        raise MotionError(msg)
+    if odd:
+        msg = f"not used: {listed(odd)}; from_folder reads them by a table, motions.csv"
+        warnings.warn(msg, MotionWarning, stacklevel=3)
     return motions, facts
+
+
+def _is_vertical(path: Path) -> bool:
+    return _VERTICAL.search(_LOCATION.sub("", path.stem)) is not None
 
 
 def _azimuth(mark: str) -> float | None:

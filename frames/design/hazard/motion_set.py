@@ -15,7 +15,7 @@ from frames.design.hazard.motion_folder import read_at2_folder, read_table
 from frames.design.hazard.sanity_checks import twins
 from frames.design.hazard.scaling import scaled_so
 from frames.design.hazard.spectrum import Spectrum
-from lir_element.argument_checks import require_choice
+from lir_element.argument_checks import listed, require_choice
 
 if TYPE_CHECKING:
     from frames.motion.records import PathLike
@@ -160,7 +160,8 @@ class MotionSet(MotionCollection):
         """Return the set with x normal and y parallel to the fault.
 
         Needs the facts "strike", "azimuth_x" and "azimuth_y" [degrees clockwise from north] of
-        each motion; what has no strike and is not marked "near_fault" stays as it is.
+        each motion; what has no strike and is not marked "near_fault" stays as it is, with a
+        warning unless it is marked as no near-fault motion.
 
         Returns
         -------
@@ -170,9 +171,16 @@ class MotionSet(MotionCollection):
         Raises
         ------
         MotionError
-            If one of these facts is missing, or the components are not at right angles.
+            If one of these facts is missing, the components are not at right angles, or no motion
+            has a strike.
+
+        Warns
+        -----
+        MotionWarning
+            If motions of which nothing is said stay as recorded.
         """
         turned, facts = {}, {}
+        self._require_strikes()
         for name, motion in self.items():
             known = dict(self.facts[name])
             if "strike" in known or known.get("near_fault"):
@@ -183,6 +191,24 @@ class MotionSet(MotionCollection):
                 turned[name] = motion
             facts[name] = known
         return MotionSet(turned, facts)
+
+    def _require_strikes(self) -> None:
+        """Refuse a set that has no strike at all, and say what of a set stays as recorded."""
+        known = {n: "strike" in f or bool(f.get("near_fault")) for n, f in self.facts.items()}
+        if not any(known.values()):
+            msg = (
+                "no motion has a strike, so none is turned to a fault: give strike, azimuth_x and "
+                "azimuth_y [degrees] as columns of motions.csv or facts of the set, or leave "
+                "fault_normal out"
+            )
+            raise MotionError(msg)
+        silent = [n for n in self if not known[n] and self.facts[n].get("near_fault") is None]
+        if silent:
+            msg = (
+                f"{listed(silent)}: no strike is given, they stay as recorded: give strike, "
+                "azimuth_x and azimuth_y, or near_fault = no"
+            )
+            warnings.warn(msg, MotionWarning, stacklevel=3)
 
     def scaled_to(
         self,

@@ -105,6 +105,8 @@ def scaled_so(
     code = scaling_named(rule)
     require_choice("how", how, ("amplitude", "common"), error=MotionError)
     low, high = checked_range(periods)
+    if doubt := spectrum.beyond_points(high):
+        warnings.warn(doubt, MotionWarning, stacklevel=3)
     wanted = code.part if part is None else require_positive("part", part, error=MotionError)
     kind = code.measure if measure is None else measure
     grid = np.concatenate([np.geomspace(low, high, POINTS), [0.0] if code.at_zero else []])

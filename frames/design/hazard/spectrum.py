@@ -12,7 +12,12 @@ from frames._errors import MotionError, MotionWarning
 from frames.design.hazard import spectral_shapes as sh
 from frames.design.hazard.code_rules import rules_named
 from frames.design.hazard.elastic_spectrum import ElasticSpectrum
-from lir_element.argument_checks import require_between, require_choice, require_positive
+from lir_element.argument_checks import (
+    require_between,
+    require_choice,
+    require_positive,
+    unreal,
+)
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -135,7 +140,7 @@ class Spectrum(ElasticSpectrum):
         """Return a multi-period or site-specific MCE_R spectrum of ASCE/SEI 7-22.
 
         Between the periods the acceleration is linear; after the last one it falls with 1/T up to
-        T_L, and with 1/T^2 after it.
+        T_L, and with 1/T^2 after it. Analyses and scaling warn where that is used below 10 s.
 
         Parameters
         ----------
@@ -373,6 +378,10 @@ def _checked_points(
     periods: npt.ArrayLike, levels: npt.ArrayLike, name: str, largest: float
 ) -> sh.Points:
     """Return the points of a spectrum, checked."""
+    for which, values in (("periods", periods), (name, levels)):
+        if odd := unreal(values):
+            msg = f"{which} {odd}"
+            raise MotionError(msg)
     period, level = (np.array(values, dtype=np.float64) for values in (periods, levels))
     if period.ndim != 1 or period.shape != level.shape or len(period) < 2:
         msg = (

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import difflib
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from frames._csv import csv_lines
 from frames.design._errors import ProjectError
 from frames.design.project.quantities import si
 
@@ -97,20 +97,19 @@ def csv_rows(path: Path, needed: Sequence[str], other: Sequence[str] = ()) -> li
         If it cannot be read, lacks a column, has an unknown one, or no row.
     """
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            lines = list(csv.reader(file))
+        lines = csv_lines(path)
     except OSError as cause:
         msg = f"{path}: {cause.strerror or cause}: give a CSV file with {', '.join(needed)}"
         raise ProjectError(msg) from cause
-    except UnicodeDecodeError as cause:
-        msg = f"{path} is no text in UTF-8 ({cause}): save it as UTF-8"
+    except ValueError as cause:
+        msg = f"{path}: {cause}"
         raise ProjectError(msg) from cause
-    heads = [_HEAD.fullmatch(head.lower()) for head in (lines[0] if lines else [])]
+    heads = [_HEAD.fullmatch(head.lower()) for head in (lines[0][1] if lines else [])]
     names = [found[1] if found else "" for found in heads]
     units = [found[2] if found else None for found in heads]
-    _require_heads(path, names, lines[0] if lines else [], needed, other)
+    _require_heads(path, names, lines[0][1] if lines else [], needed, other)
     rows = []
-    for number, line in enumerate(lines[1:], start=2):
+    for number, line in lines[1:]:
         cells = {
             name: f"{cell.strip()} {unit}" if unit else cell.strip()
             for name, unit, cell in zip(names, units, line, strict=False)
@@ -118,7 +117,8 @@ def csv_rows(path: Path, needed: Sequence[str], other: Sequence[str] = ()) -> li
         }
         if len(line) > len(names):
             msg = f"{path}, line {number}: has {len(line)} cells, its head {len(names)}"
-            raise ProjectError(msg + ": look for a comma in a number")
+            msg += ": look for a comma in a number, which needs semicolons between the cells"
+            raise ProjectError(msg)
         if cells:
             rows.append(CsvRow(where=f"{path.name}, line {number}", cells=cells))
     if not rows:

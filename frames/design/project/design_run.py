@@ -261,7 +261,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         about=parts.file.project,
         types=known.types,
         doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
-        structure=tuple(structure_rows(parts.file, frame)),
+        structure=tuple(structure_rows(parts.file, frame, known.spectrum)),
         provisions=provisions_of(parts, known, checks),
         tables=parts.tables(),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from functools import cache
+from tokenize import TokenError
 from typing import Annotated, Any
 
 import pint
@@ -45,6 +46,35 @@ EXAMPLES = {
 """How numbers of each unit may be written, for messages and the schema."""
 
 
+_PER_AREA = {
+    "psf": ("lbf/ft^2", "lb/ft^2"),
+    "ksf": ("kip/ft^2", "klb/ft^2"),
+    "plf": ("lbf/ft", "lb/ft"),
+    "klf": ("kip/ft", "klb/ft"),
+    "pli": ("lbf/inch", "lb/inch"),
+    "pcf": ("lbf/ft^3", "lb/ft^3"),
+    "kcf": ("kip/ft^3", "klb/ft^3"),
+    "pci": ("lbf/inch^3", "lb/inch^3"),
+    "kci": ("kip/inch^3", "klb/inch^3"),
+}
+"""Units of US practice that pint does not have: as forces, and as masses."""
+
+_UNREADABLE = (
+    ArithmeticError,
+    AssertionError,
+    AttributeError,
+    RecursionError,
+    SyntaxError,
+    TokenError,
+    TypeError,
+    ValueError,
+    pint.PintError,
+)
+"""What pint raises over a text that is no unit."""
+
+_COMMA = re.compile(r"\s*([-+]?\d*),(\d+)\s*(.*?)\s*")
+
+
 @cache
 def _units() -> pint.UnitRegistry[float]:
     return pint.UnitRegistry()
@@ -82,6 +112,11 @@ def si(value: object, unit: str, example: str) -> float:
             msg = f"has no unit: {_written(value, unit, example)}"
             raise ValueError(msg)
         return _finite(float(value))
+    comma = _COMMA.fullmatch(value) if isinstance(value, str) else None
+    if comma:
+        written = f"{comma[1]}.{comma[2]} {comma[3]}".strip()
+        msg = f'has a comma: write "{written}" if that is the decimal sign, nothing for thousands'
+        raise ValueError(msg)
     found = _NUMBER.fullmatch(value) if isinstance(value, str) else None
     if found is None:
         msg = f'is no number with a unit: write it as "{example}"'
@@ -94,19 +129,28 @@ def si(value: object, unit: str, example: str) -> float:
         given = "standard_gravity"
     if unit == "C":
         return _finite(_celsius(number, given, example))
+    wanted = _POWER.sub(r"^\1", unit) or "dimensionless"
     try:
-        factor = (
-            _units()
-            .Quantity(1.0, given or "dimensionless")
-            .to(_POWER.sub(r"^\1", unit) or "dimensionless")
-        )
+        one = _units().Quantity(1.0, _as_pint(given, wanted) or "dimensionless")
+        factor = one.to(wanted)
     except pint.UndefinedUnitError as cause:
         msg = f'has an unknown unit "{found[2]}": write it as "{example}"'
         raise ValueError(msg) from cause
     except pint.DimensionalityError as cause:
         msg = f'is in "{found[2]}", which is no unit of {unit or "a pure number"}: as "{example}"'
         raise ValueError(msg) from cause
+    except _UNREADABLE as cause:
+        msg = f'has "{found[2]}" where a unit belongs: write it as "{example}"'
+        raise ValueError(msg) from cause
     return _finite(float(f"{number * factor.magnitude:.15g}"))
+
+
+def _as_pint(given: str, wanted: str) -> str:
+    # psf and its like by the units that pint has: of a force, or of a mass if one is wanted.
+    if given not in _PER_AREA:
+        return given
+    force, mass = _PER_AREA[given]
+    return force if _units().is_compatible_with(force, wanted) else mass
 
 
 def _celsius(number: float, given: str, example: str) -> float:
@@ -114,7 +158,7 @@ def _celsius(number: float, given: str, example: str) -> float:
     scale = {"C": "degC", "F": "degF"}.get(given.removeprefix("°"), given)
     try:
         return float(_units().Quantity(number, scale).to("degC").magnitude)
-    except (pint.UndefinedUnitError, pint.DimensionalityError) as cause:
+    except (pint.UndefinedUnitError, pint.DimensionalityError, *_UNREADABLE) as cause:
         msg = f'is in "{given}", which is no unit of temperature: write it as "{example}"'
         raise ValueError(msg) from cause
 

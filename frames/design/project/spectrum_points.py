@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import re
 from typing import TYPE_CHECKING
 
+from frames._csv import csv_lines
 from frames.design._errors import ProjectError
 from lir_element.units import STANDARD_GRAVITY
 
@@ -32,8 +32,8 @@ def read_points(path: Path) -> Points:
     Parameters
     ----------
     path : Path
-        A CSV file: a head "period [s],acceleration [g]" (or m/s2, cm/s2, gal), then a point a line;
-        lines that begin with # are left out.
+        A CSV file (`frames._csv`): a head "period [s],acceleration [g]" (or m/s2, cm/s2, gal), then
+        a point a line; lines that begin with # are left out.
 
     Returns
     -------
@@ -46,16 +46,13 @@ def read_points(path: Path) -> Points:
         If there is no such file, or it is no such table: the message names file and line.
     """
     try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as cause:
-        reason = getattr(cause, "strerror", None) or "no text in UTF-8"
-        msg = f"[spectrum] points = {path.name}: {reason}: name a CSV file beside the project's"
+        lines = csv_lines(path)
+    except OSError as cause:
+        msg = f"[spectrum] points = {path.name}: {cause.strerror}: name a CSV file beside the "
+        raise ProjectError(msg + "project's") from cause
+    except ValueError as cause:
+        msg = f"[spectrum] points = {path.name}: {cause}"
         raise ProjectError(msg) from cause
-    lines = [
-        (k, row)
-        for k, row in enumerate(csv.reader(text.splitlines()), start=1)
-        if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
-    ]
     factor = _unit_of(path, lines[0][1] if lines else [])
     found = []
     for k, row in lines[1:]:
@@ -64,7 +61,10 @@ def read_points(path: Path) -> Points:
         except ValueError:
             period = math.nan
         if not math.isfinite(period):
-            msg = f"{path.name}, line {k}: {','.join(row)} must be two numbers: period, level"
+            comma = "; numbers with decimal commas need semicolons between" * (len(row) > 2)
+            msg = (
+                f"{path.name}, line {k}: {','.join(row)} must be two numbers: period, level{comma}"
+            )
             raise ProjectError(msg)
         found.append((period, factor * level))
     return tuple(found)

@@ -26,6 +26,7 @@ from frames.model.components import DEFAULT_CASE
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.schema import ProjectFile
     from frames.design.project.schema_loads import LoadsTable
     from frames.design.project.schema_sections import BraceTable, WallTable
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 Rows = list[tuple[str, str]]
 
 
-def structure_rows(file: ProjectFile, frame: Frame) -> Rows:
+def structure_rows(file: ProjectFile, frame: Frame, spectrum: Spectrum | None = None) -> Rows:
     """Return what the structure is, a row for each thing.
 
     Parameters
@@ -44,6 +45,8 @@ def structure_rows(file: ProjectFile, frame: Frame) -> Rows:
         The project's file.
     frame : Frame
         The structure that was made of it.
+    spectrum : Spectrum, optional
+        The design spectrum, whose S_MS the combinations of ASCE 7 hold; needed with load cases.
 
     Returns
     -------
@@ -71,7 +74,7 @@ def structure_rows(file: ProjectFile, frame: Frame) -> Rows:
     if isinstance(given, BuildingTable) and given.floor_load is not None:
         rows.append(("mass of a floor besides its members", f"{given.floor_load:.4g} kg/m2"))
     if file.loads is not None:
-        rows += _loads(file, file.loads)
+        rows += _loads(file, file.loads, spectrum)
     rows += device_rows(file.moat, file.dampers)
     if frame.imported is not None:
         rows += _import(frame.imported)
@@ -121,7 +124,7 @@ def _areas(frame: Frame) -> Rows:
     return [("loaded area", ", ".join(said))]
 
 
-def _loads(file: ProjectFile, given: LoadsTable) -> Rows:
+def _loads(file: ProjectFile, given: LoadsTable, spectrum: Spectrum | None) -> Rows:
     rule = code_named(file.project.code).loads
     names = {"D": "dead", "L": "live", "S": "snow"}
     rows = []
@@ -135,7 +138,8 @@ def _loads(file: ProjectFile, given: LoadsTable) -> Rows:
     mass = {} if found is None else found.mass
     source = rule.cited if given.mass is None else "as the file says"
     rows.append(("seismic mass", f"members, {_sum(mass)} ({source})"))
-    for name, factors in rule.combinations(getattr(file.spectrum, "s_ms", None)).items():
+    s_ms = None if spectrum is None else spectrum.parameters.get("S_MS")
+    for name, factors in rule.combinations(s_ms).items():
         rows.append((f"{name} combination, no horizontal earthquake", _sum(factors)))
     return rows
 

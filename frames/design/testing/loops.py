@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from frames.design._errors import CheckError
-from lir_element.argument_checks import require_choice
+from lir_element.argument_checks import require_choice, unreal
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -68,10 +68,15 @@ class PrototypeTest:
 
     def __post_init__(self) -> None:
         require_choice("kind", self.kind, ("bearing", "interface"), error=CheckError)
+        where = f"test {self.name!r}"
+        given = {"displacement": self.displacement, "force": self.force, "load": self.load}
+        for key, part in given.items():
+            if odd := unreal(part):
+                msg = f"{where}: {key} {odd}"
+                raise CheckError(msg)
         moved, force = (
             np.asarray(part, dtype=np.float64) for part in (self.displacement, self.force)
         )
-        where = f"test {self.name!r}"
         if moved.ndim != 1 or moved.shape != force.shape or not len(moved):
             msg = (
                 f"{where}: displacement {moved.shape} and force {force.shape}: give one number "
