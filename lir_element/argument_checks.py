@@ -94,7 +94,7 @@ def unreal(values: object) -> str:
     if np.ma.isMaskedArray(values) and np.ma.getmaskarray(values).any():
         count = int(np.ma.getmaskarray(values).sum())
         return f"has {count} masked values: fill them in, as values.filled(0.0), or leave them out"
-    if np.iscomplexobj(values):
+    if np.iscomplexobj(np.asarray(values)):
         return "holds complex numbers: give real ones, as values.real"
     return ""
 

@@ -120,9 +120,9 @@ def storeys_of_lines(data: xr.Dataset) -> tuple[list[str], list[str]]:
     """Return the names of the lines of nodes over one another, and of the storey of each."""
     if f"{REACHED}line_storey" in data.variables:
         both = (data.variables[key].to_numpy() for key in ("line", f"{REACHED}line_storey"))
-        lines, storeys = ([str(name) for name in each] for each in both)
-        return lines, storeys
+        names, storeys = ([str(name) for name in each] for each in both)
+        return names, storeys
     if f"{REACHED}drift" in data.variables:  # of an earlier version, which kept none
         return [], []
-    lines, names, levels = lines_of(data), data["node"].to_numpy(), data["level"].to_numpy()
-    return [str(names[k]) for k in lines.upper], [str(levels[k]) for k in lines.storey]
+    lines, nodes, levels = lines_of(data), data["node"].to_numpy(), data["level"].to_numpy()
+    return [str(nodes[k]) for k in lines.upper], [str(levels[k]) for k in lines.storey]

@@ -29,7 +29,7 @@ class FailedRuns(NamedTuple):
     ----------
     level, bound : str
         Level of the seismic action, and bound of the properties.
-    count, of : int
+    failed, of : int
         Number of runs that failed, and of all runs of this level and bound.
     cause : str
         The cause in words.
@@ -39,7 +39,7 @@ class FailedRuns(NamedTuple):
 
     level: str
     bound: str
-    count: int
+    failed: int
     of: int
     cause: str
     motions: str
@@ -47,7 +47,7 @@ class FailedRuns(NamedTuple):
     def __str__(self) -> str:
         """Return the runs and their cause on one line."""
         where = ", ".join(part for part in (self.level, self.bound) if part)
-        return f"{where}: {self.count} of {self.of} runs failed: {self.cause}: {self.motions}"
+        return f"{where}: {self.failed} of {self.of} runs failed: {self.cause}: {self.motions}"
 
 
 def failed_runs(

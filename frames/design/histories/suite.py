@@ -343,7 +343,9 @@ def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
         A run fails if it stopped, or if a bearing lifted off and the code does not allow that.
     """
     status = [str(value) for value in data["status"].to_numpy()]
-    torn = parted(data, rules.least_gap).any(axis=1) & (not rules.uplift_allowed)
+    torn = [False] * len(status)
+    if not rules.uplift_allowed:
+        torn = [bool(lifted.any()) for lifted in parted(data, rules.least_gap)]
     return [_failure(data, k) if word != "ok" or torn[k] else None for k, word in enumerate(status)]
 
 

@@ -155,10 +155,10 @@ def verdict_of(run: ProjectRun) -> Verdict:
         within=[title for title in _titles(void) if title not in beyond],
         failures=Table(
             ("level", "bound", "failed", "cause", "motions"),
-            [(f.level, f.bound, f"{f.count} / {f.of}", f.cause, f.motions) for f in failures],
+            [(f.level, f.bound, f"{f.failed} / {f.of}", f.cause, f.motions) for f in failures],
             frozenset({0, 1, 3, 4}),
         ),
-        failed=sum(one.count for one in failures),
+        failed=sum(one.failed for one in failures),
         doubtful=sum(int((data["doubts"].to_numpy() != "").sum()) for data in every),
         runs=sum(data.sizes["run"] for data in every),
     )

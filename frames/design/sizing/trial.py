@@ -262,7 +262,7 @@ def _runs(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AnalysisWarning)
         warnings.simplefilter("ignore", DesignWarning)  # the stable slip is among the checks
-        models = {bound: with_property_bounds(frame, bound, how.bounds) for bound in how.at}
+        models = {str(b): with_property_bounds(frame, b, how.bounds) for b in how.at}
         data = time_histories(models, motions, cases=cases, progress=how.progress)
     n = len(motions)
     return {at: data.isel(run=slice(k * n, (k + 1) * n)) for k, (at, _) in enumerate(places)}
