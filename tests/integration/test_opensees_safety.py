@@ -255,7 +255,9 @@ def test_an_exchange_that_breaks_says_that_the_model_is_lost() -> None:
         class Broken:
             def __init__(self, pipe): self.pipe = pipe
             def __getattr__(self, name): return getattr(self.pipe, name)
-            def recv_bytes(self): raise MemoryError
+            def recv_bytes(self):
+                server._pipe = self.pipe
+                raise MemoryError
         server = _SESSION.server
         server._pipe = Broken(server._pipe)
         try:
@@ -264,9 +266,9 @@ def test_an_exchange_that_breaks_says_that_the_model_is_lost() -> None:
             pass
         else:
             sys.exit("no error")
+        ops.node(3, 0.0, 0.0, 0.0)
         for ask in (lambda: bearing_response(1, "slip"), lambda: stand.put(2, 1, 3)):
             try:
-                ops.node(3, 0.0, 0.0, 0.0)
                 ask()
             except ServerError as error:
                 assert "wipe the model and build it again" in str(error)

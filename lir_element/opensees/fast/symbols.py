@@ -34,6 +34,7 @@ OPTIONAL = {"class_type": "_ZNK13GenericClient12getClassTypeEv"}
 """One that is replaced where the library exports it: the compiler may leave it out."""
 
 REPLACED_AGAIN = {
+    "class_type": "_ZThn16_NK13GenericClient12getClassTypeEv",
     "send_self": "_ZThn16_N13GenericClient8sendSelfEiR7Channel",
     "receive_self": "_ZThn16_N13GenericClient8recvSelfEiR7ChannelR16FEM_ObjectBroker",
 }
@@ -121,7 +122,7 @@ def addresses() -> dict[str, int]:
         try:
             function = getattr(library(), symbol)
         except AttributeError as cause:
-            if name in OPTIONAL:
+            if name.removeprefix("again_") in OPTIONAL:
                 continue
             msg = f"the OpenSees library does not export {symbol}"
             raise NotPossibleError(msg) from cause

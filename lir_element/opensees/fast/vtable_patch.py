@@ -198,7 +198,7 @@ class Graft:
         new = self.keep(np.zeros(len(old) + 1, dtype=np.int64))
         new[0], new[1:] = self.block.ctypes.data, old
         for name, function in functions.items():
-            if name in OPTIONAL and name not in where:
+            if name.removeprefix("again_") in OPTIONAL and name not in where:
                 continue
             slots = np.flatnonzero(old[head:] == where[name])
             if len(slots) != 1:

@@ -349,6 +349,7 @@ class Server:
                 raise ServerError(self.end_message()) from cause
             except BaseException:  # the next answer would be that to this request
                 self._process.kill()
+                self._process.wait()
                 raise
         good, answer = pickle.loads(reply)  # noqa: S301  # of our own server
         if not good:
