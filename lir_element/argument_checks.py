@@ -73,13 +73,13 @@ def listed(names: Iterable[object], most: int = 8) -> str:
     return first if len(every) <= most else f"{first} and {len(every) - most} more"
 
 
-def unreal(values: object) -> str:
+def unreal(values: ArrayLike) -> str:
     """Return why an array is none of real numbers, all there; empty if it is.
 
     Parameters
     ----------
-    values : object
-        An array, or what makes one. Conversion to floats drops imaginary parts and masks.
+    values : array_like
+        What is to be an array. Conversion to floats drops imaginary parts and masks.
 
     Returns
     -------
