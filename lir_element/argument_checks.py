@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
 
@@ -73,12 +73,12 @@ def listed(names: Iterable[object], most: int = 8) -> str:
     return first if len(every) <= most else f"{first} and {len(every) - most} more"
 
 
-def unreal(values: ArrayLike) -> str:
+def unreal(values: object) -> str:
     """Return why an array is none of real numbers, all there; empty if it is.
 
     Parameters
     ----------
-    values : array_like
+    values : object
         What is to be an array. Conversion to floats drops imaginary parts and masks.
 
     Returns
@@ -94,7 +94,7 @@ def unreal(values: ArrayLike) -> str:
     if np.ma.isMaskedArray(values) and np.ma.getmaskarray(values).any():
         count = int(np.ma.getmaskarray(values).sum())
         return f"has {count} masked values: fill them in, as values.filled(0.0), or leave them out"
-    if np.iscomplexobj(values):
+    if np.iscomplexobj(cast("ArrayLike", values)):
         return "holds complex numbers: give real ones, as values.real"
     return ""
 
