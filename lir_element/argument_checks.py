@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
 
@@ -79,7 +79,7 @@ def unreal(values: object) -> str:
     Parameters
     ----------
     values : object
-        An array, or what makes one. Conversion to floats drops imaginary parts and masks.
+        What is to be an array. Conversion to floats drops imaginary parts and masks.
 
     Returns
     -------
@@ -94,7 +94,7 @@ def unreal(values: object) -> str:
     if np.ma.isMaskedArray(values) and np.ma.getmaskarray(values).any():
         count = int(np.ma.getmaskarray(values).sum())
         return f"has {count} masked values: fill them in, as values.filled(0.0), or leave them out"
-    if np.iscomplexobj(np.asarray(values)):
+    if np.iscomplexobj(cast("ArrayLike", values)):
         return "holds complex numbers: give real ones, as values.real"
     return ""
 

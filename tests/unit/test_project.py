@@ -705,7 +705,9 @@ def test_check_ends_with_the_documented_codes(folder: Path) -> None:
     assert fine.exit_code == 0, fine.output
     assert "does not apply no restrainer contact at the total displacement" in fine.stdout
     assert "FAILS" not in fine.stdout
-    assert "will find: pairs of motions: 3 >= 7 does not hold" in " ".join(fine.stdout.split())
+    assert "will find: pairs of motions: 3 >= 7, ratio 2.33 does not hold" in " ".join(
+        fine.stdout.split()
+    )
 
 
 def test_what_counts_as_uplift_is_of_the_file(folder: Path) -> None:
