@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
+import re
+
 from lir_element.errors import AnalysisWarning
+
+_NUMBERS = re.compile(r"(?<![\w-])\d[\d.e+-]*")
+
+
+def without_numbers(message: str) -> str:
+    """Return a message without its numbers, names with numbers aside: of one thing it is one."""
+    return _NUMBERS.sub("#", message)
 
 
 class ModelError(ValueError):

@@ -33,7 +33,7 @@ def told() -> Generator[None, None, None]:
     typer.Exit
         With the code of the error.
     """
-    from frames._errors import ModelError, MotionError
+    from frames._errors import ModelError, MotionError, without_numbers
     from frames.design._errors import CheckError, ProjectError
     from frames.risk._errors import CampaignError
     from lir_element.errors import AnalysisError, AnalysisInterrupted
@@ -43,8 +43,8 @@ def told() -> Generator[None, None, None]:
 
         def once(message: Warning | str, *_: object, **__: object) -> None:
             text = in_toml(str(message))
-            if text not in before:
-                before.add(text)
+            if without_numbers(text) not in before:
+                before.add(without_numbers(text))
                 err.print(f"warning: {text}", markup=False, highlight=False, soft_wrap=True)
 
         warnings.showwarning = once

@@ -11,8 +11,7 @@ pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 pytest.importorskip("typer")
 
-from click.testing import Result
-from typer.testing import CliRunner
+from typer.testing import CliRunner, Result
 
 from frames.command.app import app
 from tests.unit.test_project import ASCE

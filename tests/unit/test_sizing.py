@@ -35,6 +35,7 @@ from frames.design.codes.outcome import EquivalentLinear
 from frames.design.devices.capacity import engagement_checks
 from frames.design.plots import design_candidates
 from frames.design.sizing.fitting import rounded_up
+from frames.design.sizing.proposal import Device
 from frames.design.sizing.size_groups import grouped
 from frames.design.sizing.trial import MARGIN, OneMass, Place, tried_on_one_mass
 from lir_element import CoulombFriction, DesignWarning, LIRBearing
@@ -396,7 +397,7 @@ def test_a_device_that_cannot_be_made_leaves_the_others() -> None:
     deep = Spectrum.asce7(s_ms=2.0, s_m1=1.5, s_1=0.75)
     light = replace(SYSTEM, loads=(8e5,) * 6, combinations={})
     found = design(light, deep, bounds=BOUNDS, target=replace(ONE, least_pressure=1e6))
-    free = "DCFP without rim contact"
+    free: Device = "DCFP without rim contact"
     with pytest.raises(CheckError, match=rf"the {free} of 1\d+ mm cannot be made: slider_height"):
         found.bearings(free)
     table = found.table()
@@ -425,7 +426,8 @@ def of_long_period(seed: int) -> GroundMotion:
     k = math.exp(-2.0 * math.pi * 0.02 / 0.5)
     envelope = np.sin(np.linspace(0.0, math.pi, 1001)) ** 2
     both = [envelope * lfilter([1 - k], [1, -k], draw.normal(0.0, 4.0, 1001)) for _ in "xy"]
-    return GroundMotion(*(each - each.mean() for each in both), dt=0.02)
+    x, y = (each - each.mean() for each in both)
+    return GroundMotion(x=x, y=y, dt=0.02)
 
 
 @pytest.mark.meant("few|factor|g of")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, TypeVar
 
@@ -12,7 +11,7 @@ from frames.design.calculation.trace import Trace
 from frames.design.codes.isolation import IsolationSystem
 from frames.design.codes.pendulum import FrictionPendulum
 from frames.frame import Frame
-from lir_element import DesignWarning, LIRBearing
+from lir_element import LIRBearing
 from lir_element.argument_checks import (
     require_choice,
     require_non_negative,
@@ -256,9 +255,7 @@ def with_property_bounds(
     factor = bounds.friction.at(bound)
     inner = bounds.interface_factors.at(bound if interface is None else interface)
     try:
-        with warnings.catch_warnings():  # told of the nominal bearing; checks judge the bounds
-            warnings.simplefilter("ignore", DesignWarning)
-            return _with_factors(what, factor, inner, bound)
+        return _with_factors(what, factor, inner, bound)
     except ValueError as cause:
         msg = (
             f"at the {bound} bound, friction times {factor:g} and interface friction times "

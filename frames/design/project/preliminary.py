@@ -5,14 +5,13 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import re
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from frames._errors import ModelError, ModelWarning, MotionWarning
+from frames._errors import ModelError, ModelWarning, MotionWarning, without_numbers
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import Checks
 from frames.design.codes.analysis import equivalent_linear
@@ -114,18 +113,16 @@ def preliminary(parts: ProjectInputs) -> Preliminary:
         for each in _once(told):
             warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
     kinds = (ModelWarning, MotionWarning)
-    doubts = dict.fromkeys(str(each.message) for each in told if issubclass(each.category, kinds))
-    return replace(known, doubts=tuple(doubts))
+    doubts = tuple(str(each.message) for each in _once(told) if issubclass(each.category, kinds))
+    return replace(known, doubts=doubts)
 
 
 def _once(told: list[warnings.WarningMessage]) -> list[warnings.WarningMessage]:
     # The first of those that differ by numbers alone: one thing under several loads.
-    return list({_NUMBERS.sub("#", str(each.message)): each for each in reversed(told)}.values())[
-        ::-1
-    ]
-
-
-_NUMBERS = re.compile(r"(?<![\w-])\d[\d.e+-]*")
+    first: dict[str, warnings.WarningMessage] = {}
+    for each in told:
+        first.setdefault(without_numbers(str(each.message)), each)
+    return list(first.values())
 
 
 def _made(parts: ProjectInputs) -> Preliminary:

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.sizing.candidate import Candidate
     from frames.design.sizing.proposal import Design
+    from frames.frame import Frame
     from lir_element import LIRBearing
 
 MARGIN = 1.1
@@ -262,7 +263,9 @@ def _runs(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AnalysisWarning)
         warnings.simplefilter("ignore", DesignWarning)  # the stable slip is among the checks
-        models = {str(b): with_property_bounds(frame, b, how.bounds) for b in how.at}
+        models: dict[str, Frame] = {
+            bound: with_property_bounds(frame, bound, how.bounds) for bound in how.at
+        }
         data = time_histories(models, motions, cases=cases, progress=how.progress)
     n = len(motions)
     return {at: data.isel(run=slice(k * n, (k + 1) * n)) for k, (at, _) in enumerate(places)}
