@@ -145,7 +145,7 @@ STATE_FIELDS = (
     Field("interface_travel", "m", "", "path slipped in the interface since the start"),
     Field("largest_slip", "m", "", "largest interface slip since the start"),
     Field("temperature", "degC", "T", "bottom, top, interface; 0 where it is not computed", (3,)),
-    Field("failed", "-", "", "a RunStatus code once the bearing has failed, else 0", (), "i8"),
+    Field("failed", "-", "", "a RunStatus code once the backup carries, below 0 as the bearing fails", (), "i8"),
     Field("failed_at", "s", "", "time of its failure"),
     Field("status", "-", "", "a RunStatus code", (), "i8"),
     Field("iterations", "-", "", "iterations of the last state determination", (), "i8"),

@@ -152,7 +152,7 @@ def _lost(state: GravityState) -> tuple[int, str] | None:
     order = failed[np.argsort(states["failed_at"][failed], kind="stable")]
     told = [
         f"{state.system.bearings[k].name} at {float(states['failed_at'][k]):.4g} s "
-        f"({RunStatus(int(states['failed'][k])).name.lower()})"
+        f"({RunStatus(abs(int(states['failed'][k]))).name.lower()})"
         for k in order
     ]
     text = f"{len(order)} of {len(states)} bearings failed: {listed(told)}"
