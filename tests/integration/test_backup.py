@@ -63,8 +63,9 @@ def test_the_run_goes_on_and_says_so(landed):
     assert first == pytest.approx(alone.attrs["failed_at"], abs=0.003)
     assert (np.diff(failed) >= 0.0).all()
     both = len(alone["time"]) - 1
-    assert "forces are those at base steps of 2 ms: where they count, take dt = 0.0005 s" in (
-        landed.attrs["message"]
+    assert (
+        "forces are those at base steps of 2 ms: where they count, take dt = 0.0005 s"
+        in (landed.attrs["message"])
     )
     np.testing.assert_array_equal(
         landed["bearing_displacement"].to_numpy()[:both],

@@ -275,7 +275,9 @@ def test_a_flange_counts_from_a_broken_rim_on(level: str, force: float) -> None:
     warnings.simplefilter("ignore", AnalysisWarning)
     for scale, end in ((1.0, "ok"), (1.6, "rim_overrun")):
         overrun = 0.01 if end == "rim_overrun" else 0.1
-        plain = bearing(rim_yield_force=force, rim_overrun=overrun * (0.1 if force > WEIGHT else 1.0))
+        plain = bearing(
+            rim_yield_force=force, rim_overrun=overrun * (0.1 if force > WEIGHT else 1.0)
+        )
         short = replace(plain, flange=1e-12)
         runs = [pushed(each, scale, level) for each in (plain, short)]
         assert [run.attrs["status"] for run in runs] == [end, end]

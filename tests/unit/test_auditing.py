@@ -540,7 +540,9 @@ def test_a_rim_met_with_a_slip_is_stopped_by_the_axial_stiffness(level, factor):
     k = int(np.searchsorted(time, at)) - 1
     slip = float(data["interface_slip_size"][k, 0])
     moves = abs(float(data["bearing_velocity"].sel(axis="x")[k, 0]))
-    assert speed == pytest.approx(slip * moves / math.hypot(bearing.effective_radius, slip), rel=0.03)
+    assert speed == pytest.approx(
+        slip * moves / math.hypot(bearing.effective_radius, slip), rel=0.03
+    )
     bound = bearing.force_limit(1.0)
     assert force[time < at - 0.1].max() < 1.08 * bound  # with m v^2 / L at most
     damping = bearing.resolved()["axial_damping"] / (2.0 * math.sqrt(stiffness * mass))

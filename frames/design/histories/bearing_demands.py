@@ -47,6 +47,7 @@ ON_AXIAL_STIFFNESS = (
 _QUANTITIES = {name.replace(" ", "_"): name for name in DOUBTED}
 """What the level 'pendulum' may have wrong, by its name among what runs reached."""
 
+
 def note_of_impacts(data: xr.Dataset, bearings: Mapping[str, LIRBearing]) -> str:
     """Return what checks of forces say where bearings of default stiffness met rims with a slip."""
     if "run" in data.dims and f"{REACHED}closing" not in data.variables:
