@@ -87,4 +87,5 @@ class Reached(NamedTuple):
     total: Array  # (3,) sliding work, what it is lower by, uplifts
     lifted: Array  # (n_bearings, 2) time lifted off [s]; 1 where lifted off at the last step
     loose: Array  # (n_bearings, 2) slip gained by loose sliders, slip at the last step [m]
+    met: Array  # (n_bearings, 5) of the last step: slip x, y, displacement x, y [m], 1 at a rim
     last: Array  # (2,) time of the last step taken up, and their number

@@ -211,6 +211,7 @@ class Worker:
         data = recorder.data(done).assign_attrs(
             structure.template.attrs,
             integrator=options.integrator,
+            dt=float(options.base),
             seconds_loop=seconds,
             step_control="error" if math.isfinite(settings.error_tolerance) else "fixed",
             estimated_error=estimated_error(state, settings),

@@ -54,6 +54,6 @@ def lose_bearing(
                 break
     if found < 0 or not props[found].goes_on or old[found].failed != 0:
         return False
-    give_up(props[found], old[found], code)
+    give_up(old[found], code)
     copy_words(old_words[found], new_words[found])
     return True

@@ -10,7 +10,13 @@ from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
 from frames.kernel_data import ENERGY_TERMS
-from frames.kernels.quantities import balance_gap, show_bearing, size, sliding_power
+from frames.kernels.quantities import (
+    balance_gap,
+    closing_speed,
+    show_bearing,
+    size,
+    sliding_power,
+)
 from frames.peak_data import LOOSE
 from lir_element.kernels.derived import in_plan
 from lir_element.kernels.friction_law import lowered
@@ -58,7 +64,7 @@ def add_totals(p: Props, state: State, reached: Reached, k: int, t: float) -> No
         if p.friction_drop[surface] != 0.0:
             lower, _ = lowered(p, surface, speed)
             reached.total[1] += sliding_power(load, lower, speed)
-    lifted = state.axial_force <= 0.0 and state.failed == 0
+    lifted = state.axial_force <= 0.0 and state.failed <= 0
     if lifted and reached.lifted[k, 1] == 0.0:
         reached.total[2] += 1.0
     if lifted and reached.last[1] > 0.0:
@@ -72,6 +78,20 @@ def add_loose_slip(static: float, load: float, slip: float, reached: Reached, k:
     if load <= LOOSE * static and reached.last[1] > 0.0:
         reached.loose[k, 0] += slip - reached.loose[k, 1]
     reached.loose[k, 1] = slip
+
+
+@inlined
+def met_with_slip(length: float, state: State, reached: Reached, k: int, t: float) -> float:
+    """Return the closing speed at which a bearing met a rim in the last step, 0 if it did not."""
+    old, slip, u, speed = reached.met[k], state.slip_total, state.displacement, 0.0
+    x, y = u[6] - u[0], u[7] - u[1]
+    meets = state.rim_force[0] > 0.0 or state.rim_force[1] > 0.0
+    if meets and old[4] == 0.0 and reached.last[1] > 0.0:
+        time = t - reached.last[0]
+        speed = closing_speed(old[0], old[1], x - old[2], y - old[3], time, length)
+    old[0], old[1], old[2], old[3] = slip[0], slip[1], x, y
+    old[4] = 1.0 if meets else 0.0
+    return speed
 
 
 @kernel
@@ -92,6 +112,7 @@ def peak_bearings(devices: Devices, reached: Reached, states: Records, row: int,
             devices.floor[k],
             reached.shown[0],
         )
+        reached.shown[0].closing = met_with_slip(p.length, state, reached, k, t)
         for column in range(values.shape[0]):
             raise_to(values, times, column, reached.columns[0, column], t)
         add_totals(p, state, reached, k, t)

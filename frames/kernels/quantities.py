@@ -105,6 +105,19 @@ def pressed_eccentricity(
 
 
 @inlined
+def closing_speed(
+    slip_x: float, slip_y: float, way_x: float, way_y: float, time: float, length: float
+) -> float:
+    """Return how fast both sliders close on each other if the slider's tilt is held [m/s].
+
+    The mass turns about the centre of the bottom sphere at ``sqrt(L^2 + s^2)`` (docs/theory.md,
+    section 2): it closes where it moves against the slip. `way` is what it moves in the `time`.
+    """
+    closes = maximum(0.0 - slip_x * way_x - slip_y * way_y, 0.0)
+    return closes / (time * sqrt(length * length + slip_x * slip_x + slip_y * slip_y))
+
+
+@inlined
 def sliding_power(load: float, friction: float, speed: float) -> float:
     """Return what the friction of a surface takes up under a load [N m/s]."""
     return load * friction * speed
@@ -130,7 +143,7 @@ def show_bearing(
     ratio = over_static(load, static)
     now.vertical_tension = opposite(ratio)
     now.vertical_change = vertical_change(ratio)
-    stands = 1.0 * (state.failed == 0)  # a stop that carries nothing is no bearing that lifts off
+    stands = 1.0 * (state.failed <= 0)  # a stop that carries nothing is no bearing that lifts off
     now.lifted = stands * is_lifted(ratio)
     shift_x = by_tilt(p.lever[0], p.lever[1], -u[4], -u[10])
     shift_y = by_tilt(p.lever[0], p.lever[1], u[3], u[9])

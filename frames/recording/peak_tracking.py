@@ -175,6 +175,7 @@ def nothing_reached(bearings: int, shape: Shape | None) -> Reached:
         total=np.zeros(3),
         lifted=np.zeros((bearings, 2)),
         loose=np.zeros((bearings, 2)),
+        met=np.zeros((bearings, 5)),
         last=np.zeros(2),
     )
 

@@ -30,6 +30,7 @@ from frames.recording.size import (
 )
 from frames.recording.strain_tracking import StrainGauge
 from frames.results.peak_response import largest, with_exceeded
+from frames.results.quantities import in_plan
 from frames.statics.fresh_runs import once
 from frames.statics.resultants import Plausibility
 
@@ -199,7 +200,9 @@ class Recorder:
             return data
         count = data.sizes["time"]
         reached, totals = self._gauged(count)
-        found = Findings(reached, totals, {}, float(self.out.time[count - 1]))
+        u = self._states["displacement"][count - 1]
+        left = {"displacement": in_plan(u[:, 6:8] - u[:, :2])}
+        found = Findings(reached, totals, left, float(self.out.time[count - 1]))
         judged = once(self._state, "judged", lambda: with_findings(data.drop_dims("time"), found))
         return with_other_findings(judged, found, data.variables["peak_ground_velocity"].values)
 

@@ -15,11 +15,13 @@ import xarray as xr
 from frames.peak_data import FULL_SLIP, LOOSE
 from frames.results.energy_balance import Remark, equilibrium, time_step
 from frames.results.level_doubts import level_doubts, levels_of_bearings
-from frames.results.peak_response import Extreme, largest, total
+from frames.results.peak_response import Extreme, largest, left, total
 from frames.results.quantities import left_out
 from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
+from lir_element.device.specification import STACK_RANGE, stack_stiffness
 from lir_element.tables import html_table
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -69,6 +71,22 @@ TURNED = 0.05
 """Plastic rotation from which on a hinge is doubtful [rad]: compact members of steel begin to lose
 strength at 4 to 11 yield rotations (ASCE/SEI 41-17, chapter 9), others before."""
 
+IMPACT = 0.2
+"""Rise of the axial force over that at rest, where a rim is met with a slip, that is told."""
+
+COMPLETE = ("ok", "bearing_lost")
+"""Ends of runs that went on to the end of their motion."""
+
+STUCK = 0.5
+"""Largest displacement over the one that friction holds, L Q/W, below which the yield displacement
+counts (docs/limits.md)."""
+
+SLID = 20.0
+"""Largest displacement over the yield displacement from which on a bearing has slid."""
+
+LEFT_OVER = 0.1
+"""Displacement at the end over the one that friction holds, L Q/W, from which it is told."""
+
 _NAMED = 3
 """Bearings that a sentence names."""
 
@@ -83,7 +101,8 @@ class Finding:
     ----------
     feature : str
         Of `Features.names()`; or "full_contact": what the level 'pendulum' takes for granted; or
-        "slip_stability": whether the residual slip holds; or "yielding": whether hinges
+        "slip_stability": whether the residual slip holds; or "impacts": whether rims were met with
+        a slip; or "yield_displacement": whether elastic sliding before slip counts; or "yielding": whether hinges
         turned further than they keep their strength; or "equilibrium", "accelerations" and
         "time_step": whether the numbers of the run belong together.
     left_out : bool
@@ -146,7 +165,8 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     -------
     tuple of Finding
         One for each feature, in the order of `Features.names()`, one on full contact, one on the
-        stable limit of interface slip; of a structure with hinges one on how far they turned; one
+        stable limit of interface slip, where it applies one on rims that were met with a slip and
+        one on the yield displacement; of a structure with hinges one on how far they turned; one
         on the sum of all forces, and where it applies one on nodes accelerated by more than 50 g
         and one on the error of a step that was given.
 
@@ -177,7 +197,14 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     out = left_out(data)
     found = [_JUDGES[name](data, name in out) for name in Features.names()]
     remarks = tuple(_remarked(each) for each in (*equilibrium(data), *time_step(data)))
-    whole = (_full_contact(data), _slip_stability(data), *_yielding(data), *_strained(data))
+    whole = (
+        _full_contact(data),
+        _slip_stability(data),
+        *_met_with_slip(data),
+        *_held_by_friction(data),
+        *_yielding(data),
+        *_strained(data),
+    )
     return Findings((*found, *whole, *remarks))
 
 
@@ -467,6 +494,70 @@ def _slip_stability(data: xr.Dataset) -> Finding:
     at_pendulum = np.array(levels_of_bearings(data)) == "pendulum"
     close = ((shares > HOLDS) | (overlaps > OVERLAPS)) & at_pendulum
     return replace(finding, doubtful=bool(parts), bearings=tuple(str(n) for n in names[close]))
+
+
+def _met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
+    # docs/theory.md (2.9): what the axial stiffness makes of the closing speed; of the first
+    # contact, whose slip is none, and of files from before there is nothing to say.
+    if "axial_stiffness" not in data.variables:
+        return ()
+    closing = largest(data, "closing")
+    static = data.variables["static_axial_force"].to_numpy()
+    stiffness = data.variables["axial_stiffness"].to_numpy()
+    rises = closing.values * np.sqrt(stiffness / (static * STANDARD_GRAVITY))
+    k = int(np.argmax(rises))
+    if not rises[k] > IMPACT:
+        return ()
+    height = data.variables["radius"].to_numpy().sum(axis=1) - data.variables["length"].to_numpy()
+    area = np.pi * data.variables["slider_radius"].to_numpy() ** 2
+    assumed = bool(np.isclose(stiffness[k], stack_stiffness(area[k], height[k]), rtol=1e-6))
+    low, high = STACK_RANGE
+    text = (
+        f"{data['bearing'].to_numpy()[k]} met a rim with a slip at {closing.at[k]:.2f} s: the axial "
+        f"stiffness stops {1e3 * closing.values[k]:.3g} mm/s along the slider, by which the axial "
+        f"force rises by up to {_share(float(rises[k]))} of that at rest, and the bearing's force "
+        "with it"
+    )
+    if assumed:
+        text += (
+            f"; axial_stiffness = {stiffness[k]:.3g} N/m is the default, an estimate: run with "
+            f"{low:g} and {high:g} times that, or give the maker's"
+        )
+    finding = _finding("impacts", False, True, float(rises[k]), text)
+    return (replace(finding, doubtful=assumed),)
+
+
+def _held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
+    # Up to L Q/W friction holds a bearing wherever it stops: what is reached there goes by all
+    # that the motion did before (docs/limits.md).
+    if "yield_displacement" not in data.variables:
+        return ()
+    rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
+    held = (rubbed[0].to_numpy() * rubbed[1].to_numpy()).sum(axis=1)
+    yields = data.variables["yield_displacement"].to_numpy().max(axis=-1)
+    moved = largest(data, "displacement").values
+    slid = (held > 0.0) & (moved > SLID * yields)
+    shares = np.where(slid, moved / np.maximum(held, 1e-12), np.inf)
+    ended = "exceeded" not in data.attrs and data.attrs.get("status", "ok") in COMPLETE
+    rest = np.where(slid, left(data, "displacement"), 0.0) * ended
+    least, most = int(np.argmin(shares)), int(np.argmax(rest / np.maximum(held, 1e-12)))
+    names, parts = data.variables["bearing"].to_numpy(), []
+    if shares[least] < STUCK:
+        parts.append(
+            f"{names[least]} moved {_share(float(shares[least]))} of what its friction holds "
+            f"(L Q/W = {1e3 * held[least]:.3g} mm): a yield_displacement of "
+            f"{1e3 * yields[least]:.2g} mm moves such a peak by some 10 %, far smaller ones by more"
+        )
+    if LEFT_OVER * held[most] < rest[most] <= held[most]:  # beyond it it still swings
+        parts.append(
+            f"{names[most]} is left {1e3 * rest[most]:.3g} mm aside, friction holds up to "
+            f"{1e3 * held[most]:.3g} mm: the residual displacement of one run means little, take "
+            "the median of many"
+        )
+    if not parts:
+        return ()
+    finding = _finding("yield_displacement", False, True, float(shares[least]), "; ".join(parts))
+    return (finding,)
 
 
 def _yielding(data: xr.Dataset) -> tuple[Finding, ...]:

@@ -13,6 +13,7 @@ import numpy as np
 from frames._jit import on_arrays
 from frames.kernels.quantities import (
     balance_gap,
+    closing_speed,
     either,
     interface_share,
     is_lifted,
@@ -113,6 +114,25 @@ def rims_met(data: xr.Dataset) -> FloatArray:
     return formed(presses, _rim_force(data))
 
 
+def closing(data: xr.Dataset) -> FloatArray:
+    """Return the speed at which the axial contact closes where a rim is met (time, bearing) [m/s].
+
+    0 but at the first step of each contact with a rim, and at those without a slip.
+    """
+    found = np.zeros((data.sizes["time"], data.sizes["bearing"]))
+    met, time = rims_met(data), data["time"].to_numpy()
+    slip = of_bearings(data, "interface_slip", "axis")[:-1]
+    way = np.diff(of_bearings(data, "bearing_displacement", "axis"), axis=0)
+    speeds = formed(
+        closing_speed,
+        *(slip[..., 0], slip[..., 1], way[..., 0], way[..., 1]),
+        np.diff(time)[:, None],
+        known(data, "length"),
+    )
+    found[1:] = speeds * (met[1:] > met[:-1])
+    return found
+
+
 def of_bearings(data: xr.Dataset, name: str, *last: str) -> FloatArray:
     """Return the history of a variable of bearings (time, bearing, ...)."""
     return _values(data, name, "time", "bearing", *last)
@@ -211,6 +231,13 @@ QUANTITIES: dict[str, Quantity] = {
     ),
     "rim_force": Quantity(_B, "N", "force of a rim", _rim_force, by_step=True, row="rim force"),
     "rims_met": Quantity(_B, "1", "1: a rim was met, first then", rims_met, by_step=True),
+    "closing": Quantity(
+        _B,
+        "m/s",
+        "speed along the slider's axis at which a rim was met with a slip",
+        closing,
+        by_step=True,
+    ),
     "force": Quantity(
         _B,
         "N",

@@ -11,6 +11,7 @@ from frames.results.peak_response import largest
 from lir_element.argument_checks import listed
 from lir_element.element import about_to_snap, limit_detail, opening_of
 from lir_element.errors import RunStatus
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -30,6 +31,10 @@ LEAST_INPUT = 1e-6
 
 TUMBLED = 0.3
 """Tilt of a slider beyond the one at its rim from which on it no longer lies but tumbles [rad]."""
+
+
+RESOLVED = 0.3
+"""Base step times the frequency of a mass on a stop, up to which its forces are within 2 % [rad]."""
 
 
 class Outcome(NamedTuple):
@@ -133,7 +138,7 @@ def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str])
     where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
         status, detail = evaluated(data)
-        lost = _lost(state)
+        lost = _lost(state, float(data.attrs["dt"]))
         if lost:
             k, told = lost
             status = RunStatus.BEARING_LOST
@@ -143,7 +148,7 @@ def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str])
     return Outcome(status, float(state.run.clock["time"][0]), where, detail)
 
 
-def _lost(state: GravityState) -> tuple[int, str] | None:
+def _lost(state: GravityState, dt: float) -> tuple[int, str] | None:
     # The first bearing that failed in a run that went on, and what failed in words.
     states = state.run.old
     failed = np.flatnonzero(states["failed"])
@@ -152,10 +157,19 @@ def _lost(state: GravityState) -> tuple[int, str] | None:
     order = failed[np.argsort(states["failed_at"][failed], kind="stable")]
     told = [
         f"{state.system.bearings[k].name} at {float(states['failed_at'][k]):.4g} s "
-        f"({RunStatus(int(states['failed'][k])).name.lower()})"
+        f"({RunStatus(abs(int(states['failed'][k]))).name.lower()})"
         for k in order
     ]
     text = f"{len(order)} of {len(states)} bearings failed: {listed(told)}"
+    props, masses = state.model.props[failed], state.axial_forces[failed] / STANDARD_GRAVITY
+    rings = np.sqrt(props["backup_stiffness"] / masses) * np.isfinite(props["backup_drop"])
+    quickest = float(rings.max())
+    if dt * quickest > RESOLVED:
+        text += (
+            f"; a landing on a stop lasts some {1e3 * np.pi / quickest:.2g} ms, and forces are those "
+            f"at base steps of {1e3 * dt:.3g} ms: where they count, take "
+            f"dt = {RESOLVED / quickest:.1g} s"
+        )
     return int(order[0]), text
 
 

@@ -13,6 +13,9 @@ from lir_element.device.heating import FrictionHeating, PressureDependence
 from lir_element.units import STANDARD_GRAVITY
 
 _STACK_MODULUS = 20e9  # Pa, slider with its liners: a tenth of steel's
+STACK_RANGE = 0.3, 3.0
+"""Of the default axial stiffness, in which sliders with liners lie (docs/choices.md)."""
+
 _DESIGN_PRESSURE = 30e6  # Pa, on the slider's area
 _AXIAL_DAMPING_RATIO = 0.05
 _RIM_DAMPING_RATIO = 0.10
@@ -126,7 +129,7 @@ class Specification:
         area = math.pi * self.slider_radius**2
         load = self.design_load or _DESIGN_PRESSURE * area
         mass = load / STANDARD_GRAVITY
-        axial = self.axial_stiffness or _STACK_MODULUS * area / self.slider_height
+        axial = self.axial_stiffness or stack_stiffness(area, self.slider_height)
         rim = self.rim_stiffness or 0.1 * axial
         return {
             "design_load": load,
@@ -139,6 +142,11 @@ class Specification:
             "rim_overrun": self.rim_overrun or 0.1 * self.slider_radius,
             "slip_capacity": self.slip_capacity or self.slider_radius,
         }
+
+
+def stack_stiffness(area: float, height: float) -> float:
+    """Return the default axial stiffness of a slider with its liners [N/m]: an estimate."""
+    return _STACK_MODULUS * area / height
 
 
 def _or(value: float | None, default: float) -> float:

@@ -40,12 +40,21 @@ def carry_nothing(at: State) -> None:
 
 
 @kernel
-def give_up(p: Props, at: State, code: int) -> None:
-    """Make a committed state that of a bearing which has failed by `code`."""
-    at.failed, at.failed_at = code, at.time
+def give_up(at: State, code: int) -> None:
+    """Make a committed state the last one of a bearing that fails by `code`.
+
+    It keeps the forces that it was in equilibrium with: what follows is its backup's.
+    """
+    at.failed, at.failed_at = -code, at.time
     at.status = _OK
-    carry_nothing(at)
-    at.closure = max(at.displacement[2] - at.displacement[8] - p.backup_drop, 0.0)
+
+
+@kernel
+def stop_before(p: Props, old: State) -> tuple[float, float]:
+    """Return the axial force and the closure of the stop before the step."""
+    if old.failed > 0:
+        return old.axial_force, old.closure
+    return 0.0, max(old.displacement[2] - old.displacement[8] - p.backup_drop, 0.0)
 
 
 @kernel
@@ -60,21 +69,21 @@ def backup_trial(
         return _NOT_FINITE
     w.dt = max(time - old.time, 0.0)
     gap = u[2] - u[8] - p.backup_drop
-    push, slope, closure = kelvin_voigt(
-        gap, old.closure, p.backup_stiffness, p.backup_damping, w.dt
-    )
+    load, closed = stop_before(p, old)
+    push, slope, closure = kelvin_voigt(gap, closed, p.backup_stiffness, p.backup_damping, w.dt)
     kept, kept_n = 1.0, 0.0
     if w.dt > 0.0:
-        kept, kept_n = kept_share(old.axial_force, push, p.axial_floor)
+        kept, kept_n = kept_share(load, push, p.axial_floor)
     before = old.displacement
-    z = old.hysteresis[0]
+    rubs = 1.0 * (old.failed > 0)  # the bearing's own friction is gone
+    y_1, y_2 = rubs * old.hysteresis[0, 0], rubs * old.hysteresis[0, 1]
     d_x, d_y = u[6] - u[0] - (before[6] - before[0]), u[7] - u[1] - (before[7] - before[1])
     z_1, z_2, h_11, h_12, h_21, h_22, slid, _, _, n_1, n_2 = friction_map(
-        0, p.exponent, z[0], z[1], d_x, d_y, p.yield_displacement[0], kept, kept_n, 0.0, 0.0, 0.0
+        0, p.exponent, y_1, y_2, d_x, d_y, p.yield_displacement[0], kept, kept_n, 0.0, 0.0, 0.0
     )
     carry_nothing(new)
     keep_works(old, new)
-    new.failed, new.failed_at, new.status = old.failed, old.failed_at, _OK
+    new.failed, new.failed_at, new.status = abs(old.failed), old.failed_at, _OK
     new.time, new.step, new.twist, new.iterations = time, w.dt, u[11] - u[5], 0
     new.axial_force, new.closure, new.slid[0] = push, closure, slid
     new.hysteresis[0, 0], new.hysteresis[0, 1] = z_1, z_2
@@ -145,8 +154,11 @@ def backup_accumulate(p: Props, old: State, new: State) -> None:
     for a in range(2):
         way = new.displacement[6 + a] - new.displacement[a]
         way -= old.displacement[6 + a] - old.displacement[a]
-        rubbed += 0.5 * (old.friction_force[0, a] + new.friction_force[0, a]) * way
-    gain = backup_store(p, new) - backup_store(p, old)
+        before = old.friction_force[0, a] if old.failed > 0 else 0.0
+        rubbed += 0.5 * (before + new.friction_force[0, a]) * way
+    gain = backup_store(p, new)
+    if old.failed > 0:
+        gain -= backup_store(p, old)
     new.work_elastic = old.work_elastic + gain
     new.work_friction[0] = old.work_friction[0] + taken(old, new, 0, rubbed - gain)
     new.travel[0] = old.travel[0] + new.slid[0]
@@ -154,7 +166,8 @@ def backup_accumulate(p: Props, old: State, new: State) -> None:
 
 
 @kernel
-def backup_defect(old: State, new: State) -> float:
+def backup_defect(p: Props, old: State, new: State) -> float:
     """Return the energy that the stop makes or loses in the step by its size alone."""
+    load, closed = stop_before(p, old)
     rise = new.displacement[8] - new.displacement[2] - old.displacement[8] + old.displacement[2]
-    return open_work(old.axial_force, new.axial_force, -rise, new.closure - old.closure)
+    return open_work(load, new.axial_force, -rise, new.closure - closed)

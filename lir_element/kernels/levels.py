@@ -137,7 +137,7 @@ def bearing_commit(
 def leave_failed(props: Records, old: Records, old_words: Words, new_words: Words, k: int) -> None:
     """Leave a bearing that was committed beyond a limit to its backup, if it has one."""
     if old[k].status != _OK and props[k].goes_on:
-        give_up(props[k], old[k], old[k].status)
+        give_up(old[k], old[k].status)
         copy_words(old_words[k], new_words[k])
 
 
@@ -147,7 +147,7 @@ def bearing_defect(
 ) -> float:
     """Return the energy that bearing `k`'s contacts make or lose in the step by its size."""
     if new[k].failed != 0:
-        return backup_defect(old[k], new[k])
+        return backup_defect(props[k], old[k], new[k])
     if contacts is not None:
         at = contacts.row[k]
         if at >= 0:

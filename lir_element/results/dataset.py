@@ -42,6 +42,8 @@ DEVICE = (
     "slider_radius",
     "interface_friction",
     "slip_capacity",
+    "axial_stiffness",
+    "yield_displacement",
     "lever",
     "rim_displacement",
     "friction_max",

@@ -31,7 +31,7 @@ def optional_variables(step: str, states: Records, props: Records) -> dict[str, 
         Variables by name. Of bearings that are not heated temperatures are NaN; dimension 'contact'
         is bottom, top, interface. Deformations of rims [m]: 'rim_closure' with its plastic part
         where a rim presses, 'rim_plastic' the largest plastic deformation so far, infinite once the
-        rim is broken. 'bearing_failed' where bearings have backups, 1 from their failure on.
+        rim is broken. 'bearing_failed' where bearings have backups, 1 from the step after their failure on.
     """
     found: dict[str, xr.Variable] = {}
     if props["heats"].any():
@@ -61,7 +61,7 @@ def optional_variables(step: str, states: Records, props: Records) -> dict[str, 
     if props["goes_on"].any():
         found["bearing_failed"] = labelled(
             (step, "bearing"),
-            (states["failed"] != 0).astype(np.float64),
+            (states["failed"] > 0).astype(np.float64),
             "1",
             "1 once the bearing has failed: forces are those of its backup, if it has a stop",
         )

@@ -63,6 +63,10 @@ def test_the_run_goes_on_and_says_so(landed):
     assert first == pytest.approx(alone.attrs["failed_at"], abs=0.003)
     assert (np.diff(failed) >= 0.0).all()
     both = len(alone["time"]) - 1
+    assert (
+        "forces are those at base steps of 2 ms: where they count, take dt = 0.0005 s"
+        in (landed.attrs["message"])
+    )
     np.testing.assert_array_equal(
         landed["bearing_displacement"].to_numpy()[:both],
         alone["bearing_displacement"].to_numpy()[:both],
@@ -148,6 +152,9 @@ def test_the_tangent_is_the_derivative():
         time += 0.01
         element.set_trial(u, np.zeros(12), time)
         element.commit()
+    own = element.resisting_force()  # of its last state, which it was in equilibrium with
+    assert element.response("axial_force") > 0.9 * -own[8] > 0.0
+    assert element.response("failed") == -int(RunStatus.SLIP_EXCEEDED)
     u[8], u[7], u[3:6], u[9:] = -DROP - 3e-4, -0.002, (0.01, 0.02, 0.005), (0.01, -0.01, 0.003)
     element.set_trial(u, np.zeros(12), time + 0.01)
     element.commit()
@@ -263,3 +270,7 @@ def test_random_bearings_that_fail(seed):
         RunStatus.UPLIFT_EXCEEDED,
     }, data.attrs["message"]
     assert data.attrs.get("energy_error", 0.0) < 1e-3
+    lost = data["bearing_failed"].to_numpy() > 0.0  # from when on nothing but its stop carries
+    force = np.hypot(*np.moveaxis(data["bearing_force"].to_numpy(), -1, 0)[:2])
+    held = backup.friction * data["axial_force"].to_numpy()
+    assert (force <= held * (1.0 + 1e-9) + 1e-9 * load)[lost].all()

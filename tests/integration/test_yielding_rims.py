@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -265,6 +266,23 @@ def test_a_broken_rim_ends_the_run_or_lets_the_slider_on_the_flange(level: str) 
     short = pushed(bearing(**weak, flange=0.03), 1.6, level)
     assert short.attrs["status"] == "rim_overrun"
     assert "beyond a broken rim, flange 0.03 m" in short.attrs["message"]
+
+
+@pytest.mark.parametrize("level", ["pendulum", "contact"])
+@pytest.mark.parametrize("force", [0.4 * WEIGHT, math.inf])
+def test_a_flange_counts_from_a_broken_rim_on(level: str, force: float) -> None:
+    """One shorter than `rim_overrun` changes nothing: neither a rim that holds nor one that breaks."""
+    warnings.simplefilter("ignore", AnalysisWarning)
+    for scale, end in ((1.0, "ok"), (1.6, "rim_overrun")):
+        overrun = 0.01 if end == "rim_overrun" else 0.1
+        plain = bearing(
+            rim_yield_force=force, rim_overrun=overrun * (0.1 if force > WEIGHT else 1.0)
+        )
+        short = replace(plain, flange=1e-12)
+        runs = [pushed(each, scale, level) for each in (plain, short)]
+        assert [run.attrs["status"] for run in runs] == [end, end]
+        assert_array_equal(*(run["bearing_displacement"].to_numpy() for run in runs))
+        assert float(runs[1]["rim_closure"].max()) > 1e-4
 
 
 # ------------------------------------------------------------------------------------ what is told

@@ -20,10 +20,12 @@ from frames import (
     time_history,
 )
 from frames.demo import bearing_for
+from frames.design import DesignLimits, impact_checks
+from frames.design.histories.bearing_demands import ON_AXIAL_STIFFNESS
 from frames.results.assumption_checks import doubts_of, is_missing, needed_level
 from frames.results.level_doubts import level_doubts, travels
 from frames.results.measures import centre_shift
-from frames.results.peak_response import total
+from frames.results.peak_response import largest, total
 from frames.solve import level_escalation
 from lir_element import (
     CoulombFriction,
@@ -501,3 +503,80 @@ def test_a_slip_near_the_end_of_the_overlap_is_marked():
         assert (words in finding.sentence) is marked
     old = run(device(capacity=0.08, slip_capacity=1.05e-3 * slip)).drop_vars("slip_capacity")
     assert not found(old)["slip_stability"].doubtful  # a file of a version that did not keep it
+
+
+LATE = VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0)
+SLIPS = LIRBearing(
+    radius=1.185,
+    slider_height=0.12,
+    slider_radius=0.15,
+    capacity=0.25,
+    friction=LATE,
+    interface_friction=0.2,
+)
+
+
+def near_fault(until: float) -> GroundMotion:
+    """Return a velocity pulse of 1 m/s and 1.8 s (Mavroeidis and Papageorgiou 2003), 1.5 cycles."""
+    t, period, cycles = np.arange(0.0, until, DT), 0.6 * SLIPS.period, 1.5
+    turns = 2.0 * np.pi * (t / period - 0.5 * cycles)
+    speed = 0.5 * (1.0 + np.cos(turns / cycles)) * np.cos(turns)
+    return GroundMotion(x=np.gradient(np.where(t < cycles * period, speed, 0.0), DT), dt=DT)
+
+
+@pytest.mark.parametrize(
+    ("level", "factor"), [("pendulum", 0.1), ("pendulum", 1.0), ("contact", 1.0), ("rigid_body", 1)]
+)
+def test_a_rim_met_with_a_slip_is_stopped_by_the_axial_stiffness(level, factor):
+    """The first contact keeps its bound; the next rises by v_n sqrt(k m), which is told."""
+    mass, stiffness = 204e3, factor * SLIPS.resolved()["axial_stiffness"]
+    bearing = replace(SLIPS, axial_stiffness=stiffness) if factor != 1.0 else SLIPS
+    data = time_history(lumped_mass(bearing, mass), near_fault(2.4), level=level)
+    time, weight = data["time"].to_numpy(), float(data["weight"])
+    force = np.abs(data["base_shear"].sel(axis="x").to_numpy()) / weight
+    load = data["axial_force"].to_numpy()[:, 0] / weight
+    closing = largest(data, "closing")
+    at, speed = float(closing.at[0]), float(closing.values[0])
+    k = int(np.searchsorted(time, at)) - 1
+    slip = float(data["interface_slip_size"][k, 0])
+    moves = abs(float(data["bearing_velocity"].sel(axis="x")[k, 0]))
+    assert speed == pytest.approx(
+        slip * moves / math.hypot(bearing.effective_radius, slip), rel=0.03
+    )
+    bound = bearing.force_limit(1.0)
+    assert force[time < at - 0.1].max() < 1.08 * bound  # with m v^2 / L at most
+    damping = bearing.resolved()["axial_damping"] / (2.0 * math.sqrt(stiffness * mass))
+    rise = speed * math.sqrt(stiffness * mass) / weight
+    expected = 1.0 + rise * math.exp(-0.5 * math.pi * damping)
+    assert 0.9 * expected < load[time > at - 0.1].max() < expected  # rims that give way take a part
+    assert 0.9 * bound * load.max() < force.max() < bound * load.max()
+    told = found(data)["impacts"]
+    assert told.number == pytest.approx(rise, rel=1e-9)
+    assert told.doubtful == ("is the default" in told.sentence) == (factor == 1.0)
+
+
+def test_no_word_of_impacts_without_a_second_contact():
+    data = time_history(lumped_mass(SLIPS, 204e3), near_fault(2.0))
+    assert found(data)["interface"].mattered
+    assert "impacts" not in found(data)
+
+
+def test_the_yield_displacement_counts_where_friction_holds_nearly_all():
+    """Displacements below half of L Q/W go by it; so does what is left at the end; else no word."""
+    for scale, words in ((0.3, "moved"), (1.0, "is left")):
+        motion = near_fault(6.0)
+        data = time_history(lumped_mass(SLIPS, 204e3), GroundMotion(x=scale * motion.x, dt=DT))
+        assert words in found(data)["yield_displacement"].sentence
+    assert "yield_displacement" not in found(run(device(friction=CoulombFriction(0.01))))
+
+
+def test_checks_of_forces_say_that_they_rest_on_a_default():
+    """Of axial and lateral force, where a rim was met with a slip; not of a stiffness that is given."""
+    limits = DesignLimits(axial_force=1e9, lateral_force=1e9, interface_pressure=1e9)
+    given = replace(SLIPS, axial_stiffness=SLIPS.resolved()["axial_stiffness"])
+    for bearing, until, says in ((SLIPS, 2.4, True), (SLIPS, 2.0, False), (given, 2.4, False)):
+        frame = lumped_mass(bearing, 204e3)
+        checks = impact_checks(time_history(frame, near_fault(until)), frame, limits=limits)
+        noted = {check.title for check in checks if ON_AXIAL_STIFFNESS in check.note}
+        titles = {"maximum axial force", "lateral force of a bearing"}
+        assert noted == ({*titles, "pressure on the sliders' overlap"} if says else set())

@@ -66,7 +66,7 @@ def theory(found: Found) -> str:
     scatter = float(np.std(np.log(medians) - slope * np.log(work) - level))
     return (
         "In one way from rest a bearing takes the work `D^2 / 2L + mu_e D` until it meets its rims, over "
-        "the weight W; from there the interface passes on `(D / L + mu_h) W` and no more "
+        "the weight W; from there the interface passes on `(D / L + mu_h) W` at the first contact "
         "([theory](../theory_bearing.md)), over its slip. A diaphragm moves all bearings alike, so "
         "that **the smallest slider of the building ends the slip**, `s = a_min`: the work of the slip is "
         "`(D / L + mu_h) a_min`. A DCFP has the strength of its rims times their deformation instead, "

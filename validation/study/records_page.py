@@ -195,8 +195,8 @@ def _physics(found: Found) -> str:
     overrun = found["statuses"][RIMS].get("rim_overrun", 0)
     runs = sum(found["statuses"][RIMS].values())
     return (
-        "The interface slips instead of pushing on the rims, so that the force is bounded by its "
-        f"friction: at {found['scales'][at]:g} m/s2 medians of floor acceleration and base shear "
+        "The interface slips instead of pushing on the rims, so that its friction limits "
+        f"the force: at {found['scales'][at]:g} m/s2 medians of floor acceleration and base shear "
         f"are {told}. The price "
         "is travel: the sliders carry each other only until the slip uses up "
         f"their overlap ({slip:.0f} mm and more). The friction is the same at every intensity, "

@@ -19,7 +19,10 @@ from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.level_margins import doubted, level_errors
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.peak_data import LOADED, PRESSED
+from frames.results.assumption_checks import IMPACT
 from frames.results.level_doubts import DOUBTED
+from frames.results.recorded import REACHED
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -35,8 +38,29 @@ _ALONE = (
     "the sliders turn until both press (resultant_offsets says when)"
 )
 
+ON_AXIAL_STIFFNESS = (
+    "rims met with a slip: it goes with the root of axial_stiffness, here the default, an estimate "
+    "from 0.3 to 3 times"
+)
+"""Note of checks of forces that rest on a default (docs/theory.md, 2.9)."""
+
 _QUANTITIES = {name.replace(" ", "_"): name for name in DOUBTED}
 """What the level 'pendulum' may have wrong, by its name among what runs reached."""
+
+
+def note_of_impacts(data: xr.Dataset, bearings: Mapping[str, LIRBearing]) -> str:
+    """Return what checks of forces say where bearings of default stiffness met rims with a slip."""
+    if "run" in data.dims and f"{REACHED}closing" not in data.variables:
+        return ""  # of an earlier version
+    closing = np.nan_to_num(peaks_of_runs(data, "closing")).max(axis=0)
+    devices = [bearings[name] for name in names_of(data, "displacement")]
+    for speed, device in zip(closing.tolist(), devices, strict=True):
+        own = device.resolved()
+        rise = speed * math.sqrt(own["axial_stiffness"] / own["design_load"] / STANDARD_GRAVITY)
+        if rise > IMPACT and device.axial_stiffness is None:
+            return ON_AXIAL_STIFFNESS
+    return ""
+
 
 Fill = Callable[[int], Calculation]
 """Returns the calculation of the bearing of a place."""
@@ -195,10 +219,12 @@ class BearingDemands:
             title, "eccentricity_loaded", "epsilon", "eccentricity", "-", note=self._of_resultants
         )
         title = "lateral force of a bearing"
-        found += self._against(title, "force", "H", "lateral_force", "N")
+        impacts = note_of_impacts(self.data, self.bearings)
+        found += self._against(title, "force", "H", "lateral_force", "N", note=impacts)
         name = "displacement_left"
         found += self._against("residual displacement", name, "D_left", name, "m", "mm")
-        found += self._against("maximum axial force", "axial_force", "N", "axial_force", "N")
+        title = "maximum axial force"
+        found += self._against(title, "axial_force", "N", "axial_force", "N", note=impacts)
         title = "pressure on the sliders' overlap"
         found += self._pressure(title, limits.interface_pressure, self._on_overlap)
         title = "pressure on the liner around its resultant"
@@ -246,7 +272,9 @@ class BearingDemands:
             of(t)
             return Calculation(t, "p", "p_lim")
 
-        note = "largest load and largest slip taken together"
+        impacts = note_of_impacts(self.data, self.bearings)
+        taken = "largest load and largest slip taken together"
+        note = f"{taken}; {impacts}" if impacts else taken
         return self._worst("no code: liner's maker", title, fill, self._lir, note=note)
 
     @staticmethod

@@ -19,7 +19,11 @@ from frames.design.codes.registry import HISTORY_RULES, standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.limits import PROJECT_LIMIT
-from frames.design.histories.bearing_demands import BearingDemands, devices_of
+from frames.design.histories.bearing_demands import (
+    BearingDemands,
+    devices_of,
+    note_of_impacts,
+)
 from frames.design.histories.eccentricity import named_by_way, raised_suite, with_moved
 from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.least_shears import LEAST, raise_of, shear_checks
@@ -275,7 +279,10 @@ class BoundChecks:
             return t
 
         symbol = "V_d" if least > 0.0 else "V"
-        return self._worst("", "base shear", "base_shear", symbol, "N", limit, fill=fill)
+        impacts = note_of_impacts(self.data, self._bearings.bearings)
+        return self._worst(
+            "", "base shear", "base_shear", symbol, "N", limit, fill=fill, of=impacts
+        )
 
     @cached_property
     def _least_shears(self) -> list[Check]:

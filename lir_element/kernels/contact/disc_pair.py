@@ -131,10 +131,11 @@ def keep_place(w: Scratch, new: Touch) -> None:
 def torsion_radius(old: Touch, a: float) -> float:
     """Return the radius of the even disc about the centre of pressure that resists spin alike.
 
-    An eccentric pressure leaves ``a (1 - (e / a)^2)`` of it.
+    An eccentric pressure leaves ``a sqrt((a^2 - e^2) / (a^2 + e^2))`` of it.
     """
     square = (old.centre[0] ** 2 + old.centre[1] ** 2) / (a * a)
-    return a * max(1.0 - square, _LEAST_RADIUS)  # (7.13)
+    share = math.sqrt(max(1.0 - square, 0.0) / (1.0 + square))
+    return a * max(share, _LEAST_RADIUS)  # (7.13)
 
 
 @kernel

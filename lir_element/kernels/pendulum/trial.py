@@ -182,8 +182,9 @@ def limit_status(p: Props, new: State) -> int:
     if p.length - new.string > p.uplift_capacity:
         return _UPLIFT_EXCEEDED
     for k in range(2):
-        if p.flange > 0.0:
-            if new.eccentricity[k] > p.rim_displacement[k] + p.flange:
+        if p.flange > 0.0:  # it counts once the rim is broken, whose plastic deformation has no end
+            way = new.eccentricity[k] - p.rim_displacement[k]
+            if new.rim_plastic[k] == math.inf and way > p.flange:
                 return _RIM_OVERRUN
         elif new.rim_closure[k] + new.rim_bent[k] > p.rim_overrun:
             return _RIM_OVERRUN
