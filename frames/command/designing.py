@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from frames.command.console import say, told
+from frames.command.console import project_in, say, told
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -69,14 +69,14 @@ def propose(
     All candidates, with why each fell out, are in candidates.csv and candidates.png. With --verify
     the best are put to the time histories and checks of the project: verified.csv.
     """
-    from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.reading import read_project
     from frames.design.project.verification import section_of
+    from frames.results.storage import make_folder
 
     with told():
         least = _objective(objective)
         _require_one_size(verify, sizes)
-        parts = ProjectInputs(read_project(file), file.resolve().parent)
+        parts = project_in(file)
+        make_folder(results)
         target = parts.target()
         found = _found(parts, target, sizes, least, results)
         say(f"{found}\n")
@@ -123,13 +123,14 @@ def _verify(
     from frames.design.project.level_runs import said_of_runs
     from frames.design.project.verification import verification_table, verified
     from frames.design.report.tables import in_mm_and_kn, rows_of
+    from frames.results.storage import csv_of, write_whole
     from lir_element.tables import text_table
 
     say(f"\nTime histories of the best {len(candidates)}: {said_of_runs(parts, parts.motions())}")
     done: list[Verified] = []
     for one in verified(parts, candidates, progress=True):
         done.append(one)
-        verification_table(done).to_csv(folder / "verified.csv", index=False)
+        write_whole(folder / "verified.csv", csv_of(verification_table(done), index=False))
         say(f"\n{_said(one)}")
     table = verification_table(done).drop(columns="fails")
     table.index = pd.Index(range(1, len(table) + 1))
@@ -210,10 +211,12 @@ def _written(
 ) -> None:
     from frames.design.plots import design_candidates  # with matplotlib
     from frames.design.sizing.selection import table_of
+    from frames.plots.plot_style import png_of
+    from frames.results.storage import csv_of, write_whole
 
-    folder.mkdir(parents=True, exist_ok=True)
     chosen = None if found is None else found.chosen
-    table_of(candidates, chosen).to_csv(folder / "candidates.csv", index=False)
+    table = table_of(candidates, chosen)
+    write_whole(folder / "candidates.csv", csv_of(table, index=False))
     figure = design_candidates(candidates if found is None else found, target=target)
-    figure.savefig(folder / "candidates.png", dpi=150)
+    write_whole(folder / "candidates.png", png_of(figure, 150))
     say(f"all candidates: {folder / 'candidates.csv'}, {folder / 'candidates.png'}")

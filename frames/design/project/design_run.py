@@ -96,8 +96,8 @@ class ProjectRun:
         What the structure is, in words.
     unchecked : tuple of str
         What is not checked, for the file has no number for it.
-    tables : tuple of Path
-        Tables that the file names, which are kept with the results.
+    tables : mapping of str to bytes
+        Tables that the file names, which are kept with the results, as they were read.
     """
 
     frame: Frame
@@ -121,7 +121,7 @@ class ProjectRun:
     doubts: tuple[str, ...] = ()
     structure: tuple[tuple[str, str], ...] = ()
     unchecked: tuple[str, ...] = ()
-    tables: tuple[Path, ...] = ()
+    tables: Mapping[str, bytes] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -177,6 +177,7 @@ def run_project(
         After Ctrl-C, with the runs that were complete.
     """
     known = preliminary(parts)
+    parts.sources.require_unchanged()
     runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
     try:
         moved = moved_at_levels(parts, known.moved, known.motions, runs, progress, resume)
@@ -255,10 +256,14 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         rules=rules,
         about=parts.file.project,
         types=known.types,
-        doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
+        doubts=(
+            *known.doubts,
+            *sensitivity_warnings(histories.governing),
+            *parts.sources.warn_of_changes(),
+        ),
         structure=tuple(structure_rows(parts.file, frame)),
         unchecked=unchecked(parts.file),
-        tables=parts.tables(),
+        tables=parts.sources.tables,
     )
 
 
