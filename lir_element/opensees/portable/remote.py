@@ -247,7 +247,7 @@ class Server:
     def __init__(self) -> None:
         ours, theirs = Pipe()
         module = "lir_element.opensees.portable.server"
-        command = [sys.executable, "-m", module, str(theirs.fileno()), str(os.getpid())]
+        command = [sys.executable, "-P", "-m", module, str(theirs.fileno()), str(os.getpid())]
         options: dict[str, Any] = {"pass_fds": [theirs.fileno()]}
         if sys.platform == "win32":
             os.set_handle_inheritable(theirs.fileno(), True)
