@@ -19,6 +19,7 @@ import numpy as np
 
 from frames.library.moment_frames import moment_frame
 from frames.motion.ground_motion import GroundMotion
+from frames.results.storage import make_folder, write_whole
 from frames.results.summary import status_of, table_of, write_results
 from frames.solve.time_history import time_history
 from frames.statics.gravity import gravity
@@ -195,7 +196,7 @@ def run(output: Path, scale: float, *, quick: bool = False) -> dict[str, xr.Data
     """
     console = Console()
     motion = pacoima(scale)
-    output.mkdir(parents=True, exist_ok=True)
+    make_folder(output)
     _introduce(console, motion, scale)
     console.say(
         "preparing the bearings; the first run compiles the kernels (20 to 60 s, kept "
@@ -222,8 +223,10 @@ def run(output: Path, scale: float, *, quick: bool = False) -> dict[str, xr.Data
     print(ELASTIC, flush=True)
     console.say("writing results.nc and summary.csv")
     write_results(results, output)
+    from frames.plots.plot_style import png_of  # with matplotlib
+
     for file, figure in figures_of(results).items():
-        figure.savefig(output / f"{file}.png", dpi=RESOLUTION)
+        write_whole(output / f"{file}.png", png_of(figure, RESOLUTION))
         console.say(f"wrote {output / file}.png")
     console.say(f"done: see {output.resolve()}")
     print(f"\n{NEXT}", flush=True)

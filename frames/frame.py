@@ -345,9 +345,10 @@ class Frame(FrameEditor):
         write `frame.with_bearings(bearing.as_dcfp(rims=False))` to compare like with like.
         """
         from frames.exchange.write_sap2000 import Writer, text_of
+        from frames.results.storage import write_whole
 
         text = text_of(Writer(self, displacement, units).tables())
-        Path(path).write_text(text, encoding="utf-8", newline="")
+        write_whole(path, text)
 
     def to_etabs(
         self, path: str | Path, *, displacement: float | None = None, units: str = "KN, m, C"
@@ -378,9 +379,10 @@ class Frame(FrameEditor):
         docs/exchange.md says what of the file no file of ETABS confirms.
         """
         from frames.exchange.write_etabs import EtabsWriter
+        from frames.results.storage import write_whole
 
         writer = EtabsWriter(self, displacement, units)
-        Path(path).write_text(writer.text(), encoding="utf-8", newline="")
+        write_whole(path, writer.text())
         return writer.names
 
     def program_tables(

@@ -121,6 +121,7 @@ def _compiled(jobs: int) -> Iterator[tuple[str, float]]:
             yield name, _timed(name)
         return
     context = multiprocessing.get_context("spawn")  # threads of numerical libraries do not fork
+    os.environ.setdefault("PYTHONSAFEPATH", "1")  # no file of the working folder is a module there
     with ProcessPoolExecutor(jobs, context, _hush) as pool:
         for layer in LAYERS:
             running = {pool.submit(_timed, name): name for name in layer}

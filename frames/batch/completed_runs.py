@@ -19,7 +19,7 @@ from frames._fingerprint import fingerprint, motion_digest
 from frames._provenance import sources_hash
 from frames.batch.batch_dataset import Layout, RunResult
 from frames.results.peaks import Peak
-from frames.results.storage import write_whole
+from frames.results.storage import make_folder, write_whole
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
@@ -58,8 +58,7 @@ class KeptRuns:
         asked: object,
         kept: Kept,
     ) -> None:
-        folder.mkdir(parents=True, exist_ok=True)
-        self._folder = folder
+        self._folder = make_folder(folder)
         self._models = {name: fingerprint(model) for name, model in models.items()}
         self._digests = {name: motion_digest(motion) for name, motion in motions.items()}
         self._options = {n: fingerprint(o._replace(progress=None)) for n, o in options.items()}
@@ -77,7 +76,8 @@ class KeptRuns:
         Returns
         -------
         list of Row
-            Runs that were complete. A file that cannot be read is none: its run is done again.
+            Runs that were complete. A file that cannot be read, or holds another run, is none: its
+            run is done again.
 
         Warns
         -----
@@ -118,7 +118,9 @@ class KeptRuns:
         own = row._asdict()
         layout, histories = own.pop("layout"), own.pop("histories")
         arrays = {name: own.pop(name) for name in ("energy", "reached")}
+        path = self._path(case)
         head: dict[str, Any] = {"row": own, "layout": _without_arrays(layout), "histories": None}
+        head["of"] = path.name
         if histories is not None:
             head["histories"] = [
                 (name, variable.dims, variable.attrs, name in histories.coords)
@@ -130,7 +132,8 @@ class KeptRuns:
                 arrays[f"history {k}"] = values.astype(str) if values.dtype == object else values
         whole = io.BytesIO()
         np.savez(whole, head=np.array(json.dumps(head)), **arrays)
-        write_whole(self._path(case), whole.getbuffer())
+        make_folder(self._folder)  # which somebody may have removed since
+        write_whole(path, whole.getbuffer())
 
     def _path(self, case: Case) -> Path:
         parts = [
@@ -146,6 +149,9 @@ class KeptRuns:
         with np.load(io.BytesIO(path.read_bytes())) as file:  # a cut file leaves none open
             head = json.loads(str(file["head"]))
             arrays = {name: file[name] for name in file.files}
+        if head["of"] != path.name:
+            msg = f"{path} is a copy of {head['of']}"
+            raise ValueError(msg)
         own = head["row"] | {"place": place}
         own["peaks"] = tuple(Peak(*peak) for peak in own["peaks"])
         return RunResult(

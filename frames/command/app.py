@@ -15,7 +15,7 @@ from rich.markup import escape
 
 from frames.command.campaigns import campaign, campaign_status
 from frames.command.comparing import compare
-from frames.command.console import FAILED_CHECKS, err, out, say, told
+from frames.command.console import FAILED_CHECKS, err, out, project_in, say, told, trust
 from frames.command.designing import propose
 from frames.command.viewing import view
 
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from frames.design.calculation.check import Checks
     from frames.design.codes.provisions import ProvisionState
     from frames.design.project.design_run import ProjectRun
-    from frames.design.project.inputs import ProjectInputs
     from frames.design.project.speed import Way
 
 app = typer.Typer(
@@ -37,7 +36,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="Buildings on LIR-DCFP bearings: a project's file, its analyses and design checks. "
     "Exit codes: 0 no check fails, 1 a check fails, 2 the input cannot be used, 3 an analysis "
-    "fails, 130 interrupted.",
+    "fails, 4 a file cannot be read or written, 130 interrupted.",
 )
 HERE, FILE, RESULTS = Path(), Path("project.toml"), Path("results")
 BENCH = Path("bench.csv")
@@ -58,8 +57,16 @@ def lir(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Tell the version.")
     ] = False,
+    scripts_from_anywhere: Annotated[
+        bool,
+        typer.Option(
+            "--scripts-from-anywhere",
+            help="Run Python files that a project names outside of its folder, too.",
+        ),
+    ] = False,
 ) -> None:
     """Take options of the command itself."""
+    trust(scripts_from_anywhere)
 
 
 @app.command()
@@ -97,7 +104,7 @@ def check(file: File = FILE) -> None:
     from lir_element.tables import text_table
 
     with told():
-        parts = _parts(file)
+        parts = project_in(file)
         ground = preliminary(parts)
         say(parts.code().cited)
         say(text_table(structure_rows(parts.file, ground.frame, ground.spectrum), left=2))
@@ -130,14 +137,19 @@ def run(
     from frames.design.project.design_run import run_project
     from frames.design.project.level_runs import said_of_runs
     from frames.design.report.files import UNFINISHED, write_interrupted, write_run  # with figures
+    from frames.results.storage import make_folder
     from lir_element.errors import AnalysisInterrupted
 
     with told():
         try:
-            parts = _parts(file)
+            parts = project_in(file)
+            make_folder(results)
             say(parts.code().cited)
             say(said_of_runs(parts, parts.motions()))
             found = run_project(parts, progress=True, resume=results / UNFINISHED)
+        except OSError:
+            _said_to_be_kept(results / UNFINISHED)
+            raise
         except AnalysisInterrupted as stop:
             kept = write_interrupted(stop.data, results)
             err.print(
@@ -149,7 +161,11 @@ def run(
                 err.print("the other files there are of the run before", highlight=False)
             raise
         err.print("writing results and report", highlight=False)
-        written = write_run(found, results, file.read_text(encoding="utf-8"), figures=figures)
+        try:
+            written = write_run(found, results, parts.sources.text, figures=figures)
+        except OSError:
+            _said_to_be_kept(results / UNFINISHED)
+            raise
         _told_of(found, written, results)
 
 
@@ -172,7 +188,7 @@ def report(
     from frames.design.report.printing import print_report
 
     with told():
-        parts = _parts(file)
+        parts = project_in(file)
         known = preliminary(parts)
         found = evaluate_run(parts, known, read_histories(results, inputs_of(parts, known)))
         if (results / "interrupted.nc").is_file():
@@ -181,7 +197,7 @@ def report(
                 "the report is of the whole run before it"
             )
             err.print(text, markup=False, highlight=False, soft_wrap=True)
-        source = file.read_text(encoding="utf-8")
+        source = parts.sources.text
         old = [name for name in ("view.html", "report.pdf") if (results / name).is_file()]
         if old:
             err.print(f"removed with the checks of before: {', '.join(old)}", highlight=False)
@@ -192,6 +208,18 @@ def report(
 
 
 app.command()(view)
+
+
+def _said_to_be_kept(unfinished: Path) -> None:
+    # After an error of the disk.
+    count = sum(1 for _ in unfinished.rglob("*.npz"))
+    if count:
+        err.print(
+            f"{count} runs that were complete are kept in {escape(str(unfinished))}: once the "
+            "cause is mended, the same command goes on from there",
+            highlight=False,
+            soft_wrap=True,
+        )
 
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
@@ -232,10 +260,11 @@ def bench(
 
     from frames.design.project.preliminary import preliminary
     from frames.design.project.speed import recommended, ways_to_run
+    from frames.results.storage import csv_of, write_whole
 
     ways: list[Way] = []
     with told():
-        ground = preliminary(_parts(file))
+        ground = preliminary(project_in(file))
         name, motion = next(iter(ground.motions.items()))
         say(f"{name}, {motion.duration:g} s; differences from the first line, at nominal friction")
         say(_LINE.format("step", "level", "steps", "us/step", "s", "real time", *_PEAKS, ""))
@@ -245,7 +274,7 @@ def bench(
                 say(_line_of(way))
         finally:
             if ways:
-                pd.DataFrame(ways).to_csv(table, index=False)
+                write_whole(table, csv_of(pd.DataFrame(ways), index=False))
         best = recommended(ways[1:], error)
         if best is None:
             say(f"no step keeps {error:.3g} of the peaks")
@@ -290,13 +319,6 @@ def print_schema() -> None:
     from frames.design.project.reading import schema
 
     sys.stdout.write(schema() + "\n")
-
-
-def _parts(file: Path) -> ProjectInputs:
-    from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.reading import read_project
-
-    return ProjectInputs(read_project(file), file.resolve().parent)
 
 
 def _checks(title: str, checks: Checks) -> None:

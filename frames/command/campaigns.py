@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from frames.command.console import FAILED_ANALYSIS, INTERRUPTED, err, say, told
+from frames.command.console import INTERRUPTED, say, told
 
 if TYPE_CHECKING:
     from frames.risk.campaign.campaign import Campaign
+    from frames.risk.campaign.comparison import DeviceComparison
+    from frames.risk.campaign.file_schema import CampaignFile
 
 
 def campaign(
@@ -31,12 +33,20 @@ def campaign(
     """
     with told():
         _require_packages()
-        from frames.risk.campaign.file import read_campaign, workers_of
+        from frames.design.project.source_files import SourceFiles
+        from frames.results.storage import refuse_links
+        from frames.risk.campaign.file import campaign_file, comparison_in, read_campaign
 
-        found = read_campaign(file, store=store)
+        given = campaign_file(file)
+        sources = SourceFiles(given, file.resolve().parent)
+        found = read_campaign(given, store=store)
+        comparison = comparison_in(given)
+        sources.require_unchanged()
+        refuse_links(found.store.path)
         say(str(found))
-        _run(found, workers or workers_of(file), reuse or [])
-        _write(found, file, figures=figures)
+        _run(found, workers or given.analysis.workers, reuse or [])
+        sources.warn_of_changes()
+        _write(found, given, comparison, figures=figures)
         say(f"{found.status()}\nresults in {found.store.path}, digest {found.digest()[:16]}")
 
 
@@ -48,24 +58,23 @@ def _run(found: Campaign, workers: int | None, reuse: list[Path]) -> None:
         done = found.status() if found.store.exists else "nothing was run"
         say(f"\ninterrupted: {done}; the same command goes on")
         raise typer.Exit(INTERRUPTED) from cause
-    except OSError as cause:
-        err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)
-        raise typer.Exit(FAILED_ANALYSIS) from cause
 
 
-def _write(found: Campaign, file: Path, *, figures: bool) -> None:
-    from frames.risk.campaign.file import comparison_in, fragility_in, scaled_to
+def _write(
+    found: Campaign, file: CampaignFile, comparison: DeviceComparison | None, *, figures: bool
+) -> None:
+    from frames.risk.campaign.file import fragility_in, scaled_to
     from frames.risk.campaign.page import write_page  # with figures
 
     asked = fragility_in(file)
     written = write_page(
         found,
         found.store.path / "campaign.html",
-        file.read_text(encoding="utf-8"),
+        file.source.decode(),
         limits=() if asked is None else asked.limits(),
         intensity=None if asked is None else asked.measured(),
         scaled=scaled_to(file),
-        comparison=comparison_in(file),
+        comparison=comparison,
         figures=figures,
     )
     say(f"page {written[0]}, tables {', '.join(path.name for path in written[1:])}")

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from frames.command.console import out, say, told
+from frames.command.console import out, project_in, say, told
 
 
 def compare(
@@ -20,19 +20,18 @@ def compare(
     Writes compare.html, compare.csv and compare-motions.csv.
     """
     from frames.design.project.comparison import compare_project, compared_histories
-    from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.reading import read_project
     from frames.design.report.comparison_page import write_comparison
     from frames.design.report.comparison_words import verdicts
     from frames.design.report.tables import rows_of
+    from frames.results.storage import make_folder
     from lir_element.tables import text_table
 
     with told():
-        parts = ProjectInputs(read_project(file), file.resolve().parent)
+        parts = project_in(file)
+        make_folder(results)
         found = compare_project(parts, progress=True)
         histories = compared_histories(parts, found) if figures else None
-        source = file.read_text(encoding="utf-8")
-        written = write_comparison(found, results, source, histories)
+        written = write_comparison(found, results, parts.sources.text, histories)
         table = found.table()
         out.print("\n[bold]Envelope over bounds[/]")
         say(text_table(rows_of(table), ("", *map(str, table.columns))))

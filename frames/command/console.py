@@ -5,16 +5,22 @@ The commands import what they need when they run: `lir --help` starts without th
 
 from __future__ import annotations
 
+import errno
 import warnings
 from collections.abc import Generator
 from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 from rich.console import Console
 
 from frames.command.toml_words import in_toml
 
-FAILED_CHECKS, BAD_INPUT, FAILED_ANALYSIS, INTERRUPTED = 1, 2, 3, 130
+if TYPE_CHECKING:
+    from frames.design.project.inputs import ProjectInputs
+
+FAILED_CHECKS, BAD_INPUT, FAILED_ANALYSIS, FAILED_FILE, INTERRUPTED = 1, 2, 3, 4, 130
 
 out, err = Console(), Console(stderr=True)
 
@@ -32,9 +38,12 @@ def told() -> Generator[None, None, None]:
     ------
     typer.Exit
         With the code of the error.
+    BrokenPipeError
+        If the output is read no longer.
     """
     from frames._errors import ModelError, MotionError, without_numbers
     from frames.design._errors import CheckError, ProjectError
+    from frames.design.project.extensions import TOLD
     from frames.risk._errors import CampaignError
     from lir_element.errors import AnalysisError, AnalysisInterrupted
 
@@ -47,22 +56,82 @@ def told() -> Generator[None, None, None]:
                 before.add(without_numbers(text))
                 err.print(f"warning: {text}", markup=False, highlight=False, soft_wrap=True)
 
+        def running(script: Path) -> None:
+            text = f"running {script}, a Python file that the project names"
+            if text not in before:
+                before.add(text)
+                err.print(text, markup=False, highlight=False, soft_wrap=True)
+
         warnings.showwarning = once
+        token = TOLD.set(running)
         try:
             yield
         except (ProjectError, CheckError, ModelError, MotionError, CampaignError) as cause:
             text = in_toml(str(cause))
             err.print(f"error: {text}", markup=False, highlight=False, soft_wrap=True)
             raise typer.Exit(BAD_INPUT) from cause
-        except AnalysisError as cause:
-            err.print(f"error: {cause}", markup=False, highlight=False, soft_wrap=True)
+        except (AnalysisError, MemoryError) as cause:
+            why = cause if isinstance(cause, AnalysisError) else f"{_MEMORY} ({cause})"
+            err.print(f"error: {why}", markup=False, highlight=False, soft_wrap=True)
             raise typer.Exit(FAILED_ANALYSIS) from cause
+        except BrokenPipeError:  # who reads the output has left
+            raise
+        except OSError as cause:
+            err.print(f"error: {_of_a_file(cause)}", markup=False, highlight=False, soft_wrap=True)
+            raise typer.Exit(FAILED_FILE) from cause
         except (AnalysisInterrupted, KeyboardInterrupt) as cause:
             # what was complete is on disk, not in an attribute
             err.print(str(cause).split(": ")[0] or "interrupted", markup=False, soft_wrap=True)
             raise typer.Exit(INTERRUPTED) from cause
+        finally:
+            TOLD.reset(token)
 
 
 def say(text: str) -> None:
     """Print a text as it is, whatever is in it."""
     out.print(text, markup=False, highlight=False, soft_wrap=True)
+
+
+_MEMORY = "there is not enough memory: use fewer workers, motions or recorded variables"
+
+
+def _of_a_file(cause: OSError) -> str:
+    # Without the number of the error, with the file and a remedy.
+    if cause.filename is None:
+        return cause.strerror or str(cause)
+    name = str(cause.filename)
+    short = name if len(name) <= _LONGEST else f"{name[:60]}...{name[-60:]}"
+    return f"{short}: {cause.strerror}: {_REMEDIES.get(cause.errno or 0, 'look at that place')}"
+
+
+_LONGEST = 300  # characters of a path in a message
+
+_REMEDIES = {
+    errno.ENOSPC: "make room, or name another place",
+    errno.EDQUOT: "make room, or name another place",
+    errno.EFBIG: "allow larger files (ulimit -f), or name another place",
+    errno.EROFS: "name a place that can be written to",
+    errno.EACCES: "name a place that this user may read and write",
+    errno.EPERM: "name a place that this user may read and write",
+    errno.ENOENT: "it was removed, or never there: give the command again",
+    errno.ENAMETOOLONG: "choose a shorter name",
+    errno.EISDIR: "it is a folder: remove it, or name another place",
+    errno.ENOTDIR: "part of it is a file: name another place",
+    errno.EEXIST: "name another place",
+}
+
+
+def trust(anywhere: bool) -> None:
+    """Have Python files that a project names run from anywhere, or from its folder alone."""
+    if anywhere:
+        from frames.design.project.extensions import ANYWHERE
+
+        ANYWHERE.set(True)
+
+
+def project_in(file: Path) -> ProjectInputs:
+    """Return the project of a file; the Python files that it names are told before they run."""
+    from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.reading import read_project
+
+    return ProjectInputs(read_project(file), file.resolve().parent)

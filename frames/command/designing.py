@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from frames.command.console import FAILED_CHECKS, err, say, told
+from frames.command.console import FAILED_CHECKS, err, project_in, say, told
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -71,14 +71,14 @@ def propose(
     sized on one mass under the project's motions: one_mass.csv. With --verify they are put to the
     time histories and checks of the project as well: verified.csv.
     """
-    from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.reading import read_project
     from frames.design.project.verification import section_of
+    from frames.results.storage import make_folder
 
     with told():
         least = _objective(objective)
         _require_one_size(verify, sizes)
-        parts = ProjectInputs(read_project(file), file.resolve().parent)
+        parts = project_in(file)
+        make_folder(results)
         target = parts.target()
         found = _found(parts, target, sizes, least, results)
         say(_written(found.candidates, found, target, results))
@@ -118,6 +118,7 @@ def _tried(
     from frames.design._errors import ProjectError
     from frames.design.project.preliminary import scaled_motions
     from frames.design.sizing.trial import MARGIN, OneMass, tried_on_one_mass
+    from frames.results.storage import csv_of, write_whole
 
     try:
         motions = parts.motions()
@@ -149,7 +150,7 @@ def _tried(
         say(f"\nradius {one.radius:g} m, friction {one.friction.f_max:g}: tried ...")
         done.append(tried_on_one_mass(found, one, how))
         rows = [row for each in done for row in each.rows()]
-        pd.DataFrame(rows).to_csv(folder / "one_mass.csv", index=False)
+        write_whole(folder / "one_mass.csv", csv_of(pd.DataFrame(rows), index=False))
         say(str(done[-1]))
         if done[-1].passed and not every:
             break
@@ -204,13 +205,14 @@ def _verify(
     from frames.design.project.level_runs import said_of_runs
     from frames.design.project.verification import verification_table, verified
     from frames.design.report.tables import in_mm_and_kn, rows_of
+    from frames.results.storage import csv_of, write_whole
     from lir_element.tables import text_table
 
     say(f"\nTime histories of the best {len(candidates)}: {said_of_runs(parts, parts.motions())}")
     done: list[Verified] = []
     for one in verified(parts, candidates, progress=True):
         done.append(one)
-        verification_table(done).to_csv(folder / "verified.csv", index=False)
+        write_whole(folder / "verified.csv", csv_of(verification_table(done), index=False))
         say(f"\n{_said(one)}")
     table = verification_table(done).drop(columns="fails")
     table.index = pd.Index(range(1, len(table) + 1))
@@ -299,13 +301,14 @@ def _written(
     # Table and picture; returns where they are.
     from frames.design.plots import design_candidates  # with matplotlib
     from frames.design.sizing.selection import table_of
+    from frames.plots.plot_style import png_of
+    from frames.results.storage import csv_of, write_whole
 
-    folder.mkdir(parents=True, exist_ok=True)
     table = table_of(candidates, None, impossible) if found is None else found.to_dataframe()
-    table.to_csv(folder / "candidates.csv", index=False)
+    write_whole(folder / "candidates.csv", csv_of(table, index=False))
     written = str(folder / "candidates.csv")
     if candidates:
         figure = design_candidates(candidates if found is None else found, target=target)
-        figure.savefig(folder / "candidates.png", dpi=150)
+        write_whole(folder / "candidates.png", png_of(figure, 150))
         written += f", {folder / 'candidates.png'}"
     return f"all candidates: {written}"

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from frames.command.console import say, told
+from frames.command.console import project_in, say, told
 
 
 def view(
@@ -17,21 +17,19 @@ def view(
 ) -> None:
     """Write view.html: model and bearings of the governing run in motion, on one page."""
     from frames.design._errors import ProjectError
-    from frames.design.project.inputs import ProjectInputs
     from frames.design.project.preliminary import inputs_of, preliminary
-    from frames.design.project.reading import read_project
     from frames.design.report.files import read_histories
     from frames.design.report.kept_checks import read_checks
     from frames.viewer import write_view  # with figures
 
     with told():
-        parts = ProjectInputs(read_project(file), file.resolve().parent)
+        parts = project_in(file)
         histories = read_histories(results, inputs_of(parts, preliminary(parts)))
         checks = read_checks(results)
         try:
             said = write_view(
                 histories.governing, parts.frame(), results / "view.html", checks=checks, size=size
             )
-        except (OSError, ValueError) as cause:
+        except ValueError as cause:
             raise ProjectError(str(cause)) from cause
         say(f"{said}; the run: {histories.governing_case}")

@@ -51,9 +51,14 @@ class PageFigure(Figure):
     """A figure that a notebook shows as a picture, with or without pyplot's inline backend."""
 
     def _repr_png_(self) -> bytes:
-        picture = BytesIO()
-        self.savefig(picture, format="png", dpi=SCREEN_DPI)
-        return picture.getvalue()
+        return png_of(self, SCREEN_DPI)
+
+
+def png_of(figure: Figure, dpi: float, *, tight: bool = False) -> bytes:
+    """Return a figure as a PNG file of a resolution [1/in], with or without its margins."""
+    file = BytesIO()
+    figure.savefig(file, format="png", dpi=dpi, bbox_inches="tight" if tight else None)
+    return file.getvalue()
 
 
 def new_figure(height: float, width: float = PAGE_WIDTH) -> PageFigure:

@@ -13,7 +13,7 @@ import pandas as pd
 import xarray as xr
 
 from frames.results.recorded import require_between_ends, require_recorded
-from frames.results.storage import write_whole
+from frames.results.storage import csv_of, make_folder, without_formulas, write_whole
 
 _LONGEST_SHEET = 31  # characters that Excel allows in the name of a sheet
 
@@ -147,12 +147,13 @@ def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:
         workbook = io.BytesIO()
         with pd.ExcelWriter(workbook, engine="openpyxl") as writer:
             for name, table in tables.items():
-                table.to_excel(writer, sheet_name=name[:_LONGEST_SHEET], merge_cells=False)
+                shown = without_formulas(table)
+                shown.to_excel(writer, sheet_name=name[:_LONGEST_SHEET], merge_cells=False)
         write_whole(target, workbook.getvalue())
         return
-    target.mkdir(parents=True, exist_ok=True)
+    make_folder(target)
     for name, table in tables.items():
-        write_whole(target / f"{name}.csv", table.to_csv().encode())
+        write_whole(target / f"{name}.csv", csv_of(table))
 
 
 def _table(name: str, given: Any) -> pd.DataFrame:

@@ -1,15 +1,22 @@
-"""Datasets in files: what stood there before is replaced only once the new file is complete."""
+"""Datasets in files: what stood there before is replaced only once the new file is complete.
+
+All files that commands write go through `write_whole`, all tables through `csv_of`.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import errno
 import os
+import re
 import shutil
 import uuid
 from collections.abc import Hashable, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 _FIRST_BYTES = 1 << 16  # of a file in memory: it grows
@@ -124,39 +131,188 @@ def as_packed(data: xr.Dataset) -> xr.Dataset:
     return data.assign({key: data[key].astype(np.float32) for key in names})
 
 
-def write_whole(path: str | Path, content: bytes | memoryview) -> None:
+def write_whole(path: str | Path, content: bytes | memoryview | str) -> None:
     """Write a file beside its place, then move it there.
 
     Parameters
     ----------
     path : str or path
-        The file; where it is a link, the file that it points to.
-    content : bytes
-        All of it.
+        The file; where it is a link within its folder, the file that it points to.
+    content : bytes or str
+        All of it; a text is written in UTF-8.
 
     Raises
     ------
     OSError
-        If it cannot be written; the message names the file and what to do.
+        If it cannot be written, or is a link that leads out of its folder; the message names the
+        file and a remedy.
     """
-    target = Path(os.path.realpath(path))
-    beside = target.with_name(f".{target.name}.{uuid.uuid4().hex}.part")
+    whole = content.encode() if isinstance(content, str) else content
+    target = place_of(path)
+    beside = target.with_name(f".{target.name[:60]}.{uuid.uuid4().hex}.part")
     try:
         with beside.open("xb") as file:
-            file.write(content)
+            file.write(whole)
             file.flush()
             os.fsync(file.fileno())
         if target.exists():
             shutil.copymode(target, beside)
         beside.replace(target)
-    except OSError as cause:
+    except BaseException as cause:
         with contextlib.suppress(OSError):
             beside.unlink(missing_ok=True)
+        if not isinstance(cause, OSError):
+            raise
         msg = (
-            f"{path} could not be written ({len(content) / 1e6:.3g} MB): {cause.strerror}. What "
+            f"{path} could not be written ({len(whole) / 1e6:.3g} MB): {cause.strerror}. What "
             "stood there before is untouched: save to another place, or make room"
         )
         raise OSError(cause.errno, msg) from cause
+
+
+def place_of(path: str | Path) -> Path:
+    """Return where a file or a folder really is.
+
+    Parameters
+    ----------
+    path : str or path
+        What is to be written.
+
+    Returns
+    -------
+    Path
+        Without links.
+
+    Raises
+    ------
+    OSError
+        If it is a link that leads out of its folder: it may be of somebody else, and what it points
+        to is nothing that was named.
+    """
+    given = Path(path)
+    folder, target = Path(os.path.realpath(given.parent)), Path(os.path.realpath(given))
+    if given.name not in {"", ".."} and not target.is_relative_to(folder):
+        raise OSError(errno.ELOOP, _leads_out(given))
+    return target
+
+
+def refuse_links(folder: str | Path) -> None:
+    """Refuse a folder that is a link, or holds one, that leads out of it.
+
+    Parameters
+    ----------
+    folder : str or path
+        The folder, or where it will be.
+
+    Raises
+    ------
+    OSError
+        With the first link.
+    """
+    whole = place_of(folder)
+    for where, folders, names in os.walk(whole):
+        for name in (*folders, *names):
+            found = Path(where) / name
+            if found.is_symlink() and not Path(os.path.realpath(found)).is_relative_to(whole):
+                raise OSError(errno.ELOOP, _leads_out(found))
+
+
+def _leads_out(link: Path) -> str:
+    return (
+        f"{link} is a link that leads out of its folder, to {os.path.realpath(link)}: nothing is "
+        "written there. Remove the link, or name that place itself"
+    )
+
+
+def make_folder(path: str | Path) -> Path:
+    """Make a folder for results if it is not there, and return it.
+
+    Parameters
+    ----------
+    path : str or path
+        The folder.
+
+    Returns
+    -------
+    Path
+        The same.
+
+    Raises
+    ------
+    OSError
+        If it cannot be made, is a file, or is or holds a link that leads out of it.
+    """
+    folder = Path(path)
+    refuse_links(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as cause:
+        msg = f"{folder} is no folder and cannot be made one ({cause.strerror}): name another place"
+        raise OSError(cause.errno, msg) from cause
+    return folder
+
+
+def csv_of(table: pd.DataFrame, *, index: bool = True) -> str:
+    """Return a table as CSV in which no text is a formula.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        The table.
+    index : bool
+        Whether with its index.
+
+    Returns
+    -------
+    str
+        Lines of the file.
+    """
+    text: str = without_formulas(table).to_csv(index=index, lineterminator="\n")
+    return text
+
+
+def without_formulas(table: pd.DataFrame) -> pd.DataFrame:
+    """Return a table for a spreadsheet: texts that it would run as formulas have an apostrophe.
+
+    Parameters
+    ----------
+    table : pandas.DataFrame
+        The table.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The same; cells, heads and labels that begin with =, +, - or @ and are no numbers begin
+        with an apostrophe.
+    """
+    found = table.copy()
+    for k, kind in enumerate(table.dtypes):
+        if not pd.api.types.is_numeric_dtype(kind):
+            found.isetitem(k, table.iloc[:, k].map(as_text))
+    for name in ("index", "columns"):
+        labels: pd.Index[Any] = getattr(table, name)
+        if isinstance(labels, pd.MultiIndex):
+            setattr(found, name, labels.map(lambda each: tuple(map(as_text, each))))
+        elif not pd.api.types.is_numeric_dtype(labels.dtype):
+            setattr(found, name, labels.map(as_text))
+        getattr(found, name).names = [as_text(each) for each in labels.names]
+    return found
+
+
+_FORMULA = re.compile(r"\s*[=+\-@\t\r]\s*\S")
+_NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*|[+-]?(inf|nan)")
+
+
+def as_text(cell: Any) -> Any:
+    """Return a cell of a table; a text that a spreadsheet would run has an apostrophe before it."""
+    runs = isinstance(cell, str) and _FORMULA.match(cell) and not _NUMBER.fullmatch(cell)
+    return f"'{cell}" if runs else cell
+
+
+def from_text(cell: Any) -> Any:
+    """Return a cell as it was before `as_text`."""
+    bare = cell[1:] if isinstance(cell, str) else cell
+    return bare if bare != cell and as_text(bare) == cell else cell
 
 
 def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:

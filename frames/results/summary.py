@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from frames.results.assumption_checks import doubts_of
 from frames.results.peaks import peaks_of
-from frames.results.storage import save_groups, write_whole
+from frames.results.storage import as_text, save_groups, write_whole
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -139,8 +139,9 @@ def write_results(results: Mapping[str, xr.Dataset], folder: Path) -> None:
         values = summary_of(data)
         failed_at = data.attrs.get("failed_at", "")
         cells = [f"{values[key]:.6g}" for key in names]
-        writer.writerow([name, data.attrs["status"], failed_at, *cells, "; ".join(doubts_of(data))])
-    write_whole(folder / "summary.csv", table.getvalue().encode())
+        doubts = as_text("; ".join(doubts_of(data)))
+        writer.writerow([as_text(name), data.attrs["status"], failed_at, *cells, doubts])
+    write_whole(folder / "summary.csv", table.getvalue())
 
 
 def group_of(name: str) -> str:

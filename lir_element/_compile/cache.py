@@ -6,6 +6,10 @@ under the hash of all sources that it may depend on (`_sources`), by its types w
 their fields, behind a checksum. Whatever goes wrong (no folder, no space, a damaged file, sources
 edited since) means compiling in memory, with one warning. What is not kept there may have come with
 the wheel (`shipped`).
+
+Kernels are pickles, and a pickle runs what its writer wants. So a file is opened only if it and its
+folder are of this user or of root, and nobody else may write to them; new ones are of the user
+alone.
 """
 
 from __future__ import annotations
@@ -14,6 +18,7 @@ import contextlib
 import hashlib
 import os
 import pickle  # noqa: S403  # what this program has written, behind a checksum
+import stat
 import sys
 import uuid
 import warnings
@@ -154,7 +159,13 @@ def keep(path: Path | None, content: bytes) -> bool:
         return False
     partial = path.with_name(f"{path.name}.{uuid.uuid4().hex[:12]}")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
+        base = path.parent.parent if path.parent.parent == cache_folder() else path.parent
+        base.mkdir(mode=_OWN_FOLDER, parents=True, exist_ok=True)
+        path.parent.mkdir(mode=_OWN_FOLDER, exist_ok=True)
+        if why := _doubt_of_folder(path.parent):
+            _distrust(path.parent, why)
+            return False
+        partial.touch(mode=_OWN_FILE, exist_ok=False)
         partial.write_bytes(content)
         partial.replace(path)
     except OSError as error:
@@ -165,15 +176,71 @@ def keep(path: Path | None, content: bytes) -> bool:
     return True
 
 
-def _content(path: Path) -> bytes | None:
-    # What a file of the cache holds; None if there is none, or (with a warning) none to be read.
+def content_of(path: Path) -> bytes | None:
+    """Return the content of a file of the cache.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    bytes or None
+        None if there is none, or it is not to be opened, which a warning says.
+    """
     try:
-        return path.read_bytes()
+        with path.open("rb") as file:
+            why = _doubt_of_folder(path.parent) or _doubt(os.fstat(file.fileno()), path.parent)
+            if not why:
+                return file.read()
+        _distrust(path.parent, why)
+        return None
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError as error:
         _warn(f"cannot be read from {path.parent} ({error.strerror or error})", again=True)
         return None
+
+
+_OWN_FOLDER, _OWN_FILE = 0o700, 0o600
+_OTHERS = stat.S_IWGRP | stat.S_IWOTH
+
+
+def _doubt_of_folder(folder: Path) -> str:
+    # Why files of a folder are not to be opened; empty if they may be. Where the folder is a link,
+    # its owner chose what is opened.
+    found = _doubt(folder.lstat(), folder) or _doubt(folder.stat(), folder)
+    base = folder.parent
+    if not found and base in {cache_folder(), shipped.FOLDER}:
+        about = base.stat()
+        sticky = about.st_mode & stat.S_ISVTX  # others may add, and take away nothing
+        found = _doubt(about, base) if not sticky else ""
+    return found
+
+
+def _doubt(about: os.stat_result, folder: Path) -> str:
+    # The same by the owner and the rights of one file or folder. Windows has neither: there the
+    # folder of a user is closed to others by its own list of rights.
+    if os.name == "nt":
+        return ""
+    owners = {0, os.geteuid()}
+    if shipped.FOLDER in (folder, *folder.parents):
+        owners.add(Path(__file__).stat().st_uid)  # whose sources run here anyway
+    if about.st_uid not in owners:
+        return f"are of another user (uid {about.st_uid})"
+    if about.st_mode & _OTHERS and not stat.S_ISLNK(about.st_mode):
+        return "may be written by others"
+    return ""
+
+
+def _distrust(folder: Path, why: str) -> None:
+    place = cache_folder() if folder.parent == cache_folder() else folder
+    _warn(
+        f"in {folder} are not opened, for files there {why}. If you made them, run "
+        f"`chmod -R go-w {place}`, otherwise remove them",
+        again=True,
+    )
 
 
 def _warn(what: str, again: bool) -> None:
@@ -209,7 +276,7 @@ def _part_in(
     # it is what its caller was compiled with: names in the code differ from process to process.
     part = _parts.get(path)
     if part is None:
-        content = _content(path)
+        content = content_of(path)
         if content is None or digest not in {None, content[:_DIGEST]}:
             return None
         reduced = _opened(key, content)
@@ -281,7 +348,7 @@ class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
         if self.as_part:
             return self._load_part(sig, target_context)
         for key, path in self._places(sig, target_context.codegen()):
-            content = _content(path)
+            content = content_of(path)
             if content is None:
                 continue
             reduced = _opened(key, content)

@@ -58,7 +58,9 @@ def opensees() -> Any:
 
 def child_environment() -> dict[str, str]:
     """Return the environment in which a child process finds the modules that this one finds."""
-    paths = [path or os.getcwd() for path in sys.path]
+    here = os.getcwd()  # last, so that no file in it stands for a module of others
+    paths = [path for path in sys.path if path and path != here]
+    paths += [here] if len(paths) < len(sys.path) else []
     return {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
 
 

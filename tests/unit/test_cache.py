@@ -266,6 +266,66 @@ def test_a_missing_file_is_compiled_without_a_word(package: Path) -> None:
     assert len(kept(package)) == 1
 
 
+@pytest.mark.skipif(os.name == "nt", reason="Windows has neither owners by number nor these rights")
+@pytest.mark.parametrize(
+    ("what", "mode", "words"),
+    [
+        ("base", 0o777, "may be written by others"),
+        ("base", 0o775, "may be written by others"),
+        ("folder", 0o777, "may be written by others"),
+        ("file", 0o666, "may be written by others"),
+        ("file", 0o664, "may be written by others"),
+        ("folder", None, "are of another user"),
+        ("file", None, "are of another user"),
+    ],
+)
+def test_what_others_may_write_is_not_opened(
+    package: Path, monkeypatch: pytest.MonkeyPatch, what: str, mode: int | None, words: str
+) -> None:
+    start(package)(1.0)
+    [path] = kept(package)
+    place = {"base": path.parent.parent, "folder": path.parent, "file": path}[what]
+    if mode is not None:
+        place.chmod(mode)
+    elif os.geteuid() == 0:
+        os.chown(place, 4321, -1)
+    else:
+        monkeypatch.setattr(os, "geteuid", lambda: 4321)
+
+    def opened(_: bytes) -> None:
+        pytest.fail("the file was opened")
+
+    monkeypatch.setattr(cache.pickle, "loads", opened)
+    with pytest.warns(RuntimeWarning, match=f"{words}.*chmod -R go-w .*LIR_CACHE_DIR"):
+        assert start(package)(1.0) == 3.0
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such rights")
+@pytest.mark.parametrize("mask", [0o000, 0o002, 0o022, 0o077])
+def test_new_files_are_of_the_user_alone(package: Path, mask: int) -> None:
+    before = os.umask(mask)
+    try:
+        start(package)(1.0)
+    finally:
+        os.umask(before)
+    [path] = kept(package)
+    modes = [each.stat().st_mode & 0o777 for each in (path, path.parent, path.parent.parent)]
+    assert modes == [0o600, 0o700, 0o700]
+    assert compilations(start(package)) == 0
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such rights")
+def test_a_cache_that_is_only_read_is_taken(package: Path) -> None:
+    start(package)(1.0)
+    for each in (*(package.parent / "cache").rglob("*"), package.parent / "cache"):
+        each.chmod(0o555 if each.is_dir() else 0o444)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        again = start(package)
+        assert again(1.0) == 3.0
+    assert compilations(again) == 0
+
+
 def run(code: str, root: Path = ROOT, **environment: str) -> "subprocess.CompletedProcess[str]":
     env = {**os.environ, "PYTHONPATH": str(root), **environment}
     command = [sys.executable, "-c", code]

@@ -607,7 +607,10 @@ def test_a_run_that_was_not_written_whole_is_none(
     folder = done
     words = [str(folder / "small.toml"), "--results", str(folder / "out")]
     monkeypatch.setattr(files, "save", full)
-    assert isinstance(run(app, ["run", "--no-figures", *words]).exception, OSError)
+    failed = run(app, ["run", "--no-figures", *words])
+    assert failed.exit_code == 4
+    assert "error: No space left on device" in failed.output
+    assert "runs that were complete are kept in" in failed.output
     found = run(app, ["report", *words])
     assert found.exit_code == 2
     assert "holds no run" in found.output

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -185,6 +185,7 @@ def compare_project(
         After Ctrl-C, with the runs of one device that were complete.
     """
     known = preliminary(parts)
+    parts.sources.require_unchanged()
     runs = {
         device: histories_at_levels(parts, frame, known.motions, progress)
         for device, frame in _frames_of(known.frame).items()
@@ -196,6 +197,7 @@ def compare_project(
     demands = {
         device: demands_at_levels(own, parts.rules(), moved[device]) for device, own in runs.items()
     }
+    known = replace(known, doubts=(*known.doubts, *parts.sources.warn_of_changes()))
     return Comparison(known=known, runs=runs, demands=demands, moved=moved)
 
 

@@ -8,13 +8,25 @@ from collections.abc import Iterable
 from dataclasses import MISSING, fields, is_dataclass
 from difflib import get_close_matches
 from functools import cache
-from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin, get_type_hints
+from pathlib import Path
+from typing import (
+    Annotated,
+    Any,
+    ClassVar,
+    Literal,
+    Self,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 from pydantic import (
     BaseModel,
     ConfigDict,
     Discriminator,
     Field,
+    PrivateAttr,
     Tag,
     create_model,
     model_validator,
@@ -57,6 +69,27 @@ class Table(BaseModel):
                 msg = f"{key} = {str(value).lower()} must be a number or a text, not a truth value"
                 raise ValueError(msg)
         return given
+
+
+class WholeFile(Table):
+    """A whole file, with the bytes that it was read from."""
+
+    _read: tuple[Path | None, bytes] = PrivateAttr((None, b""))
+
+    @property
+    def source_path(self) -> Path | None:
+        """Where it was read, None where it was made in Python."""
+        return self._read[0]
+
+    @property
+    def source(self) -> bytes:
+        """All that was read."""
+        return self._read[1]
+
+    def read_from(self, path: Path, content: bytes) -> Self:
+        """Return the file, which keeps where it comes from."""
+        self._read = (path, content)
+        return self
 
 
 class DerivedTable(Table):

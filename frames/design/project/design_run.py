@@ -97,8 +97,8 @@ class ProjectRun:
         What the structure is, in words.
     provisions : tuple of ProvisionState
         Provisions of the code: checked, not checked and why, or the engineer's.
-    tables : tuple of Path
-        Tables that the file names, which are kept with the results.
+    tables : mapping of str to bytes
+        Tables that the file names, which are kept with the results, as they were read.
     """
 
     frame: Frame
@@ -122,7 +122,7 @@ class ProjectRun:
     doubts: tuple[str, ...] = ()
     structure: tuple[tuple[str, str], ...] = ()
     provisions: tuple[ProvisionState, ...] = ()
-    tables: tuple[Path, ...] = ()
+    tables: Mapping[str, bytes] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -178,6 +178,7 @@ def run_project(
         After Ctrl-C, with the runs that were complete.
     """
     known = preliminary(parts)
+    parts.sources.require_unchanged()
     runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
     try:
         moved = moved_at_levels(parts, known.moved, known.motions, runs, progress, resume)
@@ -260,10 +261,14 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         rules=rules,
         about=parts.file.project,
         types=known.types,
-        doubts=(*known.doubts, *sensitivity_warnings(histories.governing)),
+        doubts=(
+            *known.doubts,
+            *sensitivity_warnings(histories.governing),
+            *parts.sources.warn_of_changes(),
+        ),
         structure=tuple(structure_rows(parts.file, frame, known.spectrum)),
         provisions=provisions_of(parts, known, checks),
-        tables=parts.tables(),
+        tables=parts.sources.tables,
     )
 
 

@@ -12,6 +12,7 @@ from frames.design.hazard.code_rules import canonical
 from frames.design.project.artificial_motions import motion_files
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
+from frames.results.storage import make_folder, write_whole
 from lir_element.argument_checks import require_choice
 
 if TYPE_CHECKING:
@@ -63,7 +64,7 @@ def write_example(folder: Path, code: str | None = None, building: str | None = 
     for name in (*texts, "motions/motions.csv"):  # before the motions are made
         if (folder / name).exists():
             raise FileExistsError(str(folder / name))
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     written = _put(folder, texts)
     parts = ProjectInputs(read_project(written[0]), folder)
     motions = motion_files(parts.spectrum(), vertical=building in _WITH_VERTICAL)
@@ -75,9 +76,9 @@ def _put(folder: Path, texts: Mapping[str, str]) -> list[Path]:
     for path in paths:
         if path.exists():
             raise FileExistsError(str(path))
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     for path, text in zip(paths, texts.values(), strict=True):
-        path.write_text(text, encoding="utf-8")
+        write_whole(path, text)
     return paths
 
 

@@ -32,6 +32,7 @@ from frames.design.project.schema import (
 )
 from frames.design.project.schema_bearing import FactorSources
 from frames.design.project.schema_hazard import PointsTable
+from frames.design.project.source_files import SourceFiles
 from frames.design.project.spectrum_points import read_points
 from frames.design.project.structure_loads import BuildingLoads, loads_of
 from frames.design.project.structure_plan import irregular_frame, regular_frame
@@ -39,6 +40,7 @@ from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
 from frames.frame import Frame
 from frames.library.models import shear_building
 from lir_element import CoulombFriction, LIRBearing
+from lir_element.argument_checks import shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -69,6 +71,7 @@ class ProjectInputs:
 
     def __init__(self, file: ProjectFile, folder: Path) -> None:
         self.file, self.folder = file, folder
+        self.sources = SourceFiles(file, folder)
 
     def code(self) -> DesignCode:
         """Return the code that the project is designed by."""
@@ -146,13 +149,6 @@ class ProjectInputs:
         loads = loads_of(self.file.loads, self.code().loads)
         name = self.file.project.name
         return frame_of(self.file.structure, bearing, name, self.folder, loads)
-
-    def tables(self) -> tuple[Path, ...]:
-        """Return the tables of members that the file names."""
-        given = self.file.structure
-        if not isinstance(given, IrregularFrame):
-            return ()
-        return tuple(self.folder / name for name in (given.columns_table, given.beams_table))
 
     def superstructure(self, frame: Frame) -> Superstructure | None:
         """Return what stands on the bearings; None without ``[superstructure]``."""
@@ -312,7 +308,7 @@ def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path
         msg = f"script = {given.script} is no file in {folder}: name the model's script"
         raise ProjectError(msg)
     opensees().wipe()
-    with RunningScript(script, "script"):
+    with RunningScript(script, "script", folder):
         runpy.run_path(script.name, run_name="__main__")
     with in_project_file():
         return Frame.from_opensees(
@@ -343,6 +339,9 @@ def in_section(section: str, make: Callable[[], T]) -> T:
         return make()
     except ProjectError:
         raise
-    except (ValueError, TypeError) as cause:
-        msg = f"[{section}] {cause}"
+    except (ValueError, TypeError, OSError, OverflowError) as cause:
+        why: object = cause
+        if isinstance(cause, OSError) and cause.filename:
+            why = f"{shown(str(cause.filename))}: {cause.strerror}: name a file that can be read"
+        msg = f"[{section}] {why}"
         raise ProjectError(msg) from cause

@@ -305,11 +305,16 @@ def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
         said["loads"] = file.loads.model_dump(mode="json")
     found = {name: _digest(json.dumps(value).encode()) for name, value in said.items()}
     if isinstance(file.structure, OpenSeesModel):
-        found["script"] = _digest((parts.folder / file.structure.script).read_bytes())
+        found["script"] = parts.sources.digest(parts.folder / file.structure.script)[:16]
     if isinstance(file.structure, ImportedModel):
-        found["model file"] = _digest((parts.folder / file.structure.file).read_bytes())
-    if tables := parts.tables():
-        found["tables of members"] = _digest(b"".join(table.read_bytes() for table in tables))
+        found["model file"] = parts.sources.digest(parts.folder / file.structure.file)[:16]
+        library = [parts.sources.digest(parts.folder / name) for name in file.structure.library]
+        if library:
+            found["libraries of sections"] = _digest("".join(library).encode())
+    if tables := parts.sources.tables:
+        found["tables of members"] = _digest(b"".join(tables.values()))
+    if parts.sources.extensions:
+        found["extensions"] = _digest(json.dumps(parts.sources.extensions).encode())
     samples = [
         name.encode()
         + repr(motion.dt).encode()

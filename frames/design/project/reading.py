@@ -13,16 +13,16 @@ from pydantic import ValidationError
 
 from frames.design._errors import ProjectError
 from frames.design.hazard.code_rules import known_names
-from frames.design.project.derived import Table
+from frames.design.project.derived import Table, WholeFile
 from frames.design.project.extensions import load_extensions
 from frames.design.project.schema import project_file
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from frames.design.project.schema import ProjectFile
 
-F = TypeVar("F", bound=Table)
+F = TypeVar("F", bound=WholeFile)
 
 _KINDS = {
     "moment frame",
@@ -54,26 +54,35 @@ def read_project(path: str | Path) -> ProjectFile:
     ProjectError
         If it cannot be read, with a line for each thing that is wrong.
     """
-    load_extensions(Path(path))
-    return read_file(path, project_file())
+    folder = Path(path).parent
+
+    def kind(data: dict[str, Any]) -> type[ProjectFile]:
+        load_extensions(data, folder)
+        return project_file()
+
+    return read_file(path, kind)
 
 
-def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how") -> F:
+def read_file(
+    path: str | Path,
+    kind_of: Callable[[dict[str, Any]], type[F]],
+    hint: str = "`lir new` shows how",
+) -> F:
     """Return a TOML file of a kind, checked as `read_project` does.
 
     Parameters
     ----------
     path : path
-        The file.
-    kind : type
-        What it must be.
+        The file, which is read once.
+    kind_of : callable
+        Returns the class of the file by its content.
     hint : str
         Where to see how such a file is written.
 
     Returns
     -------
-    Table
-        Of that kind.
+    WholeFile
+        Of that class, with the bytes that were read.
 
     Raises
     ------
@@ -82,9 +91,10 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
     """
     file = Path(path)
     try:
-        data = tomllib.loads(file.read_text(encoding="utf-8"))
+        content = file.read_bytes()
+        data = tomllib.loads(content.decode("utf-8").replace("\r\n", "\n"))
     except OSError as cause:
-        msg = f"{file}: {cause.strerror or cause}: give a file, {hint}"
+        msg = f"{_short(file)}: {cause.strerror or cause}: give a file, {hint}"
         raise ProjectError(msg) from cause
     except UnicodeDecodeError as cause:
         msg = f"{file} is no text in UTF-8 ({cause}): save it as UTF-8"
@@ -93,13 +103,27 @@ def read_file(path: str | Path, kind: type[F], hint: str = "`lir new` shows how"
         given = file.read_text(encoding="utf-8")
         msg = f"{file}: TOML syntax error: {cause}: {_mended(str(cause), given)}"
         raise ProjectError(msg) from cause
+    except (ValueError, RecursionError) as cause:  # thousands of digits, or of brackets
+        what = "brackets are nested too deep" if isinstance(cause, RecursionError) else cause
+        msg = f"{_short(file)} cannot be read: {what}: {_mended('')}"
+        raise ProjectError(msg) from cause
+    kind = kind_of(data)
     try:
-        return kind.model_validate(data)
+        return kind.model_validate(data).read_from(file, content)
     except ValidationError as cause:
         lines: dict[str, str] = {}  # of the ways that a key may be given, the first
         for error in _told(cause.errors()):
             lines.setdefault(".".join(_place(error)), _line(str(file), data, error, kind, hint))
         raise ProjectError("\n".join(lines.values())) from cause
+
+
+def _short(text: object) -> str:
+    # A path or a value in a message: its middle left out where it is long.
+    whole = str(text)
+    return whole if len(whole) <= _LONGEST else f"{whole[:60]}...{whole[-60:]}"
+
+
+_LONGEST = 300  # characters of a path or a value in a message
 
 
 def _told(errors: Sequence[Any]) -> list[Any]:
@@ -155,9 +179,8 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
     if kind.startswith("union_tag"):
         return _of_a_kind(name, key, error)
     if kind in _LISTS:
-        return (
-            f"{name}: {key} = {json.dumps(error['input'], default=str)} must be a list: [0.8, 1.3]"
-        )
+        given = _short(json.dumps(error["input"], default=str))
+        return f"{name}: {key} = {given} must be a list: [0.8, 1.3]"
     if kind in _LENGTHS:
         held = error["ctx"].get("max_length", error["ctx"].get("min_length"))
         bound = "at most" if kind == "too_long" else "at least"
@@ -175,7 +198,7 @@ def _line(name: str, data: dict[str, Any], error: Any, whole: type[Table], hint:
     value = error["input"]
     if isinstance(value, (dict, list)):
         return f"{name}: {key}: {text}"
-    return f"{name}: {key} = {json.dumps(value, default=str)} {text[0].lower()}{text[1:]}"
+    return f"{name}: {key} = {_short(json.dumps(value, default=str))} {text[0].lower()}{text[1:]}"
 
 
 _BOUNDS = {

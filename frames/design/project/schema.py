@@ -10,7 +10,7 @@ from pydantic import Field, create_model, model_validator
 
 from frames.design.codes.registry import DesignCode, code_named, known_codes
 from frames.design.hazard.code_rules import canonical
-from frames.design.project.derived import Table
+from frames.design.project.derived import Table, WholeFile
 from frames.design.project.schema_analysis import Analysis as Analysis
 from frames.design.project.schema_bearing import Bearing as Bearing
 from frames.design.project.schema_bearing import BearingType as BearingType
@@ -50,7 +50,7 @@ class ProjectTable(Table):
     decimal: Literal[".", ","] = "."
 
 
-class ProjectFile(Table):
+class ProjectFile(WholeFile):
     """A whole file."""
 
     project: ProjectTable

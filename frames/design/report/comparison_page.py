@@ -13,6 +13,7 @@ from frames.design.project.comparison import OURS, PLAIN
 from frames.design.report.comparison_words import verdicts
 from frames.design.report.page import page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
+from frames.results.storage import csv_of, make_folder, write_whole
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
@@ -49,16 +50,16 @@ def write_comparison(
         ``compare.csv``, the envelopes over the bounds; ``compare-motions.csv``, what each motion
         reached; both in SI units; ``compare.html``, the page, which computes nothing.
     """
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     texts = {
-        "compare.csv": found.table().to_csv(),
-        "compare-motions.csv": found.by_motion().to_csv(index=False),
+        "compare.csv": csv_of(found.table()),
+        "compare-motions.csv": csv_of(found.by_motion(), index=False),
         "compare.html": _page(found, source, histories),
     }
     written = []
     for name, text in texts.items():
         path = folder / name
-        path.write_text(text, encoding="utf-8")
+        write_whole(path, text)
         written.append(path)
     return written
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import shutil
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import pandas as pd
 
@@ -15,7 +16,7 @@ from frames.design.project.design_run import Histories
 from frames.design.report.by_motion import BY_MOTION
 from frames.design.report.numbers import ECCENTRICITY, TABLES_OF_FORCES, run_tables
 from frames.design.report.writing import report_html
-from frames.results.storage import load, save
+from frames.results.storage import csv_of, load, make_folder, save, write_whole
 from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
@@ -70,9 +71,10 @@ def write_run(
         ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
         removed.
     """
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     old = (*folder.glob("runs-*.nc"), *folder.glob("moved-*.nc"))
-    for stale in (folder / "run.json", *old):  # the first is written last
+    cut = folder.glob(".*.part")  # of a process that was killed
+    for stale in (folder / "run.json", *old, *cut):  # the first is written last
         stale.unlink(missing_ok=True)
     own = _labelled(run.runs)
     written = {label: folder / f"runs-{label}.nc" for label in own}
@@ -82,10 +84,9 @@ def write_run(
     for label, (_, _, data) in _labelled(run.moved).items():
         written[f"moved {label}"] = folder / f"moved-{label}.nc"
         save(data, written[f"moved {label}"])
-    for table in run.tables:
-        written[table.name] = folder / table.name
-        if table.resolve() != written[table.name].resolve():
-            shutil.copyfile(table, written[table.name])
+    for name, content in run.tables.items():
+        written[name] = folder / name
+        write_whole(written[name], content)
     governing = folder / "governing.nc"
     save(run.governing, governing, compress=True)
     judged = write_judgement(run, folder, source, figures=figures, language=language)
@@ -111,24 +112,24 @@ def write_judgement(
     }
     texts = {
         "project.toml": source,
-        **{f"{name}.csv": table.to_csv() for name, table in indexed.items()},
-        f"{BY_MOTION}.csv": tables[BY_MOTION].to_csv(index=False),
-        "equivalent-linear.csv": run.equivalent.to_dataframe().to_csv(),
-        "demands.csv": headed(run.demands).assign(void=run.demands["void"]).to_csv(),
-        "provisions.csv": pd.DataFrame(run.provisions).to_csv(index=False),
-        "checks.csv": run.checks.to_dataframe().to_csv(index=False),
+        **{f"{name}.csv": csv_of(table) for name, table in indexed.items()},
+        f"{BY_MOTION}.csv": csv_of(tables[BY_MOTION], index=False),
+        "equivalent-linear.csv": csv_of(run.equivalent.to_dataframe()),
+        "demands.csv": csv_of(headed(run.demands).assign(void=run.demands["void"])),
+        "provisions.csv": csv_of(pd.DataFrame(run.provisions), index=False),
+        "checks.csv": csv_of(run.checks.to_dataframe(), index=False),
         "checks.txt": calculations(run),
         "report.html": report_html(run, source, tables, figures=figures, language=language),
-        "run.json": json.dumps(_facts(run), indent=2) + "\n",
     }
     if len(tables[ECCENTRICITY]):
-        texts[f"{ECCENTRICITY}.csv"] = tables[ECCENTRICITY].to_csv(index=False)
+        texts[f"{ECCENTRICITY}.csv"] = csv_of(tables[ECCENTRICITY], index=False)
     else:  # of an earlier run
         (folder / f"{ECCENTRICITY}.csv").unlink(missing_ok=True)
+    texts["run.json"] = json.dumps(_facts(run, folder), indent=2) + "\n"
     written = []
     for name, text in texts.items():
         path = folder / name
-        path.write_text(text, encoding="utf-8")
+        write_whole(path, text)
         written.append(path)
     return written
 
@@ -158,8 +159,8 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
         partly = (folder / "interrupted.nc").is_file()
         msg = f"{folder} holds {'an interrupted run' if partly else 'no run'}: `lir run` makes one"
         raise ProjectError(msg)
-    kept = json.loads(facts.read_text(encoding="utf-8"))
-    was = kept.get("inputs", {})
+    kept = _read_facts(facts)
+    was = kept["inputs"]
     other = sorted(name for name in {*was, *inputs} if was.get(name) != inputs.get(name))
     if other:
         msg = (
@@ -168,9 +169,10 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
         )
         raise ProjectError(msg)
     try:
+        _require_unchanged(folder, kept.get("digests", {}))
         runs, moved = (_read(folder, word, kept.get(word, {})) for word in ("runs", "moved"))
         governing = load(folder / "governing.nc")
-    except OSError as cause:
+    except (OSError, RuntimeError) as cause:  # the latter of HDF5, on a damaged part
         msg = f"{folder}: {cause}: `lir run` writes all files anew"
         raise ProjectError(msg) from cause
     both = (*runs.values(), *moved.values())
@@ -186,6 +188,33 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
     return Histories(runs=runs, governing=governing, governing_case=case, moved=moved)
 
 
+def _read_facts(path: Path) -> dict[str, Any]:
+    # run.json, or a ProjectError.
+    try:
+        kept = json.loads(path.read_text(encoding="utf-8"))
+        parts = kept["inputs"], kept["runs"], kept["lir_dcfp_version"], kept["governing_case"]
+    except (OSError, ValueError, LookupError, TypeError, RecursionError) as cause:
+        msg = f"{path} is damaged ({type(cause).__name__}: {cause}): `lir run` writes it anew"
+        raise ProjectError(msg) from cause
+    if not isinstance(parts[0], dict) or not isinstance(parts[1], dict):
+        msg = f"{path} is damaged: `lir run` writes it anew"
+        raise ProjectError(msg)
+    return dict(kept)
+
+
+def _require_unchanged(folder: Path, digests: Mapping[str, str]) -> None:
+    # Each file of time histories must be as it was written.
+    for name, digest in digests.items():
+        if _digest(folder / name) != digest:
+            msg = f"{name} is not as it was written: its SHA-256 is not the one in run.json"
+            raise OSError(msg)
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
 def _read(folder: Path, word: str, about: Mapping[str, Mapping[str, str]]) -> LevelRuns:
     # Files of time histories by level and bound, as run.json names them.
     found: LevelRuns = {}
@@ -197,8 +226,7 @@ def _read(folder: Path, word: str, about: Mapping[str, Mapping[str, str]]) -> Le
 
 def write_interrupted(data: xr.Dataset, folder: Path) -> Path:
     """Write the runs that were complete when a project's run was interrupted; return the file."""
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / "interrupted.nc"
+    path = make_folder(folder) / "interrupted.nc"
     save(data, path, compress=True)
     return path
 
@@ -215,7 +243,9 @@ def calculations(run: ProjectRun) -> str:
     return "\n\n".join(blocks) + "\n"
 
 
-def _facts(run: ProjectRun) -> dict[str, object]:
+def _facts(run: ProjectRun, folder: Path) -> dict[str, object]:
+    held = [*(f"runs-{label}.nc" for label in _labelled(run.runs)), "governing.nc"]
+    held += [f"moved-{label}.nc" for label in _labelled(run.moved)]
     return {
         "project": run.frame.name,
         "written": datetime.now(tz=UTC).isoformat(timespec="seconds"),
@@ -226,6 +256,7 @@ def _facts(run: ProjectRun) -> dict[str, object]:
         "governing_case": run.governing_case,
         "fixed_base_period": _fixed_base_period(run),
         "inputs": dict(run.inputs),
+        "digests": {name: _digest(folder / name) for name in held if (folder / name).is_file()},
         "runs": {
             label: {
                 "level": level,

@@ -9,6 +9,7 @@ import pandas as pd
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import Check, Checks
 from frames.design.calculation.standing import standing_of
+from frames.results.storage import from_text
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -51,7 +52,11 @@ def read_checks(folder: Path) -> Checks:
     if not path.is_file():
         msg = f"{path} is missing: `lir report` writes it from the histories of the run"
         raise ProjectError(msg)
-    table = pd.read_csv(path, dtype=dict.fromkeys(_TEXTS, str), keep_default_na=False)
+    try:
+        table = pd.read_csv(path, dtype=dict.fromkeys(_TEXTS, str), keep_default_na=False)
+    except (OSError, ValueError) as cause:
+        msg = f"{path} cannot be read ({cause}): `lir report` writes it anew"
+        raise ProjectError(msg) from cause
     missing = sorted({*_TEXTS, "demand", "limit", "verdict"} - {*map(str, table.columns)})
     if missing:
         msg = f"{path} has no column {', '.join(missing)}: `lir report` writes it anew"
@@ -60,7 +65,7 @@ def read_checks(folder: Path) -> Checks:
 
 
 def _check(row: dict[Any, Any]) -> Check:
-    texts = {name: row[name] for name in _TEXTS}
+    texts = {name: from_text(row[name]) for name in _TEXTS}
     beyond = {
         "does not apply": "procedure",
         "needs agreement": "agreement",

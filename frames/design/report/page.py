@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import io
 from typing import TYPE_CHECKING, NamedTuple
 
 import jinja2
@@ -82,12 +81,12 @@ def picture(title: str, figure: Figure, words: Words | None = None) -> Picture:
     """Return a figure with its title, drawn, in a language; the figure is closed."""
     import matplotlib.pyplot as plt
 
+    from frames.plots.plot_style import png_of
+
     if words is not None:
         title, figure = words.say(title), words.figure(figure)
-    file = io.BytesIO()
-    figure.savefig(file, format="png", dpi=_DOTS, bbox_inches="tight")
+    drawn = base64.b64encode(png_of(figure, _DOTS, tight=True)).decode("ascii")
     plt.close(figure)
-    drawn = base64.b64encode(file.getvalue()).decode("ascii")
     return Picture(title, f"data:image/png;base64,{drawn}")
 
 

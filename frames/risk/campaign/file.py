@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -42,38 +41,65 @@ STORE = "results"
 """Folder of the results beside the file, if nothing is said: the file's name and this."""
 
 
-def _read(path: Path) -> CampaignFile:
-    # The file; the law of its bearings, one of its extensions too, says what is a parameter.
-    load_extensions(path, "campaign")
-    bearing: Any = bearing_table()
-    keys: Any = parameters_of(_law_of(path, bearing))
-    kind = create_model(
-        "CampaignFile",
-        __base__=CampaignFile,
-        bearing=(bearing, ...),
-        parameters=(keys | None, None),
-    )
+def campaign_file(path: str | Path) -> CampaignFile:
+    """Return a campaign's file, checked; the law of its bearings says what is a parameter.
+
+    Parameters
+    ----------
+    path : str or path
+        TOML (docs/campaigns.md), which is read once.
+
+    Returns
+    -------
+    CampaignFile
+        For `read_campaign` and what follows.
+
+    Raises
+    ------
+    ProjectError
+        If it cannot be read: a line for each thing.
+    """
+    folder = Path(path).parent
+
+    def kind(data: dict[str, Any]) -> type[CampaignFile]:
+        load_extensions(data, folder, "campaign")
+        bearing: Any = bearing_table()
+        keys: Any = parameters_of(_law_of(data, bearing))
+        return create_model(
+            "CampaignFile",
+            __base__=CampaignFile,
+            bearing=(bearing, ...),
+            parameters=(keys | None, None),
+        )
+
     return read_file(path, kind, "docs/campaigns.md shows one")
 
 
-def _law_of(path: Path, table: type[Bearing]) -> type[FrictionLaw]:
+def _read(given: CampaignFile | str | Path) -> CampaignFile:
+    return given if isinstance(given, CampaignFile) else campaign_file(given)
+
+
+def _path_of(file: CampaignFile) -> Path:
+    return file.source_path or Path("campaign.toml")
+
+
+def _law_of(data: dict[str, Any], table: type[Bearing]) -> type[FrictionLaw]:
     # The friction law of the bottom surface; what is wrong with the file is left to its reading.
     try:
-        given = tomllib.loads(path.read_text(encoding="utf-8"))["bearing"]
-        friction = table.model_validate(given).friction
-    except (OSError, ValueError, KeyError):
+        friction = table.model_validate(data["bearing"]).friction
+    except (ValueError, KeyError):
         return CoulombFriction
     first = friction[0] if isinstance(friction, tuple) else friction
     return first.made_of if isinstance(first, DerivedTable) else CoulombFriction
 
 
-def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campaign:
+def read_campaign(given: CampaignFile | str | Path, *, store: str | Path | None = None) -> Campaign:
     """Return the campaign of a file.
 
     Parameters
     ----------
-    path : str or path
-        TOML (docs/campaigns.md).
+    given : CampaignFile, str or path
+        TOML (docs/campaigns.md), or what `campaign_file` read.
     store : str or path, optional
         Folder of the results. None: beside the file, its name and "-results".
 
@@ -87,11 +113,11 @@ def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campa
     ProjectError
         If the file, or something that it names, cannot be used: a line for each thing.
     """
-    whole = Path(path)
-    file = _read(whole)
+    file = _read(given)
+    whole = _path_of(file)
     folder = whole.resolve().parent
     frame = _frame(file, whole)
-    given = file.analysis
+    asked = file.analysis
     return in_section(
         "campaign",
         lambda: Campaign(
@@ -101,9 +127,9 @@ def read_campaign(path: str | Path, *, store: str | Path | None = None) -> Campa
             sample=in_section("sample", lambda: _sample(file)),
             scales=file.motions.intensities or file.motions.scales,
             batch=file.campaign.batch,
-            level=given.level,
-            dt=given.dt,
-            duration=given.duration,
+            level=asked.level,
+            dt=asked.dt,
+            duration=asked.duration,
         ),
     )
 
@@ -116,28 +142,28 @@ def _frame(file: CampaignFile, path: Path) -> Frame:
     return frame.combined(WEIGHS) if frame.load_cases else frame
 
 
-def workers_of(path: str | Path) -> int | None:
+def workers_of(given: CampaignFile | str | Path) -> int | None:
     """Return how many runs at a time a campaign's file asks for."""
-    return _read(Path(path)).analysis.workers
+    return _read(given).analysis.workers
 
 
-def fragility_in(path: str | Path) -> FragilityTable | None:
+def fragility_in(given: CampaignFile | str | Path) -> FragilityTable | None:
     """Return the limit states and the measure of intensity that a campaign's file asks for."""
-    return _read(Path(path)).fragility
+    return _read(given).fragility
 
 
-def scaled_to(path: str | Path) -> Intensity | None:
+def scaled_to(given: CampaignFile | str | Path) -> Intensity | None:
     """Return the measure that a campaign's file scales the motions to; None: they are as read."""
-    file = _read(Path(path))
+    file = _read(given)
     if not file.motions.intensities or file.fragility is None:
         return None
     return file.fragility.measured()
 
 
-def comparison_in(path: str | Path) -> DeviceComparison | None:
+def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
     """Return what a campaign's file compares; None without ``[compare]``."""
-    whole = Path(path)
-    file = _read(whole)
+    file = _read(given)
+    whole = _path_of(file)
     if file.compare is None:
         return None
     bearing, asked = bearing_of(file.bearing), file.compare

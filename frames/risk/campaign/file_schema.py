@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, Self, TypeVa
 
 from pydantic import Field, create_model, model_validator
 
-from frames.design.project.derived import Table
+from frames.design.project.derived import Table, WholeFile
 from frames.design.project.quantities import Acceleration, Length, Ratio, SpeedRate, Time, quantity
 from frames.design.project.schema import Bearing, LoadsTable, MotionSource, Structure
 from frames.risk.campaign.designs import names_of
@@ -110,7 +110,7 @@ class CampaignAnalysis(Table):
     workers: int | None = Field(default=None, ge=1)
 
 
-class CampaignFile(Table):
+class CampaignFile(WholeFile):
     """A whole file."""
 
     campaign: CampaignTable

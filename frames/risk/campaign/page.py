@@ -10,6 +10,7 @@ import pandas as pd
 
 from frames.design.report.page import Picture, Table, page_table, page_template, picture
 from frames.design.report.tables import in_mm_and_kn
+from frames.results.storage import csv_of, write_whole
 from frames.risk._errors import FragilityError
 from frames.risk.campaign.page_comparison import Fitted, compared
 from frames.risk.campaign.plot_response import response_by_factor
@@ -105,15 +106,18 @@ def write_page(
         source=source,
         written=f"{datetime.now(tz=UTC):%Y-%m-%d %H:%M} UTC, lir-dcfp {package_version()}",
     )
-    tables = {"response": responses.to_csv(index=False), "failures": failures.to_csv(index=False)}
+    tables = {
+        "response": csv_of(responses, index=False),
+        "failures": csv_of(failures, index=False),
+    }
     if asked:
-        tables["fragility"] = fragility.to_csv()
+        tables["fragility"] = csv_of(fragility)
     if devices is not None:
-        tables |= {name: table.to_csv() for name, table in devices.files.items()}
+        tables |= {name: csv_of(table) for name, table in devices.files.items()}
     texts = {path: page}
     texts |= {path.with_name(f"{path.stem}-{name}.csv"): text for name, text in tables.items()}
     for file, text in texts.items():
-        file.write_text(text, encoding="utf-8")
+        write_whole(file, text)
     return list(texts)
 
 

@@ -4,7 +4,8 @@
 
 A mass on a bearing moves vertically under compression: a linear spring, whose answer the same
 build gives with an element of its own. Static and transient analysis, a wipe, all of it twice.
-The verdict is kept beside the compiled kernels under the hash of the library.
+A verdict by numbers is kept beside the compiled kernels under the hash of the library; one by a
+crash, by time or by memory is for the process alone.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from lir_element import CoulombFriction, LIRBearing
-from lir_element._compile.cache import keep
+from lir_element._compile.cache import content_of, keep
 from lir_element._compile.jit import OWN
 from lir_element._compile.progress import say
 from lir_element.opensees.connection import add_host_element
@@ -52,18 +53,20 @@ def why_not_fast() -> str:
     verdicts = folder / "opensees.json" if folder else None
     key = _fingerprint(path)
     known = _kept(verdicts)
-    if key not in known:
-        say("trying the in-process coupling with OpenSees: once, a minute or three")
-        known[key] = _run_child()
-        keep(verdicts, json.dumps(known, indent=1).encode())
-    return known[key]
+    if key in known:
+        return known[key] and f"{known[key]}; remove {verdicts} to have it tried again"
+    say("trying the in-process coupling with OpenSees: once, a minute or three")
+    verdict, decided = _run_child()
+    if decided:
+        keep(verdicts, json.dumps(known | {key: verdict}, indent=1).encode())
+    return verdict
 
 
 def _kept(verdicts: Path | None) -> dict[str, str]:
     # A file that is missing or damaged holds no verdict.
     try:
-        known = json.loads(verdicts.read_bytes()) if verdicts else {}
-    except (OSError, ValueError):
+        known = json.loads(content_of(verdicts) or b"{}") if verdicts else {}
+    except (ValueError, RecursionError):
         return {}
     return {k: str(v) for k, v in known.items()} if isinstance(known, dict) else {}
 
@@ -73,11 +76,12 @@ def _fingerprint(path: Path) -> str:
         return hashlib.file_digest(file, "blake2b").hexdigest()[:32]
 
 
-def _run_child() -> str:
-    # The verdict of a self-test in a process of its own, which may crash.
+def _run_child() -> tuple[str, bool]:
+    # The verdict of a self-test in a process of its own, which may crash, and whether it is by
+    # numbers: what no time or no memory decided may be otherwise tomorrow.
     try:
         done = subprocess.run(
-            [sys.executable, "-m", "lir_element.opensees.fast.selftest"],
+            [sys.executable, "-P", "-m", "lir_element.opensees.fast.selftest"],
             env=child_environment(),
             capture_output=True,
             text=True,
@@ -85,11 +89,14 @@ def _run_child() -> str:
             check=False,
         )
     except subprocess.TimeoutExpired:
-        return f"its self-test did not end within {_LONGEST:g} s"
+        return f"its self-test did not end within {_LONGEST:g} s", False
+    except OSError as error:
+        return f"its self-test cannot be started ({error})", False
     if done.returncode != 0:
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
-        return f"its self-test failed (exit code {done.returncode}: {last})"
-    return ""
+        said = f"its self-test failed (exit code {done.returncode}: {last})"
+        return said, NotPossibleError.__name__ in last
+    return "", True
 
 
 def main() -> None:

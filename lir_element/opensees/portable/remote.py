@@ -280,7 +280,7 @@ class Server:
     def __init__(self) -> None:
         ours, theirs = Pipe()
         module = "lir_element.opensees.portable.server"
-        command = [sys.executable, "-m", module, str(theirs.fileno()), str(os.getpid())]
+        command = [sys.executable, "-P", "-m", module, str(theirs.fileno()), str(os.getpid())]
         # in a session of its own: Ctrl-C in a terminal goes to all processes of the model's
         options: dict[str, Any] = {"pass_fds": [theirs.fileno()], "start_new_session": True}
         if sys.platform == "win32":
