@@ -102,8 +102,8 @@ class Finding:
     feature : str
         Of `Features.names()`; or "full_contact": what the level 'pendulum' takes for granted; or
         "slip_stability": whether the residual slip holds; or "impacts": whether rims were met with
-        a slip; or "yield_displacement": whether elastic sliding before slip counts; or "yielding": whether hinges
-        turned further than they keep their strength; or "equilibrium", "accelerations" and
+        a slip; or "yield_displacement": whether elastic sliding before slip counts; or "yielding":
+        whether hinges turned further than they keep their strength; or "equilibrium", "accelerations" and
         "time_step": whether the numbers of the run belong together.
     left_out : bool
         Whether the run left it out.
@@ -513,8 +513,8 @@ def _met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     assumed = bool(np.isclose(stiffness[k], stack_stiffness(area[k], height[k]), rtol=1e-6))
     low, high = STACK_RANGE
     text = (
-        f"{data['bearing'].to_numpy()[k]} met a rim with a slip at {closing.at[k]:.2f} s: the axial "
-        f"stiffness stops {1e3 * closing.values[k]:.3g} mm/s along the slider, by which the axial "
+        f"{data['bearing'].to_numpy()[k]} met a rim with a slip at {closing.at[k]:.2f} s: the "
+        f"axial stiffness stops {1e3 * closing.values[k]:.3g} mm/s along the slider, by which the axial "
         f"force rises by up to {_share(float(rises[k]))} of that at rest, and the bearing's force "
         "with it"
     )

@@ -115,10 +115,7 @@ def rims_met(data: xr.Dataset) -> FloatArray:
 
 
 def closing(data: xr.Dataset) -> FloatArray:
-    """Return the speed at which the axial contact closes where a rim is met (time, bearing) [m/s].
-
-    0 but at the first step of each contact with a rim, and at those without a slip.
-    """
+    """Return the closing speed of the axial contact at the first step of rim contacts [m/s]."""
     found = np.zeros((data.sizes["time"], data.sizes["bearing"]))
     met, time = rims_met(data), data["time"].to_numpy()
     slip = of_bearings(data, "interface_slip", "axis")[:-1]

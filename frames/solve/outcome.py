@@ -34,7 +34,7 @@ TUMBLED = 0.3
 
 
 RESOLVED = 0.3
-"""Base step times the frequency of a mass on a stop, up to which its forces are within 2 % [rad]."""
+"""Base step times frequency of a mass on a stop, up to which forces are within 2 % [rad]."""
 
 
 class Outcome(NamedTuple):
@@ -166,8 +166,8 @@ def _lost(state: GravityState, dt: float) -> tuple[int, str] | None:
     quickest = float(rings.max())
     if dt * quickest > RESOLVED:
         text += (
-            f"; a landing on a stop lasts some {1e3 * np.pi / quickest:.2g} ms, and forces are those "
-            f"at base steps of {1e3 * dt:.3g} ms: where they count, take "
+            f"; a landing on a stop lasts some {1e3 * np.pi / quickest:.2g} ms, and forces are "
+            f"those at base steps of {1e3 * dt:.3g} ms: where they count, take "
             f"dt = {RESOLVED / quickest:.1g} s"
         )
     return int(order[0]), text

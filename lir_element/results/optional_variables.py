@@ -31,7 +31,8 @@ def optional_variables(step: str, states: Records, props: Records) -> dict[str, 
         Variables by name. Of bearings that are not heated temperatures are NaN; dimension 'contact'
         is bottom, top, interface. Deformations of rims [m]: 'rim_closure' with its plastic part
         where a rim presses, 'rim_plastic' the largest plastic deformation so far, infinite once the
-        rim is broken. 'bearing_failed' where bearings have backups, 1 from the step after their failure on.
+        rim is broken. 'bearing_failed' where bearings have backups, 1 from the step after their
+        failure on.
     """
     found: dict[str, xr.Variable] = {}
     if props["heats"].any():

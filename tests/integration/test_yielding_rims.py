@@ -271,7 +271,7 @@ def test_a_broken_rim_ends_the_run_or_lets_the_slider_on_the_flange(level: str) 
 @pytest.mark.parametrize("level", ["pendulum", "contact"])
 @pytest.mark.parametrize("force", [0.4 * WEIGHT, math.inf])
 def test_a_flange_counts_from_a_broken_rim_on(level: str, force: float) -> None:
-    """One shorter than `rim_overrun` changes nothing: neither a rim that holds nor one that breaks."""
+    """A flange shorter than `rim_overrun` changes nothing, if a rim holds or breaks."""
     warnings.simplefilter("ignore", AnalysisWarning)
     for scale, end in ((1.0, "ok"), (1.6, "rim_overrun")):
         overrun = 0.01 if end == "rim_overrun" else 0.1

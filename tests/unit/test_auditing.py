@@ -571,7 +571,7 @@ def test_the_yield_displacement_counts_where_friction_holds_nearly_all():
 
 
 def test_checks_of_forces_say_that_they_rest_on_a_default():
-    """Of axial and lateral force, where a rim was met with a slip; not of a stiffness that is given."""
+    """Axial and lateral force, if a rim was met with a slip; not if the stiffness is given."""
     limits = DesignLimits(axial_force=1e9, lateral_force=1e9, interface_pressure=1e9)
     given = replace(SLIPS, axial_stiffness=SLIPS.resolved()["axial_stiffness"])
     for bearing, until, says in ((SLIPS, 2.4, True), (SLIPS, 2.0, False), (given, 2.4, False)):

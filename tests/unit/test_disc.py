@@ -227,7 +227,7 @@ def test_friction_with_spin_never_exceeds_the_disc() -> None:
 
 
 def test_eccentric_pressure_twists_less() -> None:
-    """The radius that resists spin falls as the mean lever of the pressure about its centre does."""
+    """The radius that resists spin falls like the mean lever of the pressure about its centre."""
     cells = (np.arange(400) + 0.5) / 200.0 - 1.0
     x, y = np.meshgrid(cells, cells, indexing="ij")
     touch = np.zeros(1, dtype=TOUCH)[0]
