@@ -103,8 +103,8 @@ class Finding:
         Of `Features.names()`; or "full_contact": what the level 'pendulum' takes for granted; or
         "slip_stability": whether the residual slip holds; or "impacts": whether rims were met with
         a slip; or "yield_displacement": whether elastic sliding before slip counts; or "yielding":
-        whether hinges turned further than they keep their strength; or "equilibrium", "accelerations" and
-        "time_step": whether the numbers of the run belong together.
+        whether hinges turned further than they keep their strength; or "equilibrium",
+        "accelerations" and "time_step": whether the numbers of the run belong together.
     left_out : bool
         Whether the run left it out.
     mattered : bool
@@ -514,8 +514,8 @@ def _met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     low, high = STACK_RANGE
     text = (
         f"{data['bearing'].to_numpy()[k]} met a rim with a slip at {closing.at[k]:.2f} s: the "
-        f"axial stiffness stops {1e3 * closing.values[k]:.3g} mm/s along the slider, by which the axial "
-        f"force rises by up to {_share(float(rises[k]))} of that at rest, and the bearing's force "
+        f"axial stiffness stops {1e3 * closing.values[k]:.3g} mm/s along the slider, by which the "
+        f"axial force rises by up to {_share(float(rises[k]))} of that at rest, and the bearing's force "
         "with it"
     )
     if assumed:
