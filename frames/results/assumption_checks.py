@@ -515,8 +515,8 @@ def _met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     text = (
         f"{data['bearing'].to_numpy()[k]} met a rim with a slip at {closing.at[k]:.2f} s: the "
         f"axial stiffness stops {1e3 * closing.values[k]:.3g} mm/s along the slider, by which the "
-        f"axial force rises by up to {_share(float(rises[k]))} of that at rest, and the bearing's force "
-        "with it"
+        f"axial force rises by up to {_share(float(rises[k]))} of that at rest, and the bearing's "
+        "force with it"
     )
     if assumed:
         text += (
