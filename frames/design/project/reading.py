@@ -100,12 +100,12 @@ def read_file(
         msg = f"{file} is no text in UTF-8 ({cause}): save it as UTF-8"
         raise ProjectError(msg) from cause
     except tomllib.TOMLDecodeError as cause:
-        given = file.read_text(encoding="utf-8")
+        given = content.decode("utf-8")
         msg = f"{file}: TOML syntax error: {cause}: {_mended(str(cause), given)}"
         raise ProjectError(msg) from cause
     except (ValueError, RecursionError) as cause:  # thousands of digits, or of brackets
         what = "brackets are nested too deep" if isinstance(cause, RecursionError) else cause
-        msg = f"{_short(file)} cannot be read: {what}: {_mended('')}"
+        msg = f"{_short(file)} cannot be read: {what}: {_mended('', '')}"
         raise ProjectError(msg) from cause
     kind = kind_of(data)
     try:
