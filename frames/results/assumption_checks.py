@@ -189,7 +189,7 @@ def audit(data: xr.Dataset) -> tuple[Finding, ...]:
     >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
     >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
     >>> [found.feature for found in audit(data) if found.mattered]
-    ['velocity_dependence']
+    ['velocity_dependence', 'yield_displacement']
     >>> audit(data)[0].sentence
     'rims: not needed, reached 95 % of the displacement capacity'
     """

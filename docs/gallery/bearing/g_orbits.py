@@ -6,6 +6,8 @@ A mass under two components: the plain DCFP stays within its rims and strikes th
 passes them by the slip of its interface.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from frames import GroundMotion, lumped_mass, plots, time_history
@@ -14,7 +16,7 @@ from frames.demo import bearing_for
 t = np.arange(0.0, 8.0, 0.005)  # s
 x, y = (a * np.sin(w * t) * (t < 4.0) for a, w in ((1.8, 3.6), (1.2, 4.5)))
 motion = GroundMotion(x=x, y=y, dt=0.005)
-bearing = bearing_for(2000e3)
+bearing = replace(bearing_for(2000e3), axial_stiffness=12e9)  # N/m, which its impacts rest on
 devices = {"LIR-DCFP": bearing, "plain DCFP": bearing.as_dcfp()}
 runs = {
     name: time_history(lumped_mass(device, mass=204e3), motion) for name, device in devices.items()
