@@ -186,7 +186,11 @@ def test_check_says_the_loads(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "spectrum",
-    ["s_ms = 1.0", 'points = [["0 s", "0.4 g"], ["0.3 s", "1 g"], ["5 s", "0.1 g"]]\ns_ms = 1.0'],
+    [
+        "s_ms = 1.0",
+        'points = [["0 s", "0.4 g"], ["0.3 s", "1 g"], ["5 s", "0.1 g"]]\ns_ms = 1.0',
+        'points = [["0 s", "0.4 g"], ["0.3 s", "1 g"], ["5 s", "0.1 g"]]',
+    ],
 )
 def test_the_statement_has_the_combinations_that_are_analysed(
     tmp_path: Path, spectrum: str
@@ -198,7 +202,9 @@ def test_the_statement_has_the_combinations_that_are_analysed(
     (tmp_path / "project.toml").write_text(text.replace(SPECTRA["ASCE 7-22"], new))
     parts = ProjectInputs(read_project(tmp_path / "project.toml"), tmp_path)
     rows = dict(structure_rows(parts.file, parts.frame(), parts.spectrum()))
-    for name, factors in isolator_combinations(1.0).items():
+    s_ms = parts.spectrum().parameters["S_MS"]
+    assert s_ms == pytest.approx(1.0 if "s_ms" in spectrum else 0.9, abs=0.01)
+    for name, factors in isolator_combinations(s_ms).items():
         said = " + ".join(f"{value:g} {case}" for case, value in factors.items() if value > 0.0)
         assert rows[f"{name} combination, no horizontal earthquake"] == said
 
