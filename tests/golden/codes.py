@@ -313,7 +313,7 @@ def above_of(project):
         "W_s": G * mass[1:].sum(),
         "w": G * mass[1:],
         "h": levels[1:] - levels[0],
-        "R": given["R"],
+        "R": given.get("R"),
         "importance": given.get("importance", 1.0),
         "wind": given.get("wind_shear", 0.0),
         "T_fb": period,

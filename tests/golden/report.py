@@ -506,7 +506,7 @@ def storey_drift(project, e, above, k):
     code = project.code
     share = w * h ** (14.0 * e["damping"] * above["T_fb"]) if code == "ASCE 7-22" else w * h
     share = w if code == "EN 1998" else share  # one acceleration for all
-    more = {"ASCE 7-22": e.get("R_I"), "EN 1998": 0.5 * 1.5, "NCh2745": min(above["R"], 2.0)}
+    more = {"ASCE 7-22": e.get("R_I"), "EN 1998": 0.5 * 1.5, "NCh2745": min(above["R"] or 2.0, 2.0)}
     limit = {"ASCE 7-22": 0.015, "EN 1998": 0.005, "NCh2745": 0.0025}[code]
     shear = e["V_s"] * share[k:].sum() / share.sum()
     return more[code] * shear / stiffness, limit * np.diff(h, prepend=0.0)[k]
