@@ -520,7 +520,7 @@ def _met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     )
     if assumed:
         text += (
-            f"; axial_stiffness = {stiffness[k]:.3g} N/m is the default, an estimate: run with "
+            f"; this stiffness of {stiffness[k]:.3g} N/m is the default, an estimate: run with "
             f"{low:g} and {high:g} times that, or give the maker's"
         )
     finding = _finding("impacts", False, True, float(rises[k]), text)

@@ -283,7 +283,7 @@ def without_formulas(table: pd.DataFrame) -> pd.DataFrame:
     -------
     pandas.DataFrame
         The same; cells, heads and labels that begin with =, +, - or @ and are no numbers begin
-        with an apostrophe.
+        with an apostrophe. Axes with a sign, "+x", stay: they run nothing, and programs read them.
     """
     found = table.copy()
     for k, kind in enumerate(table.dtypes):
@@ -300,12 +300,12 @@ def without_formulas(table: pd.DataFrame) -> pd.DataFrame:
 
 
 _FORMULA = re.compile(r"\s*[=+\-@\t\r]\s*\S")
-_NUMBER = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*|[+-]?(inf|nan)")
+_PLAIN = re.compile(r"\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*|[+-]?(inf|nan)|[+-][xyz]")
 
 
 def as_text(cell: Any) -> Any:
     """Return a cell of a table; a text that a spreadsheet would run has an apostrophe before it."""
-    runs = isinstance(cell, str) and _FORMULA.match(cell) and not _NUMBER.fullmatch(cell)
+    runs = isinstance(cell, str) and _FORMULA.match(cell) and not _PLAIN.fullmatch(cell)
     return f"'{cell}" if runs else cell
 
 

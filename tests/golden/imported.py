@@ -95,7 +95,7 @@ class Model:
         ]
         same = [
             f"STORIES: stories ({len(self.z)})",
-            f"MATERIAL PROPERTIES: materials ({len({w[0] for w in self.lines['MATERIAL']})})",
+            f"MATERIAL PROPERTIES: materials in use ({len({w[0] for w in self.lines['MATERIAL']})})",
             f"FRAME SECTIONS: cross-sections in use ({kinds})",
             f"SHELLPROP: sections of areas in use ({len(self.lines['SHELLPROP'])})",
             f"DIAPHRAGM NAMES: rigid diaphragms by story ({len(slabs)})",

@@ -477,7 +477,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     from frames.design.project import extensions
     from lir_element.device import friction
 
-    monkeypatch.setattr(extensions, "_LOADED", set())
+    monkeypatch.setattr(extensions, "_LOADED", {})
     monkeypatch.setattr(friction, "_KNOWN", dict(friction._KNOWN))
     (tmp_path / "laws.py").write_text(ISLAND)
     (tmp_path / "project.toml").write_text(PROJECT)

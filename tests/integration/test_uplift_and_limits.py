@@ -132,7 +132,8 @@ def test_a_limit_of_the_project_stands_beside_that_of_the_code(
     )
     assert project.standing.kind == "own"
     europe = history_checks(runs, frame, "EN 1998-1", limits=DesignLimits(drift=own))
-    assert one(europe, "storey drift ratio").clause == "no code: limit of the project"
+    assert one(europe, "storey drift ratio", "EN 1998-1 4.4.3.2").limit == 0.005
+    assert one(europe, "storey drift ratio", "no code: limit of the project").limit == own
     plain = history_checks(runs, frame, "ASCE 7-22", limits=DesignLimits(base_shear=1e9))
     assert one(plain, "base shear").clause == "no code: limit of the project"
 

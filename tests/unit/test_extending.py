@@ -80,7 +80,7 @@ def folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, put_example: Callable[..., Path]
 ) -> Iterator[Path]:
     """A project by the code of the page; what it registers is taken back."""
-    monkeypatch.setattr(extensions, "_LOADED", set())
+    monkeypatch.setattr(extensions, "_LOADED", {})
     monkeypatch.setattr(check_register, "_REGISTERED", dict(check_register._REGISTERED))
     put_example(tmp_path)
     (tmp_path / "island.py").write_text(SOURCE)

@@ -22,6 +22,7 @@ RESULT_FILES = frozenset(
                 "members",
                 "members-without-forces",
                 "modes",
+                "motions",
                 "programme",
                 "provisions",
                 "reactions",
