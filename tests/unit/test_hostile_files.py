@@ -101,7 +101,7 @@ def one_line(found: Result, code: int) -> str:
     return said
 
 
-@pytest.mark.meant("was changed or removed after it was read")
+@pytest.mark.filterwarnings("always:.*was changed or removed:frames.ModelWarning")
 def test_what_is_shown_is_what_was_analysed(done: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The file is edited, and a record removed, while the time histories are computed."""
     histories = design_run.histories_at_levels

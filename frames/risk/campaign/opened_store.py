@@ -36,6 +36,11 @@ def readable(where: Path) -> Generator[None, None, None]:
     ------
     None
         While the group is opened.
+
+    Raises
+    ------
+    CampaignError
+        With what is damaged.
     """
     try:
         yield

@@ -122,8 +122,8 @@ class CampaignStore:
             raise CampaignError(msg) from cause
         except ValueError as cause:
             msg = (
-                f"{self.path / _PLAN} is damaged ({cause}): restore it from a copy, or name another "
-                "store and run again"
+                f"{self.path / _PLAN} is damaged ({cause}): restore it from a copy, or name "
+                "another store and run again"
             )
             raise CampaignError(msg) from cause
         if not isinstance(found, dict) or found.get("format") not in READABLE:
@@ -406,8 +406,9 @@ class CampaignStore:
     def _read(self, number: int) -> dict[str, Any]:
         size = self.plan()["batch"]
         rows = slice(number * size, (number + 1) * size)
+        whole = self._arrays
         try:
-            arrays = {name: array[rows] for name, array in self._arrays.items()}
+            arrays = {name: array[rows] for name, array in whole.items()}
         except (RuntimeError, ValueError) as cause:
             raise CampaignError(damaged(self.path / _RUNS, number, cause)) from cause
         if digest_of([arrays]) != self._mark(number)["digest"]:
