@@ -186,8 +186,10 @@ def report(
     from frames.design.project.preliminary import inputs_of, preliminary
     from frames.design.report.files import read_histories, write_judgement
     from frames.design.report.printing import print_report
+    from frames.results.storage import refuse_links
 
     with told():
+        refuse_links(results)
         parts = project_in(file)
         known = preliminary(parts)
         found = evaluate_run(parts, known, read_histories(results, inputs_of(parts, known)))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import atexit
+import os
 import sys
 from importlib.util import find_spec
 
@@ -17,4 +19,14 @@ def main() -> None:
         sys.exit(2)
     from frames.command.app import app
 
+    atexit.register(_end_quietly)
     app()
+
+
+def _end_quietly() -> None:
+    # OpenSees prints "Process 0 Terminating" when the process ends, after all that is worth reading.
+    if "openseespy.opensees" in sys.modules:
+        sys.stderr.flush()
+        nothing = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nothing, 2)
+        os.close(nothing)

@@ -20,9 +20,11 @@ def view(
     from frames.design.project.preliminary import inputs_of, preliminary
     from frames.design.report.files import read_histories
     from frames.design.report.kept_checks import read_checks
+    from frames.results.storage import refuse_links
     from frames.viewer import write_view  # with figures
 
     with told():
+        refuse_links(results)
         parts = project_in(file)
         histories = read_histories(results, inputs_of(parts, preliminary(parts)))
         checks = read_checks(results)

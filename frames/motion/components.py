@@ -22,7 +22,7 @@ PAD_SAMPLES, PAD_PART = 20, 0.01
 STRONGEST = 1000.0
 """Peak acceleration that no ground and no shake table has [m/s2]: 100 g."""
 
-LONGEST_STEP = 2.0
+SHORTEST_STEP, LONGEST_STEP = 1e-9, 2.0
 """Time step that no motion has [s]."""
 
 
@@ -63,6 +63,10 @@ def checked_step(value: object) -> float:
     if step > LONGEST_STEP:
         hint = meant(step, "s", TIMES, 1e-4, 0.1)
         msg = f"dt = {step:g} s is longer than any record's, at most {LONGEST_STEP:g} s: {hint}"
+        raise MotionError(msg)
+    if step < SHORTEST_STEP:
+        hint = meant(step, "s", TIMES, 1e-4, 0.1)
+        msg = f"dt = {step:g} s is shorter than any record's, at least {SHORTEST_STEP:g} s: {hint}"
         raise MotionError(msg)
     return step
 

@@ -38,7 +38,7 @@ def ring_strength(
     Raises
     ------
     ValueError
-        If a value is not positive, or the lever exceeds the height.
+        If a value is not positive, the lever exceeds the height, or no number holds the force.
 
     Notes
     -----
@@ -60,6 +60,13 @@ def ring_strength(
     if arm > height:
         msg = f"lever = {arm:g} m is above the ring, height = {height:g} m: it ends there"
         raise ValueError(msg)
-    bending = yield_stress * arc * thickness**2 / 4.0 / arm
+    bending = yield_stress * arc * (thickness * thickness) / 4.0 / arm
     shear = yield_stress * arc * thickness / math.sqrt(3.0)
+    if not 0.0 < min(bending, shear) <= max(bending, shear) < math.inf:
+        msg = (
+            f"thickness = {thickness:g} m, arc = {arc:g} m, lever = {arm:g} m and yield_stress = "
+            f"{yield_stress:g} Pa make no force that a number holds: give lengths in m, the stress "
+            "in Pa"
+        )
+        raise ValueError(msg)
     return float(brentq(lambda p: p / bending + (p / shear) ** 4 - 1.0, 0.0, min(bending, shear)))

@@ -147,11 +147,15 @@ def test_runs_of_another_input_are_left_aside(tmp_path, monkeypatch, change) -> 
     assert counted(told) == [2, 2, 0]
 
 
-def test_a_file_that_is_cut_off_is_run_again(tmp_path) -> None:
+def test_a_file_that_is_cut_off_or_another_run_s_is_run_again(tmp_path) -> None:
     given = {"scales": [0.2, 0.5], "workers": 1}
     whole = time_histories(model(), motions()["short"], **given, resume=tmp_path)
     cut, empty = sorted(tmp_path.iterdir())
-    cut.write_bytes(cut.read_bytes()[:3000])
+    kept = cut.read_bytes()
+    for content in (kept[:3000], empty.read_bytes()):  # the latter is the other run's
+        cut.write_bytes(content)
+        again = time_histories(model(), motions()["short"], **given, resume=tmp_path)
+        xr.testing.assert_identical(untimed(again), untimed(whole))
     empty.write_bytes(b"")
     again = time_histories(model(), motions()["short"], **given, resume=tmp_path)
     xr.testing.assert_identical(untimed(again), untimed(whole))

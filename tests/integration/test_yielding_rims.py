@@ -377,6 +377,9 @@ def test_the_strength_of_a_ring() -> None:
         ring_strength(thickness=0.03, height=0.04, lever=0.05, **steel)
     with pytest.raises(ValueError, match=r"arc = 0"):
         ring_strength(thickness=0.03, height=0.04, arc=0.0, yield_stress=345e6)
+    for thickness in (1e-300, 1e200):
+        with pytest.raises(ValueError, match=rf"thickness = {thickness:g} m.* no force"):
+            ring_strength(thickness=thickness, height=0.04, **steel)
 
 
 @pytest.mark.parametrize(

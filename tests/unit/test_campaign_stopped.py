@@ -4,6 +4,7 @@ import errno
 import os
 import subprocess  # noqa: S404  # of this interpreter
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ import pytest
 
 from frames import GroundMotion, lumped_mass
 from frames.batch.cases import BatchProgress
-from frames.risk import Campaign, full_grid
+from frames.risk import Campaign, CampaignError, CampaignStore, full_grid
 from lir_element import CoulombFriction, LIRBearing
 from tests.patience import patience
 
@@ -23,7 +24,7 @@ import json, os, random, signal, sys, time
 import numpy as np
 from pathlib import Path
 from frames import GroundMotion, lumped_mass, time_histories
-from frames.risk import Campaign, full_grid
+from frames.risk import Campaign, CampaignError, CampaignStore, full_grid
 from lir_element import CoulombFriction, LIRBearing
 
 bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
@@ -170,3 +171,33 @@ def test_a_store_that_cannot_be_made_leaves_nothing(
     with pytest.raises(OSError, match="store could not be written: No space left"):
         small(tmp_path / "store").run()
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("runs.zarr/reached_energy_gap/c.1", r"batch 1 .* remove .*000001\.json, and run it again"),
+        ("runs.zarr/peak/c.0.0", r"batch 0 .* remove .*000000\.json, and run it again"),
+        ("runs.zarr/peak/zarr.json", r"description of the arrays in .*runs\.zarr is damaged"),
+        ("done/000001.json", r"batch 1 .* remove .*000001\.json, and run it again"),
+        ("plan.json", r"plan\.json is damaged .* restore it from a copy"),
+    ],
+)
+@pytest.mark.parametrize("junk", [b"", b"\x00\xff" * 40, b"[]", b"{}"])
+def test_damaged_databases_say_where(
+    tmp_path: Path, made_once: Callable[..., Path], name: str, words: str, junk: bytes
+) -> None:
+    store = (
+        made_once("small campaign", lambda part: small(part / "store").run(), tmp_path) / "store"
+    )
+    (store / name).write_bytes(junk)
+    opened = CampaignStore(store)
+    with pytest.raises(CampaignError, match=words if junk[:1] not in b"[{" else None):
+        opened.digest()
+    if name.startswith("runs"):
+        with pytest.raises(CampaignError, match=words if junk[:1] not in b"[{" else None):
+            opened.results().load()
+    if "remove" in words:
+        (store / "done" / f"{words.split()[1]:0>6}.json").unlink()
+        small(store).run()
+        small(store).digest()

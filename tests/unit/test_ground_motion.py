@@ -652,3 +652,9 @@ def test_every_file_of_the_records_folder(records: Path) -> None:
         assert all(0.02 * G < peak < 2.0 * G for peak in motion.peak.values()), motion.summary()
         assert motion.duration > 15.0
         assert 0.002 <= motion.dt <= 0.02
+
+
+@pytest.mark.parametrize("dt", [1e-300, 9e-10, 5e-324])
+def test_steps_that_no_record_has_are_refused(dt: float) -> None:
+    with pytest.raises(MotionError, match=rf"dt = {dt:g} s is shorter than any record's"):
+        GroundMotion(x=[0.0, 1.0, 0.0], dt=dt)

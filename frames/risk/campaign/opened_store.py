@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,15 +10,46 @@ import xarray as xr
 from xarray.backends import BackendArray
 from xarray.core import indexing as xarray_indexing
 
+from frames.risk._errors import CampaignError
 from frames.risk.campaign.plan_description import TAKEN_OVER
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Generator, Mapping
     from pathlib import Path
 
     from frames._types import BoolArray
 
 indexing: Any = xarray_indexing  # its types are those of another kind of arrays
+
+
+def damaged(where: Path, number: int, cause: Exception | None = None) -> str:
+    """Return the message of a batch in a group that cannot be read, or is not as it was written."""
+    mark, why = where.parent / "done" / f"{number:06d}.json", f" ({cause})" if cause else ""
+    return f"batch {number} is not as it was written{why}: remove {mark}, and run it again"
+
+
+@contextmanager
+def readable(where: Path) -> Generator[None, None, None]:
+    """Turn errors of a group's description into a CampaignError.
+
+    Yields
+    ------
+    None
+        While the group is opened.
+
+    Raises
+    ------
+    CampaignError
+        With what is damaged.
+    """
+    try:
+        yield
+    except (ValueError, LookupError, TypeError, RuntimeError, FileNotFoundError) as cause:
+        msg = (
+            f"the description of the arrays in {where} is damaged ({cause}): restore it from a "
+            "copy, or name another store and run again"
+        )
+        raise CampaignError(msg) from cause
 
 
 def opened(where: Path) -> xr.Dataset:
@@ -48,17 +80,17 @@ def results_of(where: Path, plan: Mapping[str, Any], done: BoolArray) -> xr.Data
     xarray.Dataset
         Read where it is used; NaN and "" where a run is not done.
     """
-    data = opened(where)
-    names: list[str] = data.attrs.pop("results")
-    data = data[names]
+    with readable(where):
+        data = opened(where)
+        names: list[str] = data.attrs.pop("results")
+        data = data[names]
     shown = {
         name: (
             data[name].dims,
-            indexing.LazilyIndexedArray(_Rows(data[name].variable, done)),
+            indexing.LazilyIndexedArray(_Rows(data[name].variable, done, where, plan["batch"])),
             data[name].attrs,
         )
         for name in names
-        if data[name].dtype.kind != "f" or not done.all()
     }
     digests = np.array([plan["motions"][str(n)] for n in data["motion"].to_numpy()], dtype=object)
     coordinates = {"done": ("run", done), "motion_digest": ("run", digests)}
@@ -79,8 +111,10 @@ def _origin(plan: Mapping[str, Any]) -> dict[str, str]:
 class _Rows(BackendArray):
     # A variable along `run` in which rows that are not done are empty, and texts are Python's.
 
-    def __init__(self, variable: xr.Variable, done: BoolArray) -> None:
-        self._variable, self._done = variable, done
+    # What cannot be read is an error that names the first batch of it.
+
+    def __init__(self, variable: xr.Variable, done: BoolArray, where: Path, batch: int) -> None:
+        self._variable, self._done, self._where, self._batch = variable, done, where, batch
         self.shape = variable.shape
         self._empty: Any = np.nan if variable.dtype.kind == "f" else ""
         self.dtype = np.dtype(np.float64 if variable.dtype.kind == "f" else object)
@@ -90,6 +124,18 @@ class _Rows(BackendArray):
         return indexing.explicit_indexing_adapter(key, self.shape, support, self._part)
 
     def _part(self, key: tuple[Any, ...]) -> Any:
-        values = np.array(self._variable[key].to_numpy(), dtype=self.dtype)
+        try:
+            values = np.array(self._variable[key].to_numpy(), dtype=self.dtype)
+        except (RuntimeError, ValueError) as cause:
+            raise CampaignError(damaged(self._where, self._first(), cause)) from cause
         values[~self._done[key[0]]] = self._empty
         return values
+
+    def _first(self) -> int:
+        # The first batch that cannot be read.
+        for number, row in enumerate(range(0, self.shape[0], self._batch)):
+            try:
+                self._variable[row : row + self._batch].to_numpy()
+            except (RuntimeError, ValueError):
+                return number
+        return 0

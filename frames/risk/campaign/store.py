@@ -18,7 +18,7 @@ from frames.results.storage import write_whole
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.layout import digest_of, lay_out
 from frames.risk.campaign.lock import locked
-from frames.risk.campaign.opened_store import opened, results_of
+from frames.risk.campaign.opened_store import damaged, opened, readable, results_of
 from frames.risk.campaign.plan import listed
 from frames.risk.campaign.plan_description import FORMAT, READABLE, SOURCES, TAKEN_OVER, unlike
 from frames.risk.campaign.run_table import run_table
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from frames.risk.campaign.plan import Plan
 
 _PLAN, _RUNS, _HISTORIES, _DONE, _LOCK = "plan.json", "runs.zarr", "histories", "done", "lock"
+_MARK = ("runs", "statuses", "doubtful", "warnings", "digest")
 
 
 class CampaignStatus(NamedTuple):
@@ -119,12 +120,16 @@ class CampaignStore:
         except FileNotFoundError as cause:
             msg = f"{self.path} holds no campaign: name the folder that one was run in"
             raise CampaignError(msg) from cause
-        except json.JSONDecodeError as cause:
-            msg = f"{self.path / _PLAN} cannot be read: {cause}"
-            raise CampaignError(msg) from cause
-        if found.get("format") not in READABLE:
+        except ValueError as cause:
             msg = (
-                f"{self.path} has format {found.get('format')}, this program reads "
+                f"{self.path / _PLAN} is damaged ({cause}): restore it from a copy, or name "
+                "another store and run again"
+            )
+            raise CampaignError(msg) from cause
+        if not isinstance(found, dict) or found.get("format") not in READABLE:
+            given = found.get("format") if isinstance(found, dict) else "of no campaign"
+            msg = (
+                f"{self.path} has format {given}, this program reads "
                 f"{' and '.join(map(str, READABLE))}: open it with the version that wrote it"
             )
             raise CampaignError(msg)
@@ -401,23 +406,30 @@ class CampaignStore:
     def _read(self, number: int) -> dict[str, Any]:
         size = self.plan()["batch"]
         rows = slice(number * size, (number + 1) * size)
-        arrays = {name: array[rows] for name, array in self._arrays.items()}
+        whole = self._arrays
+        try:
+            arrays = {name: array[rows] for name, array in whole.items()}
+        except (RuntimeError, ValueError) as cause:
+            raise CampaignError(damaged(self.path / _RUNS, number, cause)) from cause
         if digest_of([arrays]) != self._mark(number)["digest"]:
-            mark = self.path / _DONE / f"{number:06d}.json"
-            msg = f"batch {number} is not as it was written: remove {mark}, and run it again"
-            raise CampaignError(msg)
+            raise CampaignError(damaged(self.path / _RUNS, number))
         return arrays
 
     @cached_property
     def _arrays(self) -> dict[str, Any]:
         import zarr
 
-        group: Any = zarr.open_group(self.path / _RUNS, mode="r+")
-        return {name: group[name] for name in group.attrs["results"]}
+        with readable(self.path / _RUNS):
+            group: Any = zarr.open_group(self.path / _RUNS, mode="r+")
+            return {name: group[name] for name in group.attrs["results"]}
 
     def _mark(self, number: int) -> dict[str, Any]:
-        text = (self.path / _DONE / f"{number:06d}.json").read_text(encoding="utf-8")
-        return dict(json.loads(text))
+        path = self.path / _DONE / f"{number:06d}.json"
+        try:
+            found = json.loads(path.read_text(encoding="utf-8"))
+            return {name: found[name] for name in _MARK} | found
+        except (ValueError, LookupError, TypeError) as cause:
+            raise CampaignError(damaged(self.path / _RUNS, number, cause)) from cause
 
 
 def open_campaign(path: str | Path) -> CampaignStore:
