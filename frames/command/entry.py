@@ -24,7 +24,7 @@ def main() -> None:
 
 
 def _end_quietly() -> None:
-    # OpenSees prints "Process 0 Terminating" when the process ends, after all that is worth reading.
+    # OpenSees prints "Process 0 Terminating" when the process ends, after all that matters.
     if "openseespy.opensees" in sys.modules:
         sys.stderr.flush()
         nothing = os.open(os.devnull, os.O_WRONLY)

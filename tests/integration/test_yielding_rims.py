@@ -378,7 +378,7 @@ def test_the_strength_of_a_ring() -> None:
     with pytest.raises(ValueError, match=r"arc = 0"):
         ring_strength(thickness=0.03, height=0.04, arc=0.0, yield_stress=345e6)
     for thickness in (1e-300, 1e200):
-        with pytest.raises(ValueError, match=rf"thickness = {thickness:g} m.* no force"):
+        with pytest.raises(ValueError, match=r"thickness = .* make no force"):
             ring_strength(thickness=thickness, height=0.04, **steel)
 
 

@@ -187,9 +187,8 @@ def test_a_store_that_cannot_be_made_leaves_nothing(
 def test_damaged_databases_say_where(
     tmp_path: Path, made_once: Callable[..., Path], name: str, words: str, junk: bytes
 ) -> None:
-    store = (
-        made_once("small campaign", lambda part: small(part / "store").run(), tmp_path) / "store"
-    )
+    made_once("small campaign", lambda part: small(part / "store").run(), tmp_path)
+    store = tmp_path / "store"
     (store / name).write_bytes(junk)
     opened = CampaignStore(store)
     with pytest.raises(CampaignError, match=words if junk[:1] not in b"[{" else None):

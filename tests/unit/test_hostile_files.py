@@ -21,11 +21,12 @@ pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 pytest.importorskip("typer")
 
-from click.testing import Result
-from typer.testing import CliRunner
+from typer.testing import CliRunner, Result
 
 from frames.command.app import app
 from frames.design.project import design_run
+from frames.design.project.level_runs import histories_at_levels
+from frames.design.project.preliminary import preliminary
 from frames.results.storage import csv_of, from_text
 from tests.patience import patience
 
@@ -104,7 +105,7 @@ def one_line(found: Result, code: int) -> str:
 @pytest.mark.filterwarnings("always:.*was changed or removed:frames.ModelWarning")
 def test_what_is_shown_is_what_was_analysed(done: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The file is edited, and a record removed, while the time histories are computed."""
-    histories = design_run.histories_at_levels
+    histories = histories_at_levels
     record = done / "motions" / "artificial-5-x.txt"
 
     def edited(*given: Any) -> Any:
@@ -128,7 +129,7 @@ def test_what_is_shown_is_what_was_analysed(done: Path, monkeypatch: pytest.Monk
 def test_a_file_that_changes_before_anything_is_run_is_refused(
     done: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    before = design_run.preliminary
+    before = preliminary
 
     def edited(parts: Any) -> Any:
         (done / "small.toml").write_text("")

@@ -427,7 +427,7 @@ class CampaignStore:
         path = self.path / _DONE / f"{number:06d}.json"
         try:
             found = json.loads(path.read_text(encoding="utf-8"))
-            return {name: found[name] for name in _MARK} | found
+            return dict({name: found[name] for name in _MARK} | found)
         except (ValueError, LookupError, TypeError) as cause:
             raise CampaignError(damaged(self.path / _RUNS, number, cause)) from cause
 
