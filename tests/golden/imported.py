@@ -93,9 +93,10 @@ class Model:
             f"({len(feet)})",
             "masses: of loads and elements, in all three directions: all (1)",
         ]
+        used = len({words[0] for words in self.lines["MATERIAL"]})
         same = [
             f"STORIES: stories ({len(self.z)})",
-            f"MATERIAL PROPERTIES: materials in use ({len({w[0] for w in self.lines['MATERIAL']})})",
+            f"MATERIAL PROPERTIES: materials in use ({used})",
             f"FRAME SECTIONS: cross-sections in use ({kinds})",
             f"SHELLPROP: sections of areas in use ({len(self.lines['SHELLPROP'])})",
             f"DIAPHRAGM NAMES: rigid diaphragms by story ({len(slabs)})",

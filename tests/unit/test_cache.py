@@ -284,13 +284,14 @@ def test_what_others_may_write_is_not_opened(
 ) -> None:
     start(package)(1.0)
     [path] = kept(package)
-    place = {"base": path.parent.parent, "folder": path.parent, "file": path}[what]
-    if mode is not None:
-        place.chmod(mode)
-    elif os.geteuid() == 0:
-        os.chown(place, 4321, -1)
-    else:
-        monkeypatch.setattr(os, "geteuid", lambda: 4321)
+    places = {"base": [path.parent.parent], "folder": [path.parent]}
+    for place in places.get(what, path.parent.iterdir()):  # the part that it calls is a file too
+        if mode is not None:
+            place.chmod(mode)
+        elif os.geteuid() == 0:
+            os.chown(place, 4321, -1)
+        else:
+            monkeypatch.setattr(os, "geteuid", lambda: 4321)
 
     def opened(_: bytes) -> None:
         pytest.fail("the file was opened")

@@ -20,6 +20,7 @@ from lir_element.opensees import RouteWarning, bearing_element, opensees, plugin
 from lir_element.opensees.fast import selftest, symbols
 
 DEVICE = static_bearing()
+_RUN = subprocess.run
 ABORT = "import os; os.abort()"
 EXCEPTION = "raise RuntimeError('the spring is off')"
 NUMBERS = "class NotPossibleError(Exception): pass\nraise NotPossibleError('off by 0.1')"
@@ -46,7 +47,7 @@ def door(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Any]:
 def instead(monkeypatch: pytest.MonkeyPatch, code: str) -> list[int]:
     """Let the self-test's process run other code; returns where its runs are counted."""
     runs: list[int] = []
-    original = subprocess.run
+    original = _RUN
 
     def run(_command: list[str], **options: Any) -> "subprocess.CompletedProcess[str]":
         runs.append(1)

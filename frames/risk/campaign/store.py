@@ -427,7 +427,8 @@ class CampaignStore:
         path = self.path / _DONE / f"{number:06d}.json"
         try:
             found = json.loads(path.read_text(encoding="utf-8"))
-            return dict({name: found[name] for name in _MARK} | found)
+            mark: dict[str, Any] = {name: found[name] for name in _MARK} | found
+            return mark
         except (ValueError, LookupError, TypeError) as cause:
             raise CampaignError(damaged(self.path / _RUNS, number, cause)) from cause
 
