@@ -42,7 +42,7 @@ class Judged:
 def building() -> tuple[Frame, xr.Dataset]:
     """Run six bearings under one storey: rims, slip and, as the ground drops, uplift."""
     time = np.arange(0.0, 3.0, 0.01)
-    push = 2.5 * np.sin(2.0 * np.pi * time / 1.0) * (time < 1.0)
+    push = 2.4 * np.sin(2.0 * np.pi * time / 1.0) * (time < 1.0)
     drop = np.where((time > 0.2) & (time < 0.3), -14.0, 0.0)
     catch = np.where((time > 0.3) & (time < 0.4), 14.0, 0.0)
     motion = GroundMotion(x=push, y=0.4 * push, z=drop + catch, dt=0.01)
