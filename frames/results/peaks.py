@@ -81,10 +81,7 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
     """
     remedy = "a Dataset of time_history; for several, summary({name: data, ...})"
     require_type("data", data, xr.Dataset, remedy)
-    table = pd.DataFrame(peaks_of(data), columns=Peak._fields).set_index("quantity")
-    if str(data.attrs["status"]) != "ok":
-        table.loc["duration computed", "where"] = _status(data)
-    return table
+    return pd.DataFrame(peaks_of(data), columns=Peak._fields).set_index("quantity")
 
 
 def peaks_of(data: xr.Dataset) -> list[Peak]:
@@ -277,5 +274,6 @@ def _walls(data: xr.Dataset) -> BoolArray:
 
 def _of_run(data: xr.Dataset) -> Iterator[Peak]:
     yield Peak("energy balance: error over input", energy_error(data), "1")
-    yield Peak("duration computed", computed_until(data), "s")
+    ended = "" if str(data.attrs["status"]) == "ok" else _status(data)
+    yield Peak("duration computed", computed_until(data), "s", where=ended)
     yield Peak("seconds of the time loop", float(data.attrs["seconds_loop"]), "s")

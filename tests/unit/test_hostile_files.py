@@ -25,8 +25,10 @@ from typer.testing import CliRunner, Result
 
 from frames.command.app import app
 from frames.design.project import design_run
+from frames.design.project.inputs import ProjectInputs
 from frames.design.project.level_runs import histories_at_levels
 from frames.design.project.preliminary import preliminary
+from frames.design.project.reading import read_project
 from frames.results.storage import csv_of, from_text
 from tests.patience import patience
 
@@ -124,6 +126,28 @@ def test_what_is_shown_is_what_was_analysed(done: Path, monkeypatch: pytest.Monk
     for path in (done / "small.toml", record):
         assert f"{path} was changed or removed after it was read" in found.stderr
         assert path.name in page
+
+
+@pytest.mark.parametrize(
+    ("head", "row"),
+    [
+        ("name,x,y", "one,a.txt,b.txt"),
+        ("name;x;y", "one;a.txt;b.txt"),
+        ("name,record", "one,a.txt | b.txt"),
+    ],
+)
+def test_records_of_every_table_that_is_read_are_among_the_digests(
+    done: Path, head: str, row: str
+) -> None:
+    folder = done / "motions"
+    (folder / "motions.csv").write_text(f"{head}\n{row}\n", encoding="utf-8-sig")
+    for name in ("a.txt", "b.txt"):
+        (folder / name).write_text(name)
+    parts = ProjectInputs(read_project(done / "small.toml"), done)
+    for name in ("a.txt", "b.txt"):
+        assert parts.sources.digest(folder / name) == hashlib.sha256(name.encode()).hexdigest()
+    (folder / "b.txt").write_text("changed")
+    assert [str(folder / "b.txt") in said for said in parts.sources.changed()] == [True]
 
 
 def test_a_file_that_changes_before_anything_is_run_is_refused(

@@ -37,8 +37,26 @@ _LOCATION = re.compile(r"\.\d\d$")
 _AZIMUTHS = {"N": 0.0, "NS": 0.0, "E": 90.0, "EW": 90.0}
 
 
-def read_table(folder: PathLike, table: str) -> Loaded:
-    """Return motions and facts of the rows of a table; columns as in `MotionSet.from_folder`."""
+def table_rows(folder: PathLike, table: str) -> list[dict[str, str]]:
+    """Return the rows of a table of motions, cells by their heads, empty ones left out.
+
+    Parameters
+    ----------
+    folder : str or path
+        The folder of the motions.
+    table : str
+        The table in it; columns as in `MotionSet.from_folder`.
+
+    Returns
+    -------
+    list of dict
+        Texts as they stand in the table.
+
+    Raises
+    ------
+    MotionError
+        If the table cannot be read, or lacks columns.
+    """
     path = Path(folder) / table
     if not path.is_file():
         msg = f"{path} is no file: give the folder of the motions, and table= as it is named there"
@@ -52,8 +70,7 @@ def read_table(folder: PathLike, table: str) -> Loaded:
     if "name" not in heads or not {*AXES, "record"} & set(heads):
         msg = f"{table} has the columns {heads}: it needs name, and x, y or z, or record"
         raise MotionError(msg)
-    motions: dict[str, GroundMotion] = {}
-    facts: dict[str, Facts] = {}
+    rows = []
     for line, cells in lines[1:]:
         if len(cells) > len(heads):
             msg = (
@@ -62,7 +79,21 @@ def read_table(folder: PathLike, table: str) -> Loaded:
             )
             raise MotionError(msg)
         row = zip(heads, cells, strict=False)
-        given = {key: value.strip() for key, value in row if value.strip()}
+        rows.append({key: value.strip() for key, value in row if value.strip()})
+    return rows
+
+
+def files_of(row: Mapping[str, str]) -> list[str]:
+    """Return the names of the files of a row of a table of motions."""
+    named = row["record"].split("|") if "record" in row else [row[a] for a in AXES if a in row]
+    return [name.strip() for name in named]
+
+
+def read_table(folder: PathLike, table: str) -> Loaded:
+    """Return motions and facts of the rows of a table; columns as in `MotionSet.from_folder`."""
+    motions: dict[str, GroundMotion] = {}
+    facts: dict[str, Facts] = {}
+    for given in table_rows(folder, table):
         name = given.get("name", "")
         if not name or name in motions:
             msg = f"{table}: name = {name!r} is empty or there twice: give each motion its own"
@@ -76,8 +107,7 @@ def read_table(folder: PathLike, table: str) -> Loaded:
 def _motion(folder: Path, row: Mapping[str, str], table: str) -> tuple[GroundMotion, Facts]:
     """Return the motion of one row, and azimuths that its files name."""
     name = row["name"]
-    named = row["record"].split("|") if "record" in row else [row[a] for a in AXES if a in row]
-    files = [folder / each.strip() for each in named]
+    files = [folder / each for each in files_of(row)]
     absent = [path for path in files if not path.is_file()]
     if absent or not files:
         found = f"{absent[0]} is no file" if absent else "no x, y, z or record is given"

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from frames._errors import ModelWarning
+from frames._errors import ModelWarning, MotionError
 from frames.design._errors import ProjectError
+from frames.design.hazard.motion_folder import files_of, table_rows
 from frames.design.project.extensions import loaded_digest
 from frames.design.project.schema import ImportedModel, IrregularFrame, OpenSeesModel
 
@@ -86,21 +86,19 @@ def _named(file: Any, folder: Path) -> list[Path]:
     points = getattr(getattr(file, "spectrum", None), "points", None)
     names += [points] if isinstance(points, Path) else []
     if motions.folder is not None:
-        table = motions.folder / motions.table
-        names.append(table)
-        names += [motions.folder / name for name in _records_in(_content_of(folder / table))]
+        names.append(motions.folder / motions.table)
+        records = _records_in(folder / motions.folder, motions.table)
+        names += [motions.folder / name for name in records]
     return [folder / name for name in names]
 
 
-def _records_in(table: bytes) -> Iterable[str]:
+def _records_in(folder: Path, table: str) -> Iterable[str]:
     # Names of records in a table of motions.
     try:
-        rows = list(csv.DictReader(table.decode("utf-8-sig").splitlines(), skipinitialspace=True))
-    except (ValueError, csv.Error):  # told where the table is read
+        rows = table_rows(folder, table)
+    except MotionError:  # said where the motions are read
         return ()
-    axes = {"x", "y", "z"}
-    cells = (row[k] for row in rows for k in row if isinstance(k, str) and k.strip() in axes)
-    return dict.fromkeys(cell.strip() for cell in cells if cell and cell.strip())
+    return dict.fromkeys(name for row in rows for name in files_of(row))
 
 
 def _content_of(path: Path) -> bytes:
