@@ -96,7 +96,7 @@ def _records_in(folder: Path, table: str) -> Iterable[str]:
     # Names of records in a table of motions.
     try:
         rows = table_rows(folder, table)
-    except MotionError:  # said where the motions are read
+    except (MotionError, OSError):  # said where the motions are read
         return ()
     return dict.fromkeys(name for row in rows for name in files_of(row))
 
