@@ -9,6 +9,7 @@ import errno
 import warnings
 from collections.abc import Generator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -43,7 +44,7 @@ def told() -> Generator[None, None, None]:
     """
     from frames._errors import ModelError, MotionError, without_numbers
     from frames.design._errors import CheckError, ProjectError
-    from frames.design.project.extensions import TOLD
+    from frames.design.project.extensions import ANYWHERE, TOLD
     from frames.risk._errors import CampaignError
     from lir_element.errors import AnalysisError, AnalysisInterrupted
 
@@ -63,7 +64,7 @@ def told() -> Generator[None, None, None]:
                 err.print(text, markup=False, highlight=False, soft_wrap=True)
 
         warnings.showwarning = once
-        token = TOLD.set(running)
+        tokens = TOLD.set(running), ANYWHERE.set(_TRUST.get())
         try:
             yield
         except (ProjectError, CheckError, ModelError, MotionError, CampaignError) as cause:
@@ -84,7 +85,8 @@ def told() -> Generator[None, None, None]:
             err.print(str(cause).split(": ")[0] or "interrupted", markup=False, soft_wrap=True)
             raise typer.Exit(INTERRUPTED) from cause
         finally:
-            TOLD.reset(token)
+            TOLD.reset(tokens[0])
+            ANYWHERE.reset(tokens[1])
 
 
 def say(text: str) -> None:
@@ -123,10 +125,10 @@ _REMEDIES = {
 
 def trust(anywhere: bool) -> None:
     """Have Python files that a project names run from anywhere, or from its folder alone."""
-    if anywhere:
-        from frames.design.project.extensions import ANYWHERE
+    _TRUST.set(anywhere)
 
-        ANYWHERE.set(True)
+
+_TRUST: ContextVar[bool] = ContextVar("_TRUST", default=False)
 
 
 def project_in(file: Path) -> ProjectInputs:

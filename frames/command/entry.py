@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import os
+import signal
 import sys
 from importlib.util import find_spec
 
@@ -17,6 +18,7 @@ def main() -> None:
         text = f"lir needs {', '.join(missing)}: pip install 'lir-dcfp[cli]'\n"
         sys.stderr.write(text)
         sys.exit(2)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # which ends it as Ctrl-C does
     from frames.command.app import app
 
     atexit.register(_end_quietly)

@@ -3,11 +3,25 @@
 from __future__ import annotations
 
 import zipfile
+import zlib
 from pathlib import Path
 from typing import Any
 
 from frames._errors import ModelError
 from frames.exchange.tables import Row, Tables, Value
+
+_DAMAGED = (
+    OSError,
+    EOFError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    ValueError,
+    SyntaxError,  # of XML
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""What a file that is no workbook makes openpyxl raise."""
 
 
 def read_excel(path: Path) -> Tables:
@@ -39,7 +53,7 @@ def read_excel(path: Path) -> Tables:
         raise ImportError(message) from cause
     try:
         book = openpyxl.load_workbook(path, read_only=True, data_only=True)
-    except (OSError, KeyError, ValueError, zipfile.BadZipFile) as cause:
+    except _DAMAGED as cause:
         message = f"{path.name} is no workbook that can be read ({cause}): export it as .xlsx"
         raise ModelError(message) from cause
     tables = Tables(path.name)

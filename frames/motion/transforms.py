@@ -10,7 +10,7 @@ import numpy as np
 
 from frames._errors import MotionError
 from frames.motion.baseline import LARGEST_CHANGE, corrected, drift_of
-from frames.motion.components import AXES
+from frames.motion.components import AXES, checked_step
 from lir_element.argument_checks import require_finite
 
 if TYPE_CHECKING:
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 Given = Mapping[str, "FloatArray"]
 Changed = dict[str, "FloatArray"]
+
+LONGEST_TAIL = 1e5
+"""Zeros that a motion can have after it [s]."""
 
 
 def scaled(given: Given, factor: float | Sequence[float]) -> Changed:
@@ -71,6 +74,7 @@ def resampled(given: Given, dt: float, new: float) -> tuple[Changed, float]:
             "the duration: give a time step in s"
         )
         raise MotionError(msg)
+    checked_step(step)
     time = np.arange(math.floor(duration / step + 1e-6) + 1) * step
     before = np.arange(count) * dt
     return {axis: np.interp(time, before, values) for axis, values in given.items()}, step
@@ -81,6 +85,9 @@ def with_tail(given: Given, dt: float, seconds: float) -> Changed:
     length = require_finite("seconds", seconds, "s", error=MotionError)
     if length < 0.0:
         msg = f"seconds = {length:g} must be at least 0: use trimmed to shorten a motion"
+        raise MotionError(msg)
+    if length > LONGEST_TAIL:
+        msg = f"seconds = {length:g} must be at most {LONGEST_TAIL:g}: give the tail in s"
         raise MotionError(msg)
     tail = (0, math.ceil(length / dt - 1e-6))
     return {axis: np.pad(values, tail) for axis, values in given.items()}

@@ -248,7 +248,8 @@ def make_folder(path: str | Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as cause:
         msg = f"{folder} is no folder and cannot be made one ({cause.strerror}): name another place"
-        raise OSError(cause.errno, msg) from cause
+        taken = cause.errno == errno.EEXIST  # by a file
+        raise OSError(errno.ENOTDIR if taken else cause.errno, msg) from cause
     return folder
 
 

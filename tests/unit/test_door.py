@@ -167,3 +167,18 @@ def test_messages_are_short_whatever_was_given(tmp_path: Path) -> None:
     (tmp_path / "notes.nc").write_text("no results")
     with pytest.raises(OSError, match=r"notes\.nc holds no results .*: give a file that save"):
         load(tmp_path / "notes.nc")
+
+
+@pytest.mark.parametrize("size", [1e-320, 1e-300])
+def test_a_slider_without_area_is_refused(size: float) -> None:
+    with pytest.raises(ValueError, match="check slider_radius"):
+        LIRBearing(
+            radius=0.75,
+            slider_height=0.085,
+            slider_radius=size,
+            capacity=0.175,
+            friction=CoulombFriction(0.066),
+            interface_friction=0.126,
+            axial_stiffness=1e9,
+            design_load=1e5,
+        )

@@ -658,3 +658,12 @@ def test_every_file_of_the_records_folder(records: Path) -> None:
 def test_steps_that_no_record_has_are_refused(dt: float) -> None:
     with pytest.raises(MotionError, match=rf"dt = {dt:g} s is shorter than any record's"):
         GroundMotion(x=[0.0, 1.0, 0.0], dt=dt)
+
+
+@pytest.mark.parametrize("step", [1e-320, 1e-300, 1e-30, 1e-10])
+def test_steps_and_tails_at_the_ends_of_arithmetic_are_refused(step: float) -> None:
+    motion = GroundMotion(x=[0.0, 1.0, 0.0], dt=0.01)
+    with pytest.raises(MotionError, match=r"dt = .* shorter than any record's, at least 1e-09"):
+        motion.resampled(step)
+    with pytest.raises(MotionError, match=r"seconds = .* must be at most 100000"):
+        motion.with_tail(min(1.0 / step, 1e300))

@@ -10,6 +10,8 @@ import shutil
 import signal
 import subprocess  # noqa: S404  # of this interpreter
 import sys
+import time
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -23,12 +25,15 @@ pytest.importorskip("typer")
 
 from typer.testing import CliRunner, Result
 
+from frames import ModelError
 from frames.command.app import app
 from frames.design.project import design_run
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.level_runs import histories_at_levels
 from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
+from frames.design.report.words import Words
+from frames.exchange.excel_tables import read_excel
 from frames.results.storage import csv_of, from_text
 from tests.patience import patience
 
@@ -126,6 +131,9 @@ def test_what_is_shown_is_what_was_analysed(done: Path, monkeypatch: pytest.Monk
     for path in (done / "small.toml", record):
         assert f"{path} was changed or removed after it was read" in found.stderr
         assert path.name in page
+        [said] = [line for line in found.stderr.splitlines() if f"{path} was changed" in line]
+        spanish = Words("es").say(said.removeprefix("warning: "))
+        assert f"{path} se modificó o eliminó después de leerlo: los números" in spanish
 
 
 @pytest.mark.parametrize(
@@ -425,6 +433,27 @@ def test_names_of_a_project_are_no_formulas(done: Path) -> None:
     assert lir("view", done).exit_code == 0
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
+def test_sigterm_ends_a_run_as_ctrl_c_does(done: Path) -> None:
+    """In the background of a script, too, where the interrupt itself is ignored."""
+    shutil.rmtree(done / "out")
+    code = (
+        "import signal, sys; signal.signal(signal.SIGINT, signal.SIG_IGN); "
+        "sys.argv = ['lir', 'run', '--no-figures', 'small.toml', '--results', 'out']; "
+        "from frames.command.entry import main; main()"
+    )
+    with subprocess.Popen(  # noqa: S603
+        [sys.executable, "-c", code], cwd=done, stderr=subprocess.PIPE, text=True
+    ) as started:
+        while started.poll() is None and not list(done.glob("out/unfinished/*.npz")):
+            time.sleep(0.02)
+        started.terminate()
+        said = started.communicate()[1]
+    assert started.returncode == 130, said
+    assert "the same command goes on from there" in said
+    assert not list((done / "out").rglob(".*.part"))
+
+
 def test_a_signal_leaves_the_file_of_before(done: Path) -> None:
     code = (
         "import os, signal, sys\n"
@@ -469,3 +498,13 @@ def test_what_is_far_too_long_is_refused(done: Path, old: str, new: str, words: 
 def test_a_path_of_thousands_of_characters_is_refused() -> None:
     found = CliRunner().invoke(app, ["check", f"{'p' * 6000}.toml"])
     assert "File name too long" in one_line(found, 2)
+
+
+@pytest.mark.parametrize("content", ["<a>", "", "<Types/>"])
+def test_what_is_no_workbook_is_refused(tmp_path: Path, content: str) -> None:
+    pytest.importorskip("openpyxl")
+    path = tmp_path / "model.xlsx"
+    with zipfile.ZipFile(path, "w") as whole:
+        whole.writestr("[Content_Types].xml", content)
+    with pytest.raises(ModelError, match=r"model\.xlsx is no workbook that can be read .*export"):
+        read_excel(path)
