@@ -11,6 +11,7 @@ import socket
 from typing import TYPE_CHECKING, Any
 
 from lir_element.opensees.block.protocol import vector_length
+from lir_element.opensees.held_signals import calls_uninterrupted
 
 if TYPE_CHECKING:
     from lir_element.opensees.placement import Placement
@@ -49,22 +50,23 @@ def add_host_element(ops: Any, tag: int, placement: Placement) -> socket.socket:
         listener.listen(_BACKLOG)
         listener.settimeout(_WAIT)
         port = listener.getsockname()[1]
-        ops.element(
-            "genericClient",
-            tag,
-            "-node",
-            *placement.nodes,
-            "-dof",
-            *dofs,
-            "-dof",
-            *dofs,
-            "-server",
-            port,
-            _LOOPBACK,
-            "-dataSize",
-            vector_length(placement.dofs),
-            "-noRayleigh",
-        )
+        with calls_uninterrupted():  # OpenSees gives up a connection that a signal interrupts
+            ops.element(
+                "genericClient",
+                tag,
+                "-node",
+                *placement.nodes,
+                "-dof",
+                *dofs,
+                "-dof",
+                *dofs,
+                "-server",
+                port,
+                _LOOPBACK,
+                "-dataSize",
+                vector_length(placement.dofs),
+                "-noRayleigh",
+            )
         try:
             return _accept_own(listener, port, tag)
         except BaseException:

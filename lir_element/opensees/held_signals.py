@@ -42,6 +42,19 @@ def signals_held() -> Generator[None]:
             handlers[came](came, frame)
 
 
+@contextmanager
+def calls_uninterrupted() -> Generator[None]:
+    """Keep signals from interrupting system calls of this thread until the block has ended."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows interrupts none
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, signal.valid_signals())
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def restart_reads(*numbers: int, restart: bool | None = None) -> None:
     """Let reads go on after signals that Python handles, where OpenSees cannot be kept from them.
 

@@ -40,6 +40,7 @@ class _Session:
         self.orphans: Orphans | None = None
         self.told = False
 
+    @signals_held()
     def sweep(self) -> None:
         """Release what belongs to bearings that OpenSees has deleted."""
         present = element_tags()

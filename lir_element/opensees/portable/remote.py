@@ -306,7 +306,8 @@ class Server:
     @property
     def alive(self) -> bool:
         """Whether the process is there."""
-        return self._process.poll() is None
+        with signals_held():  # `poll` keeps its lock for ever if Ctrl-C comes inside
+            return self._process.poll() is None
 
     def new_key(self) -> int:
         """Return a number by which a bearing will be known."""
