@@ -126,7 +126,7 @@ class Account:
     def refuse(
         self, key: str, table: str, what: str, names: Collection[str], place: str = ""
     ) -> None:
-        """Refuse objects whose loss would change the answer, or note them where `allow` has them.
+        """Refuse objects whose loss would change the answer, or note them if `allow` has them.
 
         Parameters
         ----------

@@ -99,7 +99,7 @@ def doubt_weights(
 def doubt_base(
     frame: FrameData, building: Building, places: Places, options: Options, turned: list[str]
 ) -> None:
-    """Doubt supports that do not let the bearings carry what stands above them, and a light base.
+    """Doubt supports that carry load beside the bearings, and a light base.
 
     Parameters
     ----------

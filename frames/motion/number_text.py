@@ -66,7 +66,7 @@ def acceleration_unit(text: str) -> float | None:
 
 
 def text_lines(path: Path) -> list[str]:
-    """Return the lines of a file, without a mark of UTF-8, or raise a MotionError if it is binary.
+    """Return the lines of a file without a UTF-8 mark; raise a MotionError if it is binary.
 
     Parameters
     ----------

@@ -43,7 +43,7 @@ LEVEL_STEP = 1e-3  # m, within which nodes are at one elevation
 
 
 def read(options: Options) -> tuple[Taken, Structure]:
-    """Read the current model of OpenSeesPy: what a frame on bearings is given, and the structure.
+    """Read the current model of OpenSeesPy as the parts of a frame on bearings.
 
     Parameters
     ----------

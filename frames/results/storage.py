@@ -68,7 +68,7 @@ def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
 
 
 def save_groups(results: Mapping[str, xr.Dataset], path: str | Path) -> None:
-    """Write Datasets to one netCDF file, a group each; histories compressed, in single precision.
+    """Write Datasets to one netCDF file, a group each, histories in compressed single precision.
 
     Parameters
     ----------

@@ -74,7 +74,7 @@ def pressure(t: Trace, symbol: str, load: str, offset: str) -> float:
 
 
 def liner_pressure(t: Trace, k: int, load: str) -> float:
-    """Enter the mean pressure on the part of a liner around its resultant, no restrainer contact.
+    """Enter the mean pressure on a liner around its resultant, without restrainer contact.
 
     Parameters
     ----------

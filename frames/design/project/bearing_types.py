@@ -104,7 +104,7 @@ def on_types(frame: Frame, chosen: Mapping[str, str], devices: Mapping[str, LIRB
 
 
 def columns_by_type(chosen: Mapping[str, str]) -> dict[str, list[str]]:
-    """Return the bearings of each type, where there are several types; nothing where there is one.
+    """Return the bearings of each type if there are several types; nothing if there is one.
 
     Parameters
     ----------

@@ -100,7 +100,7 @@ class DerivedTable(Table):
     """Keys that are no argument of the dataclass."""
 
     def made(self) -> Any:
-        """Return the dataclass that the table describes; keys that are left out have its defaults.
+        """Return the dataclass that the table describes; omitted keys have its defaults.
 
         Returns
         -------

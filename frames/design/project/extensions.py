@@ -79,7 +79,7 @@ class RunningScript:
 
 
 def load_extensions(data: Mapping[str, Any], folder: Path, section: str = "project") -> None:
-    """Run the Python files that a file names: their codes, checks and friction laws are known then.
+    """Run the Python files that a file names, which register codes, checks and friction laws.
 
     Parameters
     ----------

@@ -82,7 +82,7 @@ class Plan:
 
 
 def differences(stored: Mapping[str, Any], own: Mapping[str, Any]) -> list[str]:
-    """Return in words how what a results database was planned with differs from what is given now.
+    """Return in words how a database's plan differs from the present one.
 
     Parameters
     ----------
