@@ -1,10 +1,15 @@
 """What the public packages export: all of it, documented, and nothing else by a star."""
 
 import ast
+import functools
 import importlib
+import inspect
+import re
 import subprocess  # this interpreter  # noqa: S404
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -22,6 +27,79 @@ PACKAGES = [
     "frames.risk",
     "frames.risk.plots",
 ]
+
+ROOT = Path(__file__).parents[2]
+SECTIONS = re.compile(r"^ *(Parameters|Returns|Yields|Raises|Warns)\n *-{3,}$", re.MULTILINE)
+
+
+def functions_of(thing: Any) -> Iterator[tuple[Any, bool]]:
+    """Yield an exported function, or those of a class and its bases; whether it is a property."""
+    members = {"": thing}
+    if inspect.isclass(thing):
+        ours = [b for b in thing.__mro__ if b.__module__.startswith(("frames", "lir_element"))]
+        members = {f"{b.__qualname__}.{k}": v for b in ours for k, v in vars(b).items()}
+    for name, member in members.items():
+        function = member
+        for held in ("__func__", "fget", "func"):  # a class method, a property, a cached one
+            function = getattr(function, held, None) or function
+        function = inspect.unwrap(function) if callable(function) else function
+        if inspect.isfunction(function) and "._" not in name:
+            yield function, not callable(member) and not hasattr(member, "__func__")
+
+
+@functools.cache
+def described() -> dict[tuple[str, str], tuple[Any, bool]]:
+    """Return the functions that users call: exported, or imported by the page on extensions."""
+    packages = [importlib.import_module(name) for name in PACKAGES]
+    things = [getattr(package, name) for package in packages for name in package.__all__]
+    page = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
+    for module, names in re.findall(r"from ((?:frames|lir_element)[\w.]*) import ([\w, ]+)", page):
+        things += [getattr(importlib.import_module(module), name) for name in names.split(", ")]
+    found = [each for thing in things for each in functions_of(thing)]
+    return {(each.__module__, each.__qualname__): (each, kept) for each, kept in found}
+
+
+def defined(node: ast.AST, prefix: str = "") -> Iterator[tuple[str, ast.FunctionDef]]:
+    """Yield all functions of a module, methods and inner ones too, with their qualified names."""
+    for child in ast.iter_child_nodes(node):
+        name = f"{prefix}{getattr(child, 'name', '')}"
+        if isinstance(child, ast.FunctionDef):
+            yield name, child
+            yield from defined(child, f"{name}.<locals>.")
+        else:
+            yield from defined(child, f"{name}." if isinstance(child, ast.ClassDef) else prefix)
+
+
+def test_internal_functions_are_described_in_prose() -> None:
+    """Sections on parameters are for those who call from outside; a reader has the signature."""
+    wrong = []
+    for package in ("lir_element", "frames", "validation"):
+        for path in (ROOT / package).rglob("*.py"):
+            module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+            for name, node in defined(ast.parse(path.read_text(encoding="utf-8"))):
+                known = (module.removesuffix(".__init__"), name) in described()
+                if not known and SECTIONS.search(ast.get_docstring(node, clean=False) or ""):
+                    wrong.append(f"{path.relative_to(ROOT)}:{node.lineno} {name}")
+    assert not wrong, wrong
+
+
+def test_exported_functions_describe_what_they_are_given_and_return() -> None:
+    wrong = []
+    for (module, name), (function, is_property) in described().items():
+        text = inspect.getdoc(function) or ""
+        known = [each for each in inspect.signature(function).parameters if each != "self"]
+        returns = function.__annotations__.get("return") not in {None, "None", "NoReturn"}
+        found = SECTIONS.findall(text)
+        if (
+            "\n" in text
+            and not is_property
+            and (
+                (known and "Parameters" not in found)
+                or (returns and not {"Returns", "Yields"} & set(found))
+            )
+        ):
+            wrong.append(f"{module}.{name}")
+    assert not wrong, wrong
 
 
 @pytest.mark.parametrize("package", PACKAGES)
