@@ -42,7 +42,7 @@ def audit_notes(data: xr.Dataset) -> str:
 def left_out_checks(
     data: xr.Dataset, doubts: list[str], bound: Bound, void: str = ""
 ) -> list[Check]:
-    """Return the check that effects which runs left out do not matter; none if none were left out."""
+    """Return the check that omitted effects do not matter; none if runs left nothing out."""
     features = str(data.attrs.get("features_left_out", "none"))
     if features == "none":
         return []
