@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import runpy
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
@@ -101,13 +101,15 @@ class ProjectInputs:
 
     def loaded_frame(self) -> Frame:
         """Return the structure on its bearings, with its load cases "D", "L" and "S"."""
-        return self._loaded_and_types()[0]
+        return self._loaded_and_types[0].copy()
 
     def types(self) -> dict[str, str]:
         """Return the type of each bearing: "standard", or of ``[bearings.<type>]``."""
-        return self._loaded_and_types()[1]
+        return self._loaded_and_types[1]
 
+    @cached_property
     def _loaded_and_types(self) -> tuple[Frame, dict[str, str]]:
+        # Made once: an imported model takes seconds.
         devices = self.devices()
 
         def made() -> tuple[Frame, dict[str, str]]:
