@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -245,7 +246,7 @@ def test_a_closed_path_along_a_dent(load: float, gives: bool) -> None:
     corners += 2 * [(pressed, 0.0), (pressed, turn), (back, turn), (back, 0.0)]
     stiffness, length = device.resolved()["axial_stiffness"], device.effective_radius
     ends, u, force, put_in = [], np.zeros(12), np.zeros(12), 0.0
-    for (r, a), (r_end, a_end) in zip(corners, corners[1:], strict=False):
+    for (r, a), (r_end, a_end) in pairwise(corners):
         for share in np.linspace(0.0, 1.0, 100):
             size, angle = r + share * (r_end - r), a + share * (a_end - a)
             before, u = u, np.zeros(12)
