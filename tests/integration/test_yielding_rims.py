@@ -245,7 +245,8 @@ def test_a_closed_path_along_a_dent(load: float, gives: bool) -> None:
     corners = [(0.0, 0.0), (bent_by, 0.0), (back, 0.0)]
     corners += 2 * [(pressed, 0.0), (pressed, turn), (back, turn), (back, 0.0)]
     stiffness, length = device.resolved()["axial_stiffness"], device.effective_radius
-    ends, u, force, put_in = [], np.zeros(12), np.zeros(12), 0.0
+    ends: list[tuple[float, float]] = []
+    u, force, put_in = np.zeros(12), np.zeros(12), 0.0
     for (r, a), (r_end, a_end) in pairwise(corners):
         for share in np.linspace(0.0, 1.0, 100):
             size, angle = r + share * (r_end - r), a + share * (a_end - a)
@@ -254,9 +255,9 @@ def test_a_closed_path_along_a_dent(load: float, gives: bool) -> None:
             u[8] = length - math.sqrt((length + load / stiffness) ** 2 - size**2)
             element.set_trial(u, np.zeros(12), len(ends) + 0.1 * share)
             element.commit()
-            put_in += 0.5 * (force + element.resisting_force()) @ (u - before)
+            put_in += float(0.5 * (force + element.resisting_force()) @ (u - before))
             force = element.resisting_force()
-        ends.append((put_in, np.sum(element.response("work_rim"))))
+        ends.append((put_in, float(np.sum(element.response("work_rim")))))
     work, rim = np.subtract(ends[-1], ends[-5])
     assert -2.0 * FORCE * 0.02 < rim < 0.0
     assert (work < 0.0) == gives
