@@ -42,9 +42,9 @@ class Judged:
 def building() -> tuple[Frame, xr.Dataset]:
     """Run six bearings under one storey: rims, slip and, as the ground drops, uplift."""
     time = np.arange(0.0, 3.0, 0.01)
-    push = 2.4 * np.sin(2.0 * np.pi * time / 1.0) * (time < 1.0)
-    drop = np.where((time > 0.2) & (time < 0.3), -14.0, 0.0)
-    catch = np.where((time > 0.3) & (time < 0.4), 14.0, 0.0)
+    push = 1.8 * np.sin(2.0 * np.pi * time / 1.0) * (time < 1.0)
+    drop = np.where((time > 0.2) & (time < 0.3), -12.0, 0.0)
+    catch = np.where((time > 0.3) & (time < 0.4), 12.0, 0.0)
     motion = GroundMotion(x=push, y=0.4 * push, z=drop + catch, dt=0.01)
     frame = moment_frame((2, 1), 1, bearing=BEARING)
     return frame, time_history(frame, motion, level="contact", dt=0.005)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -230,6 +231,36 @@ def test_dents_are_where_the_slider_pressed_at_both_levels() -> None:
         deep = [bent(dent, math.cos(a), math.sin(a))[0] for a in around]
         assert around[np.argmax(deep)] == pytest.approx(angle, abs=0.01)
     assert_allclose(dents[0], dents[1], rtol=0.0, atol=0.03 * np.abs(dents[0]).max())
+
+
+@pytest.mark.parametrize(("load", "gives"), [(0.002 * WEIGHT, True), (0.1 * WEIGHT, False)])
+def test_a_closed_path_along_a_dent(load: float, gives: bool) -> None:
+    """The rim gives back more than it took, less than friction takes but under a small load.
+
+    Pressed where it is bent, let go 60 degrees on, below the rims back: round after round.
+    """
+    device = bearing(rim_stiffness=6e7, rim_damping=0.0, axial_damping=0.0)
+    element, reach = Element(device), device.lateral_capacity
+    bent_by, pressed, back, turn = reach + 0.02, reach + 0.017, 0.9 * reach, math.pi / 3.0
+    corners = [(0.0, 0.0), (bent_by, 0.0), (back, 0.0)]
+    corners += 2 * [(pressed, 0.0), (pressed, turn), (back, turn), (back, 0.0)]
+    stiffness, length = device.resolved()["axial_stiffness"], device.effective_radius
+    ends: list[tuple[float, float]] = []
+    u, force, put_in = np.zeros(12), np.zeros(12), 0.0
+    for (r, a), (r_end, a_end) in pairwise(corners):
+        for share in np.linspace(0.0, 1.0, 100):
+            size, angle = r + share * (r_end - r), a + share * (a_end - a)
+            before, u = u, np.zeros(12)
+            u[6], u[7] = size * math.cos(angle), size * math.sin(angle)
+            u[8] = length - math.sqrt((length + load / stiffness) ** 2 - size**2)
+            element.set_trial(u, np.zeros(12), len(ends) + 0.1 * share)
+            element.commit()
+            put_in += float(0.5 * (force + element.resisting_force()) @ (u - before))
+            force = element.resisting_force()
+        ends.append((put_in, float(np.sum(element.response("work_rim")))))
+    work, rim = np.subtract(ends[-1], ends[-5])
+    assert -2.0 * FORCE * 0.02 < rim < 0.0
+    assert (work < 0.0) == gives
 
 
 @pytest.mark.parametrize("turn", [0.3, 1.1, math.pi])

@@ -45,9 +45,12 @@ def works(lab: SimpleNamespace, variant: str, seed: int, refine: int, **changes:
 
 
 def test_works_agree(variant: str, lab: SimpleNamespace) -> None:
-    """Less than 0.1 % of friction's work at all times; increments of about 0.6 mm here."""
+    """Less than 0.1 % of friction's work at all times; increments of about 0.6 mm here.
+
+    The path is closed: nodes put in what friction dissipates, and what stays in the contact.
+    """
     nodes, inside, scale = works(lab, variant, 5, 1)
-    assert nodes[-1] > 0.5 * scale
+    assert nodes[-1] > (1.0 - 1e-3) * scale
     assert_allclose(inside / scale, nodes / scale, rtol=0.0, atol=1e-3)
 
 

@@ -158,7 +158,7 @@ def test_the_plate_of_a_lifted_bearing_is_where_its_node_is(
         assert_allclose(apart[lifted], 0.0, atol=1e-9)
         turned = data["body_rotation"].sel(bearing=name, body="top_plate").to_numpy()[lifted]
         leans = np.column_stack([turned[:, 1], -turned[:, 0]])
-        assert np.abs(leans).max() > 1e-3
+        assert np.abs(leans).max() > 3e-4
         assert_allclose(moved.plate_axis[lifted, :2], leans, atol=1e-6)
         # before the ground drops: but for the closure of the contact under its load
         assert_allclose(apart[:30], 0.0, atol=1e-3)

@@ -130,6 +130,11 @@ OF_BEARINGS = (
     ),
     Provision(
         NO_CODE,
+        "forces at 3 times the default axial stiffness, where rims are met with a slip",
+        why="since no run has it: give axial_stiffness, and run again",
+    ),
+    Provision(
+        NO_CODE,
         "pressure on the sliders' overlap",
         ("pressure on the sliders' overlap",),
         ("pressure",),
