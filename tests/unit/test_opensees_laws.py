@@ -70,9 +70,16 @@ def link(ops, *material):
     ops.element("twoNodeLink", 900, 1, 12, "-mat", material[1], "-dir", 1)
 
 
+def coupled(ops, *material):
+    building(ops)
+    ops.uniaxialMaterial(*material)
+    ops.element("CoupledZeroLength", 900, 1, 12, 1, 2, 1)
+
+
 @pytest.mark.parametrize(
     ("add", "material"),
     [
+        (coupled, ("Elastic", 1, 1e7)),
         (brace, ("Elastic", 1, 2e11)),
         (brace, ("Elastic", 1, 2e11, 1e6)),
         (brace, ("Viscous", 1, 1e8, 1.0)),
@@ -139,6 +146,8 @@ GAPS = [
     (link, ("ENT", 1, 1e8), "0 in tension and 1e[+]08 in compression"),
     (brace, ("Elastic", 1, 2e11, 0.0, 1e9), "2e[+]11 in tension and 1e[+]09 in compression"),
     (brace, ("Viscous", 1, 1e5, 0.5), "not proportional to speed.*ViscousDamper"),
+    (coupled, ("Viscous", 1, 1e5, 1.0), "along the displacement.*, not along.*ViscousDamper"),
+    (coupled, ("Elastic", 1, 1e7, 1e5), "along the displacement.*, not along.*ViscousDamper"),
     (link, ("Maxwell", 1, 1e8, 1e5, 1.0, 1.0), "a spring and a dashpot in series.*ViscousDamper"),
 ]
 
