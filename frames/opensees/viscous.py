@@ -24,21 +24,6 @@ _DIRECTIONS = {"P": 0, "Vy": 1, "Vz": 2, "T": 3, "My": 4, "Mz": 5}
 def with_viscous_springs(ops: Any, model: OpenSeesModel) -> tuple[SparseMatrix, list[str]]:
     """Return the damping of a model with the viscous part of springs and bars as in their forces.
 
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model.
-    model : OpenSeesModel
-        What was read of it.
-
-    Returns
-    -------
-    tuple
-        Its damping (n ndf, n ndf), and notes on elements of which it cannot be told whether their
-        viscous part is in it.
-
-    Notes
-    -----
     A ``zeroLength`` with ``-doRayleigh 1`` puts Rayleigh damping in place of its materials' in
     the damping matrix, while its force has both. A ``corotTruss`` has four times its force's part
     there, for its length is counted twice (openseespy 3.7 and 3.8). What a pair of nodes has in the

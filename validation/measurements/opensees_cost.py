@@ -123,25 +123,7 @@ def levels(bearing: LIRBearing, load: float) -> dict[str, tuple[LIRBearing, Plac
 def microseconds(
     frame: Frame, place: Place, motion: GroundMotion, algorithm: str = "Newton"
 ) -> float:
-    """Run a structure in OpenSees and return the time of a step of the transient analysis [us].
-
-    Parameters
-    ----------
-    frame : Frame
-        The structure.
-    place : callable
-        Puts the bearings.
-    motion : GroundMotion
-        The motion.
-    algorithm : str
-        With "Newton" all steps are of `STEP`; with any other they are of `FRAME_STEP`, and one that
-        fails is halved.
-
-    Returns
-    -------
-    float
-        Mean over all steps; not a number if the analysis fails.
-    """
+    """Run a structure in OpenSees and return the time of a step of the transient analysis [us]."""
     with empty_model() as ops:
         add_loads(ops, frame, build(ops, frame, place))
         gravity_analysis(ops)
