@@ -29,6 +29,9 @@ LINEAR = (
 SPRINGS = ("ZeroLength", "TwoNodeLink", "CoupledZeroLength")
 """Classes of elements whose uniaxial materials see displacements of nodes, not strains."""
 
+_COUPLED = "CoupledZeroLength"
+_ALONG = "has a viscous force along the displacement between its nodes, not along the velocity"
+
 BARS = ("Truss", "Truss2", "CorotTruss", "CorotTruss2")
 """Classes of elements whose uniaxial material sees a strain."""
 
@@ -111,6 +114,8 @@ class _Reader:
         sections = _tags(entry, "sections") or _tags(entry, "section")
         if element.kind in (*SPRINGS, *BARS):
             known, laws = self.laws(tags, is_spring=element.kind in SPRINGS)
+            if element.kind == _COUPLED:
+                laws = [law._replace(is_linear=law.is_linear and not law.dashpot) for law in laws]
         elif sections:
             parts = [self.section(tag) for tag in sorted(set(sections))]
             known, laws = all(part[0] for part in parts), [law for _, own in parts for law in own]
@@ -142,7 +147,9 @@ def refuse_one_sided(found: list[Nature], *, accept: bool) -> list[str]:
         for nature in found
         if nature.element.kind in (*SPRINGS, *BARS)
         for law in nature.curved
-        if law.one_sided or law.kind in DASHPOTS
+        if law.one_sided
+        or law.kind in DASHPOTS
+        or (nature.element.kind == _COUPLED and law.dashpot)
     ]
     if not bad:
         return []
@@ -153,6 +160,7 @@ def refuse_one_sided(found: list[Nature], *, accept: bool) -> list[str]:
         instead = "Gap(gap=..., stiffness=...), or Tie(stiffness=...) for what pulls only"
     else:
         what = "has a force that is not proportional to speed, or a spring and a dashpot in series"
+        what = _ALONG if element.kind == _COUPLED else what
         instead = "ViscousDamper(coefficient=..., exponent=...)"
     text = f"element {element.tag} ({element.kind}) is of {law.kind}, which {what}"
     if accept:

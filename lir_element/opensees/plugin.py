@@ -303,7 +303,7 @@ def _choose(route: str) -> str:
     if not _SESSION.told:
         _SESSION.told = True
         msg = (
-            "out-of-process coupling is used, about 12 times as slow with the same results, as the "
+            "out-of-process coupling is used, several times as slow with the same results, as the "
             f"fast one is not possible: {reason}"
         )
         warnings.warn(msg, RouteWarning, stacklevel=3)

@@ -103,6 +103,27 @@ def test_figures_are_small():
         assert path.stat().st_size < (1_500_000 if path.suffix == ".gif" else 200_000), path.name
 
 
+@pytest.mark.parametrize(
+    ("page", "pattern"),
+    [
+        ("README.md", r"{} times as long as on `singleFPBearing`, out of process {} times"),
+        ("docs/choices.md", r"{} times in buildings \(\[measured\]\([^|]*\| {} times, most"),
+    ],
+)
+def test_prose_has_the_cost_of_the_couplings(page, pattern):
+    rows = re.findall(r"^\| .*? (in|out-of)-process coupling \|(.*)\|$", frames_by_krylov(), re.M)
+    numbers = {"in": [], "out-of": []}
+    for coupling, cells in rows:
+        numbers[coupling] += [float(cell) for cell in cells.split("|")[-3:]]
+    ends = [f"{min(each):.1f} to {max(each):.1f}" for each in numbers.values()]
+    text = (FOLDER.parents[1] / page).read_text(encoding="utf-8")
+    assert re.search(pattern.format(*map(re.escape, ends)), text), ends
+
+
+def frames_by_krylov() -> str:
+    return text_of("opensees_cost").split("## Plain Newton")[0]
+
+
 def test_each_coupling_is_held_against_its_goal():
     times = {BASE: [1.0, 2.0], "LIR-DCFP, in-process coupling": [1.2, 2.8]}
     times["LIR-DCFP, out-of-process coupling"] = [3.5, 7.5]

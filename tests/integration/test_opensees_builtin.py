@@ -26,6 +26,7 @@ from lir_element.opensees import (
 from tests.patience import patience
 from validation.opensees.model import (
     gravity_analysis,
+    ground_motion,
     lead,
     solver,
     stand,
@@ -226,6 +227,36 @@ def test_millimetres_and_tags_of_numpy(ops: Any) -> None:
     assert list(ops.getEleTags()) == [5]
     with pytest.raises(TypeError, match=r"tag = 1\.5 is no tag: give an integer"):
         builtin_element("singleFPBearing", 1.5, 1, 2, plain())  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", BUILTIN_KINDS)
+def test_rayleigh_damping_of_the_domain(kind: str) -> None:
+    """It damps two of the elements unless they are made after it; a region does not help."""
+    bearing, moved = plain(), {}
+    for case in ("none", "before", "after", "region"):
+        with stand(bearing.height, MASS) as ops:
+            if case == "before":
+                ops.rayleigh(0.0, 0.0, 2e-3, 0.0)
+            builtin_element(kind, 1, 1, 2, bearing, LOAD)
+            if case in {"after", "region"}:
+                ops.rayleigh(0.0, 0.0, 2e-3, 0.0)
+            if case == "region":
+                ops.region(1, "-ele", 1, "-rayleigh", 0.0, 0.0, 0.0, 0.0)
+            weigh(ops)
+            times = np.arange(0.0, 3.0, 0.01)
+            ground_motion(ops, GroundMotion(x=2.0 * np.sin(2.0 * np.pi * times / 1.4), dt=0.01))
+            solver(ops, 1e-7)
+            transient_steps(ops)
+            assert ops.analyze(100, 0.01) == 0
+            moved[case] = ops.nodeDisp(2, 1)
+    assert moved["before"] == moved["none"]
+    assert moved["region"] == moved["after"]
+    apart = abs(moved["after"] / moved["none"] - 1.0)
+    expected = {
+        "TripleFrictionPendulum": pytest.approx(0.52, abs=0.02),
+        "TFP": pytest.approx(0.04, abs=0.01),
+    }
+    assert apart == expected.get(kind, 0.0)
 
 
 def test_shear_acts_at_half_height(ops: Any) -> None:

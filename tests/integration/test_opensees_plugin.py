@@ -12,7 +12,7 @@ from lir_element import BackupSupport, CoulombFriction, Element
 from lir_element.opensees import bearing_response
 from lir_element.units import STANDARD_GRAVITY
 from validation.cases import example_bearing
-from validation.measurements.opensees_cost import ours, pulse, slender_frame
+from validation.measurements.opensees_cost import ours, pulse, slender_frame, stepped
 from validation.opensees.frames import add_loads, build
 from validation.opensees.model import (
     empty_model,
@@ -365,3 +365,41 @@ def test_steps_that_begin_without_a_state_at_the_level_contact() -> None:
         solver(ops)
         transient_steps(ops)
         assert ops.analyze(175, 0.005) == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("integrator", "dt", "passes"),
+    [
+        (("TRBDF2",), 2e-3, True),
+        pytest.param(("Newmark", 0.5, 0.25), 1e-3, True, marks=pytest.mark.nightly),
+        pytest.param(("Newmark", 0.5, 0.25), 2e-3, False, marks=pytest.mark.nightly),
+        pytest.param(("HHT", 0.7), 1e-3, False, marks=pytest.mark.nightly),
+    ],
+)
+def test_integrators_under_strong_impacts(
+    integrator: tuple[Any, ...], dt: float, passes: bool
+) -> None:
+    """The advice for the level contact: a frame on four bearings, failed steps halved."""
+    bearing = example_bearing(friction=CoulombFriction(0.065))
+    frame = slender_frame((1, 1), 1, bearing)
+    load = float(gravity(frame).axial_forces.mean())
+    frame = slender_frame((1, 1), 1, replace(bearing, design_load=load))
+    farthest = 0.0
+    with empty_model() as ops:
+        built = build(ops, frame, ours("fast", "contact"))
+        add_loads(ops, frame, built)
+        gravity_analysis(ops)
+        ground_motion(ops, pulse().scaled(1.15))
+        solver(ops)
+        ops.algorithm("KrylovNewton")
+        ops.integrator(*integrator)
+        ops.analysis("Transient")
+        done = True
+        for _ in range(round(2.0 / dt)):
+            done = stepped(ops, dt)
+            if not done:
+                break
+            farthest = max(farthest, math.hypot(*ops.nodeDisp(built.bases[0])[:2]))
+    assert done is passes
+    assert not passes or farthest == pytest.approx(0.388, rel=0.005)

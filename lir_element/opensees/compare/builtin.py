@@ -115,8 +115,11 @@ def builtin_commands(
 
     Before sliding all have the stiffness of `BuiltinValues.initial_stiffness` under `axial_load`,
     whereas the bearing keeps its yield displacement whatever load and speed. Torsion is resisted
-    by the torque under `axial_load`, and by none in "TFP". Rayleigh damping passes them by unless a
-    region names them. How far they agree: docs/validation/opensees_pendulum.md.
+    by the torque under `axial_load`, and by none in "TFP". Rayleigh damping leaves
+    "singleFPBearing" and "FPBearingPTV" alone. It acts on the other two, with their stiffness
+    before sliding: half the displacement in one case. It acts on elements that exist, so call
+    `rayleigh` before these are made, or give it to the members by a region. How far all agree:
+    docs/validation/opensees_pendulum.md.
 
     Examples
     --------
