@@ -9,7 +9,7 @@ from frames.design.calculation.check import Check
 from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
-from frames.design.devices.limits import PROJECT_LIMIT
+from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
 from frames.design.histories.demand_table import largest_of_bounds
 from frames.design.histories.eccentricity import raised_suite, with_moved
 from frames.design.histories.suite import motion_of, peaks_of_runs, stopped_runs
@@ -43,20 +43,20 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
     Returns
     -------
     list of Check
-        None where no distance is given.
+        None where no distance is given. Where walls alone say how far they stand, the histories meet
+        them, and the equivalent-linear analysis alone is held against it.
     """
-    gap = run.limits.moat_gap
-    if gap is None:
-        return []
-    found = clearance_checks(run.code, run.equivalent, gap)
-    level = run.rules.bearing_level
-    for bound, data in run.runs[level].items():
+    gap, level = run.limits.moat_gap, run.rules.bearing_level
+    found = clearance_checks(run.code, run.equivalent, run.limits, run.frame)
+    for bound, data in run.runs[level].items() if gap is not None else ():
         moved = run.moved.get(level, {}).get(bound)
         found += _of_histories(run, bound, data, moved, gap)
     return [replace(check, level=level) for check in found]
 
 
-def clearance_checks(code: DesignCode, equivalent: EquivalentLinear, gap: float) -> list[Check]:
+def clearance_checks(
+    code: DesignCode, equivalent: EquivalentLinear, limits: DesignLimits, frame: Frame
+) -> list[Check]:
     """Make the checks of the clear distance by the equivalent-linear analysis alone.
 
     Parameters
@@ -65,15 +65,20 @@ def clearance_checks(code: DesignCode, equivalent: EquivalentLinear, gap: float)
         The code.
     equivalent : EquivalentLinear
         Its analysis.
-    gap : float
-        Clear distance to the moat wall or a neighbour [m].
+    limits : DesignLimits
+        Clear distance to the moat wall or a neighbour; without it, walls of the frame count.
+    frame : Frame
+        The structure on its bearings.
 
     Returns
     -------
     list of Check
-        One a bound.
+        One a bound; none where no distance is known.
     """
-    found, room = [], code.values.get("separation")
+    found, room, walls = [], code.values.get("separation"), walls_of(frame)
+    gap = limits.moat_gap or (walls and walls.gap)
+    if not gap:
+        return []
     for each in equivalent.bounds.values():
         t = _with_gap(gap)
         t.given("D_T", each.allowed_displacement, "m", shown="mm", note="that bearings must allow")
