@@ -224,7 +224,7 @@ def _values(
         return flat[1:size:2, None], step
     step = known.get("step", known.get("length", 0.0) / count)
     length, lasts = known.get("length", 0.0), step * count
-    if 0.0 < length and abs(lasts - length) > max(1.0, _LENGTH_TOLERANCE * length):
+    if length > 0.0 and abs(lasts - length) > max(1.0, _LENGTH_TOLERANCE * length):
         msg = (
             f"{name}: {form.name}: the header names {length:g} s, and {count} samples at its step "
             f"of {step:g} s last {lasts:g} s: fetch the file again, or read its numbers with "

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from frames.plots.model_geometry import STATIONS, member_lines
+from frames.plots.model_geometry import STATIONS, member_lines, shell_corners
 from frames.viewer.packing import exact
 
 if TYPE_CHECKING:
@@ -33,8 +33,8 @@ def structure_of(model: FrameData, system: System) -> dict[str, object]:
         "nodes", (n, 3) coordinates [m]; "members" with "nodes" (m, 2), "ends" (m, 2, 3),
         "kind" (m,) and "bending" (k, stations, 3, 12), what a member of each kind adds to its
         straight line for a unit of each displacement of its nodes; "pairs", node indices of
-        springs and links; "bearings", of the bearings; "floors", node indices around each level;
-        "supports", node indices; "masses", (n,) shares of the largest.
+        springs and links; "bearings", of the bearings; "shells" and "floors", node indices
+        around each; "supports", node indices; "masses", (n,) shares of the largest.
     """
     index = {name: k for k, name in enumerate(system.node_names)}
     table = system.members
@@ -55,6 +55,7 @@ def structure_of(model: FrameData, system: System) -> dict[str, object]:
         },
         "pairs": joined,
         "bearings": [[one.i, one.j] for one in system.bearings],
+        "shells": shell_corners(model, system.node_names),
         "floors": [_around(system, [index[n] for n in level.nodes]) for level in model.levels],
         "supports": supports,
         "masses": exact(mass / largest if largest > 0.0 else mass, "float32"),

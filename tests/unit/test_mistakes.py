@@ -86,7 +86,13 @@ MISTAKES: dict[str, tuple[str, str, str, int, str]] = {
         "25 mm is more than 5 mm",
     ),
     "friction of 5": (SHEAR, LAW, "friction = 5", 2, "coefficient = 5 .*5 per cent are 0.05"),
-    "friction of 0.5 %": (SHEAR, LAW, "friction = 0.005", 1, "on = 0.005 is less than 0.01, sliding"),
+    "friction of 0.5 %": (
+        SHEAR,
+        LAW,
+        "friction = 0.005",
+        1,
+        "on = 0.005 is less than 0.01, sliding",
+    ),
     "weak interface": (
         SHEAR,
         "= 0.18",

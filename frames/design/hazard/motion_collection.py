@@ -55,8 +55,8 @@ class MotionCollection(Mapping[str, GroundMotion]):
         still = [name for name, motion in pairs if not motion.components[:, :2].any()]
         if still:
             msg = (
-                f"{still[0]!r} of the motions is still, x and y are 0 throughout: name the file that "
-                "has its shaking, or leave the motion out"
+                f"{still[0]!r} of the motions is still, x and y are 0 throughout: name the file "
+                "that has its shaking, or leave the motion out"
             )
             raise MotionError(msg)
         stray = set(self.facts) - set(names)

@@ -43,8 +43,8 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
     Returns
     -------
     list of Check
-        None where no distance is given. Where walls alone say how far they stand, the histories meet
-        them, and the equivalent-linear analysis alone is held against it.
+        None where no distance is given. If walls alone give it, the histories may meet them, and
+        the equivalent-linear analysis alone is checked.
     """
     gap, level = run.limits.moat_gap, run.rules.bearing_level
     found = clearance_checks(run.code, run.equivalent, run.limits, run.frame)

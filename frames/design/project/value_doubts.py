@@ -85,7 +85,9 @@ def _of_bearings(devices: Mapping[str, LIRBearing], equivalent: EquivalentLinear
         at = "[bearing]" if kind == STANDARD else f"[bearings.{kind}]"
         a, options = bearing.slider_radius, bearing.resolved()
         why = "sliding materials of isolators have 0.01 to 0.15"
-        yield _Row(f"{at} friction", max(law.f_max for law in bearing.frictions), "", 0.01, 0.3, why)
+        yield _Row(
+            f"{at} friction", max(law.f_max for law in bearing.frictions), "", 0.01, 0.3, why
+        )
         why = f"a fifth of the {1e3 * needed:.4g} mm that bearings without rims go"
         yield _Row(f"{at} capacity", bearing.lateral_capacity, "m", 0.2 * needed, math.inf, why)
         why = "the slider's radius: its edge has left the plate before the rim counts as failed"
@@ -123,7 +125,8 @@ def _of_limits(
             "m/s2",
             pushed * STANDARD_GRAVITY,
             25.0,
-            f"the isolation pushes with {pushed:.3g} of the weight, isolated floors have 1 to 10 m/s2",
+            f"the isolation pushes with {pushed:.3g} of the weight, isolated floors have 1 to 10 "
+            "m/s2",
         ),
         "drift": ("", 1e-4, 0.05, "codes allow 0.002 to 0.02 of isolated buildings"),
         "slip_left": ("m", 0.0, capacity, "the capacity: no run reaches it"),
