@@ -69,8 +69,8 @@ def model_view(
     -------
     Figure
         Members, shells, springs, bearings, supports and masses (by size); links by kind, walls at
-        their gap enlarged as displacements are, plastic hinges; with a time history the undeformed model in
-        grey beside it.
+        their gap enlarged as displacements are, plastic hinges; with a time history the
+        undeformed model in grey beside it.
 
     Raises
     ------
