@@ -48,9 +48,10 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
     """
     gap, level = run.limits.moat_gap, run.rules.bearing_level
     found = clearance_checks(run.code, run.equivalent, run.limits, run.frame)
-    for bound, data in run.runs[level].items() if gap is not None else ():
-        moved = run.moved.get(level, {}).get(bound)
-        found += _of_histories(run, bound, data, moved, gap)
+    if gap is not None:
+        for bound, data in run.runs[level].items():
+            moved = run.moved.get(level, {}).get(bound)
+            found += _of_histories(run, bound, data, moved, gap)
     return [replace(check, level=level) for check in found]
 
 
