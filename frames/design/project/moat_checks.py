@@ -34,17 +34,6 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
     The displacement that bearings must allow by the equivalent-linear analysis, that which the
     histories ask for with the code's factor, and the largest of all single runs. Notes say whether
     the runs have the wall, and in how many of them it is met.
-
-    Parameters
-    ----------
-    run : RunToCheck
-        The run.
-
-    Returns
-    -------
-    list of Check
-        None where no distance is given. If walls alone give it, the histories may meet them, and
-        the equivalent-linear analysis alone is checked.
     """
     gap, level = run.limits.moat_gap, run.rules.bearing_level
     found = clearance_checks(run.code, run.equivalent, run.limits, run.frame)
@@ -58,24 +47,7 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
 def clearance_checks(
     code: DesignCode, equivalent: EquivalentLinear, limits: DesignLimits, frame: Frame
 ) -> list[Check]:
-    """Make the checks of the clear distance by the equivalent-linear analysis alone.
-
-    Parameters
-    ----------
-    code : DesignCode
-        The code.
-    equivalent : EquivalentLinear
-        Its analysis.
-    limits : DesignLimits
-        Clear distance to the moat wall or a neighbour; without it, walls of the frame count.
-    frame : Frame
-        The structure on its bearings.
-
-    Returns
-    -------
-    list of Check
-        One a bound; none where no distance is known.
-    """
+    """Make the checks of the clear distance by the equivalent-linear analysis alone."""
     found, room, walls = [], code.values.get("separation"), walls_of(frame)
     gap = limits.moat_gap or (walls and walls.gap)
     if not gap:
