@@ -23,7 +23,7 @@ class Format(NamedTuple):
     after : int
         Lines between the one that `first` finds and the numbers.
     size, length : str
-        Pattern of the number of samples; of the duration [s], if that is said instead.
+        Pattern of the number of samples; of the duration [s], if that is said instead or besides.
     step, rate : str
         Pattern of the time step [s]; of the samples a second.
     unit : str
@@ -86,6 +86,7 @@ FORMATS = (
         first=_POINTS,
         parts=r"^\s*(?:/&|End-of-data)",
         size=_POINTS,
+        length=rf"acceleration pts, approx\s+{_F}\s*sec",
         unit=r"units\s*=\s*([a-z0-9/]+)",
         direction=r"^Sta Cha\S*\s*\S*:\s*(.*?)\s*\(Rcrdr",
         whole=False,

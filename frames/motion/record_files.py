@@ -22,6 +22,7 @@ from frames.motion.records import AccelerationTrace, PathLike, is_at2, read_at2
 _LOOKED_AT = 60
 """Lines at the beginning of a file by which its format is recognised."""
 
+_LENGTH_TOLERANCE = 0.05  # of a duration, which headers round
 _PEAK_TOLERANCE = 0.02
 """How far the samples may miss the peak that the header names [-]."""
 
@@ -200,6 +201,14 @@ def _values(
             raise MotionError(msg) from cause
         return flat[1:size:2, None], step
     step = known.get("step", known.get("length", 0.0) / count)
+    length, lasts = known.get("length", 0.0), step * count
+    if length > 0.0 and abs(lasts - length) > max(1.0, _LENGTH_TOLERANCE * length):
+        msg = (
+            f"{name}: {form.name}: the header names {length:g} s, and {count} samples at its step "
+            f"of {step:g} s last {lasts:g} s: fetch the file again, or read its numbers with "
+            "from_columns and the step that is right"
+        )
+        raise MotionError(msg)
     return flat[:size].reshape(count, columns), step
 
 

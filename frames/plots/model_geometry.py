@@ -9,8 +9,11 @@ import numpy as np
 from frames.model.axes import to_local
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from frames._types import FloatArray
     from frames.assembly.system import MemberTable
+    from frames.model.frame_data import FrameData
 
 STATIONS = 9
 """Points of a member's line."""
@@ -43,3 +46,10 @@ def member_lines(table: MemberTable, coordinates: FloatArray, u: FloatArray) -> 
     start, end = (ends[:, k, None] for k in range(2))
     straight = start + t[..., None] * (end - start)
     return np.asarray(straight + np.einsum("msl,mlg->msg", moved, axes))
+
+
+def shell_corners(model: FrameData, names: Sequence[str]) -> list[list[int]]:
+    """Return the places of the nodes around each shell element, of a list of nodes' names."""
+    index = {name: k for k, name in enumerate(names)}
+    elements = [each for part in model.superelements.values() for each in part.elements.shells]
+    return [[index[name] for name in each.nodes] for each in elements]

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.animation import FuncAnimation
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
-from mpl_toolkits.mplot3d.art3d import Line3DCollection
+from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 from frames.assembly.assemble import assemble
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
-from frames.plots.model_geometry import member_lines
+from frames.plots.model_geometry import member_lines, shell_corners
 from frames.plots.part_marks import HINGES, draw_links, hinge_places, part_handles
 from frames.recording.recovery import require_own
 from frames.results.recorded import require_recorded, require_steps
@@ -21,6 +22,7 @@ from frames.statics.modes import modes
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.artist import Artist
     from matplotlib.figure import Figure
 
     from frames._types import FloatArray
@@ -66,9 +68,9 @@ def model_view(
     Returns
     -------
     Figure
-        Members, springs, bearings, supports and masses (by size); links by kind, walls at their gap
-        enlarged as displacements are, plastic hinges; with a time history the undeformed model in
-        grey beside it.
+        Members, shells, springs, bearings, supports and masses (by size); links by kind, walls at
+        their gap enlarged as displacements are, plastic hinges; with a time history the
+        undeformed model in grey beside it.
 
     Raises
     ------
@@ -300,6 +302,10 @@ def _parts(
         drawn += panel.plot(*ends.T, color=colour, linewidth=0.8, linestyle=":")
     if plain:
         return drawn
+    if shells := shell_corners(model, system.node_names):
+        style = {"alpha": 0.15, "edgecolor": colour, "linewidths": 0.3}
+        areas = Poly3DCollection([place[each] for each in shells], facecolor=colour, **style)
+        drawn.append(panel.add_collection3d(areas))
     for _, i, j, _ in system.bearings:
         ends = place[[i, j]]
         drawn += panel.plot(*ends.T, color=BEARINGS, linewidth=3.0, solid_capstyle="butt")
@@ -348,9 +354,11 @@ def frame_of(panel: Any, points: list[FloatArray], *, bare: bool = False) -> Non
         getattr(panel, f"set_{name}label")(f"{name} [m]", fontsize=ps.LABEL)
 
 
-def _handles(model: FrameData, *, deformed: bool) -> list[Line2D]:
+def _handles(model: FrameData, *, deformed: bool) -> list[Artist]:
     plain: dict[str, Any] = {"linestyle": "", "markersize": 5.0}
-    handles = [Line2D([], [], color=MEMBERS, label="members")] if model.members else []
+    handles: list[Artist] = (
+        [Line2D([], [], color=MEMBERS, label="members")] if model.members else []
+    )
     if model.springs:
         handles.append(Line2D([], [], color=MEMBERS, linestyle=":", label="springs"))
     if any(any(member.releases) for member in model.members.values()):
@@ -358,6 +366,8 @@ def _handles(model: FrameData, *, deformed: bool) -> list[Line2D]:
             [], [], color=MEMBERS, marker="o", fillstyle="none", label="releases", **plain
         )
         handles.append(ring)
+    if any(part.elements.shells for part in model.superelements.values()):
+        handles.append(Patch(facecolor=MEMBERS, alpha=0.15, label="shells"))
     if any(member.has_offsets for member in model.members.values()):
         stiff = Line2D([], [], color=MEMBERS, linewidth=3.5, label="rigid end zones")
         handles.append(stiff)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from frames.plots.model_geometry import STATIONS, member_lines
+from frames.plots.model_geometry import STATIONS, member_lines, shell_corners
 from frames.viewer.packing import exact
 
 if TYPE_CHECKING:
@@ -38,6 +38,7 @@ def structure_of(model: FrameData, system: System) -> dict[str, object]:
         },
         "pairs": joined,
         "bearings": [[one.i, one.j] for one in system.bearings],
+        "shells": shell_corners(model, system.node_names),
         "floors": [_around(system, [index[n] for n in level.nodes]) for level in model.levels],
         "supports": supports,
         "masses": exact(mass / largest if largest > 0.0 else mass, "float32"),

@@ -493,6 +493,10 @@ def asked(project, suites_, places=None):
     return (min(loads), max(loads)), slip
 
 
+MULTIPLES = "multiples of the loads on average: the frame's equilibrium is nearly linear"
+"""Why loads of combinations agree as they do."""
+
+
 def unknown_loads(project):
     """Say whether the bearings' own loads are not known, as the notes of tests have it."""
     return any("not evaluated" in row["note"] for row in project.table("programme"))
@@ -513,12 +517,7 @@ def impact_speed(project):
 
 def _programme(project, found, tally):
     name = "programme of tests"
-    tally.category(
-        name,
-        2e-3,
-        "loads of combinations as multiples of those on average: the frame's"
-        " equilibrium is nearly linear",
-    )
+    tally.category(name, 2e-3, MULTIPLES)
     words = {"ASCE 7-22": _of_asce, "EN 1998": _of_en, "NCh2745": _of_nch}[project.code]
     project.tests, plan, kinds = {}, [], project.kinds()
     for n, kind in enumerate(dict.fromkeys(project.types), start=1):

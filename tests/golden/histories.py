@@ -221,6 +221,7 @@ def compare(project, runs, tally):
         "line_drift": 2e-3,
         "slip": 1e-3,
         "slip_left": 1e-3,
+        "slip_loose": 3e-2,
         "displacement_left": 1e-2,
         "eccentricity": 1e-2,
         "eccentricity_loaded": 1e-2,

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.testing import assert_allclose
 from scipy.sparse import csr_matrix
 
@@ -13,6 +14,8 @@ from frames import Frame, ModelError
 from frames.assembly.assemble import assemble
 from frames.demo import bearing_for
 from frames.model.part_elements import no_elements
+from frames.plots import model_view
+from frames.viewer.structure import structure_of
 from lir_element.opensees import opensees
 from tests import etabs_models
 from tests.fixed_base import periods, reactions
@@ -57,6 +60,14 @@ def test_walls_come_back_as_they_were(tmp_path: Path, units: str) -> None:
     frame = walls(tmp_path)
     shells = frame.superelements["shells"].elements.shells
     assert_allclose(sorted({shell.bending for shell in shells}), [0.25, 1.0 / 0.35])
+    figure = model_view(frame)
+    assert any(isinstance(c, Poly3DCollection) for c in figure.axes[0].collections)
+    assert "shells" in [text.get_text() for text in figure.legends[0].get_texts()]
+    system = assemble(frame)
+    corners = structure_of(frame, system)["shells"]
+    assert [tuple(system.node_names[k] for k in each) for each in corners] == [
+        shell.nodes for shell in shells
+    ]
     tables, text = tmp_path / "again.s2k", tmp_path / "again.e2k"
     frame.to_sap2000(tables, units=units)
     names = frame.to_etabs(text, units=units)

@@ -1,5 +1,6 @@
 """What a bearing in OpenSees is checked for: messages name value, bound and remedy."""
 
+import sys
 import warnings
 from collections.abc import Iterator
 from types import ModuleType
@@ -15,6 +16,7 @@ pytest.importorskip("psutil")
 
 import lir_element.opensees as package
 from lir_element.opensees import PlacementWarning, bearing_element, bearing_tags, opensees
+from lir_element.opensees.connection import own_connections
 from lir_element.opensees.placement import bearing_axes, place
 
 DEVICE = static_bearing()
@@ -170,3 +172,18 @@ def test_what_the_package_offers_is_listed() -> None:
     exec("from lir_element.opensees import *", scope)  # noqa: S102
     assert {"bearing_element", "record_bearings", "PlacementWarning"} <= scope.keys()
     assert "plugin" not in scope
+
+
+def test_what_is_not_installed_is_named_with_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "psutil", None)
+    with pytest.raises(ImportError, match=r'psutil is not.*pip install "lir-dcfp\[opensees\]"'):
+        own_connections()
+    monkeypatch.delitem(sys.modules, "openseespy.opensees", raising=False)
+    known = {"xara": "there"}
+    monkeypatch.setattr("importlib.util.find_spec", known.get)
+    said = r'openseespy is not installed%s: pip install "lir-dcfp\[opensees\]"'
+    with pytest.raises(ImportError, match=said % r" \(xara is, in which .* not tried\)"):
+        opensees()
+    known.clear()
+    with pytest.raises(ImportError, match=said % ""):
+        opensees()

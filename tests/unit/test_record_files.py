@@ -200,6 +200,7 @@ def test_every_format_of_the_table_is_tried() -> None:
         ),
         (esm().replace("NDATA: 1000", "NDATA: 500"), "names 500 samples, and the file holds 1000"),
         (esm().replace("NDATA: 1000", "x"), "names no number of samples or no time step"),
+        (cosmos().replace("0.010000", "0.005000"), "names 10 s, and 1000 .* of 0.005 s last 5 s"),
         (smc("1 UNCORRECTED", 1.7e38), "uncorrected record with uneven times.*volume 2"),
         ("0.1\n0.2\n", 'is in no format that is read by name.*order="rows"'),
     ],

@@ -438,6 +438,7 @@ def test_what_governs_are_the_highest_ratios(results: Path, page: str) -> None:
 FAILS = (
     ("s_ms = 1.2", "s_ms = 2.4"),
     ("s_m1 = 0.6", "s_m1 = 1.2"),
+    ("400 kN/mm", "5 kN/mm"),
     ('bounds = ["lower", "upper"]', 'bounds = ["lower"]\nlevel = "pendulum"'),
     ("[project]", '[project]\nlanguage = "es"\ndecimal = ","'),
 )
@@ -475,6 +476,10 @@ def test_a_failing_design_names_each_cause_once(failing: Path) -> None:
     by_value = (checks["verdict"] == "FAILS") & (checks["symbol"] != "n_failed")
     said = f"No se cumplen por su valor {by_value.sum()} de {len(checks)}"
     assert said in " ".join(cover.split())
+    linear = section(page, "equivalent-linear-analysis")
+    beyond = linear.partition("<ul>")[2].partition("</ul>")[0].count("<li>")
+    assert 0 < beyond == linear.count(">no aplica<")  # a drift is no limit of the procedure
+    assert ">NO CUMPLE<" in linear
     bars = section(page, "summary")
     assert "sin valor" in bars
     width = float(re.search(r'viewBox="0 0 (\d+)', bars)[1])

@@ -18,6 +18,7 @@ from frames.design.project.example import BUILDINGS
 from lir_element import LIRBearing, VelocityFriction
 from lir_element._compile import shipped
 
+ROOT = Path(__file__).parents[2]
 COMPILES = pytest.mark.skipif(
     os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="nothing is compiled"
 )
@@ -177,3 +178,46 @@ def test_usual_analyses_compile_nothing_that_was_not_compiled_ahead() -> None:
             time_history(lumped_mass(bearing, 2e5), motion, level=level)
         time_history(moment_frame(bearing=bearing), motion, integrator="generalised-alpha")
     assert [e.data["dispatcher"].__name__ for _, e in recorder.buffer if e.is_start] == []
+
+
+STUB = """#!/bin/sh
+echo "$0 $@" | tr '\\n' ' ' >>"$LOG"
+case "$*" in
+    "-m venv --clear "*) mkdir -p "$4/bin" && : >"$4/pyvenv.cfg" && cp "$0" "$4/bin/python" ;;
+    *direct_url*) echo "$OTHER" ;;
+esac
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no sh")
+@pytest.mark.parametrize("case", ["own", "link", "other"])
+def test_environments_of_other_checkouts_are_left_alone(tmp_path: Path, case: str) -> None:
+    """A stub stands for Python, and a file for what it is called with: nothing is installed."""
+    log, there = tmp_path / "log", tmp_path / "there"
+    for folder in (tmp_path / "path", there / "bin"):
+        folder.mkdir(parents=True)
+    for stub in (tmp_path / "path" / "python3.12", there / "bin" / "python"):
+        stub.write_text(STUB)
+        stub.chmod(0o755)
+    (there / "pyvenv.cfg").touch()
+    if case == "link":
+        (tmp_path / ".venv").symlink_to(there)
+    else:
+        there.rename(tmp_path / ".venv")
+    path = f"{tmp_path / 'path'}{os.pathsep}{os.environ['PATH']}"
+    other = "/elsewhere" if case == "other" else ""
+    done = subprocess.run(  # noqa: S603
+        ["sh", str(ROOT / ".ci" / "venv"), ".venv"],  # noqa: S607
+        cwd=tmp_path,
+        env={"PATH": path, "LOG": str(log), "OTHER": other},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    installs = ".venv/bin/python -m pip install" in log.read_text()
+    assert (done.returncode, installs) == ((1, False) if case == "other" else (0, True)), done
+    words = {"own": "", "other": "environment of /elsewhere and is left", "link": "is left as it"}
+    assert words[case] in done.stderr
+    if case == "link":
+        assert not (tmp_path / ".venv").is_symlink()
+        assert sorted(p.name for p in there.iterdir()) == ["bin", "pyvenv.cfg"]

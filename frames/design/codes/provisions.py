@@ -27,6 +27,7 @@ NEEDS: Mapping[str, str] = {
     "combinations": "no load cases of dead, live and snow load are known ([loads] gives them)",
     "service": "no displacement is given ([superstructure] service_displacement)",
     "gap": "no clear distance is given ([limits] moat_gap)",
+    "room": "no clear distance is given ([limits] moat_gap, or walls in [moat])",
     "storey stiffness": 'only a structure of kind "shear building" has the stiffness of a storey; '
     "the drifts of time histories are checked",
     "storeys": "the model names fewer than two levels",

@@ -163,7 +163,7 @@ PROVISIONS = (
         f"{_CLAUSE} 17.2.5.2",
         "separation to walls and neighbours",
         ("clearance to the moat wall, equivalent-linear",),
-        ("gap",),
+        ("room",),
     ),
     Provision(
         f"{_CLAUSE} 17.3.3",

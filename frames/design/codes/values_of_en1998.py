@@ -165,7 +165,7 @@ PROVISIONS = (
         "EN 1998-1 10.5.4",
         "separation to walls and neighbours",
         ("clearance to the moat wall, equivalent-linear",),
-        ("gap",),
+        ("room",),
     ),
     Provision(
         "EN 1998-1 3.2.3.1.2",

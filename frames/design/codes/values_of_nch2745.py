@@ -120,7 +120,7 @@ PROVISIONS = (
         NO_CODE,
         "separation to walls and neighbours",
         ("clearance to the moat wall, equivalent-linear",),
-        ("gap",),
+        ("room",),
     ),
     Provision(
         "NCh2745 8.4",

@@ -46,6 +46,13 @@ class MotionCollection(Mapping[str, GroundMotion]):
             found = f"name {bad[0]!r} is empty or there twice" if bad else "no motion is given"
             msg = f"{found}: give motions by name, {{'name': motion}}"
             raise MotionError(msg)
+        still = [name for name, motion in pairs if not motion.components[:, :2].any()]
+        if still:
+            msg = (
+                f"{still[0]!r} of the motions is still, x and y are 0 throughout: name the file "
+                "that has its shaking, or leave the motion out"
+            )
+            raise MotionError(msg)
         stray = set(self.facts) - set(names)
         if stray:
             msg = f"facts of {sorted(stray)[0]!r} belong to no motion: {', '.join(names)} are given"

@@ -39,7 +39,8 @@ class MotionSet(MotionCollection):
     Raises
     ------
     MotionError
-        If there is no motion, a name is empty or there twice, or facts belong to no motion.
+        If there is no motion, one is 0 throughout, a name is empty or there twice, or facts belong
+        to no motion.
     TypeError
         If an entry is no GroundMotion.
 

@@ -9,7 +9,7 @@ from frames.design.calculation.check import Check
 from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
-from frames.design.devices.limits import PROJECT_LIMIT
+from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
 from frames.design.histories.demand_table import largest_of_bounds
 from frames.design.histories.eccentricity import raised_suite, with_moved
 from frames.design.histories.suite import motion_of, peaks_of_runs, stopped_runs
@@ -35,20 +35,23 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
     histories ask for with the code's factor, and the largest of all single runs. Notes say whether
     the runs have the wall, and in how many of them it is met.
     """
-    gap = run.limits.moat_gap
-    if gap is None:
-        return []
-    found = clearance_checks(run.code, run.equivalent, gap)
-    level = run.rules.bearing_level
-    for bound, data in run.runs[level].items():
-        moved = run.moved.get(level, {}).get(bound)
-        found += _of_histories(run, bound, data, moved, gap)
+    gap, level = run.limits.moat_gap, run.rules.bearing_level
+    found = clearance_checks(run.code, run.equivalent, run.limits, run.frame)
+    if gap is not None:
+        for bound, data in run.runs[level].items():
+            moved = run.moved.get(level, {}).get(bound)
+            found += _of_histories(run, bound, data, moved, gap)
     return [replace(check, level=level) for check in found]
 
 
-def clearance_checks(code: DesignCode, equivalent: EquivalentLinear, gap: float) -> list[Check]:
+def clearance_checks(
+    code: DesignCode, equivalent: EquivalentLinear, limits: DesignLimits, frame: Frame
+) -> list[Check]:
     """Make the checks of the clear distance by the equivalent-linear analysis alone."""
-    found, room = [], code.values.get("separation")
+    found, room, walls = [], code.values.get("separation"), walls_of(frame)
+    gap = limits.moat_gap or (walls and walls.gap)
+    if not gap:
+        return []
     for each in equivalent.bounds.values():
         t = _with_gap(gap)
         t.given("D_T", each.allowed_displacement, "m", shown="mm", note="that bearings must allow")

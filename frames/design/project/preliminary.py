@@ -120,8 +120,7 @@ def _made(parts: ProjectInputs) -> Preliminary:
     _warn(value_doubts(parts.file, system, equivalent, parts.devices(), types))
     motions = scaled_motions(parts, spectrum, equivalent)
     _refuse_steps(parts, motions)
-    gap = parts.limits().moat_gap
-    room = [] if gap is None else clearance_checks(parts.code(), equivalent, gap)
+    room = clearance_checks(parts.code(), equivalent, parts.limits(), frame)
     return Preliminary(
         frame=frame,
         system=system,

@@ -39,6 +39,7 @@ def facts_of(parts: ProjectInputs, known: Preliminary) -> frozenset[str]:
         "moved": bool(known.moved),
         "bounds": not {*file.analysis.bounds}.isdisjoint(known.equivalent.bounds),
         "gap": limits.moat_gap is not None,
+        "room": limits.moat_gap is not None or file.moat is not None,
         "pressure": limits.interface_pressure is not None,
         "liner": limits.liner_pressure is not None,
         "rim strength": limits.rim_strength is not None,

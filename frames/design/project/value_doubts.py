@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design.codes.registry import code_named
 from frames.design.project.bearing_types import STANDARD
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -40,7 +41,7 @@ def value_doubts(
     """Return which values of a file do not fit its building, and which have no effect."""
     rows = [
         *_of_bearings(devices, equivalent),
-        *_of_limits(file, system, devices),
+        *_of_limits(file, system, equivalent, devices),
         *_of_devices(file, system, equivalent),
     ]
     return (*map(_said, filter(_strange, rows)), *_without_effect(file, types))
@@ -66,6 +67,10 @@ def _of_bearings(devices: Mapping[str, LIRBearing], equivalent: EquivalentLinear
     for kind, bearing in devices.items():
         at = "[bearing]" if kind == STANDARD else f"[bearings.{kind}]"
         a, options = bearing.slider_radius, bearing.resolved()
+        why = "sliding materials of isolators have 0.01 to 0.15"
+        yield _Row(
+            f"{at} friction", max(law.f_max for law in bearing.frictions), "", 0.01, 0.3, why
+        )
         why = f"a fifth of the {1e3 * needed:.4g} mm that bearings without rims go"
         yield _Row(f"{at} capacity", bearing.lateral_capacity, "m", 0.2 * needed, math.inf, why)
         why = "the slider's radius: its edge has left the plate before the rim counts as failed"
@@ -82,12 +87,16 @@ def _of_bearings(devices: Mapping[str, LIRBearing], equivalent: EquivalentLinear
 
 
 def _of_limits(
-    file: ProjectFile, system: IsolationSystem, devices: Mapping[str, LIRBearing]
+    file: ProjectFile,
+    system: IsolationSystem,
+    equivalent: EquivalentLinear,
+    devices: Mapping[str, LIRBearing],
 ) -> Iterator[_Row]:
     limits, load, weight = file.limits, max(system.loads), system.seismic_weight
     capacity = max(each.lateral_capacity for each in devices.values())
     heaviest = f"the heaviest bearing carries {1e-3 * load:.4g} kN"
     whole = f"the building weighs {1e-3 * weight:.4g} kN"
+    pushed = min(each.base_shear for each in equivalent.bounds.values()) / weight
     rows: dict[str, tuple[str, float, float, str]] = {
         "rim_strength": ("N", 0.02 * load, 100.0 * load, heaviest),
         "axial_force": ("N", 0.5 * load, 100.0 * load, heaviest),
@@ -95,7 +104,13 @@ def _of_limits(
         "base_shear": ("N", 0.005 * weight, 3.0 * weight, whole),
         "interface_pressure": ("Pa", 2e6, 1e9, "sliding materials carry 5 to 100 MPa"),
         "liner_pressure": ("Pa", 2e6, 1e9, "sliding materials carry 5 to 100 MPa"),
-        "floor_acceleration": ("m/s2", 0.2, 25.0, "isolated floors have 1 to 10 m/s2"),
+        "floor_acceleration": (
+            "m/s2",
+            pushed * STANDARD_GRAVITY,
+            25.0,
+            f"the isolation pushes with {pushed:.3g} of the weight, isolated floors have 1 to 10 "
+            "m/s2",
+        ),
         "drift": ("", 1e-4, 0.05, "codes allow 0.002 to 0.02 of isolated buildings"),
         "slip_left": ("m", 0.0, capacity, "the capacity: no run reaches it"),
         "displacement_left": ("m", 0.0, capacity, "the capacity: hardly a run reaches it"),
@@ -122,6 +137,10 @@ def _of_devices(
         yield _Row(key, count * one.force, "N", 1e-3 * weight, weight, why)
         why = "isolated buildings move at 0.1 to 2 m/s"
         yield _Row(f"[dampers.{name}] speed", one.speed, "m/s", 0.01, 5.0, why)
+    above = getattr(file.structure, "damping", None)
+    if isinstance(above, float):
+        why = "structures on isolators stay elastic and have 0.01 to 0.05"
+        yield _Row("[structure] damping", above, "", 0.0, 0.1, why)
     why = "the program chooses 0.005 s or less"
     yield _Row("[analysis] dt", file.analysis.dt, "s", 0.0, 0.02, why)
 

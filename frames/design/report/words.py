@@ -36,7 +36,7 @@ _WORDLESS = "|".join(
         r"[A-Z-]{2,}\S*",
         r"[+-][xyz]|[xyz][+-]",
         r"\S+\.md",
-        r"\[[^\]]*\]",
+        r"\[[^\]]*\](?: [a-z_]+(?= |$))?",  # a section, and its key
         _UNITS,
     )
 )

@@ -90,9 +90,14 @@ const Model = (() => {
     return new Float32Array(points);
   }
 
-  function floorMesh(nodes, places) {
-    const triangles = [];
-    for (let k = 1; k < nodes.length - 1; k++) triangles.push(0, k, k + 1);
+  // Areas by the nodes around each, in one mesh.
+  function areaMesh(areas, places) {
+    const triangles = [], nodes = areas.flat();
+    let first = 0;
+    areas.forEach((around) => {
+      for (let k = 1; k < around.length - 1; k++) triangles.push(first, first + k, first + k + 1);
+      first += around.length;
+    });
     const geometry = new THREE.BufferGeometry();
     const positions = new THREE.BufferAttribute(new Float32Array(3 * nodes.length), 3);
     positions.setUsage(THREE.DynamicDrawUsage);
@@ -185,7 +190,8 @@ const Model = (() => {
     const pairs = fatLines(structure.pairs.length, 1.4);
     const rest = thinLines(atRest(structure));
     const places = new Float64Array(structure.nodes.length);
-    const floors = structure.floors.filter((nodes) => nodes.length > 2).map((nodes) => floorMesh(nodes, places));
+    const floors = [...structure.floors.map((around) => [around]), structure.shells]
+      .filter((areas) => areas.flat().length > 2).map((areas) => areaMesh(areas, places));
     const bodies = bearingBodies(content);
     const level = Math.min(...structure.bearings.map(([i]) => structure.nodes[3 * i + 2]), bounds.low[2]);
     const masses = massesOf(structure, bounds);
