@@ -348,7 +348,7 @@ def run_at(
     Warns
     -----
     AnalysisWarning
-        If runs failed numerically.
+        If runs failed numerically, or their results are doubtful.
     """
     fixed = {"scales", "cases", "record"} & set(options)
     if fixed:
@@ -373,6 +373,14 @@ def run_at(
         warnings.warn(
             f"{len(failed)} of {len(runs.table)} runs failed numerically and count as neither; the "
             f"first, {row['motion']} at {row['im']:.3g} {intensity.unit}: {row['message']}",
+            AnalysisWarning,
+            stacklevel=3,
+        )
+    doubtful = runs.table[runs.table["status"] == RunStatus.INACCURATE.name.lower()]
+    if len(doubtful):
+        warnings.warn(
+            f"{len(doubtful)} of {len(runs.table)} runs are inaccurate and count with their "
+            f"demands; the first, {doubtful.iloc[0]['motion']}: {doubtful.iloc[0]['message']}",
             AnalysisWarning,
             stacklevel=3,
         )

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+WIDEST = 0.5
+"""Widest confidence interval of a Sobol' index that is not warned of."""
+
 INTERVAL_RESAMPLES = 200
 """Resamples of the confidence intervals of Sobol' indices."""
 
@@ -184,6 +187,11 @@ def sobol_indices(
     ------
     FragilityError
         If an argument is out of its bounds, or results are not finite or all the same.
+
+    Warns
+    -----
+    RiskWarning
+        If the widest interval of an index is wider than 0.5: as wide as that it ranks nothing.
 
     Notes
     -----
