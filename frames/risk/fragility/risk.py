@@ -25,7 +25,7 @@ MISSING = 0.05
 
 
 class RiskWarning(UserWarning):
-    """A rate of which much comes from where the hazard is not known.
+    """A rate or a Sobol' index that is not known well.
 
     Examples
     --------
