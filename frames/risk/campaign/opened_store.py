@@ -55,10 +55,24 @@ def readable(where: Path) -> Generator[None, None, None]:
 def opened(where: Path, plan: Mapping[str, Any], *, is_results: bool = False) -> xr.Dataset:
     """Return a group of a database, its values read where they are used, its labels at once.
 
+    Parameters
+    ----------
+    where : Path
+        The group.
+    plan : mapping
+        Of the results database.
+    is_results : bool
+        Whether it holds the results, of which `results_of` looks at chunks where they are read.
+
+    Returns
+    -------
+    xarray.Dataset
+        The group.
+
     Raises
     ------
     LookupError
-        If a chunk was removed: of the labels, or of any array where they are no results of runs.
+        If a chunk was removed.
     """
     import zarr
 
