@@ -203,7 +203,7 @@ def test_measured_points_give_the_nearest_law_that_never_falls() -> None:
     assert (np.diff(found) >= 0.0).all()
     off = [law.at_speed(v) - f for v, f in zip(law.speeds, law.coefficients, strict=True)]
     assert law.misfit == pytest.approx(np.sqrt(np.mean(np.square(off))))
-    assert 0.001 < law.misfit < 0.004
+    assert 0.001 < law.misfit < 0.01
     assert MeasuredFriction([0.1], [0.05]).at_speed(0.0) == 0.05
     with pytest.raises(ValueError, match="1 speeds and 2 coefficients: give one of each"):
         MeasuredFriction([0.1], [0.05, 0.06])

@@ -253,10 +253,10 @@ class Intensity:
             moved = [integrated(a, dt)[self.kind == "PGD"] for a in (x, y)]
             return MEASURES[self.measure](*moved)
         number = _INTEGRALS[self.kind]
-        if self.measure in _OF_DIRECTIONS:
+        if self.measure in {"RotD50", "RotD100"}:
             angles = np.pi / ANGLES * np.arange(ANGLES)
             each = [number(np.cos(a) * x + np.sin(a) * y, dt) for a in angles]
-            return float(_OF_DIRECTIONS[self.measure](each))
+            return float(np.median(each) if self.measure == "RotD50" else np.max(each))
         return MEASURES[self.measure](*(np.array([number(a, dt)]) for a in (x, y)))
 
 
@@ -264,7 +264,6 @@ _INTEGRALS: dict[str, Callable[[FloatArray, float], float]] = {
     "CAV": lambda a, dt: float(np.trapezoid(np.abs(a), dx=dt)),
     "Arias": lambda a, dt: float(build_up(a, dt)[-1]),
 }
-_OF_DIRECTIONS = {"RotD50": np.median, "RotD100": np.max}
 
 
 def is_same(first: IntensityMeasure, second: IntensityMeasure) -> bool:
