@@ -52,7 +52,7 @@ def test_a_bearing_of_a_period_has_it_in_the_model():
     own = LIRBearing.of_period(3.3, **heights, **given)
     assert own.radii[0] == own.radii[1]
     assert_allclose(modes(lumped_mass(own, 1e5), 2, "sliding").periods, 3.3, rtol=1e-6)
-    with pytest.raises(ValueError, match="period = -1 .* must be positive"):
+    with pytest.raises(ValueError, match=r"period = -1 .* must be positive"):
         LIRBearing.of_period(-1.0, **heights, **given)
     with pytest.raises(TypeError, match="radius"):
         LIRBearing.of_period(3.3, radius=1.0, **heights, **given)
