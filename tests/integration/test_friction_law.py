@@ -177,7 +177,7 @@ def test_the_exponential_by_table_is_the_exponential(level: Any) -> None:
 
 
 @pytest.mark.quick
-def test_measured_points_give_the_nearest_law_that_never_falls() -> None:
+def test_measured_points_give_their_isotonic_fit() -> None:
     """By the formula max over j <= i of min over k >= i of the mean of j to k (Barlow 1972)."""
     speeds = np.geomspace(0.002, 0.4, 12)
     fit = LAW.f_min + (LAW.f_max - LAW.f_min) * speeds / (speeds + LAW.half_speed)
