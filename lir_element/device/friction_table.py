@@ -78,28 +78,7 @@ class FrictionValues(NamedTuple):
 
 
 def sampled(name: str, law: Law, largest: float = LARGEST_ERROR) -> FrictionValues:
-    """Return the table of a law, cubic between knots that lie evenly over v / (v + v_ref).
-
-    Parameters
-    ----------
-    name : str
-        The law in words, for messages.
-    law : callable
-        Friction coefficient [-] at a speed [m/s].
-    largest : float
-        Error over the coefficient at high speed beyond which it is refused [-].
-
-    Returns
-    -------
-    FrictionValues
-        With the reference speed v_ref whose table is nearest to the law, and its error.
-
-    Raises
-    ------
-    ValueError
-        If the coefficient is not finite, outside of 0 to 1, falls with speed, has no limit at high
-        speed, or changes too abruptly for a table.
-    """
+    """Return the table of a law, cubic between knots that lie evenly over v / (v + v_ref)."""
     values = _checked(name, law)
     least, most = float(values[0]), _coefficient(name, law, FASTEST)
     drop = most - least
@@ -125,15 +104,7 @@ def sampled(name: str, law: Law, largest: float = LARGEST_ERROR) -> FrictionValu
 def never_falling(speeds: npt.ArrayLike, coefficients: npt.ArrayLike) -> PchipInterpolator:
     """Return the isotonic fit of measured points, smooth between the centres of its blocks.
 
-    Parameters
-    ----------
-    speeds, coefficients : array_like, shape (n,)
-        Sliding speeds [m/s] in any order, also repeated, and friction coefficients [-].
-
-    Returns
-    -------
-    PchipInterpolator
-        Level below the first centre and beyond the last one, to twice its speed.
+    Shapes: speeds, coefficients (n,).
     """
     from scipy.interpolate import PchipInterpolator
     from scipy.optimize import isotonic_regression

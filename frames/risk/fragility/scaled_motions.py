@@ -35,25 +35,7 @@ def values_of(
 
 
 def growth_of(measure: IntensityMeasure, motion: GroundMotion) -> tuple[float, float]:
-    """Return the intensity of a motion, and the power of the factor that it grows with.
-
-    Parameters
-    ----------
-    measure : IntensityMeasure
-        The measure.
-    motion : GroundMotion
-        The motion.
-
-    Returns
-    -------
-    tuple of float
-        Both.
-
-    Raises
-    ------
-    FragilityError
-        If it does not grow with a power of the factor.
-    """
+    """Return the intensity of a motion, and the power of the factor that it grows with."""
     if isinstance(measure, Intensity):
         return measure.of(motion), measure.power
     one, two, three = values_of(measure, motion, (1.0, 2.0, 3.0))
