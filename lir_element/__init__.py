@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from lir_element.device.features import Features as Features
     from lir_element.device.friction import CoulombFriction as CoulombFriction
     from lir_element.device.friction import FrictionLaw as FrictionLaw
+    from lir_element.device.friction import MeasuredFriction as MeasuredFriction
     from lir_element.device.friction import VelocityFriction as VelocityFriction
     from lir_element.device.heating import FrictionHeating as FrictionHeating
     from lir_element.device.heating import PressureDependence as PressureDependence
@@ -38,6 +39,7 @@ __all__ = [
     "FrictionHeating",
     "FrictionLaw",
     "LIRBearing",
+    "MeasuredFriction",
     "PressureDependence",
     "RunStatus",
     "VelocityFriction",

@@ -95,10 +95,10 @@ def stack(
     variables = _of_runs(rows) | _of_peaks(rows) | _of_reached(rows)
     coordinates: dict[str, Any] = {
         "run": np.array([row.place for row in rows], dtype=np.int64),
-        "model": ("run", _texts(case.model for case in of)),
-        "motion": ("run", _texts(case.motion for case in of)),
+        "model": ("run", np.array([case.model for case in of], dtype=str)),
+        "motion": ("run", np.array([case.motion for case in of], dtype=str)),
         "scale": ("run", np.array([case.scale for case in of])),
-        "motion_digest": ("run", _texts(digests[case.motion] for case in of)),
+        "motion_digest": ("run", np.array([digests[case.motion] for case in of], dtype=str)),
         "term": list(ENERGY_TERMS),
     }
     units = {peak.quantity: peak.unit for row in rows for peak in row.peaks}

@@ -29,6 +29,7 @@ from frames.risk.fragility.hazard_curve import HazardCurve as HazardCurve
 from frames.risk.fragility.hunt_fill import HuntFill as HuntFill
 from frames.risk.fragility.incremental import IDA as IDA
 from frames.risk.fragility.intensity import Intensity as Intensity
+from frames.risk.fragility.intensity import IntensityMeasure as IntensityMeasure
 from frames.risk.fragility.limit_state import LimitState as LimitState
 from frames.risk.fragility.of_runs import fragility_of as fragility_of
 from frames.risk.fragility.risk import Risk as Risk
@@ -54,6 +55,7 @@ __all__ = [
     "HazardCurve",
     "HuntFill",
     "Intensity",
+    "IntensityMeasure",
     "IntensityRuns",
     "LimitState",
     "Measure",

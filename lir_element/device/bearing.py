@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -47,8 +48,8 @@ class LIRBearing(Specification):
     slider_radius : float
         Radius of the inner slider in plan [m].
     friction : FrictionLaw or float, or a pair of them
-        Low friction of the surfaces, bottom and top: CoulombFriction, VelocityFriction, or a law of
-        your own; a number is CoulombFriction(number) [-].
+        Low friction of the surfaces, bottom and top: CoulombFriction, VelocityFriction,
+        MeasuredFriction, or a law of your own; a number is CoulombFriction(number) [-].
     interface_friction : float
         Friction coefficient mu_h of the plane interface [-]; ``math.inf`` fuses the two sliders
         (a plain DCFP).
@@ -160,6 +161,42 @@ class LIRBearing(Specification):
             if getattr(self, name) != default
         ]
         return f"LIRBearing({', '.join(given)})"
+
+    @classmethod
+    def of_period(cls, period: float, *, slider_height: float, **fields: Any) -> LIRBearing:
+        """Return a bearing with alike surfaces of the radius that gives a period.
+
+        ``R = (L + h) / 2`` with ``L = g T^2 / (4 pi^2)``, because ``L = R1 + R2 - h``.
+
+        Parameters
+        ----------
+        period : float
+            Period of the pendulum T [s].
+        slider_height : float
+            Height of the whole inner slider on its axis, h [m].
+        **fields
+            The other arguments of `LIRBearing`, without `radius`.
+
+        Returns
+        -------
+        LIRBearing
+            Whose `period` is the one given.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If the period or a field is out of bounds.
+
+        Examples
+        --------
+        >>> bearing = LIRBearing.of_period(3.0, slider_height=0.1, slider_radius=0.1, capacity=0.3,
+        ...                                friction=0.05, interface_friction=0.2)
+        >>> round(bearing.period, 9), round(bearing.effective_radius, 4), round(bearing.radius, 4)
+        (3.0, 2.2356, 1.1678)
+        """
+        length = STANDARD_GRAVITY * (require_positive("period", period, "s") / (2.0 * math.pi)) ** 2
+        height = require_positive("slider_height", slider_height, "m")
+        return cls(radius=0.5 * (length + height), slider_height=slider_height, **fields)
 
     def describe(self) -> str:
         """Return a table of what applies, defaults and derived values included, for people."""

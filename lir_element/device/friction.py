@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import abc
 import inspect
+import math
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import lru_cache
 from math import exp
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 
 from lir_element.argument_checks import require_between, require_non_negative
-from lir_element.device.friction_table import FASTEST, FrictionValues, sampled
+from lir_element.device.friction_table import FASTEST, FrictionValues, never_falling, sampled
 from lir_element.units import per_cent
 
 if TYPE_CHECKING:
@@ -270,6 +271,72 @@ class VelocityFriction(FrictionLaw):
         return FrictionValues(self.f_max, self.f_max - self.f_min, self.rate)
 
 
+@dataclass(frozen=True)
+class MeasuredFriction(FrictionLaw):
+    """A friction coefficient by tests: their isotonic fit, smoothed, which never falls.
+
+    Parameters
+    ----------
+    speeds : sequence of float
+        Sliding speeds on one surface [m/s], at least 0, in any order; tests may share one.
+    coefficients : sequence of float
+        Friction coefficient of each test [-], at least 0 and below 1.
+
+    Raises
+    ------
+    ValueError
+        If there are no points, or one is out of bounds.
+
+    Notes
+    -----
+    Isotonic regression by least squares (`scipy.optimize.isotonic_regression`), monotone cubic
+    between the centres of its blocks, level below the first and beyond the last one; then the table
+    of kernels, which is the law: `misfit` counts all of it.
+
+    Examples
+    --------
+    >>> tests = MeasuredFriction([0.01, 0.05, 0.2, 0.4], [0.04, 0.055, 0.07, 0.066])
+    >>> round(tests.f_min, 4), round(tests.f_max, 4), round(tests.misfit, 4)
+    (0.04, 0.068, 0.0022)
+    """
+
+    speeds: tuple[float, ...] = field(metadata={"unit": "m/s"})
+    coefficients: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        for name in ("speeds", "coefficients"):
+            given = np.ravel(np.asarray(getattr(self, name), dtype=np.float64)).tolist()
+            object.__setattr__(self, name, tuple(given))
+        if not len(self.speeds) == len(self.coefficients) > 0:
+            msg = (
+                f"MeasuredFriction: {len(self.speeds)} speeds and {len(self.coefficients)} "
+                "coefficients: give one of each for every test, one test at least"
+            )
+            raise ValueError(msg)
+        for speed, coefficient in zip(self.speeds, self.coefficients, strict=True):
+            require_non_negative("speeds", speed, "m/s")
+            require_between("coefficients", coefficient, 0.0, 1.0, remedy=per_cent(coefficient))
+        curve = never_falling(self.speeds, self.coefficients)
+        end = float(curve.x[-1])
+        values = sampled("MeasuredFriction", lambda speed: float(curve(min(speed, end))), math.inf)
+        object.__setattr__(self, "_values", values)
+
+    @property
+    def misfit(self) -> float:
+        """Root mean square difference between law and tests [-]."""
+        pairs = zip(self.speeds, self.coefficients, strict=True)
+        return float(np.sqrt(np.mean([(self.at_speed(v) - f) ** 2 for v, f in pairs])))
+
+    def at_speed(self, speed: float) -> float:
+        """Return the friction coefficient [-] at sliding speed `speed` [m/s]."""
+        return self.kernel_values().at_speed(abs(speed))
+
+    def kernel_values(self) -> FrictionValues:
+        """Return what kernels know of the law: the table that is the law."""
+        values: FrictionValues = vars(self)["_values"]
+        return values
+
+
 @dataclass(frozen=True, repr=False)
 class _Scaled(FrictionLaw):
     """Another law times a factor [-]."""
@@ -300,8 +367,7 @@ class _Tabulated(FrictionLaw):
     values: FrictionValues
 
     def at_speed(self, speed: float) -> float:
-        most, drop, *_ = self.values
-        return most - drop * float(self.values.left(speed)) if self.values.table else most
+        return self.values.at_speed(speed)
 
     def kernel_values(self) -> FrictionValues:
         return self.values

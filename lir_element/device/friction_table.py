@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy.typing as npt
-    from scipy.interpolate import CubicHermiteSpline
+    from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
     from lir_element.layout import Floats
 
@@ -65,6 +65,10 @@ class FrictionValues(NamedTuple):
             most=factor * self.most, drop=factor * self.drop, error=factor * self.error
         )
 
+    def at_speed(self, speed: float) -> float:
+        """Return the friction coefficient [-] that kernels read at a speed [m/s]."""
+        return self.most - self.drop * float(self.left(speed)) if self.table else self.most
+
     def left(self, speeds: npt.ArrayLike) -> Floats:
         """Return the share of the drop that speeds leave by the table, (n,) of (n,) [m/s]."""
         reference = self.table[0]
@@ -73,7 +77,7 @@ class FrictionValues(NamedTuple):
         return np.asarray(_curve(knots[0::2], knots[1::2])(v / (v + reference)))
 
 
-def sampled(name: str, law: Law) -> FrictionValues:
+def sampled(name: str, law: Law, largest: float = LARGEST_ERROR) -> FrictionValues:
     """Return the table of a law, cubic between knots that lie evenly over v / (v + v_ref)."""
     values = _checked(name, law)
     least, most = float(values[0]), _coefficient(name, law, FASTEST)
@@ -87,14 +91,33 @@ def sampled(name: str, law: Law) -> FrictionValues:
         table, found, at = _tabulated(law, most, drop, scale * middle)
         if found < error:
             best, error, worst = table, found, at
-    if error > LARGEST_ERROR * most:
+    if error > largest * most:
         msg = (
             f"{name} changes too abruptly at {worst:.3g} m/s: its table is off by {error:.2g} "
-            f"there, more than {LARGEST_ERROR:g} of f_max = {most:.4g}; give a law without jumps "
+            f"there, more than {largest:g} of f_max = {most:.4g}; give a law without jumps "
             "and kinks, as by scipy.interpolate.PchipInterpolator in place of straight lines"
         )
         raise ValueError(msg)
     return FrictionValues(most, drop, _steepest(best), best, error)
+
+
+def never_falling(speeds: npt.ArrayLike, coefficients: npt.ArrayLike) -> PchipInterpolator:
+    """Return the isotonic fit of measured points, smooth between the centres of its blocks.
+
+    Shapes: speeds, coefficients (n,).
+    """
+    from scipy.interpolate import PchipInterpolator
+    from scipy.optimize import isotonic_regression
+
+    v, of, count = np.unique(speeds, return_inverse=True, return_counts=True)
+    fit = isotonic_regression(np.bincount(of, coefficients) / count, weights=count)
+    first = fit.blocks[:-1]
+    centres = np.add.reduceat(count * v, first) / np.add.reduceat(count, first)
+    values = fit.x[first]
+    if centres[0] > 0.0:
+        centres, values = np.append(0.0, centres), np.append(values[0], values)
+    last = 2.0 * centres[-1] or 1.0
+    return PchipInterpolator(np.append(centres, last), np.append(values, values[-1]))
 
 
 def _coefficient(name: str, law: Law, speed: float) -> float:

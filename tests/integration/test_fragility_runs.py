@@ -98,12 +98,17 @@ def test_numerical_failures_count_as_neither_and_are_told(monkeypatch: pytest.Mo
     def broken(*given: object, **options: object) -> object:
         data = time_histories(*given, **options)  # type: ignore[arg-type]
         fails = np.isclose(data["scale"] * PGV.of(PULSES[0]), 0.6)
-        data["status"] = ("run", np.where(fails, "step_too_small", data["status"]))
+        doubtful = np.isclose(data["scale"] * PGV.of(PULSES[0]), 0.3)
+        status = np.where(fails, "step_too_small", data["status"])
+        data["status"] = ("run", np.where(doubtful, "inaccurate", status))
         return data
 
     monkeypatch.setattr("frames.risk.fragility.runs.time_histories", broken)
     rules = HuntFill(first=0.3, step=0.3, growth=0.0, runs=9)
-    with pytest.warns(AnalysisWarning, match="1 of 1 runs failed numerically and count as neither"):
+    with (
+        pytest.warns(AnalysisWarning, match="1 of 1 runs failed numerically and count as neither"),
+        pytest.warns(AnalysisWarning, match="1 of 1 runs are inaccurate and count with their dem"),
+    ):
         found = ida(MODEL, PULSES[0], intensity=PGV, rules=rules)
     assert found.runs.failed["im"].tolist() == [0.6]
     row = found.capacities().iloc[0]

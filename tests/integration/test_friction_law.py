@@ -20,6 +20,7 @@ from lir_element import (
     Element,
     FrictionLaw,
     LIRBearing,
+    MeasuredFriction,
     VelocityFriction,
     cyclic_test,
 )
@@ -173,6 +174,55 @@ def test_the_exponential_by_table_is_the_exponential(level: Any) -> None:
         np.abs(one["friction_coefficient"] - two["friction_coefficient"]).max() < 4.0 * error + rest
     )
     assert float(one["sliding_speed"].max()) > 0.1
+
+
+@pytest.mark.quick
+def test_measured_points_give_their_isotonic_fit() -> None:
+    """By the formula max over j <= i of min over k >= i of the mean of j to k (Barlow 1972)."""
+    speeds = np.geomspace(0.002, 0.4, 12)
+    fit = LAW.f_min + (LAW.f_max - LAW.f_min) * speeds / (speeds + LAW.half_speed)
+    tests = fit + 0.004 * np.random.default_rng(3).standard_normal(12)
+    law = MeasuredFriction([*speeds[::-1], *speeds], [*tests[::-1] + 0.001, *tests - 0.001])
+    nearest = np.array(
+        [
+            max(min(tests[j : k + 1].mean() for k in range(i, 12)) for j in range(i + 1))
+            for i in range(12)
+        ]
+    )
+    error = 2.0 * law.kernel_values().error
+    assert error < 1e-3
+    assert len(set(nearest)) < 12
+    for value in set(nearest):
+        block = nearest == value
+        assert law.at_speed(speeds[block].mean()) == pytest.approx(value, abs=error)
+    assert (law.f_min, law.f_max) == pytest.approx((nearest[0], nearest[-1]), abs=error)
+    p = device(law).to_record()[0]
+    at = [0.0, *np.geomspace(1e-6, 1e3, 300)]
+    found = [coefficient(p, 1, v)[0] for v in at]
+    assert_allclose(found, [law.at_speed(v) for v in at], rtol=1e-13)
+    assert (np.diff(found) >= 0.0).all()
+    off = [law.at_speed(v) - f for v, f in zip(law.speeds, law.coefficients, strict=True)]
+    assert law.misfit == pytest.approx(np.sqrt(np.mean(np.square(off))))
+    assert 0.001 < law.misfit < 0.01
+    assert MeasuredFriction([0.1], [0.05]).at_speed(0.0) == 0.05
+    with pytest.raises(ValueError, match="1 speeds and 2 coefficients: give one of each"):
+        MeasuredFriction([0.1], [0.05, 0.06])
+    with pytest.raises(ValueError, match=r"coefficients = 6.* below 1"):
+        MeasuredFriction([0.1], [6.0])
+
+
+@pytest.mark.parametrize("level", ["pendulum", "contact"])
+def test_points_of_the_exponential_act_as_the_exponential(level: Any) -> None:
+    exact = VelocityFriction(0.065, 0.0325, 15.0)
+    speeds = [0.0, *np.geomspace(1e-3, 1.0, 40)]
+    measured = MeasuredFriction(speeds, [exact.at_speed(v) for v in speeds])
+    assert measured.misfit < 1e-4 * exact.f_max
+    path = 0.1 * np.sin(np.linspace(0.0, 2.0 * np.pi, 200))
+    forces = [
+        cyclic_test(device(law), path, axial_load=LOAD, velocity=0.1, level=level)["bearing_force"]
+        for law in (exact, measured)
+    ]
+    assert float(abs(forces[0] - forces[1]).max()) < 1e-3 * 0.065 * LOAD
 
 
 @pytest.mark.parametrize("level", ["pendulum", "contact"])

@@ -46,6 +46,18 @@ def test_rigid_block_slides_with_the_period_of_the_pendulum():
     assert_allclose(modes(held, 3, "sliding").periods, [pendulum, pendulum, turning], rtol=1e-6)
 
 
+def test_a_bearing_of_a_period_has_it_in_the_model():
+    heights = {"slider_height": 0.15, "plate_thickness": (0.05, 0.03)}
+    given = {"slider_radius": 0.1, "capacity": 0.3, "friction": 0.05, "interface_friction": 0.2}
+    own = LIRBearing.of_period(3.3, **heights, **given)
+    assert own.radii[0] == own.radii[1]
+    assert_allclose(modes(lumped_mass(own, 1e5), 2, "sliding").periods, 3.3, rtol=1e-6)
+    with pytest.raises(ValueError, match=r"period = -1 .* must be positive"):
+        LIRBearing.of_period(-1.0, **heights, **given)
+    with pytest.raises(TypeError, match="radius"):
+        LIRBearing.of_period(3.3, radius=1.0, **heights, **given)
+
+
 def test_unlike_bearings_add_their_stiffness():
     radii = {(0, 0): 1.0, (1, 0): 2.0, (0, 1): 1.0, (1, 1): 2.0}
     devices = {place: bearing(radius=r) for place, r in radii.items()}

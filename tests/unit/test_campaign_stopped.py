@@ -200,3 +200,21 @@ def test_damaged_databases_say_where(
         (store / "done" / f"{words.split()[1]:0>6}.json").unlink()
         small(store).run()
         small(store).digest()
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("peak/c.0.0", r"batch 0 .*peak.c\.0\.0.* remove .*000000\.json, and run it again"),
+        ("failed_at/c.1", r"batch 1 .* remove .*000001\.json, and run it again"),  # all NaN
+        ("status/c.1", r"batch 1 .* remove .*000001\.json, and run it again"),
+        ("friction/c.0", r"is damaged \(a chunk of friction is missing\)"),
+    ],
+)
+def test_a_chunk_that_was_removed_is_no_result(
+    tmp_path: Path, made_once: Callable[..., Path], name: str, words: str
+) -> None:
+    made_once("small campaign", lambda part: small(part / "store").run(), tmp_path)
+    (tmp_path / "store" / "runs.zarr" / name).unlink()
+    with pytest.raises(CampaignError, match=words):
+        CampaignStore(tmp_path / "store").results()[name.split("/")[0]].load()

@@ -1,6 +1,8 @@
 """Risk, comparison and sensitivity: against closed forms."""
 
 import math
+import re
+import warnings
 
 import numpy as np
 import pytest
@@ -166,6 +168,23 @@ def test_sobol_indices_of_ishigami() -> None:
     assert (again.table == table).all(axis=None)
     with pytest.raises(FragilityError, match="return one number for each of 5120 sets"):
         sobol_indices(given[:-1], dict.fromkeys("abc", angles), samples=1024)
+
+
+def test_a_wide_interval_of_an_index_is_told_with_a_remedy_that_works() -> None:
+    inputs = {"a": uniform(), "b": uniform()}
+
+    def line(sets: list[dict[str, float]]) -> list[float]:
+        return [each["a"] + 0.1 * each["b"] for each in sets]
+
+    with pytest.warns(
+        RiskWarning, match=r"first index of a is .*, above 0.4, is no result"
+    ) as told:
+        wide = sobol_indices(line, inputs, samples=16).table
+    assert wide.loc["a", "first, high"] - wide.loc["a", "first, low"] > 0.4
+    (text,) = re.findall(r"samples=(\d+)", str(told[0].message))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        sobol_indices(line, inputs, samples=int(text))
 
 
 def test_what_makes_no_sense_is_refused() -> None:

@@ -1,22 +1,32 @@
 """Intensities, limit states and what runs say of them: by hand."""
 
 import math
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from frames import GroundMotion, MotionError
+from frames import GroundMotion, MotionError, lumped_mass
 from frames.demo import bearing_for
 from frames.design import pair_spectrum
 from frames.risk import (
     IDA,
+    Campaign,
+    CampaignError,
     FragilityError,
     HuntFill,
     Intensity,
+    IntensityMeasure,
     IntensityRuns,
     LimitState,
+    cloud_analysis,
     fragility_of,
+    ida,
+    load_fragility,
+    multiple_stripes,
+    save_fragility,
 )
 from frames.risk.fragility.runs import outcome_of
 from frames.risk.plots import fragility_curves, ida_curves, stripes
@@ -71,6 +81,87 @@ def test_intensities_of_a_pair() -> None:
     assert sa.of(motion.scaled(2.5)) == pytest.approx(2.5 * sa.of(motion))
     assert (sa.unit, sa.label) == ("m/s2", "Sa(0.8 s, 10 %), RotD100")
     assert SCALE.of(motion) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("kind", "unit", "power", "by_hand"),
+    [  # of a = A sin(2 pi t / T), 0 <= t <= T, from rest: d(T) = A T^2 / (2 pi)
+        ("PGD", "m", 1.0, 3.0 * 0.8**2 / (2.0 * math.pi)),
+        ("CAV", "m/s", 1.0, 3.0 * 0.8 * 2.0 / math.pi),
+        ("Arias", "m/s", 2.0, math.pi / (2.0 * STANDARD_GRAVITY) * 9.0 * 0.8 / 2.0),
+    ],
+)
+def test_integrals_of_one_sine(kind: str, unit: str, power: float, by_hand: float) -> None:
+    """Turned by 30 degrees: RotD100 is that of the sine, x its share by cosine, or its square."""
+    sine = 3.0 * np.sin(2.0 * np.pi * np.linspace(0.0, 1.0, 801))
+    angle = math.radians(30.0)
+    pair = GroundMotion(x=math.cos(angle) * sine, y=math.sin(angle) * sine, dt=0.001)
+    given: dict[str, Intensity] = {
+        measure: Intensity(kind=kind, measure=measure)  # type: ignore[arg-type]
+        for measure in ("RotD100", "RotD50", "x", "y", "geometric mean")
+    }
+    found = {measure: each.of(pair) for measure, each in given.items()}
+    assert found["RotD100"] == pytest.approx(by_hand, rel=1e-5)
+    assert found["x"] == pytest.approx(by_hand * math.cos(angle) ** power, rel=1e-5)
+    assert found["geometric mean"] == pytest.approx(math.sqrt(found["x"] * found["y"]))
+    assert found["RotD50"] == pytest.approx(by_hand * math.cos(math.pi / 4.0) ** power, rel=0.02)
+    assert given["x"].of(pair.scaled(2.0)) == pytest.approx(2.0**power * found["x"])
+    assert given["x"].unit == unit
+
+
+class RootMeanSquare:
+    """A measure of a user's own."""
+
+    unit, label = "m/s2", "root mean square"
+
+    def of(self, motion: GroundMotion) -> float:
+        return float(np.sqrt(np.mean(np.square(motion.x))))
+
+
+class Length:
+    """One that no factor changes."""
+
+    unit, label = "s", "duration"
+
+    def of(self, motion: GroundMotion) -> float:
+        return motion.dt * motion.n_steps
+
+
+@pytest.mark.parametrize(
+    "measure", [RootMeanSquare(), Intensity(kind="Arias", measure="x"), Length()]
+)
+def test_measures_of_ones_own_serve_where_an_intensity_does(
+    measure: IntensityMeasure, tmp_path: Path
+) -> None:
+    pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
+    frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    cloud = cloud_analysis(frame, pulse, intensity=measure, scales=(0.5, 1.0))
+    own = [measure.of(pulse.scaled(factor)) for factor in (0.5, 1.0)]
+    assert cloud.table["im"].tolist() == pytest.approx(own, rel=1e-9)
+    assert cloud.table["scale"].tolist() == [0.5, 1.0]
+    save_fragility(cloud, tmp_path / "cloud.json")
+    read = load_fragility(tmp_path / "cloud.json")
+    assert len(read.joined(cloud).table) == 4
+    if isinstance(measure, Length):
+        with pytest.raises(FragilityError, match=r"no motion can be scaled to it\. Take cloud_ana"):
+            multiple_stripes(frame, pulse, [1.0], intensity=measure)
+        return
+    runs = multiple_stripes(frame, pulse, own, intensity=measure)
+    assert runs.table["scale"].tolist() == pytest.approx([0.5, 1.0])
+    assert runs.table["base shear"].tolist() == pytest.approx(cloud.table["base shear"], rel=1e-6)
+    campaign = Campaign(frame, pulse, store=tmp_path / "s", intensity=measure, intensities=own)
+    again = IntensityRuns.from_dataset(campaign.run(workers=1), campaign.motions, measure)
+    assert again.table["im"].tolist() == pytest.approx(own, rel=1e-9)
+    assert again.table["base shear"].tolist() == pytest.approx(cloud.table["base shear"], rel=1e-6)
+    found = ida(frame, pulse, intensity=measure, rules=HuntFill(first=own[0], runs=2))
+    assert found.runs.table["im"][0] == pytest.approx(own[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("more", [{}, {"intensity": SCALE, "scales": 1.0}])
+def test_intensities_of_a_campaign_have_their_measure(tmp_path: Path, more: Any) -> None:
+    pulse, frame = GroundMotion(x=[0.0, 1.0, 0.0], dt=0.1), lumped_mass(bearing_for(2e6), 1e5)
+    with pytest.raises(CampaignError, match="go with their measure and without scales"):
+        Campaign(frame, pulse, store=tmp_path / "s", intensities=[1.0], **more)
 
 
 def test_the_average_of_a_spectrum_is_the_root_of_a_product() -> None:

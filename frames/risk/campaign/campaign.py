@@ -24,7 +24,9 @@ from frames.risk.campaign.plan_description import described
 from frames.risk.campaign.reused import KnownRuns
 from frames.risk.campaign.sampling import ParameterSample, whole
 from frames.risk.campaign.store import CampaignStatus, CampaignStore
-from lir_element.argument_checks import require_type
+from frames.risk.fragility.intensity import OWN, IntensityMeasure
+from frames.risk.fragility.scaled_motions import at_one
+from lir_element.argument_checks import require_positive, require_type
 from lir_element.errors import AnalysisWarning
 from lir_element.tables import html_table
 
@@ -68,6 +70,12 @@ class Campaign:
         fields of its bearings (docs/campaigns.md).
     scales : float or sequence of float, optional
         Factors on the motions [-]; 1 if None.
+    intensity : IntensityMeasure, optional
+        The measure of `intensities`.
+    intensities : sequence of float, optional
+        Intensities that each motion is scaled to, in place of `scales`, in the unit of the measure.
+        The attribute `motions`, the factors "scale" of the results and their digests are of motions
+        at an intensity of 1.
     record : Recording, optional
         Histories to be kept besides what is reached.
     measures : dict of str to Measure, optional
@@ -110,6 +118,8 @@ class Campaign:
         store: str | Path,
         sample: ParameterSample | None = None,
         scales: float | Sequence[float] | None = None,
+        intensity: IntensityMeasure | None = None,
+        intensities: Sequence[float] | None = None,
         record: Recording | None = None,
         measures: dict[str, Measure] | None = None,
         batch: int | None = None,
@@ -128,6 +138,8 @@ class Campaign:
         require_type("record", record, (Recording, type(None)), "a Recording, or None")
         own = checked_measures(measures)
         structures, grounds = _named(models), named_motions(motions)
+        if intensity is not None or intensities is not None:
+            grounds, scales = _at_intensities(grounds, scales, intensity, intensities)
         one = {name: None for name in (next(iter(structures)),)}
         first = next(iter(grounds))
         factors = tuple(c.scale for c in grid(one, {first: None}, scales, None))
@@ -288,6 +300,25 @@ class Campaign:
     def digest(self) -> str:
         """Return a digest of what the runs reached: `CampaignStore.digest`."""
         return self.store.digest()
+
+
+def _at_intensities(
+    motions: Mapping[str, GroundMotion],
+    scales: object,
+    intensity: IntensityMeasure | None,
+    intensities: Sequence[float] | None,
+) -> tuple[dict[str, GroundMotion], list[float]]:
+    # Motions at an intensity of 1, and the factors on them.
+    if intensity is None or intensities is None or scales is not None:
+        msg = (
+            'intensities go with their measure and without scales: intensity=Intensity(kind="PGV"),'
+            " intensities=[0.2, 0.4]"
+        )
+        raise CampaignError(msg)
+    require_type("intensity", intensity, IntensityMeasure, OWN)
+    levels = [require_positive("intensities", each, intensity.unit) for each in intensities]
+    grounds, power = at_one(intensity, motions)
+    return grounds, [level ** (1.0 / power) for level in levels]
 
 
 class _Counting:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pydantic import create_model
 from scipy import stats
 
-from frames._errors import MotionWarning
 from frames.design.codes.load_rules import LOADS_OF_ASCE
 from frames.design.project.derived import DerivedTable
 from frames.design.project.extensions import load_extensions
@@ -83,7 +81,7 @@ def read_campaign(given: CampaignFile | str | Path, *, store: str | Path | None 
     whole = _path_of(file)
     folder = whole.resolve().parent
     frame = _frame(file, whole)
-    asked = file.analysis
+    asked, measure = file.analysis, scaled_to(file)
     return in_section(
         "campaign",
         lambda: Campaign(
@@ -91,7 +89,9 @@ def read_campaign(given: CampaignFile | str | Path, *, store: str | Path | None 
             _motions(file, folder),
             store=whole.with_name(f"{whole.stem}-{STORE}") if store is None else store,
             sample=in_section("sample", lambda: _sample(file)),
-            scales=file.motions.intensities or file.motions.scales,
+            scales=None if measure else file.motions.scales,
+            intensity=measure,
+            intensities=file.motions.intensities if measure else None,
             batch=file.campaign.batch,
             level=asked.level,
             dt=asked.dt,
@@ -149,17 +149,10 @@ def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
 
 
 def _motions(file: CampaignFile, folder: Path) -> Mapping[str, GroundMotion]:
-    # With their tail; where intensities are given, of an intensity of 1.
+    # With their tail.
     found: Mapping[str, GroundMotion] = motions_of(file.motions, folder)
     tail = file.motions.tail
-    if tail is not None:
-        found = {name: motion.with_tail(tail) for name, motion in found.items()}
-    if not file.motions.intensities or file.fragility is None:
-        return found
-    measure = file.fragility.measured()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MotionWarning)  # none is run at an intensity of 1
-        return {name: each.scaled(1.0 / measure.of(each)) for name, each in found.items()}
+    return found if tail is None else {name: each.with_tail(tail) for name, each in found.items()}
 
 
 def _devices(frame: Frame, file: CampaignFile) -> dict[str, Frame]:

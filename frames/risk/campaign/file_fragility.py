@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Self
 
 from pydantic import Field, model_validator
 
 from frames.design.project.derived import Table
 from frames.design.project.quantities import Acceleration, Length, Ratio, Time
-from frames.risk.fragility.intensity import Intensity
+from frames.risk.fragility.intensity import Intensity, Kind
 from frames.risk.fragility.limit_state import LimitState
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ _Accelerations = tuple[Annotated[Acceleration, Field(gt=0.0)], ...]
 class FragilityTable(Table):
     """``[fragility]``: limit states, and the measure that their curves are over."""
 
-    intensity: Literal["scale", "Sa", "Sa_avg", "PGA", "PGV"] = "scale"
+    intensity: Kind = "scale"
     period: Time | None = None
     periods: tuple[Annotated[Time, Field(gt=0.0)], ...] = ()
     measure: str = "RotD50"

@@ -24,6 +24,9 @@ _ROWS = {"run", "model", "motion", "scale", "parameter_set"}
 _FLAT: Any = {"name": "default", "separator": "."}
 """Chunks of an array are files beside one another: no folder for each batch."""
 
+EVERY_CHUNK: Any = {"write_empty_chunks": True}
+"""Chunks of nothing but NaN, 0 or "" are files, too: one that is missing was removed."""
+
 _TIMINGS = {"seconds_loop"}
 """What no run has twice."""
 
@@ -69,6 +72,7 @@ def lay_out(where: Path, plan: Plan, layout: xr.Dataset) -> None:
             chunk_key_encoding=_FLAT,
             dimension_names=tuple(map(str, variable.dims)),
             attributes=dict(variable.attrs),
+            config=EVERY_CHUNK,
         )
     for name, values in planned.items():
         _fill(group, name, ("run",), values, {})
@@ -102,5 +106,6 @@ def _fill(group: Any, name: str, dims: tuple[str, ...], values: Any, attrs: Any)
         chunk_key_encoding=_FLAT,
         dimension_names=dims,
         attributes=dict(attrs),
+        config=EVERY_CHUNK,
     )
     array[...] = values.astype(object) if is_text else values

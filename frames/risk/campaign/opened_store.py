@@ -1,4 +1,4 @@
-"""Results of a database as they are handed out: texts as Python's, runs that are not done empty."""
+"""Results of a database as they are handed out: texts as numpy's, runs that are not done empty."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from xarray.backends import BackendArray
 from xarray.core import indexing as xarray_indexing
 
 from frames.risk._errors import CampaignError
-from frames.risk.campaign.plan_description import TAKEN_OVER
+from frames.risk.campaign.plan_description import TAKEN_OVER, WHOLE
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Mapping
@@ -41,11 +41,18 @@ def readable(where: Path) -> Generator[None, None, None]:
         raise CampaignError(msg) from cause
 
 
-def opened(where: Path) -> xr.Dataset:
+def opened(where: Path, plan: Mapping[str, Any], *, is_results: bool = False) -> xr.Dataset:
     """Return a group of a database, its values read where they are used, its labels at once."""
+    import zarr
+
     data: xr.Dataset = xr.open_zarr(where, chunks=None, consolidated=False)
+    group: Any = zarr.open_group(where, mode="r")
+    for name in data.coords if is_results else data.variables:
+        if plan["format"] >= WHOLE and group[name].nchunks_initialized < group[name].nchunks:
+            msg = f"a chunk of {name} is missing"
+            raise LookupError(msg)
     labels: dict[Any, Any] = {
-        name: (label.dims, np.array(label.to_numpy().tolist(), dtype=object), label.attrs)
+        name: (label.dims, np.array(label.to_numpy().tolist(), dtype=str), label.attrs)
         for name, label in data.coords.items()
         if label.dtype.kind not in "fiub"
     }
@@ -58,18 +65,18 @@ def results_of(where: Path, plan: Mapping[str, Any], done: BoolArray) -> xr.Data
     Shapes: done (runs,).
     """
     with readable(where):
-        data = opened(where)
+        data = opened(where, plan, is_results=True)
         names: list[str] = data.attrs.pop("results")
         data = data[names]
     shown = {
         name: (
             data[name].dims,
-            indexing.LazilyIndexedArray(_Rows(data[name].variable, done, where, plan["batch"])),
+            indexing.LazilyIndexedArray(_Rows(data[name].variable, done, where / name, plan)),
             data[name].attrs,
         )
         for name in names
     }
-    digests = np.array([plan["motions"][str(n)] for n in data["motion"].to_numpy()], dtype=object)
+    digests = np.array([plan["motions"][str(n)] for n in data["motion"].to_numpy()])
     coordinates = {"done": ("run", done), "motion_digest": ("run", digests)}
     return data.assign(shown).assign_coords(coordinates).assign_attrs(_origin(plan))
 
@@ -90,8 +97,11 @@ class _Rows(BackendArray):
 
     # What cannot be read is an error that names the first batch of it.
 
-    def __init__(self, variable: xr.Variable, done: BoolArray, where: Path, batch: int) -> None:
-        self._variable, self._done, self._where, self._batch = variable, done, where, batch
+    def __init__(
+        self, variable: xr.Variable, done: BoolArray, where: Path, plan: Mapping[str, Any]
+    ) -> None:
+        self._variable, self._done, self._where, self._batch = variable, done, where, plan["batch"]
+        self._is_whole = plan["format"] >= WHOLE and variable.size > 0
         self.shape = variable.shape
         self._empty: Any = np.nan if variable.dtype.kind == "f" else ""
         self.dtype = np.dtype(np.float64 if variable.dtype.kind == "f" else object)
@@ -104,7 +114,12 @@ class _Rows(BackendArray):
         try:
             values = np.array(self._variable[key].to_numpy(), dtype=self.dtype)
         except (RuntimeError, ValueError) as cause:
-            raise CampaignError(damaged(self._where, self._first(), cause)) from cause
+            raise CampaignError(damaged(self._where.parent, self._first(), cause)) from cause
+        rows = np.arange(self.shape[0])[key[0]]
+        for number in np.unique(rows[self._done[rows]] // self._batch) if self._is_whole else ():
+            chunk = self._where / f"c.{number}{'.0' * (len(self.shape) - 1)}"
+            if not chunk.exists():
+                raise CampaignError(damaged(self._where.parent, number, LookupError(chunk)))
         values[~self._done[key[0]]] = self._empty
         return values
 

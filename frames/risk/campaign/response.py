@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from frames.risk.fragility.intensity import Intensity
+from frames.risk.fragility.intensity import Intensity, IntensityMeasure
 from frames.risk.fragility.runs import COMPLETE, FAILURE, UNBUILT, UNKNOWN, IntensityRuns
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ FRACTILES = (0.16, 0.5, 0.84)
 
 
 def runs_by_model(
-    data: xr.Dataset, motions: Mapping[str, GroundMotion], intensity: Intensity | None = None
+    data: xr.Dataset, motions: Mapping[str, GroundMotion], intensity: IntensityMeasure | None = None
 ) -> dict[str, IntensityRuns]:
     """Return the runs of each structure, all sets of parameters together."""
     measure = intensity or Intensity(kind="scale")

@@ -16,7 +16,7 @@ import numpy as np
 
 from frames.results.storage import write_whole
 from frames.risk._errors import CampaignError
-from frames.risk.campaign.layout import digest_of, lay_out
+from frames.risk.campaign.layout import EVERY_CHUNK, digest_of, lay_out
 from frames.risk.campaign.lock import locked
 from frames.risk.campaign.opened_store import damaged, opened, readable, results_of
 from frames.risk.campaign.plan import listed
@@ -193,8 +193,8 @@ class CampaignStore:
         stored, given = self.plan(), json.loads(json.dumps(described))
         if stored["format"] != FORMAT:
             msg = (
-                f"{self.path} has format {stored['format']}, which does not tell the sources that "
-                "it was computed with: open_campaign reads it; to run, name another store"
+                f"{self.path} has format {stored['format']}, this program writes {FORMAT}: "
+                "open_campaign reads it; to run, name another store"
             )
             raise CampaignError(msg)
         found, sources = unlike(stored, given)
@@ -271,7 +271,9 @@ class CampaignStore:
             where = self.path / _HISTORIES / f"{number:06d}"
             shutil.rmtree(where, ignore_errors=True)
             for k, histories in enumerate(batch.histories):
-                histories.to_zarr(where / f"{k}.zarr", mode="w", consolidated=False)
+                histories.to_zarr(
+                    where / f"{k}.zarr", mode="w", consolidated=False, write_empty_chunks=True
+                )
             mark = {
                 "runs": len(rows),
                 "statuses": dict(Counter(batch.arrays["status"].tolist())),
@@ -375,7 +377,10 @@ class CampaignStore:
         number = run // self.plan()["batch"]
         if number in self.batches_done():
             for part in (self.path / _HISTORIES / f"{number:06d}").glob("*.zarr"):
-                data = opened(part)
+                try:
+                    data = opened(part, self.plan())
+                except (RuntimeError, ValueError, LookupError, FileNotFoundError) as cause:
+                    raise CampaignError(damaged(self.path / _RUNS, number, cause)) from cause
                 if run in data["run"].to_numpy():
                     return data.sel(run=run)
         msg = (
@@ -421,7 +426,8 @@ class CampaignStore:
 
         with readable(self.path / _RUNS):
             group: Any = zarr.open_group(self.path / _RUNS, mode="r+")
-            return {name: group[name] for name in group.attrs["results"]}
+            with zarr.config.set({f"array.{key}": value for key, value in EVERY_CHUNK.items()}):
+                return {name: group[name] for name in group.attrs["results"]}
 
     def _mark(self, number: int) -> dict[str, Any]:
         path = self.path / _DONE / f"{number:06d}.json"

@@ -8,10 +8,11 @@ from frames.batch.cases import named_motions
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.hunt_fill import HuntFill
 from frames.risk.fragility.incremental import IDA
-from frames.risk.fragility.intensity import Intensity
+from frames.risk.fragility.intensity import OWN, IntensityMeasure, is_same
 from frames.risk.fragility.limit_state import LimitState
 from frames.risk.fragility.plans import CLOUD, HUNT, STRIPES
 from frames.risk.fragility.runs import IntensityRuns, run_at
+from frames.risk.fragility.scaled_motions import factors_to
 from lir_element.argument_checks import require_positive, require_type
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ def ida(
     model: FrameData,
     motions: object,
     *,
-    intensity: Intensity,
+    intensity: IntensityMeasure,
     rules: HuntFill,
     limit: LimitState | None = None,
     known: IntensityRuns | None = None,
@@ -40,7 +41,7 @@ def ida(
         The structure.
     motions : GroundMotion, or a sequence or mapping of them
         The motions; they are scaled as a whole.
-    intensity : Intensity
+    intensity : IntensityMeasure
         The measure that rises.
     rules : HuntFill
         How intensities are chosen.
@@ -72,25 +73,27 @@ def ida(
     --------
     In the gallery: "Incremental dynamic analysis" (docs/gallery/research/a_ida.py).
     """
-    require_type("intensity", intensity, Intensity, "an Intensity")
+    require_type("intensity", intensity, IntensityMeasure, OWN)
     require_type("rules", rules, HuntFill, "a HuntFill")
     state = LimitState.bearing_failure() if limit is None else limit
     grounds = named_motions(motions)
     if known is None:
         begin = [(motion, level) for motion in grounds for level in rules.next_intensities([], [])]
-        runs = run_at(model, grounds, begin, intensity, options, HUNT)
+        first = factors_to(grounds, begin, intensity)
+        runs = run_at(model, grounds, first, intensity, options, HUNT)
     else:
         runs = _checked(known, grounds, intensity)
     while cases := _next_cases(runs, tuple(grounds), rules, state):
+        cases = factors_to(grounds, cases, intensity)
         runs = runs.joined(run_at(model, grounds, cases, intensity, options, HUNT))
     return IDA(runs, state, rules)
 
 
 def _checked(
-    known: IntensityRuns, motions: Mapping[str, object], intensity: Intensity
+    known: IntensityRuns, motions: Mapping[str, object], intensity: IntensityMeasure
 ) -> IntensityRuns:
     require_type("known", known, IntensityRuns, "IntensityRuns")
-    if known.intensity != intensity:
+    if not is_same(known.intensity, intensity):
         msg = f"known is of {known.intensity.label}, not of {intensity.label}: take one measure"
         raise FragilityError(msg)
     stray = [name for name in known.motions if name not in motions]
@@ -116,7 +119,7 @@ def multiple_stripes(
     motions: object,
     levels: Sequence[float],
     *,
-    intensity: Intensity,
+    intensity: IntensityMeasure,
     **options: Any,
 ) -> IntensityRuns:
     """Analyse a structure under all motions, each scaled to each of some intensities.
@@ -129,7 +132,7 @@ def multiple_stripes(
         The motions. Where each stripe has motions of its own, join the runs of several calls.
     levels : sequence of float
         Intensities of the stripes, in the unit of the measure.
-    intensity : Intensity
+    intensity : IntensityMeasure
         The measure.
     **options
         Of `time_histories`.
@@ -157,13 +160,14 @@ def multiple_stripes(
     >>> runs.table["im"].round(6).tolist(), runs.table["outcome"].tolist()
     ([0.5, 1.0], ['complete', 'complete'])
     """
-    require_type("intensity", intensity, Intensity, "an Intensity")
+    require_type("intensity", intensity, IntensityMeasure, OWN)
     if not len(levels):
         msg = "levels is empty: give the intensities of the stripes"
         raise FragilityError(msg)
     stripes = [require_positive("level", each, error=FragilityError) for each in levels]
     grounds = named_motions(motions)
     cases = [(motion, level) for motion in grounds for level in stripes]
+    cases = factors_to(grounds, cases, intensity)
     return run_at(model, grounds, cases, intensity, options, STRIPES)
 
 
@@ -171,7 +175,7 @@ def cloud_analysis(
     model: FrameData,
     motions: object,
     *,
-    intensity: Intensity,
+    intensity: IntensityMeasure,
     scales: Sequence[float] = (1.0,),
     **options: Any,
 ) -> IntensityRuns:
@@ -183,7 +187,7 @@ def cloud_analysis(
         The structure.
     motions : GroundMotion, or a sequence or mapping of them
         The motions.
-    intensity : Intensity
+    intensity : IntensityMeasure
         The measure that demands are regressed on.
     scales : sequence of float
         Factors on all motions [-], positive.
@@ -213,12 +217,11 @@ def cloud_analysis(
     >>> runs.table["im"].round(6).tolist()
     [1.0, 1.5]
     """
-    require_type("intensity", intensity, Intensity, "an Intensity")
+    require_type("intensity", intensity, IntensityMeasure, OWN)
     if not len(scales):
         msg = "scales is empty: give factors on the motions, 1 for as they are"
         raise FragilityError(msg)
     factors = [require_positive("scale", each, "-", error=FragilityError) for each in scales]
     grounds = named_motions(motions)
-    own = {name: intensity.of(motion) for name, motion in grounds.items()}
-    cases = [(name, factor * own[name]) for name in grounds for factor in factors]
+    cases = [(name, factor) for name in grounds for factor in factors]
     return run_at(model, grounds, cases, intensity, options, CLOUD)

@@ -10,7 +10,7 @@ import pandas as pd
 
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.curve import CollapseFragility, Fragility
-from frames.risk.fragility.intensity import Intensity, unit_of
+from frames.risk.fragility.intensity import IntensityMeasure, unit_of
 from frames.risk.fragility.likelihood import binomial
 from frames.risk.fragility.resampling import RESAMPLES, checked_runs, no_fit, resampled
 from lir_element.argument_checks import require_positive
@@ -31,7 +31,7 @@ def fit_cloud(
     *,
     name: str = "",
     unit: str | None = None,
-    intensity: Intensity | None = None,
+    intensity: IntensityMeasure | None = None,
     resamples: int = RESAMPLES,
     seed: int = 1,
 ) -> Fragility | CollapseFragility:
@@ -48,7 +48,7 @@ def fit_cloud(
         Record of each run.
     name, unit : str
         The limit state, and the unit of the intensity: "m/s2", or that of the measure.
-    intensity : Intensity, optional
+    intensity : IntensityMeasure, optional
         The measure, so that the curve is compared with its like alone.
     resamples, seed : int
         Resamples of the records, and their seed.

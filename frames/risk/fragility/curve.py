@@ -12,7 +12,7 @@ import pandas as pd
 
 from frames._types import FloatArray
 from frames.risk._errors import FragilityError
-from frames.risk.fragility.intensity import Intensity, unit_of
+from frames.risk.fragility.intensity import IntensityMeasure, unit_of
 from frames.risk.fragility.notebook import Shown
 from lir_element.argument_checks import require_between, require_non_negative, require_positive
 
@@ -30,7 +30,7 @@ class Estimate(Shown):
         The limit state.
     unit : str
         Unit of the intensity.
-    intensity : Intensity or None
+    intensity : IntensityMeasure or None
         Its measure; None where it was not stated.
     method : str
         How it was fitted, with its source.
@@ -52,7 +52,7 @@ class Estimate(Shown):
     seed: int
     parameters: FloatArray
     data: pd.DataFrame
-    intensity: Intensity | None = None
+    intensity: IntensityMeasure | None = None
 
     @property
     def lost(self) -> int:
@@ -354,7 +354,7 @@ def lognormal_fragility(
     *,
     name: str = "",
     unit: str | None = None,
-    intensity: Intensity | None = None,
+    intensity: IntensityMeasure | None = None,
 ) -> Fragility:
     """Return a lognormal curve that is given, not fitted.
 
@@ -366,7 +366,7 @@ def lognormal_fragility(
         Standard deviation of the logarithm [-].
     name, unit : str
         The limit state, and the unit of the intensity: "m/s2", or that of the measure.
-    intensity : Intensity, optional
+    intensity : IntensityMeasure, optional
         The measure.
 
     Returns

@@ -17,7 +17,7 @@ from frames.risk.fragility.curve import CollapseFragility, Fragility
 from frames.risk.fragility.hazard_curve import HazardCurve
 from frames.risk.fragility.hunt_fill import HuntFill
 from frames.risk.fragility.incremental import IDA
-from frames.risk.fragility.intensity import Intensity
+from frames.risk.fragility.intensity import Intensity, IntensityMeasure, StatedMeasure
 from frames.risk.fragility.limit_state import LimitState
 from frames.risk.fragility.risk import Risk
 from frames.risk.fragility.runs import IntensityRuns
@@ -36,7 +36,9 @@ _KINDS: dict[str, type] = {
     kind.__name__: kind
     for kind in (IntensityRuns, IDA, Fragility, CollapseFragility, HazardCurve, Risk)
 }
-_PARTS: dict[str, type] = {kind.__name__: kind for kind in (Intensity, LimitState, HuntFill)}
+_PARTS: dict[str, type] = {
+    kind.__name__: kind for kind in (Intensity, StatedMeasure, LimitState, HuntFill)
+}
 
 
 def save_fragility(found: Kept, path: str | Path) -> None:
@@ -112,7 +114,9 @@ def load_fragility(path: str | Path) -> Any:
 
 
 def _written(value: Any) -> Any:
-    # Plain values; numbers that JSON has not ("nan", "inf") as texts.
+    # Plain values; numbers that JSON has not ("nan", "inf") as texts; of own measures their label.
+    if isinstance(value, IntensityMeasure) and not isinstance(value, Intensity):
+        value = StatedMeasure(value.label, value.unit)
     if type(value).__name__ in _KINDS | _PARTS:
         own = {field.name: _written(getattr(value, field.name)) for field in fields(value)}
         return {"what": type(value).__name__, **own}

@@ -15,7 +15,7 @@ import pandas as pd
 from frames._types import FloatArray
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.curve import Fragility
-from frames.risk.fragility.intensity import Intensity, unit_of
+from frames.risk.fragility.intensity import IntensityMeasure, unit_of
 from frames.risk.fragility.likelihood import Likely, binomial, censored_lognormal
 from frames.risk.fragility.resampling import RESAMPLES, checked_runs, no_fit, resampled
 from lir_element.argument_checks import require_choice
@@ -33,7 +33,7 @@ def fit_stripes(
     *,
     name: str = "",
     unit: str | None = None,
-    intensity: Intensity | None = None,
+    intensity: IntensityMeasure | None = None,
     resamples: int = RESAMPLES,
     seed: int = 1,
 ) -> Fragility:
@@ -49,7 +49,7 @@ def fit_stripes(
         Record of each run: runs of one record are resampled together.
     name, unit : str
         The limit state, and the unit of the intensity: "m/s2", or that of the measure.
-    intensity : Intensity, optional
+    intensity : IntensityMeasure, optional
         The measure, so that the curve is compared with its like alone.
     resamples : int
         Resamples of the records for the band.
@@ -139,7 +139,7 @@ def fit_capacities(
     method: Literal["moments", "likelihood"] | None = None,
     name: str = "",
     unit: str | None = None,
-    intensity: Intensity | None = None,
+    intensity: IntensityMeasure | None = None,
     resamples: int = RESAMPLES,
     seed: int = 1,
 ) -> Fragility:
@@ -158,7 +158,7 @@ def fit_capacities(
         takes censored ones; by default the one that the data need.
     name, unit : str
         The limit state, and the unit of the intensity: "m/s2", or that of the measure.
-    intensity : Intensity, optional
+    intensity : IntensityMeasure, optional
         The measure, so that the curve is compared with its like alone.
     resamples, seed : int
         Resamples of the records, and their seed.

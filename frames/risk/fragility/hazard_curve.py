@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from frames.risk._errors import FragilityError
-from frames.risk.fragility.intensity import Intensity, unit_of
+from frames.risk.fragility.intensity import IntensityMeasure, unit_of
 from frames.risk.fragility.notebook import Shown
 from lir_element.argument_checks import require_positive
 
@@ -31,7 +31,7 @@ class HazardCurve(Shown):
         Falling mean annual frequencies [1/year].
     unit : str, optional
         Unit of the intensities: "m/s2", or that of the measure.
-    intensity : Intensity, optional
+    intensity : IntensityMeasure, optional
         The measure. A fragility curve of another one is refused then; without it units alone are
         compared.
 
@@ -51,7 +51,7 @@ class HazardCurve(Shown):
     im: npt.ArrayLike
     rate: npt.ArrayLike
     unit: str = ""
-    intensity: Intensity | None = None
+    intensity: IntensityMeasure | None = None
 
     def __post_init__(self) -> None:
         """Check and copy."""
@@ -87,7 +87,7 @@ class HazardCurve(Shown):
         low: float,
         high: float,
         unit: str = "",
-        intensity: Intensity | None = None,
+        intensity: IntensityMeasure | None = None,
     ) -> HazardCurve:
         """Return ``rate = k0 im**-k`` between two intensities (Cornell 1996).
 
@@ -99,7 +99,7 @@ class HazardCurve(Shown):
             Ends of the curve.
         unit : str, optional
             Unit of the intensities: "m/s2", or that of the measure.
-        intensity : Intensity, optional
+        intensity : IntensityMeasure, optional
             The measure.
 
         Returns

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
-from frames.design.hazard.pair_spectra import MEASURES, pair_spectrum
+from frames.design.hazard.motion_measures import build_up
+from frames.design.hazard.pair_spectra import ANGLES, MEASURES, pair_spectrum
 from frames.motion.baseline import integrated
 from frames.risk._errors import FragilityError
 from lir_element.argument_checks import (
@@ -18,12 +19,73 @@ from lir_element.argument_checks import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
+    from frames._types import FloatArray
     from frames.motion.ground_motion import GroundMotion
 
-UNITS = {"PGA": "m/s2", "PGV": "m/s", "Sa": "m/s2", "Sa_avg": "m/s2", "scale": "-"}
+Kind = Literal["Sa", "Sa_avg", "PGA", "PGV", "PGD", "CAV", "Arias", "scale"]
+
+UNITS: dict[Kind, str] = {
+    "Sa": "m/s2",
+    "Sa_avg": "m/s2",
+    "PGA": "m/s2",
+    "PGV": "m/s",
+    "PGD": "m",
+    "CAV": "m/s",
+    "Arias": "m/s",
+    "scale": "-",
+}
 """Kinds of intensity measures, and their units."""
+
+OWN = "an Intensity, or a measure with unit, label and of(motion)"
+
+
+@runtime_checkable
+class IntensityMeasure(Protocol):
+    """An intensity measure: an `Intensity`, or one of your own.
+
+    Where motions are scaled to an intensity (`ida`, `multiple_stripes`, ``Campaign(intensities=)``)
+    it must grow with a power of the factor on the motion; the power is measured.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames.risk import IntensityMeasure
+    >>> class RootMeanSquare:
+    ...     unit, label = "m/s2", "root mean square of x"
+    ...     def of(self, motion):
+    ...         return np.sqrt(np.mean(motion.x**2))
+    >>> isinstance(RootMeanSquare(), IntensityMeasure)
+    True
+    """
+
+    @property
+    def unit(self) -> str:
+        """Unit of its values."""
+        ...
+
+    @property
+    def label(self) -> str:
+        """What it is, in a few words; two of one label and unit are the same measure."""
+        ...
+
+    def of(self, motion: GroundMotion, /) -> float:
+        """Return the intensity of a motion, above 0."""
+        ...
+
+
+@dataclass(frozen=True)
+class StatedMeasure:
+    """A measure of which a file keeps label and unit alone."""
+
+    label: str
+    unit: str
+
+    def of(self, motion: GroundMotion, /) -> float:
+        """Refuse: the function that it was is in no file."""
+        msg = f"{self.label} of {motion.name or 'motion'}: give the measure itself, not that read"
+        raise FragilityError(msg)
 
 
 class Measured(Protocol):
@@ -35,20 +97,22 @@ class Measured(Protocol):
         ...
 
     @property
-    def intensity(self) -> Intensity | None:
+    def intensity(self) -> IntensityMeasure | None:
         """Its measure, None where it was not stated."""
         ...
 
 
 @dataclass(frozen=True, kw_only=True)
 class Intensity:
-    """An intensity measure that grows in proportion to the factor on a motion.
+    """An intensity measure that grows with the factor on a motion, or its square ("Arias").
 
     Parameters
     ----------
-    kind : {"Sa", "Sa_avg", "PGA", "PGV", "scale"}
-        Spectral pseudo-acceleration, the geometric mean of those of several periods, peak
-        acceleration or velocity of the ground, or the factor on the motion itself.
+    kind : {"Sa", "Sa_avg", "PGA", "PGV", "PGD", "CAV", "Arias", "scale"}
+        Spectral pseudo-acceleration, the geometric mean of those of several periods; peak
+        acceleration, velocity or displacement of the ground; cumulative absolute velocity, the
+        integral of abs(a); Arias intensity, pi / (2 g) times the integral of a^2; or the factor on
+        the motion itself.
     period : float, optional
         Natural period of Sa [s]; of the isolated structure, as a rule.
     periods : sequence of float, optional
@@ -77,7 +141,7 @@ class Intensity:
     'Sa_avg(10 periods from 0.6 to 9 s, 5 %), RotD50'
     """
 
-    kind: Literal["Sa", "Sa_avg", "PGA", "PGV", "scale"] = "Sa"
+    kind: Kind = "Sa"
     period: float | None = None
     damping: float = 0.05
     measure: str = "RotD50"
@@ -118,6 +182,11 @@ class Intensity:
     def unit(self) -> str:
         """Unit of its values."""
         return UNITS[self.kind]
+
+    @property
+    def power(self) -> float:
+        """Power of the factor on a motion that it grows with."""
+        return 2.0 if self.kind == "Arias" else 1.0
 
     @property
     def label(self) -> str:
@@ -163,19 +232,45 @@ class Intensity:
         elif self.kind == "PGA":
             found = float(pair_spectrum(motion, [0.0], 0.0, self.measure)[0])
         else:
-            pair = [np.zeros(motion.n_steps) if a is None else a for a in (motion.x, motion.y)]
             pair_spectrum(motion, [0.0], 0.0, self.measure)  # the components are there
-            found = MEASURES[self.measure](*(integrated(a, motion.dt)[0] for a in pair))
+            found = self._of_pair(motion)
         if not found > 0.0:
             msg = f"{motion.name or 'motion'} has no {self.label}: leave it out"
             raise FragilityError(msg)
         return found
 
+    def _of_pair(self, motion: GroundMotion) -> float:
+        # Of histories as the path of a pair; of integrals each component, or each direction.
+        dt = motion.dt
+        x, y = (np.zeros(motion.n_steps) if a is None else a for a in (motion.x, motion.y))
+        if self.kind in {"PGV", "PGD"}:
+            moved = [integrated(a, dt)[self.kind == "PGD"] for a in (x, y)]
+            return MEASURES[self.measure](*moved)
+        number = _INTEGRALS[self.kind]
+        if self.measure in {"RotD50", "RotD100"}:
+            angles = np.pi / ANGLES * np.arange(ANGLES)
+            each = [number(np.cos(a) * x + np.sin(a) * y, dt) for a in angles]
+            return float(np.median(each) if self.measure == "RotD50" else np.max(each))
+        return MEASURES[self.measure](*(np.array([number(a, dt)]) for a in (x, y)))
 
-def unit_of(unit: str | None, intensity: Intensity | None) -> str:
+
+_INTEGRALS: dict[str, Callable[[FloatArray, float], float]] = {
+    "CAV": lambda a, dt: float(np.trapezoid(np.abs(a), dx=dt)),
+    "Arias": lambda a, dt: float(build_up(a, dt)[-1]),
+}
+
+
+def is_same(first: IntensityMeasure, second: IntensityMeasure) -> bool:
+    """Return whether two measures are the same; those of your own by label and unit."""
+    if isinstance(first, Intensity) and isinstance(second, Intensity):
+        return first == second
+    return (first.label, first.unit) == (second.label, second.unit)
+
+
+def unit_of(unit: str | None, intensity: IntensityMeasure | None) -> str:
     """Return the unit of intensities, where it is told by their measure, too."""
     if intensity is not None:
-        require_type("intensity", intensity, Intensity, "an Intensity")
+        require_type("intensity", intensity, IntensityMeasure, OWN)
         if unit not in {None, intensity.unit}:
             msg = f"unit = {unit!r}: {intensity.label} is in {intensity.unit}: convert the numbers"
             raise FragilityError(msg)
@@ -191,8 +286,8 @@ def require_one_measure(
         each.unit if each.intensity is None else f"{each.intensity.label} [{each.unit}]"
         for each in (first, second)
     ]
-    stated = first.intensity is not None and second.intensity is not None
-    if first.unit != second.unit or (stated and first.intensity != second.intensity):
+    a, b = first.intensity, second.intensity
+    if first.unit != second.unit or (a is not None and b is not None and not is_same(a, b)):
         msg = (
             f"{names[0]} is over {told[0]}, {names[1]} over {told[1]}: bring them to one unit of "
             "one intensity measure"

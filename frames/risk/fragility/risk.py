@@ -13,7 +13,7 @@ from frames._types import FloatArray
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.curve import CollapseFragility, Estimate, Fragility, checked_confidence
 from frames.risk.fragility.hazard_curve import HazardCurve
-from frames.risk.fragility.intensity import Intensity, require_one_measure
+from frames.risk.fragility.intensity import IntensityMeasure, require_one_measure
 from frames.risk.fragility.notebook import Shown
 from lir_element.argument_checks import require_non_negative, require_positive, require_type
 
@@ -25,7 +25,7 @@ MISSING = 0.05
 
 
 class RiskWarning(UserWarning):
-    """A rate of which much comes from where the hazard is not known.
+    """A rate or a Sobol' index that is not known well.
 
     Examples
     --------
@@ -50,7 +50,7 @@ class Risk(Shown):
         The limit state.
     unit : str
         Unit of the intensity.
-    intensity : Intensity or None
+    intensity : IntensityMeasure or None
         Its measure, of the curve or of the hazard; None where neither states it.
     rate : float
         Mean annual frequency of exceedance [1/year], of intensities within the hazard curve.
@@ -77,7 +77,7 @@ class Risk(Shown):
     above: float
     im: FloatArray
     contribution: FloatArray
-    intensity: Intensity | None = None
+    intensity: IntensityMeasure | None = None
 
     def _rows(self) -> list[tuple[str, str]]:
         measure = "" if self.intensity is None else self.intensity.label

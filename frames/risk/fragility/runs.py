@@ -15,11 +15,12 @@ from frames._errors import ModelWarning
 from frames.batch.cases import NOT_BUILT, named_models
 from frames.batch.time_histories import time_histories
 from frames.risk._errors import FragilityError
-from frames.risk.fragility.intensity import Intensity
+from frames.risk.fragility.intensity import OWN, IntensityMeasure, is_same
 from frames.risk.fragility.limit_state import LimitState
 from frames.risk.fragility.notebook import Shown
 from frames.risk.fragility.plans import GIVEN, PLAN, plans_of
 from frames.risk.fragility.reading import Sets, motions_of, rows_of
+from frames.risk.fragility.scaled_motions import values_of
 from lir_element.argument_checks import require_choice, require_type
 from lir_element.errors import AnalysisWarning, RunStatus
 
@@ -64,7 +65,7 @@ class IntensityRuns(Shown):
         "message", a column a quantity of `frames.peaks` (SI); and "plan", how the intensity was
         chosen: "stripes", "cloud", "hunt" (by the outcome of runs before) or "given", which is also
         what holds without the column.
-    intensity : Intensity
+    intensity : IntensityMeasure
         What "im" is.
     units : mapping of str to str
         Units of the quantities.
@@ -89,13 +90,13 @@ class IntensityRuns(Shown):
     """
 
     table: pd.DataFrame
-    intensity: Intensity
+    intensity: IntensityMeasure
     units: Mapping[str, str]
 
     def __post_init__(self) -> None:
         """Check."""
         require_type("table", self.table, pd.DataFrame, "a pandas DataFrame")
-        require_type("intensity", self.intensity, Intensity, "an Intensity")
+        require_type("intensity", self.intensity, IntensityMeasure, OWN)
         missing = [name for name in FIXED if name not in self.table.columns]
         if missing or self.table.empty:
             msg = f"table has no column {missing[0]!r}" if missing else "table has no run"
@@ -121,7 +122,7 @@ class IntensityRuns(Shown):
         cls,
         data: xr.Dataset,
         motions: object,
-        intensity: Intensity,
+        intensity: IntensityMeasure,
         model: str | None = None,
         *,
         parameters: Sets = None,
@@ -136,7 +137,7 @@ class IntensityRuns(Shown):
         motions : GroundMotion, or a sequence or mapping of them
             The motions that were run, before the scales of `data`, by the names of `data`. Their
             digests must be those of the coordinate "motion_digest".
-        intensity : Intensity
+        intensity : IntensityMeasure
             The measure.
         model : str, optional
             Which structure; needed where there are several.
@@ -163,19 +164,24 @@ class IntensityRuns(Shown):
         AnalysisWarning
             If runs of a campaign are not done.
         """
-        require_type("intensity", intensity, Intensity, "an Intensity")
+        require_type("intensity", intensity, IntensityMeasure, OWN)
         own = rows_of(data, model, parameters)
         grounds = motions_of(own, motions)
         used = [str(name) for name in own["motion"].to_numpy()]
-        each = {name: intensity.of(motion) for name, motion in grounds.items()}
         scale = own["scale"].to_numpy()
+        runs = list(zip(used, np.abs(scale).tolist(), strict=True))
+        im: dict[tuple[str, float], float] = {}
+        for name, motion in grounds.items():
+            factors = sorted({factor for of, factor in runs if of == name})
+            keys = [(name, factor) for factor in factors]
+            im |= zip(keys, values_of(intensity, motion, factors), strict=True)
         status = [str(s) for s in own["status"].to_numpy()]
         quantities = [str(q) for q in own["quantity"].to_numpy()]
         table = pd.DataFrame(
             {
                 "motion": used,
                 "scale": scale,
-                "im": [_round(abs(s) * each[name]) for s, name in zip(scale, used, strict=True)],
+                "im": [_round(im[run]) for run in runs],
                 "outcome": [outcome_of(s) for s in status],
                 "status": status,
                 "message": [str(m) for m in own["message"].to_numpy()],
@@ -268,7 +274,7 @@ class IntensityRuns(Shown):
         FragilityError
             If the measures differ.
         """
-        if other.intensity != self.intensity:
+        if not is_same(other.intensity, self.intensity):
             msg = f"{other.intensity.label} is not {self.intensity.label}: take one measure"
             raise FragilityError(msg)
         tables = [each.table.assign(plan=plans_of(each.table)) for each in (self, other)]
@@ -289,11 +295,11 @@ def run_at(
     model: FrameData,
     motions: Mapping[str, GroundMotion],
     cases: Sequence[tuple[str, float]],
-    intensity: Intensity,
+    intensity: IntensityMeasure,
     options: Mapping[str, Any],
     plan: str,
 ) -> IntensityRuns:
-    """Run a structure under motions at intensities, all at once."""
+    """Run a structure under scaled motions, all at once."""
     fixed = {"scales", "cases", "record"} & set(options)
     if fixed:
         msg = f"{sorted(fixed)[0]} is decided here: leave it out"
@@ -303,8 +309,7 @@ def run_at(
         msg = f"{len(structures)} structures: run one at a time, their curves can be compared"
         raise FragilityError(msg)
     ((name, structure),) = structures.items()
-    each = {motion: intensity.of(motions[motion]) for motion, _ in cases}
-    wanted = [(name, motion, level / each[motion]) for motion, level in cases]
+    wanted = [(name, motion, factor) for motion, factor in cases]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AnalysisWarning)  # what it says is in the table
         # intensities begin low on purpose
@@ -317,6 +322,14 @@ def run_at(
         warnings.warn(
             f"{len(failed)} of {len(runs.table)} runs failed numerically and count as neither; the "
             f"first, {row['motion']} at {row['im']:.3g} {intensity.unit}: {row['message']}",
+            AnalysisWarning,
+            stacklevel=3,
+        )
+    doubtful = runs.table[runs.table["status"] == RunStatus.INACCURATE.name.lower()]
+    if len(doubtful):
+        warnings.warn(
+            f"{len(doubtful)} of {len(runs.table)} runs are inaccurate and count with their "
+            f"demands; the first, {doubtful.iloc[0]['motion']}: {doubtful.iloc[0]['message']}",
             AnalysisWarning,
             stacklevel=3,
         )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -12,12 +14,16 @@ import pandas as pd
 from frames._types import FloatArray
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.curve import checked_confidence
+from frames.risk.fragility.risk import RiskWarning
 from lir_element.argument_checks import require_finite, require_type
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import numpy.typing as npt
+
+WIDEST = 0.4
+"""Width of the confidence interval of a Sobol' index beyond which a warning says so [-]."""
 
 INTERVAL_RESAMPLES = 200
 """Resamples of the confidence intervals of Sobol' indices."""
@@ -135,7 +141,7 @@ class SobolIndices:
     ...     return [each["a"] + 0.1 * each["b"] for each in sets]
     ...
     >>> inputs = {"a": uniform(), "b": uniform()}
-    >>> found = sobol_indices(results, inputs, samples=64)
+    >>> found = sobol_indices(results, inputs, samples=128)
     >>> bool(found.table.loc["a", "total"] > 0.9)
     True
     """
@@ -185,6 +191,11 @@ def sobol_indices(
     FragilityError
         If an argument is out of its bounds, or results are not finite or all the same.
 
+    Warns
+    -----
+    RiskWarning
+        If the confidence interval of an index is wider than 0.4.
+
     Notes
     -----
     Source: Saltelli et al. (2010), Comput. Phys. Commun. 181:259-270.
@@ -197,7 +208,7 @@ def sobol_indices(
     ...     return [each["a"] + 0.1 * each["b"] for each in sets]
     ...
     >>> inputs = {"a": uniform(), "b": uniform()}
-    >>> found = sobol_indices(results, inputs, samples=64)
+    >>> found = sobol_indices(results, inputs, samples=128)
     >>> found.table["first"].idxmax()
     'a'
     """
@@ -216,6 +227,7 @@ def sobol_indices(
     )
     tail = 0.5 * (1.0 - checked_confidence(confidence))
     low, high = np.quantile(again, [tail, 1.0 - tail], axis=0)
+    _warn_of_width(names, whole, low, high, samples)
     shares = {
         f"{kind}{end}": found[k]
         for k, kind in enumerate(("first", "total"))
@@ -226,6 +238,24 @@ def sobol_indices(
         float(table[:2].mean()),
         float(table[:2].std(ddof=1)),
         len(values),
+    )
+
+
+def _warn_of_width(
+    names: list[str], whole: FloatArray, low: FloatArray, high: FloatArray, samples: int
+) -> None:
+    # Of the widest interval; widths fall with the square root of the samples.
+    kind, k = np.unravel_index((high - low).argmax(), low.shape)
+    width = float(high[kind, k] - low[kind, k])
+    if width <= WIDEST:
+        return
+    enough = 2 ** math.ceil(math.log2(2.0 * samples * (width / WIDEST) ** 2))
+    warnings.warn(
+        f"the {('first', 'total')[kind]} index of {names[k]} is {whole[kind, k]:.2f} "
+        f"({low[kind, k]:.2f} to {high[kind, k]:.2f}): an interval of {width:.2f}, above {WIDEST}, "
+        f"is no result. Take samples={enough}, of a campaign in saltelli_sample, too",
+        RiskWarning,
+        stacklevel=3,
     )
 
 
