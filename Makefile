@@ -6,6 +6,7 @@ PYTHON ?=
 RUN := $(VENV)/bin/python
 export PYTHONDONTWRITEBYTECODE :=  # the suite starts Python a hundred times
 READY := $(VENV)/.ready
+DEMO := $(VENV)/.ready-demo
 
 .DEFAULT_GOAL := help
 .PHONY: help demo docs quick test suite nightly lint types kernels wheel clean
@@ -13,7 +14,7 @@ READY := $(VENV)/.ready
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## */  make \1\t/p' $(firstword $(MAKEFILE_LIST))
 
-demo: $(READY)  ## run the demonstration
+demo: $(if $(wildcard $(READY)),$(READY),$(DEMO))  ## run the demonstration
 	$(RUN) -m frames.demo
 
 docs: $(READY)  ## build the site into build/docs
@@ -52,5 +53,9 @@ clean:  ## remove caches, builds and the virtual environment
 	@if [ -f "$(VENV)/pyvenv.cfg" ]; then echo "rm -rf $(VENV)"; rm -rf "$(VENV)"; fi
 
 $(READY): pyproject.toml
-	@PYTHON="$(PYTHON)" sh .ci/venv "$(VENV)"
+	@PYTHON="$(PYTHON)" sh .ci/venv "$(VENV)" dev,demo
+	@touch "$@"
+
+$(DEMO): pyproject.toml
+	@PYTHON="$(PYTHON)" sh .ci/venv "$(VENV)" demo
 	@touch "$@"

@@ -12,7 +12,7 @@ import numba
 import numpy as np
 import scipy
 
-from lir_element.results.dataset import package_version
+from lir_element._version import package_version
 
 NUMERICAL = (
     "lir_element/*.py",

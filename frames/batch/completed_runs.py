@@ -20,7 +20,7 @@ from frames._provenance import sources_hash
 from frames.batch.batch_dataset import Layout, RunResult
 from frames.results.peaks import Peak
 from frames.results.storage import make_folder, write_whole
-from lir_element.results.dataset import package_version
+from lir_element._version import package_version
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

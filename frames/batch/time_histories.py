@@ -24,10 +24,10 @@ from frames.recording.recording import Recording, whole_steps
 from frames.solve.options import check_options, options_of
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.sanity_checks import motion_doubts
+from lir_element._version import package_version
 from lir_element.argument_checks import require_choice
 from lir_element.device.features import Features
 from lir_element.errors import AnalysisInterrupted, AnalysisWarning, RunStatus
-from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence

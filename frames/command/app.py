@@ -46,7 +46,7 @@ File = Annotated[Path, typer.Argument(help="The project's file.")]
 
 def _version(asked: bool) -> None:
     if asked:
-        from lir_element.results.dataset import package_version
+        from lir_element._version import package_version
 
         say(f"lir-dcfp {package_version()}")
         raise typer.Exit

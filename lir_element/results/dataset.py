@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import warnings
-from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
 from lir_element._compile.jit import on_arrays
+from lir_element._version import package_version
 from lir_element.errors import (
     AnalysisError,
     AnalysisInterrupted,
@@ -250,15 +249,6 @@ def bearing_coordinates(names: Sequence[str]) -> dict[str, Any]:
         "surface": list(SURFACES),
         "end": ["i", "j"],
     }
-
-
-@cache
-def package_version() -> str:
-    """Return the installed version, or 'unknown' outside an installation."""
-    try:
-        return version("lir-dcfp")
-    except PackageNotFoundError:
-        return "unknown"
 
 
 def report(

@@ -24,7 +24,7 @@ from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.motion.sanity_checks import record_doubts
 from lir_element import CoulombFriction, LIRBearing
-from lir_element.results.dataset import package_version
+from lir_element._version import package_version
 
 pytestmark = pytest.mark.filterwarnings("default")  # the command prints warnings
 KINDS = ("far-field", "near-fault pulse", "near-fault no pulse")

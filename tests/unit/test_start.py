@@ -55,14 +55,15 @@ def told_by(code: str) -> str:
     return done.stdout.strip()
 
 
-def test_the_help_of_the_command_waits_for_no_analysis() -> None:
+def test_help_and_version_of_the_command_wait_for_no_analysis() -> None:
     slow = ("numba", "numpy", "pandas", "scipy", "xarray")
     code = (
         "import sys\nfrom typer.testing import CliRunner\nfrom frames.command.app import app\n"
-        "done = [CliRunner().invoke(app, [*of, '--help']) for of in ([], ['check'], ['design'])]\n"
+        "asked = ['--version'], ['--help'], ['check', '--help'], ['design', '--help']\n"
+        "done = [CliRunner().invoke(app, words) for words in asked]\n"
         f"print([one.exit_code for one in done], [name for name in {slow} if name in sys.modules])"
     )
-    assert told_by(code) == "[0, 0, 0] []"
+    assert told_by(code) == "[0, 0, 0, 0] []"
 
 
 def test_the_command_names_the_buildings_that_there_are() -> None:

@@ -25,7 +25,7 @@ from frames.design.project.schema import ImportedModel, OpenSeesModel
 from frames.design.project.value_doubts import value_doubts
 from frames.library.moved_masses import with_moved_masses
 from frames.recording.size import number_of_steps
-from lir_element.results.dataset import package_version
+from lir_element._version import package_version
 
 if TYPE_CHECKING:
     from frames.design.codes.isolation import IsolationSystem

@@ -14,7 +14,7 @@ from frames.design.report.comparison_words import verdicts
 from frames.design.report.page import page_table, page_template
 from frames.design.report.tables import in_mm_and_kn
 from frames.results.storage import csv_of, make_folder, write_whole
-from lir_element.results.dataset import package_version
+from lir_element._version import package_version
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -14,7 +14,7 @@ from frames.design.codes.registry import code_named
 from frames.design.histories.failed_runs import failed_runs
 from frames.design.report.judged import Judged, judged
 from frames.design.report.page import Table
-from lir_element.results.dataset import package_version
+from lir_element._version import package_version
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -17,7 +17,7 @@ from frames.design.report.by_motion import BY_MOTION
 from frames.design.report.numbers import ECCENTRICITY, TABLES_OF_FORCES, run_tables
 from frames.design.report.writing import report_html
 from frames.results.storage import csv_of, load, make_folder, save, write_whole
-from lir_element.results.dataset import package_version
+from lir_element._version import package_version
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from frames.design._errors import ProjectError
-from lir_element.results.dataset import package_version
+from lir_element._version import package_version
 
 if TYPE_CHECKING:
     from pypdf import PdfReader

@@ -17,7 +17,7 @@ from frames.risk.campaign.plot_response import response_by_factor
 from frames.risk.campaign.response import failure_table, response_table, runs_by_model
 from frames.risk.fragility.of_runs import fragility_of
 from frames.risk.fragility.plot_fragility import fragility_curves
-from lir_element.results.dataset import package_version
+from lir_element._version import package_version
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

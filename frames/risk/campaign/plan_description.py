@@ -9,8 +9,8 @@ import numpy as np
 from frames._fingerprint import fingerprint, motion_digest
 from frames._provenance import numerical_sources, provenance
 from frames.risk.campaign.plan import differences
+from lir_element._version import package_version
 from lir_element.device.features import Features
-from lir_element.results.dataset import package_version
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
