@@ -17,27 +17,7 @@ CsvLines = list[tuple[int, list[str]]]
 
 
 def csv_lines(path: Path) -> CsvLines:
-    """Return the rows of a table that a spreadsheet saved.
-
-    Parameters
-    ----------
-    path : Path
-        The file: UTF-8, its mark or not, or UTF-16 with its mark. Semicolons or tabs in the head
-        separate cells, otherwise commas. Beside semicolons and tabs a comma in a number is the
-        decimal sign, and a point takes its place.
-
-    Returns
-    -------
-    list of (int, list of str)
-        Number of the line, and its cells. Lines without text or that begin with # are left out.
-
-    Raises
-    ------
-    OSError
-        If it cannot be opened.
-    ValueError
-        If it is no text, or a number cannot be read in one way only; without the file's name.
-    """
+    """Return the rows of a table that a spreadsheet saved."""
     raw = path.read_bytes()
     wide = raw[:2] in {b"\xff\xfe", b"\xfe\xff"}
     try:

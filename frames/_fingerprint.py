@@ -20,16 +20,6 @@ if TYPE_CHECKING:
 def fingerprint(value: object) -> str:
     """Return a digest of a value by its content, the same in every process.
 
-    Parameters
-    ----------
-    value : object
-        Numbers, texts, arrays, and containers, dataclasses and plain objects of such.
-
-    Returns
-    -------
-    str
-        16 hexadecimal digits.
-
     Examples
     --------
     >>> fingerprint({"a": {"x", "y"}}) == fingerprint({"a": {"y", "x"}})
@@ -79,16 +69,6 @@ def _table(value: object) -> Iterator[bytes]:
 
 def motion_digest(motion: GroundMotion) -> str:
     """Return a digest of the samples of a motion and of its step; its name is not in it.
-
-    Parameters
-    ----------
-    motion : GroundMotion
-        The motion.
-
-    Returns
-    -------
-    str
-        16 hexadecimal digits.
 
     Examples
     --------

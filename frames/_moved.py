@@ -58,25 +58,7 @@ NAMES = {"frames": _table(_HOMES), "frames.plots": _table(_PLOTS)}
 
 
 def moved_name(package: str, name: str) -> Any:
-    """Return what a name of the version before stands for, with a warning.
-
-    Parameters
-    ----------
-    package : str
-        Where it is looked up: "frames" or "frames.plots".
-    name : str
-        The old name.
-
-    Returns
-    -------
-    object
-        What has that name now.
-
-    Raises
-    ------
-    AttributeError
-        If there never was such a name.
-    """
+    """Return what a name of the version before stands for, with a warning."""
     if (package, name) == ("frames", "design"):
         return import_module("frames.design")  # which can be called as the function it was
     home = NAMES[package].get(name)

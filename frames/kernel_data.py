@@ -365,22 +365,7 @@ def output_arrays(
     count: int,
     parts: tuple[int, int, int] = (0, 0, 0),
 ) -> tuple[Output, Array, Array]:
-    """Return arrays for `count` output steps, the bearing states and the bodies as records.
-
-    Parameters
-    ----------
-    model, contacts : ReducedModel, Contacts or None
-        What is recorded.
-    count : int
-        Output steps.
-    parts : tuple of three ints
-        Numbers of nonlinear deformations and parts, and of what is kept of a part.
-
-    Returns
-    -------
-    tuple
-        Output, states (count, n_bearings), bodies (count, bearings with contact points).
-    """
+    """Return arrays for `count` output steps, the bearing states and the bodies as records."""
     n_deformations, n_parts, n_state = parts
     n_b, n_e, n_bearings = len(model.load_b), len(model.load_e), len(model.props)
     states = np.zeros((count, n_bearings), dtype=STATE)

@@ -93,24 +93,7 @@ Within a layer two processes hardly meet in the same kernel; more than two would
 
 
 def compile_usual(jobs: int = 1) -> dict[str, float]:
-    """Run a small analysis of each kind.
-
-    Parameters
-    ----------
-    jobs : int
-        Number of processes that share the analyses; 1: this one. Two take three fifths of the
-        time of one, more hardly less.
-
-    Returns
-    -------
-    dict
-        Time that each took [s], by name; next to nothing where its kernels are kept already.
-
-    Raises
-    ------
-    RuntimeError
-        If a process fails; it names the analyses that are missing.
-    """
+    """Run a small analysis of each kind."""
     return dict(_compiled(jobs))
 
 

@@ -22,17 +22,7 @@ _SECANTS = 8  # corrections of Newton's method that are remembered within a step
 def shared_coordinates(system: System, rows: SparseMatrix) -> IntArray:
     """Return those coordinates of b that many bearings share, if it pays to keep them apart.
 
-    Parameters
-    ----------
-    system : System
-        The frame. What yields enters the tangent of all coordinates: then none is kept apart.
-    rows : csr_array, (12 n_bearings, n_b)
-        Displacements of the bearings' nodes from b.
-
-    Returns
-    -------
-    ndarray, (n_h,)
-        Places among b, in order.
+    Shapes: rows (12 n_bearings, n_b), result (n_h,).
     """
     n_b = rows.shape[1]
     if n_b < MANY or len(system.parts.kind):
@@ -46,17 +36,7 @@ def shared_coordinates(system: System, rows: SparseMatrix) -> IntArray:
 def order_of(shared: IntArray, count: int) -> IntArray:
     """Return the coordinates (count,) with the shared ones last.
 
-    Parameters
-    ----------
-    shared : ndarray, (n_h,)
-        The shared ones.
-    count : int
-        Number of all coordinates.
-
-    Returns
-    -------
-    ndarray, (count,)
-        Coordinates by place.
+    Shapes: shared (n_h,), result (count,).
     """
     is_shared = np.zeros(count, dtype=np.int64)
     is_shared[shared] = 1
@@ -64,18 +44,7 @@ def order_of(shared: IntArray, count: int) -> IntArray:
 
 
 def tangent_arrays(n_b: int, n_h: int, bearings: int) -> dict[str, Any]:
-    """Return the arrays of an IntegrationState that hold the tangent.
-
-    Parameters
-    ----------
-    n_b, n_h, bearings : int
-        Numbers of coordinates, of shared ones among them, and of bearings.
-
-    Returns
-    -------
-    dict
-        Zeros by name; what serves shared coordinates alone has no size without them.
-    """
+    """Return the arrays of an IntegrationState that hold the tangent."""
     n_v = n_b - n_h
     n_s = n_b if n_h else 0
 

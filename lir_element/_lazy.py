@@ -20,23 +20,7 @@ if TYPE_CHECKING:
 def lazily(
     package: str, file: str, otherwise: Callable[[str, str], Any] | None = None
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
-    """Return what a package takes as its `__getattr__` and `__dir__`.
-
-    Parameters
-    ----------
-    package : str
-        Its full name.
-    file : str
-        Its ``__init__.py``.
-    otherwise : callable, optional
-        ``otherwise(package, name)`` returns what is neither listed nor a module of the package, or
-        raises AttributeError.
-
-    Returns
-    -------
-    tuple of callables
-        Modules of the package are found as if they had been imported.
-    """
+    """Return what a package takes as its `__getattr__` and `__dir__`."""
     homes = _listed(Path(file).read_text(encoding="utf-8"))
     module = sys.modules[package]
 

@@ -23,16 +23,6 @@ _LONGEST = 120  # characters of a value in a message
 def shown(value: object) -> str:
     """Return a value as a message shows it: what is long by its kind, and its shape if it has one.
 
-    Parameters
-    ----------
-    value : object
-        What the caller gave.
-
-    Returns
-    -------
-    str
-        In one line.
-
     Examples
     --------
     >>> shown(2.5), shown(np.zeros((3, 600))), shown([0.0] * 600)
@@ -51,18 +41,6 @@ def shown(value: object) -> str:
 def listed(names: Iterable[object], most: int = 8) -> str:
     """Return names as a message lists them: the first of many, and how many more there are.
 
-    Parameters
-    ----------
-    names : iterable
-        Names, tags or texts.
-    most : int
-        How many are shown.
-
-    Returns
-    -------
-    str
-        In one line.
-
     Examples
     --------
     >>> listed([3, 4]), listed(range(12), most=2)
@@ -75,16 +53,6 @@ def listed(names: Iterable[object], most: int = 8) -> str:
 
 def unreal(values: object) -> str:
     """Return why an array is none of real numbers, all there; empty if it is.
-
-    Parameters
-    ----------
-    values : object
-        What is to be an array. Conversion to floats drops imaginary parts and masks.
-
-    Returns
-    -------
-    str
-        The end of a sentence whose subject is the array's name, with a remedy.
 
     Examples
     --------
@@ -100,27 +68,7 @@ def unreal(values: object) -> str:
 
 
 def as_number(name: str, value: object, unit: str = "") -> float:
-    """Return `value` as a float, infinity and NaN included.
-
-    Parameters
-    ----------
-    name : str
-        What the number is, as the message shall call it; with its unit where none is passed.
-    value : object
-        What the caller gave: one real number of any kind, no bool.
-    unit : str
-        Unit, for the message.
-
-    Returns
-    -------
-    float
-        The number.
-
-    Raises
-    ------
-    TypeError
-        If it is no number.
-    """
+    """Return `value` as a float, infinity and NaN included."""
     no_number = isinstance(value, (bool, np.bool_, complex, np.complexfloating))
     if no_number or not hasattr(value, "__float__") or getattr(value, "ndim", 0) > 0:
         msg = f"{name} = {shown(value)} is not a number: give one number in {unit or 'SI units'}"

@@ -43,11 +43,7 @@ def initial_state(props: Records) -> Records:
 def heat_parts(props: Records) -> Floats:
     """Return the parts of the temperatures of bearings with properties `props` (n,), at the start.
 
-    Returns
-    -------
-    ndarray, (n, 3, HEAT_PARTS)
-        What bottom surface, top surface and interface have above the temperature at the start,
-        zeros [K]; n = 0 where no bearing is heated.
+    Shapes: result (n, 3, HEAT_PARTS).
     """
     return np.zeros((len(props) if props["heats"].any() else 0, 3, HEAT_PARTS))
 
@@ -293,15 +289,7 @@ def about_to_snap(props: Records, state: Records) -> tuple[int, str] | None:
 
     There (`last_slip`) the force no longer rises, and Newton's method finds no way on.
 
-    Parameters
-    ----------
-    props, state : records, (n,)
-        Constants and committed states of bearings.
-
-    Returns
-    -------
-    int, str, or None
-        Its index, and slip and limit in words.
+    Shapes: props, state (n,).
     """
     for k, (p, at) in enumerate(zip(props, state, strict=True)):
         if is_about_to_snap(p, at):

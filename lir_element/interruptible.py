@@ -30,28 +30,7 @@ def interruptible(
     progress: Callable[[float], None] | None = None,
     room: Callable[[], int] | None = None,
 ) -> RunStatus:
-    """Take a compiled loop to its end in pieces of about `PIECE` seconds.
-
-    Parameters
-    ----------
-    advance : callable
-        ``advance(last, work)`` goes on until `last` units are done or `work` is spent; returns a
-        status code.
-    done : callable
-        ``done()`` returns the units done so far.
-    total : int
-        Units of the whole run.
-    progress : callable, optional
-        Called with the share done some fifty times.
-    room : callable, optional
-        Called before each piece: makes room for what the loop writes, and returns the last unit
-        that has some.
-
-    Returns
-    -------
-    RunStatus
-        How it ended; INTERRUPTED after Ctrl-C: what the loop has done until then is whole.
-    """
+    """Take a compiled loop to its end in pieces of about `PIECE` seconds."""
     stride = total if progress is None else max(1, -(-total // MARKS))
     work = FIRST_WORK
     try:
@@ -73,20 +52,7 @@ def interruptible(
 
 
 def ready(kernel: Callable[..., Any], *arguments: Any) -> float:
-    """Have a kernel compiled without calling it, so that what is timed is the computation alone.
-
-    Parameters
-    ----------
-    kernel : callable
-        The kernel.
-    *arguments : object
-        What it will be called with.
-
-    Returns
-    -------
-    float
-        Time it took [s].
-    """
+    """Have a kernel compiled without calling it, so that what is timed is the computation alone."""
     began = perf_counter()
     compile_for = getattr(kernel, "compile", None)  # a plain function where nothing is compiled
     kinds = kernel, *(_kind(value) for value in arguments)

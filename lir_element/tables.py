@@ -9,22 +9,7 @@ Rows = Sequence[Sequence[str]]
 
 
 def text_table(rows: Rows, head: Sequence[str] = (), left: int = 1) -> str:
-    """Return rows of cells as lines of text.
-
-    Parameters
-    ----------
-    rows : sequence of sequences of str
-        The cells; rows of one length.
-    head : sequence of str
-        Titles of the columns.
-    left : int
-        How many columns stand to the left, the others to the right.
-
-    Returns
-    -------
-    str
-        A line for each row.
-    """
+    """Return rows of cells as lines of text."""
     lines = [tuple(head), *map(tuple, rows)] if head else [tuple(row) for row in rows]
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
     return "\n".join(
@@ -37,24 +22,7 @@ def text_table(rows: Rows, head: Sequence[str] = (), left: int = 1) -> str:
 
 
 def html_table(title: str, rows: Rows, head: Sequence[str] = (), notes: Sequence[str] = ()) -> str:
-    """Return a table as HTML, everything escaped.
-
-    Parameters
-    ----------
-    title : str
-        Stands above it.
-    rows : sequence of sequences of str
-        The cells.
-    head : sequence of str
-        Titles of the columns.
-    notes : sequence of str
-        Sentences below it.
-
-    Returns
-    -------
-    str
-        For a notebook's `_repr_html_`.
-    """
+    """Return a table as HTML, everything escaped."""
 
     def line(tag: str, cells: Sequence[str]) -> str:
         return (

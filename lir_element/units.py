@@ -21,24 +21,7 @@ DENSITIES: Units = (("t/m3", 1e3), ("kg/mm3", 1e9))
 
 
 def meant(value: float, unit: str, units: Units, low: float, high: float) -> str:
-    """Return which unit makes a number of the wrong size a usual one, as the end of a sentence.
-
-    Parameters
-    ----------
-    value : float
-        The number as it was given.
-    unit : str
-        Its SI unit.
-    units : sequence of (str, float)
-        Units that it may have been meant in, and what one of them is in SI.
-    low, high : float
-        What is usual, in SI.
-
-    Returns
-    -------
-    str
-        As in "give m (80 mm are 0.08 m)"; the SI unit alone where none fits.
-    """
+    """Return which unit makes a number of the wrong size a usual one, as the end of a sentence."""
     fitting = [
         f"{value:.5g} {name} are {value * factor:.4g} {unit}"
         for name, factor in units

@@ -60,15 +60,7 @@ class Articulated:
     def force(self, path: FloatArray) -> FloatArray:
         """Return the force over the load along a path of displacements [m] from rest [-].
 
-        Parameters
-        ----------
-        path : ndarray, shape (n,)
-            Displacements; between the rims' total reach.
-
-        Returns
-        -------
-        ndarray, shape (n,)
-            The force, by bisection for the one at which both parts add up to the displacement.
+        Shapes: path (n,), result (n,).
         """
         places = (0.0, 0.0)
         forces = np.zeros(len(path))
@@ -99,23 +91,7 @@ class Articulated:
 
 
 def articulated(bearing: LIRBearing, *, moments: bool = False, share: float = 0.5) -> Articulated:
-    """Return the bearing with an articulated slider.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The device.
-    moments : bool
-        Whether the friction acts at the surfaces, as moment equilibrium of each part demands:
-        ``mu_i R_i / R_eff,i`` in place of mu_i.
-    share : float
-        Height of the hinge over the bottom surface, over the slider's height [-].
-
-    Returns
-    -------
-    Articulated
-        Its series model.
-    """
+    """Return the bearing with an articulated slider."""
     heights = (share * bearing.slider_height, (1.0 - share) * bearing.slider_height)
     first, second = (r - h for r, h in zip(bearing.radii, heights, strict=True))
     ratios = (first / bearing.radii[0], second / bearing.radii[1])

@@ -24,23 +24,7 @@ AXES = ("x", "y", "z")
 
 
 def body_motion(data: xr.Dataset, bearing: LIRBearing, name: str) -> xr.Dataset:
-    """Return displacements and rotations of the three bodies that move.
-
-    Parameters
-    ----------
-    data : Dataset
-        Result of `frames.time_history`; its bottom plate stays level.
-    bearing : LIRBearing
-        The device.
-    name : str
-        Its name in the Dataset.
-
-    Returns
-    -------
-    Dataset
-        `position` [m] and `rotation` [rad] over (time, body, axis). The sliders' points are the
-        middles of their heights on the axis, that of the top plate is its node.
-    """
+    """Return displacements and rotations of the three bodies that move."""
     if "body_position" in data:
         chosen = data.sel(bearing=name)
         position = chosen["body_position"].sel(body=list(BODIES)).to_numpy()
@@ -59,18 +43,6 @@ def rise(bearing: LIRBearing, displacement: FloatArray, slip: FloatArray) -> Flo
 
     The sphere centres lie ``sqrt(L^2 + s^2)`` apart, for the line between them has the part L along
     the slider's axis and the slip s across it.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The device.
-    displacement, slip : ndarray
-        Lateral displacement of the top plate and slip of the interface, sizes [m].
-
-    Returns
-    -------
-    ndarray
-        The rise.
     """
     length = bearing.effective_radius
     return np.asarray(length - np.sqrt(length**2 + slip**2 - displacement**2))

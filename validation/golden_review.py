@@ -53,31 +53,12 @@ class Review(NamedTuple):
 
 
 def projects() -> list[Path]:
-    """Return the projects' files.
-
-    Returns
-    -------
-    list of Path
-        By number.
-    """
+    """Return the projects' files."""
     return sorted((GOLDEN / "projects").glob("*.toml"))
 
 
 def prepared(project: Path, folder: Path) -> Path:
-    """Write a project with its motions into a folder.
-
-    Parameters
-    ----------
-    project : Path
-        One of `projects`.
-    folder : Path
-        Where; made anew.
-
-    Returns
-    -------
-    Path
-        The project's own folder.
-    """
+    """Write a project with its motions into a folder."""
     own = folder / project.stem
     shutil.rmtree(own, ignore_errors=True)
     own.mkdir(parents=True)
@@ -90,23 +71,7 @@ def prepared(project: Path, folder: Path) -> Path:
 
 
 def review(own: Path) -> Review:
-    """Run a prepared project and recompute what it reports.
-
-    Parameters
-    ----------
-    own : Path
-        Of `prepared`.
-
-    Returns
-    -------
-    Review
-        The comparison.
-
-    Raises
-    ------
-    RuntimeError
-        If `lir run` leaves no results, or they cannot be read.
-    """
+    """Run a prepared project and recompute what it reports."""
     done = _python(["-c", _RUN, "run", "--no-figures"], own)
     if done.returncode not in _RAN:
         msg = f"{own.name}: lir run ended with {done.returncode}: {done.stderr[-2000:]}"
@@ -115,23 +80,7 @@ def review(own: Path) -> Review:
 
 
 def recomputed(own: Path) -> Review:
-    """Recompute what the run of a project reports, from the files that it left.
-
-    Parameters
-    ----------
-    own : Path
-        The project's folder.
-
-    Returns
-    -------
-    Review
-        The comparison.
-
-    Raises
-    ------
-    RuntimeError
-        If the files cannot be read.
-    """
+    """Recompute what the run of a project reports, from the files that it left."""
     return Review(**json.loads(_script("recompute.py", own, "--json", fails=(0, 1))))
 
 
@@ -164,19 +113,7 @@ def _python(
 
 
 def table(reviews: dict[str, Review]) -> str:
-    """Return the comparisons of all projects by category.
-
-    Parameters
-    ----------
-    reviews : dict of str to Review
-        By project.
-
-    Returns
-    -------
-    str
-        A line a category: values, worst relative difference of those that agree, how many do not,
-        the tolerance and its reason; then what disagrees, and what was not recomputed.
-    """
+    """Return the comparisons of all projects by category."""
     counts: dict[str, int] = defaultdict(int)
     worst: dict[str, float] = defaultdict(float)
     bad: dict[str, int] = defaultdict(int)
@@ -202,18 +139,7 @@ def table(reviews: dict[str, Review]) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run and review all projects, or some.
-
-    Parameters
-    ----------
-    arguments : list of str, optional
-        Of the command line.
-
-    Returns
-    -------
-    int
-        1 where a number disagrees.
-    """
+    """Run and review all projects, or some."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("folder", nargs="?", type=Path)
     parser.add_argument("--only", nargs="+", default=[])

@@ -58,13 +58,7 @@ def bearings() -> dict[str, LIRBearing]:
 
 
 def end(bearing: LIRBearing, share: float, level: str) -> tuple[str, float]:
-    """Return how the turn after a slip of `share` of the held one ends.
-
-    Returns
-    -------
-    tuple
-        Status, and the slip that was left before it [m].
-    """
+    """Return how the turn after a slip of `share` of the held one ends."""
     capacity = bearing.lateral_capacity
     peak = capacity + share * bearing.slip_stability
     path = np.array([0.0, peak, 0.0, -0.5 * capacity, 0.0, 0.5 * capacity, 0.0])

@@ -45,18 +45,7 @@ class Mutation(NamedTuple):
 
 
 def mutations() -> list[Mutation]:
-    """Return the errors of the list, in its order.
-
-    Returns
-    -------
-    list of Mutation
-        Them.
-
-    Raises
-    ------
-    ValueError
-        If a text to be replaced does not occur exactly once in its file.
-    """
+    """Return the errors of the list, in its order."""
     known = tomllib.loads(LIST.read_text(encoding="utf-8"))
     found = []
     for entry in known["mutation"]:
@@ -81,25 +70,7 @@ def copied(target: Path) -> Path:
 
 
 def noticed(mutation: Mutation, copy: Path) -> str:
-    """Run the tests with an error in a copy and return the one that failed, "" if none did.
-
-    Parameters
-    ----------
-    mutation : Mutation
-        The error; it is taken out again.
-    copy : Path
-        Of `copied`.
-
-    Returns
-    -------
-    str
-        Name of the test.
-
-    Raises
-    ------
-    RuntimeError
-        If the tests could not be run.
-    """
+    """Run the tests with an error in a copy and return the one that failed, "" if none did."""
     sound = (copy / mutation.file).read_text(encoding="utf-8")
     wrong = sound.replace(mutation.old, mutation.new).encode()
     return first_failure(mutation.file, wrong, mutation.tests, copy)
@@ -108,31 +79,7 @@ def noticed(mutation: Mutation, copy: Path) -> str:
 def first_failure(
     file: str, wrong: bytes, tests: Sequence[str], copy: Path, longest: float | None = None
 ) -> str:
-    """Run tests with another content of a file and return the one that failed, "" if none did.
-
-    Parameters
-    ----------
-    file : str
-        The file; what it held is put back.
-    wrong : bytes
-        What it holds meanwhile.
-    tests : sequence of str
-        Files or names of tests, each run by itself until one fails.
-    copy : Path
-        Of `copied`.
-    longest : float, optional
-        Time that each may take [s]; one that takes longer counts as failed.
-
-    Returns
-    -------
-    str
-        Name of the test.
-
-    Raises
-    ------
-    RuntimeError
-        If the tests could not be run.
-    """
+    """Run tests with another content of a file and return the one that failed, "" if none did."""
     path = copy / file
     sound = path.read_bytes()
     path.write_bytes(wrong)

@@ -169,20 +169,7 @@ def records(claim: Claim) -> Path | None:
 
 
 def run(claim: Claim, make: Callable[[Path | None], Page]) -> Page | None:
-    """Make the page of a claim and write it, or print why it is skipped.
-
-    Parameters
-    ----------
-    claim : Claim
-        The claim.
-    make : callable
-        Makes the page from the folder of records, None where the claim needs none.
-
-    Returns
-    -------
-    Page or None
-        The page; None where it was skipped.
-    """
+    """Make the page of a claim and write it, or print why it is skipped."""
     folder = records(claim)
     if claim.record and folder is None:
         print(f"{claim.name}: skipped, for LIR_RECORDS names no folder that holds {claim.record}")

@@ -78,18 +78,7 @@ FINDINGS = (
 
 
 def random_project(seed: int, number: int) -> tuple[Document, str]:
-    """Return a project and what was put wrong in it.
-
-    Parameters
-    ----------
-    seed, number : int
-        Series and place in it.
-
-    Returns
-    -------
-    dict, str
-        Sections, and words; "" where nothing is wrong.
-    """
+    """Return a project and what was put wrong in it."""
     rng = np.random.default_rng([seed, number])
     document = sound(rng)
     if rng.random() < _FINE:
@@ -104,18 +93,7 @@ def random_project(seed: int, number: int) -> tuple[Document, str]:
 
 
 def written(document: Document) -> str:
-    """Return a project as TOML.
-
-    Parameters
-    ----------
-    document : dict
-        Sections; a key that ends in a space is written without it: a second time.
-
-    Returns
-    -------
-    str
-        The file.
-    """
+    """Return a project as TOML."""
     lines = []
     for section, keys in document.items():
         lines.append(f"[{section}]")
@@ -136,15 +114,7 @@ def _toml(value: Any) -> str:
 
 
 def motion_files(folder: Path, spoilt: str) -> None:
-    """Write one short motion and its table.
-
-    Parameters
-    ----------
-    folder : Path
-        Made.
-    spoilt : str
-        What is wrong of it; "" for nothing.
-    """
+    """Write one short motion and its table."""
     folder.mkdir(parents=True)
     time = np.arange(0.0, _SECONDS, _DT)
     bell = np.sin(np.pi * time / _SECONDS) ** 2
@@ -165,20 +135,7 @@ def motion_files(folder: Path, spoilt: str) -> None:
 
 
 def perform(number: int, *, seed: int, most: float = 1.0) -> Outcome:
-    """Check a project, run it where it can be, and judge what comes out.
-
-    Parameters
-    ----------
-    number, seed : int
-        Place and series.
-    most : float
-        Share of the projects that `lir check` takes that are run as well.
-
-    Returns
-    -------
-    Outcome
-        What became of it.
-    """
+    """Check a project, run it where it can be, and judge what comes out."""
     document, wrong = random_project(seed, number)
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
@@ -233,18 +190,7 @@ def _tells(said: str, wrong: str) -> bool:
 
 
 def table(found: Sequence[Outcome]) -> str:
-    """Return how often each kind of error ended how.
-
-    Parameters
-    ----------
-    found : sequence of Outcome
-        Of all projects.
-
-    Returns
-    -------
-    str
-        A row a kind of outcome, with an example; then all findings.
-    """
+    """Return how often each kind of error ended how."""
     counts = Counter(one.outcome for one in found)
     lines = [f"{len(found)} projects"]
     for outcome, count in counts.most_common():

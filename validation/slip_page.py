@@ -194,28 +194,7 @@ def page(
     rig: Sequence[tuple[str, ...]] = (),
     head: tuple[str, ...] = (),
 ) -> str:
-    """Return the page.
-
-    Parameters
-    ----------
-    found : sequence of dict
-        The test cases' numbers.
-    lost : sequence of str
-        Test cases without a report, and why.
-    call : str
-        What wrote the page.
-    before : sequence of dict
-        What the level 'pendulum' gave in the same test cases, earlier.
-    rig : sequence of tuple
-        Rows on the stable limit of interface slip.
-    head : tuple of str
-        Their headings.
-
-    Returns
-    -------
-    str
-        Markdown.
-    """
+    """Return the page."""
     met = [entry for entry in found if entry["factor"] is not None]
     groups: tuple[tuple[str, Callable[[Entry], bool]], ...] = (
         ("equal rims, no uplift", lambda e: not e["unequal"] and not e["rigid_body"]["lifts"]),

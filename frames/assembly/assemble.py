@@ -46,22 +46,6 @@ def assemble(
 ) -> System:
     """Check a frame and turn it into matrices.
 
-    Parameters
-    ----------
-    frame : Frame
-        The model; it is not changed.
-    features : Features, optional
-        What is modelled; everything if None.
-    with_points : collection of str
-        Bearings with contact points, which resist the rotation of their plates.
-
-    Returns
-    -------
-    System
-        The matrices over the free degrees of freedom.
-
-    Notes
-    -----
     A model that cannot work is refused with a `ModelError` that names the culprit: nothing to
     compute, parts without connection or support, no mass, or a mechanism (see
     `frames.assembly.check`).
@@ -138,17 +122,7 @@ def assemble(
 def member_axial_forces(system: System, q: FloatArray) -> FloatArray:
     """Return the axial forces of the members, tension positive.
 
-    Parameters
-    ----------
-    system : System
-        The assembled frame.
-    q : ndarray, (..., n_free)
-        Displacements of the free DOFs.
-
-    Returns
-    -------
-    ndarray, (..., n_members)
-        Axial force [N]; with a load along the member, the mean over its length.
+    Shapes: q (..., n_free), result (..., n_members).
     """
     table = system.members
     u = np.asarray(system.transform @ q.T).T
@@ -164,17 +138,7 @@ def member_axial_forces(system: System, q: FloatArray) -> FloatArray:
 def node_geometric_stiffness(system: System, axial_forces: FloatArray) -> SparseMatrix:
     """Assemble the geometric stiffness of the members over all nodal displacements.
 
-    Parameters
-    ----------
-    system : System
-        The assembled frame.
-    axial_forces : ndarray, (n_members,)
-        Axial forces, tension positive [N].
-
-    Returns
-    -------
-    csr_array, (6 n_nodes, 6 n_nodes)
-        Before elimination of supports and diaphragms; for reactions.
+    Shapes: axial_forces (n_members,), result (6 n_nodes, 6 n_nodes).
     """
     table = system.members
     local = table.geometric(axial_forces)
@@ -185,17 +149,7 @@ def node_geometric_stiffness(system: System, axial_forces: FloatArray) -> Sparse
 def geometric_stiffness(system: System, axial_forces: FloatArray) -> SparseMatrix:
     """Assemble the geometric stiffness of the members over the free DOFs.
 
-    Parameters
-    ----------
-    system : System
-        The assembled frame.
-    axial_forces : ndarray, (n_members,)
-        Axial forces, tension positive [N].
-
-    Returns
-    -------
-    csr_array, (n_free, n_free)
-        To be added to `system.stiffness`. The bearings' own second-order effect is not in it.
+    Shapes: axial_forces (n_members,), result (n_free, n_free).
     """
     return _project(system.transform, node_geometric_stiffness(system, axial_forces))
 
@@ -208,23 +162,8 @@ def member_end_forces(
 ) -> FloatArray:
     """Return the forces on both ends of each member in local axes.
 
-    Parameters
-    ----------
-    system : System
-        The assembled frame.
-    u : ndarray, (..., 6 n_nodes)
-        Nodal displacements, `transform @ q`.
-    axial_forces : ndarray, (n_members,), optional
-        Axial forces, tension positive [N], of the geometric stiffness in the analysis, if it had
-        one; the end forces are then in equilibrium with its loads.
-    places : ndarray of int, (n,), optional
-        Members asked for; all of them if None.
-
-    Returns
-    -------
-    ndarray, (..., n_members, 12)
-        Forces and moments on ends i and j, those of the length between its offsets, positive along
-        positive local displacements, with the fixed-end forces of its loads [N, N m].
+    Shapes: u (..., 6 n_nodes), axial_forces (n_members,), places (n,), result (..., n_members,
+    12).
     """
     table = system.members
     stiffness = table.stiffness
@@ -239,19 +178,7 @@ def member_end_forces(
 def scatter(blocks: FloatArray, nodes: IntArray, n_nodes: int) -> SparseMatrix:
     """Sum element matrices into a matrix over all nodal displacements.
 
-    Parameters
-    ----------
-    blocks : ndarray, (n, 12, 12)
-        Element matrices in global axes.
-    nodes : ndarray, (n, 2)
-        Node indices of the elements.
-    n_nodes : int
-        Number of nodes.
-
-    Returns
-    -------
-    csr_array, (6 n_nodes, 6 n_nodes)
-        The sum.
+    Shapes: blocks (n, 12, 12), nodes (n, 2), result (6 n_nodes, 6 n_nodes).
     """
     dofs = element_dofs(nodes)
     rows = np.repeat(dofs, 12, axis=1).ravel()

@@ -51,26 +51,7 @@ def touched_dofs(rows: SparseMatrix) -> IntArray:
 def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None) -> Basis:
     """Change a frame to bearing coordinates and all fixed-interface modes.
 
-    Parameters
-    ----------
-    system : System
-        Matrices over the free degrees of freedom.
-    geometric : csr_array, (n_free, n_free)
-        Geometric stiffness of the members.
-    damping : Damping or None
-        Damping of the structure. It acts on its motion relative to the one that follows the
-        bearings quasi-statically: what moves with the isolation is not damped. The damping matrix
-        of the system acts besides, as it is.
-
-    Returns
-    -------
-    Basis
-        The same frame in other coordinates.
-
-    Raises
-    ------
-    ModelError
-        If the structure over held bearings is unstable under its permanent loads.
+    Shapes: geometric (n_free, n_free).
     """
     elastic = system.stiffness.toarray()
     stiffness = elastic + geometric.toarray()
@@ -193,17 +174,7 @@ def _largest(system: System, direction: FloatArray, places: IntArray) -> str:
 def mode_damping(damping: Damping | None, omega2: FloatArray) -> tuple[FloatArray, float]:
     """Return damping constants of modes, and the factor of stiffness for the base's deformation.
 
-    Parameters
-    ----------
-    damping : Damping or None
-        Damping of the structure.
-    omega2 : ndarray, (n_e,)
-        Squared circular frequencies of the fixed-base modes [1/s2].
-
-    Returns
-    -------
-    ndarray, float
-        Constants (n_e,) [1/s]; the factor [s].
+    Shapes: omega2 (n_e,).
     """
     omega = np.sqrt(omega2)
     if isinstance(damping, ModalDamping):

@@ -39,18 +39,7 @@ NAMED = 4
 
 
 def check_connections(frame: FrameData) -> None:
-    """Refuse a frame without nodes, with loose nodes or with a part that has no support.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-
-    Raises
-    ------
-    ModelError
-        If something is missing; the message names the nodes.
-    """
+    """Refuse a frame without nodes, with loose nodes or with a part that has no support."""
     if not frame.nodes:
         message = f'frame "{frame.name}" has no nodes: add nodes, supports and members first'
         raise ModelError(message)
@@ -97,18 +86,7 @@ def check_connections(frame: FrameData) -> None:
 
 
 def check_mass(system: System) -> None:
-    """Refuse a system without free DOFs, or without mass where it can move.
-
-    Parameters
-    ----------
-    system : System
-        The assembled frame.
-
-    Raises
-    ------
-    ModelError
-        If nothing is free, or no free translation along x, y or z has mass.
-    """
+    """Refuse a system without free DOFs, or without mass where it can move."""
     if not system.dof_labels:
         message = "every degree of freedom is fixed: release what should move"
         raise ModelError(message)
@@ -139,18 +117,7 @@ def check_mass(system: System) -> None:
 def check_restraint(system: System, stiffness: SparseMatrix) -> None:
     """Refuse a mechanism and name the degrees of freedom that move without stiffness.
 
-    Parameters
-    ----------
-    system : System
-        The assembled frame.
-    stiffness : csr_array, (n_free, n_free)
-        Stiffness of members and springs, and of each bearing a spring along x, y and z. A bearing
-        does not restrain the rotation of its plates.
-
-    Raises
-    ------
-    ModelError
-        If a motion meets no stiffness.
+    Shapes: stiffness (n_free, n_free).
     """
     labels = system.dof_labels
     spans = np.ptp(system.coordinates, axis=0)
@@ -188,15 +155,7 @@ def free_motions(stiffness: SparseMatrix) -> FloatArray:
     comparable. Its smallest eigenvalues come from a dense solver for small matrices, from Lanczos
     iterations on the shifted inverse for large ones.
 
-    Parameters
-    ----------
-    stiffness : csr_array, (n, n)
-        Symmetric stiffness.
-
-    Returns
-    -------
-    ndarray, (n, n_motions)
-        Basis of the null space in the given DOFs, up to `MOTIONS` columns.
+    Shapes: stiffness (n, n), result (n, n_motions).
     """
     size = stiffness.shape[0]
     diagonal = stiffness.diagonal()

@@ -33,23 +33,8 @@ def free_dofs(
 ) -> tuple[SparseMatrix, tuple[str, ...]]:
     """Eliminate supports and diaphragms.
 
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    coordinates : ndarray, (n_nodes, 3)
-        Coordinates [m].
-    node_mass : ndarray, (n_nodes, 6)
-        Lumped masses; the masters of diaphragms sit at the centroid of their nodes' masses.
-    planar : bool
-        Hold uy, rx and rz of all nodes: the x-z plane alone.
-
-    Returns
-    -------
-    transform : csr_array, (6 n_nodes, n_free)
-        Nodal displacements are `transform @ q`.
-    labels : tuple of str, (n_free,)
-        Name of each free DOF, as "node ux" or "diaphragm (diaphragm) rz".
+    Shapes: coordinates (n_nodes, 3), node_mass (n_nodes, 6), transform (6 n_nodes, n_free), labels
+    (n_free,).
     """
     index = {name: place for place, name in enumerate(frame.nodes)}
     held = held_dofs(frame, planar=planar)
@@ -94,17 +79,7 @@ def held_dofs(frame: FrameData, *, planar: bool = False) -> dict[str, frozenset[
 def in_plane_rows(position: FloatArray, centre: FloatArray) -> FloatArray:
     """Return the matrix from (X, Y, RZ) of a diaphragm to (ux, uy, rz) of its nodes.
 
-    Parameters
-    ----------
-    position : ndarray, (n, 3)
-        Coordinates of the nodes [m].
-    centre : ndarray, (2,)
-        Coordinates x, y of the master point [m].
-
-    Returns
-    -------
-    ndarray, (n, 3, 3)
-        One 3 x 3 block per node [-], [m].
+    Shapes: position (n, 3), centre (2,), result (n, 3, 3).
     """
     block = np.zeros((position.shape[0], 3, 3))
     block[:] = np.eye(3)

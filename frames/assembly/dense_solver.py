@@ -21,26 +21,7 @@ def solve_positive(
 ) -> FloatArray:
     """Solve for right-hand sides, in scaled unknowns where round-off would show otherwise.
 
-    Parameters
-    ----------
-    matrix : ndarray, (n, n)
-        Symmetric, positive definite.
-    right : ndarray, (n, m)
-        Right-hand sides.
-    what : str
-        Of what it is the matrix, "stiffness".
-    labels : sequence of str, (n,)
-        Names of the unknowns.
-
-    Returns
-    -------
-    ndarray, (n, m)
-        The solutions.
-
-    Warns
-    -----
-    ModelWarning
-        If the scaled matrix is ill-conditioned as well.
+    Shapes: matrix (n, n), right (n, m), labels (n,), result (n, m).
     """
     with warnings.catch_warnings():
         warnings.simplefilter("error", linalg.LinAlgWarning)

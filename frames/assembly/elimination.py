@@ -23,19 +23,7 @@ _NEGATIVE = 1e-8  # of the diagonal, that round-off may take a mass below zero
 def eliminate(equations: SparseMatrix, scale: FloatArray) -> tuple[IntArray, SparseMatrix]:
     """Solve homogeneous linear equations for some of their unknowns.
 
-    Parameters
-    ----------
-    equations : csr_array, (m, n)
-        Equations ``equations @ q = 0``; those that repeat others drop out.
-    scale : ndarray, (n,)
-        Sizes of the unknowns that count alike (1 for translations, 1 / extent for rotations).
-
-    Returns
-    -------
-    kept : ndarray, (k,)
-        Places of the unknowns that stay free.
-    follow : csr_array, (n, k)
-        All unknowns from those, ``q = follow @ q[kept]``.
+    Shapes: equations (m, n), scale (n,), kept (k,), follow (n, k).
     """
     size = equations.shape[1]
     columns = np.unique(equations.indices).astype(np.int64)
@@ -90,24 +78,7 @@ def separate_massless(mass: SparseMatrix, labels: tuple[str, ...]) -> tuple[Spar
     Masses at the end of rigid links leave a mass matrix that is singular without having zero
     rows. Directions in which nothing moves that has mass get displacements of their own.
 
-    Parameters
-    ----------
-    mass : csr_array, (n, n)
-        Mass over the free displacements.
-    labels : tuple of str, (n,)
-        Their names.
-
-    Returns
-    -------
-    turn : csr_array, (n, n)
-        ``q = turn @ q_new``; the unit matrix where nothing is to be done.
-    massless : ndarray
-        Places of the new displacements without mass.
-
-    Raises
-    ------
-    ModelError
-        If there is a direction with negative mass.
+    Shapes: mass (n, n), labels (n,), turn (n, n).
     """
     size = mass.shape[0]
     turn = sparse.lil_array(sparse.eye_array(size))

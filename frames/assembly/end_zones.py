@@ -17,15 +17,7 @@ if TYPE_CHECKING:
 def rigid_arms(arms: FloatArray) -> FloatArray:
     """Return how the displacements of members' ends follow those of their nodes.
 
-    Parameters
-    ----------
-    arms : ndarray, (n, 2, 3)
-        From nodes i and j to the ends, in local axes [m].
-
-    Returns
-    -------
-    ndarray, (n, 12, 12)
-        ``u_ends = follow @ u_nodes`` in local axes; the identity without arms.
+    Shapes: arms (n, 2, 3), result (n, 12, 12).
     """
     follow = np.tile(np.eye(12), (len(arms), 1, 1))
     for end in (0, 1):
@@ -40,17 +32,7 @@ def rigid_arms(arms: FloatArray) -> FloatArray:
 def at_ends(forces: FloatArray, arms: FloatArray) -> FloatArray:
     """Return forces on the ends of members from the same forces taken on their nodes.
 
-    Parameters
-    ----------
-    forces : ndarray, (..., n, 12)
-        Forces and moments on the nodes, in local axes [N, N m].
-    arms : ndarray, (n, 2, 3)
-        From the nodes to the ends, in local axes [m].
-
-    Returns
-    -------
-    ndarray, (..., n, 12)
-        The same forces, and the moments about the ends: less by d x F.
+    Shapes: forces (..., n, 12), arms (n, 2, 3), result (..., n, 12).
     """
     if not arms.any():
         return forces
@@ -70,17 +52,7 @@ def arms_geometric_stiffness(arms: FloatArray, axial_force: FloatArray) -> Float
     stiffness :math:`\pm P (e d^T / 2 + d e^T / 2 - e \cdot d \, I)` on the node's rotation, plus at
     end j. A rigid column that leans with its node is the simplest case: P d.
 
-    Parameters
-    ----------
-    arms : ndarray, (n, 2, 3)
-        From nodes i and j to the ends, in local axes [m].
-    axial_force : ndarray, (n,)
-        Axial force, tension positive [N].
-
-    Returns
-    -------
-    ndarray, (n, 12, 12)
-        Symmetric, over the nodes' displacements in local axes [N m].
+    Shapes: arms (n, 2, 3), axial_force (n,), result (n, 12, 12).
     """
     found = np.zeros((len(arms), 12, 12))
     for end, sign in ((0, -1.0), (1, 1.0)):

@@ -24,24 +24,7 @@ def few_modes(k: SparseMatrix, m: SparseMatrix, count: int) -> NaturalModes:
     How many squared frequencies there are below the last one found is counted (Sylvester's law of
     inertia); where one was missed, all modes are found by `natural_modes`.
 
-    Parameters
-    ----------
-    k : csr_array, (n, n)
-        Stiffness, symmetric.
-    m : csr_array, (n, n)
-        Mass, symmetric and not negative; it may have rows of zeros.
-    count : int
-        How many are wanted, those of the longest periods.
-
-    Returns
-    -------
-    NaturalModes
-        As `natural_modes`, without static shapes.
-
-    Raises
-    ------
-    UnstableError
-        If the stiffness is not positive definite.
+    Shapes: k (n, n), m (n, n).
     """
     factors = positive_factors(k)
     if factors is None:

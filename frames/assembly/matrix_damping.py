@@ -32,20 +32,7 @@ def with_matrix_damping(
 ) -> Basis:
     """Add damping that is given as a matrix.
 
-    Parameters
-    ----------
-    basis : Basis
-        The frame without it.
-    damping, stiffness : ndarray or csr_array, (n_free, n_free)
-        Damping of the motion relative to the ground; stiffness, geometric part included.
-    still : ndarray, (n_free, n_still)
-        Directions without mass, which follow the rest statically.
-
-    Returns
-    -------
-    Basis
-        With full damping matrices where modes are coupled, and coordinates without mass where
-        massless ones lag.
+    Shapes: damping, stiffness (n_free, n_free), still (n_free, n_still).
     """
     basis = _with_lag(basis, damping, stiffness, still)
     to_b, to_e = basis.expand_b, basis.expand_e
@@ -63,19 +50,7 @@ def with_matrix_damping(
 def couples_massless(basis: Basis, damping: SparseMatrix, massless: IntArray) -> bool:
     """Return whether damping holds up degrees of freedom that have no mass.
 
-    Parameters
-    ----------
-    basis : Basis
-        The frame in shapes that leave what has no mass in equilibrium without damping.
-    damping : csr_array, (n_free, n_free)
-        The damping.
-    massless : ndarray, (n_massless,)
-        Places of what has no mass.
-
-    Returns
-    -------
-    bool
-        False where its forces there are round-off, or the damping follows the stiffness.
+    Shapes: damping (n_free, n_free), massless (n_massless,).
     """
     shapes = np.hstack([basis.expand_b, basis.expand_e])
     forces = np.abs(np.asarray(damping[massless] @ shapes))

@@ -65,19 +65,7 @@ def member_arrays(
 ) -> MemberArrays:
     """Gather the constants of members into arrays.
 
-    Parameters
-    ----------
-    sections : sequence of Section, (n,)
-        Section of each member.
-    start, end : ndarray, (n, 3)
-        Coordinates of the ends [m].
-    up : ndarray, (n, 3)
-        Vectors that fix the local axes; see `local_axes`.
-
-    Returns
-    -------
-    MemberArrays
-        The constants.
+    Shapes: sections (n,), start, end (n, 3), up (n, 3).
     """
     axes, length = local_axes(start, end, up)
     names = [name for name in MemberArrays._fields if name not in {"length", "axes"}]
@@ -95,15 +83,7 @@ def shear_parameters(members: MemberArrays) -> tuple[FloatArray, FloatArray]:
 
     Source: [Prz68] sec. 5.6.
 
-    Parameters
-    ----------
-    members : MemberArrays
-        Constants of the members.
-
-    Returns
-    -------
-    phi_y, phi_z : ndarray, (n,)
-        Shear parameters of the x-y and x-z planes [-]; 0 without shear deformation.
+    Shapes: phi_y, phi_z (n,).
     """
     m = members
     flexural = 12.0 * m.elastic_modulus / (m.shear_modulus * m.length**2)
@@ -115,15 +95,7 @@ def local_stiffness(members: MemberArrays) -> FloatArray:
 
     Source: [Prz68] sec. 5.6 (Timoshenko beam, exact for end loads).
 
-    Parameters
-    ----------
-    members : MemberArrays
-        Constants of the members.
-
-    Returns
-    -------
-    ndarray, (n, 12, 12)
-        Symmetric stiffness [N/m, N, N m].
+    Shapes: result (n, 12, 12).
     """
     m = members
     stiffness = np.zeros((m.length.size, 12, 12))
@@ -152,17 +124,7 @@ def local_geometric_stiffness(members: MemberArrays, axial_force: FloatArray) ->
     that a column with shear deformation buckles at Engesser's load. With no shear deformation it
     is [Prz68] eq. 15.18. Torsion: :math:`P I_p / (A L)`, [MGZ00] ch. 9, without warping.
 
-    Parameters
-    ----------
-    members : MemberArrays
-        Constants of the members.
-    axial_force : ndarray, (n,)
-        Axial force, tension positive [N].
-
-    Returns
-    -------
-    ndarray, (n, 12, 12)
-        Symmetric geometric stiffness [N/m, N, N m].
+    Shapes: axial_force (n,), result (n, 12, 12).
     """
     m = members
     stiffness = np.zeros((m.length.size, 12, 12))
@@ -190,17 +152,7 @@ def fixed_end_forces(members: MemberArrays, load: FloatArray) -> FloatArray:
     Ends: half the load each, moments q L^2 / 12; by symmetry shear deformation does not enter.
     The equivalent nodal loads are the opposite of these forces.
 
-    Parameters
-    ----------
-    members : MemberArrays
-        Constants of the members.
-    load : ndarray, (n, 3)
-        Load per unit length in global axes [N/m].
-
-    Returns
-    -------
-    ndarray, (n, 12)
-        Forces of the clamps on the member's ends [N, N m].
+    Shapes: load (n, 3), result (n, 12).
     """
     q = np.einsum("nab,nb->na", members.axes, load)
     half = -0.5 * q * members.length[:, None]
@@ -219,17 +171,7 @@ def released(stiffness: FloatArray, releases: Sequence[Sequence[int]]) -> FloatA
     Where an end is free of a moment, its own rotation is the one without it: the elastic stiffness
     is condensed (Guyan), and what is done to loads and to the geometric stiffness follows from it.
 
-    Parameters
-    ----------
-    stiffness : ndarray, (n, 12, 12)
-        Elastic stiffness in local axes.
-    releases : sequence of sequence of int, (n,)
-        Places of the free rotations among the 12 displacements, of each member.
-
-    Returns
-    -------
-    ndarray, (n, 12, 12)
-        ``u = follow @ u_nodes``; the identity without releases.
+    Shapes: stiffness (n, 12, 12), releases (n,), result (n, 12, 12).
     """
     follow = np.tile(np.eye(12), (len(stiffness), 1, 1))
     for place, given in enumerate(releases):
@@ -251,17 +193,7 @@ def spring_stiffness(lever: FloatArray, stiffness: FloatArray) -> FloatArray:
     nodes is free of force. Its deformation is :math:`u_j - u_i - \theta_i \times r` and
     :math:`\theta_j - \theta_i`, with r from node i to node j.
 
-    Parameters
-    ----------
-    lever : ndarray, (n, 3)
-        Vector r from node i to node j [m].
-    stiffness : ndarray, (n, 6)
-        Stiffness of the three translations [N/m] and the three rotations [N m/rad].
-
-    Returns
-    -------
-    ndarray, (n, 12, 12)
-        Symmetric stiffness [N/m, N, N m].
+    Shapes: lever (n, 3), stiffness (n, 6), result (n, 12, 12).
     """
     count = lever.shape[0]
     deformation = np.zeros((count, 6, 12))

@@ -51,25 +51,7 @@ class NaturalModes(NamedTuple):
 def natural_modes(k: FloatArray, m: FloatArray, count: int | None = None) -> NaturalModes:
     """Find the natural modes of a structure.
 
-    Parameters
-    ----------
-    k : ndarray, (n, n)
-        Stiffness, symmetric.
-    m : ndarray, (n, n)
-        Mass, symmetric and not negative; it may have rows of zeros.
-    count : int, optional
-        How many are wanted, those of the longest periods; all if None, and only then the static
-        shapes besides.
-
-    Returns
-    -------
-    NaturalModes
-        The modes that have mass: periods down to 1e-6 of the longest.
-
-    Raises
-    ------
-    UnstableError
-        If the stiffness is not positive definite.
+    Shapes: k (n, n), m (n, n).
     """
     size = len(k)
     scale = _scale(k)

@@ -23,23 +23,7 @@ def lumped_masses(
 ) -> tuple[FloatArray, FloatArray]:
     """Return the masses at the nodes: lumped ones, those of members, and those that loads make.
 
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    index : mapping of str to int
-        Place of each node.
-    members : MemberTable
-        Its members.
-    applied : AppliedLoads
-        Its loads along members.
-
-    Returns
-    -------
-    mass : ndarray, (n_nodes, 6)
-        All of it [kg, kg m2].
-    weighing : ndarray, (n_nodes, 6)
-        What of it weighs; the rest is in the loads already.
+    Shapes: mass (n_nodes, 6), weighing (n_nodes, 6).
     """
     mass = np.zeros((len(index), 6))
     for name, values in frame.masses.items():
@@ -64,23 +48,7 @@ def permanent_loads(
 ) -> FloatArray:
     """Return weights and permanent loads at the nodes, superelements left out.
 
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    index : mapping of str to int
-        Place of each node.
-    members : MemberTable
-        Its members, with the fixed-end forces of their loads.
-    weighing : ndarray, (n_nodes, 6)
-        Masses that weigh.
-    applied : AppliedLoads
-        Loads on end zones of members.
-
-    Returns
-    -------
-    ndarray, (6 n_nodes,)
-        Forces and moments [N, N m].
+    Shapes: weighing (n_nodes, 6), result (6 n_nodes,).
     """
     load = np.zeros((len(index), 6))
     load[:, 2] -= frame.weight_factor * frame.gravity * weighing[:, 2]

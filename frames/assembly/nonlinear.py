@@ -52,21 +52,7 @@ def nonlinear_parts(
 ) -> NonlinearParts:
     """Gather the nonlinear parts of a frame.
 
-    Parameters
-    ----------
-    frame : Frame
-        The frame.
-    index : dict
-        Places of the nodes by name.
-    coordinates : ndarray, (n_nodes, 3)
-        Coordinates [m].
-    members : MemberTable
-        The members, all elastic.
-
-    Returns
-    -------
-    NonlinearParts
-        The parts; none of them in a linear frame.
+    Shapes: coordinates (n_nodes, 3).
     """
     links, hinged = tuple(frame.links.values()), tuple(frame.hinges)
     kind, par, elastic, scale = [], [], [], []
@@ -109,19 +95,7 @@ def with_axial_forces(
     A hinge turns the member's end against its node, so that the geometric stiffness acts on what
     is left: a member that turns in hinges at both ends stays straight.
 
-    Parameters
-    ----------
-    parts : NonlinearParts
-        The parts.
-    members : MemberTable
-        The members.
-    axial_forces : ndarray, (n_members,)
-        Axial forces, tension positive [N].
-
-    Returns
-    -------
-    NonlinearParts
-        The same parts.
+    Shapes: axial_forces (n_members,).
     """
     if not parts.hinged:
         return parts

@@ -106,11 +106,6 @@ class RitzSpace:
 
         A turn takes three generations of what rigid motions excite, and one of what the bearings
         excite along their axes.
-
-        Returns
-        -------
-        int
-            How many there are now.
         """
         for _ in range(RIGID_A_TURN):
             self._rigid = self._next(self._rigid)
@@ -137,18 +132,7 @@ class RitzSpace:
         return np.asarray(self._mass @ vectors[:, :room])
 
     def basis(self) -> Basis:
-        """Return the frame in the bearings' coordinates and the vectors made so far.
-
-        Returns
-        -------
-        Basis
-            As of `build_basis`, with fewer modes.
-
-        Raises
-        ------
-        ModelError
-            If a damping matrix acts on what has no mass.
-        """
+        """Return the frame in the bearings' coordinates and the vectors made so far."""
         system, n_b = self._system, len(self._touched)
         omega2, turned = self._turned()
         phi = self._vectors @ turned

@@ -31,19 +31,7 @@ def span_end_forces(
 ) -> FloatArray:
     """Return the end forces of clamped members under tapered loads, in local axes.
 
-    Parameters
-    ----------
-    members : MemberArrays
-        Constants of the members.
-    place : mapping of str to int
-        Place of each member in the arrays.
-    spans : sequence of SpanLoad
-        The loads.
-
-    Returns
-    -------
-    ndarray, (n, 12)
-        Forces of the clamps on the members' ends [N, N m].
+    Shapes: result (n, 12).
     """
     forces = np.zeros((members.length.size, 12))
     if not spans:

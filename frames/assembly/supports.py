@@ -62,21 +62,7 @@ def load_path(
 ) -> LoadPath:
     """Compare what the bearings carry with the weight above them.
 
-    Parameters
-    ----------
-    system : System
-        The frame.
-    geometric : csr_array, (6 n_nodes, 6 n_nodes)
-        Geometric stiffness of the members before elimination.
-    displacement : ndarray, (n_free,)
-        Under permanent loads.
-    axial_forces : ndarray, (n_bearings,)
-        Of the bearings, compression positive [N].
-
-    Returns
-    -------
-    LoadPath
-        Sums over the parts of the structure that stand on a bearing.
+    Shapes: geometric (6 n_nodes, 6 n_nodes), displacement (n_free,), axial_forces (n_bearings,).
     """
     above = above_bearings(system)
     held = np.diff(system.transform.indptr)[2::6] == 0
@@ -95,15 +81,7 @@ def load_path(
 def above_bearings(system: System) -> BoolArray:
     """Return whether members, springs, superelements, ties or diaphragms join a node to a bearing.
 
-    Parameters
-    ----------
-    system : System
-        The assembled frame.
-
-    Returns
-    -------
-    ndarray of bool, (n_nodes,)
-        True where the node hangs together with the top of a bearing.
+    Shapes: result (n_nodes,).
     """
     count = len(system.node_names)
     of_node = sparse.csr_array(

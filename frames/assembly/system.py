@@ -62,15 +62,7 @@ class MemberTable:
     def geometric(self, axial_forces: FloatArray) -> FloatArray:
         """Return the geometric stiffness (n, 12, 12) in local axes, over the nodes' displacements.
 
-        Parameters
-        ----------
-        axial_forces : ndarray, (n,)
-            Axial forces, tension positive [N].
-
-        Returns
-        -------
-        ndarray, (n, 12, 12)
-            Symmetric [N/m, N, N m].
+        Shapes: axial_forces (n,), result (n, 12, 12).
         """
         own = local_geometric_stiffness(self.arrays, axial_forces)
         bent = np.asarray(self.follow.transpose(0, 2, 1) @ own @ self.follow)
@@ -168,14 +160,6 @@ class System:
 def element_dofs(nodes: IntArray) -> IntArray:
     """Return the places of two-node elements' displacements among all nodal ones.
 
-    Parameters
-    ----------
-    nodes : ndarray, (n, 2)
-        Node indices.
-
-    Returns
-    -------
-    ndarray, (n, 12)
-        Places in the vector of 6 displacements per node.
+    Shapes: nodes (n, 2), result (n, 12).
     """
     return (6 * nodes[:, :, None] + np.arange(6)).reshape(-1, 12)

@@ -89,22 +89,7 @@ def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
 def stack(
     rows: Sequence[RunResult], cases: Sequence[Case], digests: Mapping[str, str]
 ) -> xr.Dataset:
-    """Put rows together (docs/results.md).
-
-    Parameters
-    ----------
-    rows : sequence of RunResult
-        Of the runs done, in any order.
-    cases : sequence of Case
-        All of them.
-    digests : mapping of str to str
-        Of the motions by name, before they are scaled.
-
-    Returns
-    -------
-    xarray.Dataset
-        Runs in the order of the cases, without attributes.
-    """
+    """Put rows together (docs/results.md)."""
     rows = sorted(rows, key=lambda row: row.place)
     of = [cases[row.place] for row in rows]
     variables = _of_runs(rows) | _of_peaks(rows) | _of_reached(rows)

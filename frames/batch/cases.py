@@ -92,23 +92,7 @@ def _clock(seconds: float) -> str:
 
 
 def named_models(models: object) -> dict[str, FrameData]:
-    """Return structures by name.
-
-    Parameters
-    ----------
-    models : Frame, or a sequence or mapping of them
-        What was given.
-
-    Returns
-    -------
-    dict of str to Frame
-        By the names of a mapping, else by their own.
-
-    Raises
-    ------
-    TypeError, ValueError
-        If it is something else, holds none, or names are not unique.
-    """
+    """Return structures by name."""
     return _named("models", models, FrameData, "a Frame")
 
 
@@ -123,29 +107,7 @@ def grid(
     scales: object,
     cases: object,
 ) -> list[Case]:
-    """Return the cases in their order.
-
-    Parameters
-    ----------
-    models, motions : mapping
-        By name.
-    scales : float, sequence of float or None
-        Factors on the motions; None: 1.
-    cases : sequence of (str, str, float) or None
-        Cases in place of the grid.
-
-    Returns
-    -------
-    list of Case
-        Models, motions, scales: the last change first.
-
-    Raises
-    ------
-    ValueError
-        If both are given, or one is not known, or twice there.
-    TypeError
-        If they are of another kind.
-    """
+    """Return the cases in their order."""
     if cases is None:
         factors = _factors(scales)
         return [Case(m, g, s) for m in models for g in motions for s in factors]
@@ -237,23 +199,7 @@ def _own_name(value: object, otherwise: str) -> str:
 
 
 def tell(progress: object) -> Callable[[BatchProgress], None] | None:
-    """Return whom to tell how far the runs are: nobody, a function, or the standard error.
-
-    Parameters
-    ----------
-    progress : callable, bool or None
-        As given.
-
-    Returns
-    -------
-    callable or None
-        Called with a `BatchProgress`.
-
-    Raises
-    ------
-    TypeError
-        If it is something else.
-    """
+    """Return whom to tell how far the runs are: nobody, a function, or the standard error."""
     if progress is None or progress is False:
         return None
     if progress is True:

@@ -66,24 +66,7 @@ class KeptRuns:
         self._layouts: dict[str, Layout] = {}
 
     def rows(self, cases: Sequence[Case]) -> list[RunResult]:
-        """Return the runs of these cases that are there, each at its place among them.
-
-        Parameters
-        ----------
-        cases : sequence of Case
-            What is asked for.
-
-        Returns
-        -------
-        list of Row
-            Runs that were complete. A file that cannot be read, or holds another run, is none: its
-            run is done again.
-
-        Warns
-        -----
-        ModelWarning
-            If the folder holds runs, none of which is one of these.
-        """
+        """Return the runs of these cases that are there, each at its place among them."""
         found = []
         paths = [self._path(case) for case in cases]
         for place, path in enumerate(paths):
@@ -99,20 +82,7 @@ class KeptRuns:
         return found
 
     def keep(self, row: RunResult, case: Case) -> None:
-        """Write a run; not one of a structure without equilibrium, which takes no time.
-
-        Parameters
-        ----------
-        row : RunResult
-            The run.
-        case : Case
-            Which it is.
-
-        Raises
-        ------
-        OSError
-            If the file cannot be written.
-        """
+        """Write a run; not one of a structure without equilibrium, which takes no time."""
         if row.layout is None:
             return
         own = row._asdict()

@@ -66,31 +66,7 @@ def set_up(
     level: str | Mapping[str, str],
     recording: Recording | None = None,
 ) -> Structure:
-    """Bring a structure into equilibrium, once for all of its runs.
-
-    Parameters
-    ----------
-    model : Frame
-        The structure.
-    features : Features
-        What is modelled.
-    level : str or mapping
-        Levels of the bearings.
-    recording : Recording, optional
-        What is kept of histories.
-
-    Returns
-    -------
-    Structure
-        Shared by threads.
-
-    Raises
-    ------
-    ModelError, AnalysisError
-        As `gravity`.
-    ValueError
-        If the recording names what there is not.
-    """
+    """Bring a structure into equilibrium, once for all of its runs."""
     coupling = 0.0 if features.second_direction else plane_coupling(model)
     state = gravity(model, features, level)
     out, states, bodies = output_arrays(state.model, state.contacts, 1, part_sizes(state.parts))

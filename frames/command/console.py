@@ -28,20 +28,7 @@ out, err = Console(), Console(stderr=True)
 
 @contextmanager
 def told() -> Generator[None, None, None]:
-    """Tell errors as lines and leave with their exit code; each warning is a line, once.
-
-    Yields
-    ------
-    None
-        While the command works.
-
-    Raises
-    ------
-    typer.Exit
-        With the code of the error.
-    BrokenPipeError
-        If the output is read no longer.
-    """
+    """Tell errors as lines and leave with their exit code; each warning is a line, once."""
     from frames._errors import ModelError, MotionError, without_numbers
     from frames.design._errors import CheckError, ProjectError
     from frames.design.project.extensions import ANYWHERE, TOLD

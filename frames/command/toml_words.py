@@ -26,16 +26,6 @@ _WORDS = tuple(
 def in_toml(text: str) -> str:
     """Return a message with the remedies of Python as TOML has them.
 
-    Parameters
-    ----------
-    text : str
-        Of an error or a warning. One that names a Python file speaks of that file.
-
-    Returns
-    -------
-    str
-        In the words of a project's file.
-
     Examples
     --------
     >>> in_toml("raise it, or pass allow_weak_interface=True to study such a bearing")

@@ -26,15 +26,7 @@ class _CallablePackage(ModuleType):
 
 
 def make_callable(package: str, function: Callable[..., Any]) -> None:
-    """Let a package be called as a function.
-
-    Parameters
-    ----------
-    package : str
-        Its full name.
-    function : callable
-        What a call runs.
-    """
+    """Let a package be called as a function."""
     module = sys.modules[package]
     module._called = function  # type: ignore[attr-defined]
     module.__class__ = _CallablePackage

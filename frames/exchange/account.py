@@ -103,13 +103,7 @@ class Account:
         self._add(LEFT_OUT, table, what, names, weight, stiffness)
 
     def unknown(self, fields: Collection[tuple[str, str, Row, int]]) -> None:
-        """Doubt fields of known tables that are not known here, once for each table.
-
-        Parameters
-        ----------
-        fields : collection of (str, str, Row, int)
-            Table, field, first row and count, as `Tables.unknown` returns them.
-        """
+        """Doubt fields of known tables that are not known here, once for each table."""
         for table in dict.fromkeys(table for table, *_ in fields):
             said = {
                 f'{field} = "{row.values[field]}" (line {row.line}{_more(count)})': row
@@ -126,24 +120,7 @@ class Account:
     def refuse(
         self, key: str, table: str, what: str, names: Collection[str], place: str = ""
     ) -> None:
-        """Refuse objects whose loss would change the answer, or note them where `allow` has them.
-
-        Parameters
-        ----------
-        key : str
-            By which `allow` names them.
-        table, what : str
-            Which objects, and what would be done without them.
-        names : collection of str
-            Their names; none is no matter.
-        place : str
-            Where the first one stands.
-
-        Raises
-        ------
-        ModelError
-            If there are some and `allow` does not have the key.
-        """
+        """Refuse objects whose loss would change the answer, or note them where `allow` has them."""
         if not names:
             return
         if key not in self.allow:

@@ -87,19 +87,7 @@ class Loading:
     def put(
         self, frame: FrameEditor, slabs: Slabs, factors: Mapping[str, tuple[float, str]], own: bool
     ) -> None:
-        """Put the loads of patterns on a frame.
-
-        Parameters
-        ----------
-        frame : Frame
-            It is added to.
-        slabs : Slabs
-            Of that frame.
-        factors : mapping of str to (float, str)
-            Factor and case of each pattern.
-        own : bool
-            Whether the mass of elements is put on as well, as the case `OWN_MASS`.
-        """
+        """Put the loads of patterns on a frame."""
         building = self.building
         loads: list[LineLoad | AreaLoad | JointLoad] = [
             *building.line_loads,

@@ -22,23 +22,7 @@ _MESHED = "ETABS"
 
 
 def choose_shells(building: Building) -> list[AreaObject]:
-    """Return the areas whose stiffness counts: all but level ones in rigid diaphragms and decks.
-
-    Parameters
-    ----------
-    building : Building
-        Its account is added to. One-way decks that no diaphragm holds get one, if `allow` has it.
-
-    Returns
-    -------
-    list of AreaObject
-        The shells.
-
-    Raises
-    ------
-    ModelError
-        If a one-way deck is in no rigid diaphragm, and `allow` does not say that it is rigid.
-    """
+    """Return the areas whose stiffness counts: all but level ones in rigid diaphragms and decks."""
     sets = [set(c.joints) for c in building.constraints.values() if c.kind == "diaphragm"]
     found, flat, loose = [], [], []
     for area in building.areas.values():
@@ -64,22 +48,7 @@ def choose_shells(building: Building) -> list[AreaObject]:
 
 
 def meet_joints(building: Building, shells: list[AreaObject], points: Points) -> Inside:
-    """Return the joints within shells that their mesh has to meet.
-
-    Parameters
-    ----------
-    building : Building
-        Its account is added to.
-    shells : list of AreaObject
-        Of three or four corners.
-    points : dict of str to tuple
-        All joints [m].
-
-    Returns
-    -------
-    Inside
-        By area; none of SAP2000, where areas meet joints at their corners and edges alone.
-    """
+    """Return the joints within shells that their mesh has to meet."""
     inside = joints_within([area for area in shells if len(area.joints) <= 4], points)
     names = list(dict.fromkeys(joint for joints in inside.values() for joint in joints))
     if building.program == _MESHED:

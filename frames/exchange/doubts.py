@@ -33,19 +33,7 @@ MASS_OVER_WEIGHT = (0.5, 1.05)
 def doubt_weights(
     building: Building, shares: Mapping[str, float], source: MassSource, gravity: float
 ) -> None:
-    """Doubt materials without weight, and a mass that does not fit the permanent loads.
-
-    Parameters
-    ----------
-    building : Building
-        What was read; its account is added to.
-    shares : mapping of str to float
-        Factors of the patterns that are permanent loads, of live loads those in the mass source.
-    source : MassSource
-        What is mass.
-    gravity : float
-        Acceleration of gravity [m/s2].
-    """
+    """Doubt materials without weight, and a mass that does not fit the permanent loads."""
     account, size = building.account, _Sizes(building)
     heavy = [name for name, pattern in building.patterns.items() if pattern.self_weight]
     without = size.without_weight()
@@ -99,21 +87,7 @@ def doubt_weights(
 def doubt_base(
     frame: FrameData, building: Building, places: Places, options: Options, turned: list[str]
 ) -> None:
-    """Doubt supports that do not let the bearings carry what stands above them, and a light base.
-
-    Parameters
-    ----------
-    frame : Frame
-        Complete.
-    building : Building
-        What was read; its account is added to.
-    places : Places
-        Where bearings stand.
-    options : Options
-        Of the import.
-    turned : list of str
-        Joints on bearings whose rotations the supports hold.
-    """
+    """Doubt supports that do not let the bearings carry what stands above them, and a light base."""
     account = building.account
     tops = {part.j for part in frame.bearings.values()}
     if not tops:

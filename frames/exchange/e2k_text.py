@@ -67,25 +67,7 @@ _ALL_POSITIONAL = {"POINT", "LINE", "UNITS", "MASSSOURCELOAD"}
 
 
 def read_e2k(path: Path, decimal: Decimal = ".") -> Tables:
-    """Read the lines of an ETABS text file, by their first word.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    decimal : {".", ","}
-        Its decimal sign.
-
-    Returns
-    -------
-    Tables
-        One for each first word: rows of named values, "Section" being that of the file.
-
-    Raises
-    ------
-    ModelError
-        If it is no such file, ends early, or a line cannot be split.
-    """
+    """Read the lines of an ETABS text file, by their first word."""
     name = path.name
     tables = Tables(name)
     section, ended, begun = "", False, False

@@ -42,15 +42,7 @@ class Levels:
     def within(self, corners: FloatArray) -> dict[str, FloatArray]:
         """Return the joints inside of a level area and on its edges, and their places in plan.
 
-        Parameters
-        ----------
-        corners : ndarray, (n, 3)
-            Of the area, in order [m].
-
-        Returns
-        -------
-        dict of str to ndarray, (2,)
-            In the order of the joints; none where no joint is at its level.
+        Shapes: corners (n, 3), result (2,).
         """
         names, places = self._levels.get(level_of(float(corners[0, 2])), ([], np.zeros((0, 2))))
         outline = corners[:, :2]

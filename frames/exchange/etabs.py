@@ -75,31 +75,7 @@ def read_etabs(
     sections: Mapping[str, Section] | None = None,
     library: str | Path | Sequence[str | Path] = (),
 ) -> Building:
-    """Read an ETABS model.
-
-    Parameters
-    ----------
-    path : str or Path
-        A .e2k or .$et text file.
-    allow : collection of str
-        What may be left out although it changes the answer; the message of a refusal has the key.
-    decimal : {".", ","}
-        Decimal sign of the file: that of the Windows that wrote it.
-    sections : mapping of str to Section, optional
-        Constants of sections that the file has by the name of a catalogue alone.
-    library : str, Path or sequence of them
-        Property files of the program that have such sections by their names, AISC14.xml.
-
-    Returns
-    -------
-    Building
-        All that was read, in SI; `Building.account` says what became of the rest.
-
-    Raises
-    ------
-    ModelError
-        If the file cannot be used: the message has line, section and remedy.
-    """
+    """Read an ETABS model."""
     file = Path(path)
     tables = read_e2k(file, decimal)
     account = Account(file.name, allow)

@@ -19,13 +19,6 @@ def read_groups(tables: Tables, building: Building) -> None:
 
     A line names a group and an object of it: GROUP "ISO" POINT "12" "Base", GROUP "ISO" LINK "K1".
     A point that stands on a link brings this link along.
-
-    Parameters
-    ----------
-    tables : Tables
-        Of the file.
-    building : Building
-        It is added to; its account says which lines have another form.
     """
     odd = []
     for row in tables.rows("GROUP"):

@@ -49,14 +49,7 @@ class EtabsLinks:
             self._rows.setdefault(row.text("Link"), []).append(row)
 
     def read(self) -> None:
-        """Read links, and the properties that they have.
-
-        Raises
-        ------
-        ModelError
-            If something is missing or wrong, or a line is not understood and `allow` does not
-            have "links".
-        """
+        """Read links, and the properties that they have."""
         self._read_between()
         self._read_springs()
         building = self.building

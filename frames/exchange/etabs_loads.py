@@ -23,20 +23,7 @@ if TYPE_CHECKING:
 
 
 def read_loads(tables: Tables, building: Building) -> None:
-    """Read patterns, loads, mass source and combinations into a building.
-
-    Parameters
-    ----------
-    tables : Tables
-        Of the file.
-    building : Building
-        With its objects; it is added to.
-
-    Raises
-    ------
-    ModelError
-        If something is missing, wrong or not known.
-    """
+    """Read patterns, loads, mass source and combinations into a building."""
     rows = merged(tables.rows("LOADPATTERN"), "Pattern")
     old = merged([r for r in tables.rows("LOADCASE") if r.has("SELFWEIGHT")], "Case")
     for (name,), row in (rows or old).items():

@@ -56,13 +56,7 @@ class Objects:
         self._clear: list[str] = []
 
     def read(self) -> None:
-        """Read everything.
-
-        Raises
-        ------
-        ModelError
-            If something is missing, wrong or not known.
-        """
+        """Read everything."""
         one = self.building.units.length
         for row in self.tables.needed("POINT", "export the whole model"):
             name = row.text("Point")

@@ -34,20 +34,7 @@ OBJECT_FACTORS = (
 
 
 def merged(rows: Sequence[Row], *fields: str) -> dict[tuple[str, ...], Row]:
-    """Return one row for each object: its lines add up, a value that comes again replaces.
-
-    Parameters
-    ----------
-    rows : sequence of Row
-        Lines of one first word.
-    *fields : str
-        The fields that name an object.
-
-    Returns
-    -------
-    dict of tuple of str to Row
-        At the place of its first line.
-    """
+    """Return one row for each object: its lines add up, a value that comes again replaces."""
     found: dict[tuple[str, ...], Row] = {}
     for row in rows:
         key = tuple(row.text(field) for field in fields)
@@ -61,20 +48,7 @@ def merged(rows: Sequence[Row], *fields: str) -> dict[tuple[str, ...], Row]:
 
 
 def read_stories(tables: Tables, building: Building) -> None:
-    """Read the stories, which stand from the top; elevations are counted from the lowest.
-
-    Parameters
-    ----------
-    tables : Tables
-        Of the file.
-    building : Building
-        It is added to.
-
-    Raises
-    ------
-    ModelError
-        If there are none, several towers, or a height is missing or not positive.
-    """
+    """Read the stories, which stand from the top; elevations are counted from the lowest."""
     towers = tables.rows("TOWER")
     if len({row.text("Name", "") for row in towers}) > 1:
         message = "models of several towers are not read: export them one by one"
@@ -104,24 +78,7 @@ def read_properties(
     constants: Mapping[str, Section] | None = None,
     library: Mapping[str, Shape] | None = None,
 ) -> None:
-    """Read materials, and the sections that objects have.
-
-    Parameters
-    ----------
-    tables : Tables
-        Of the file.
-    building : Building
-        It is added to.
-    constants : mapping of str to Section, optional
-        Constants in place of those of the file, by name of a section.
-    library : mapping of str to Shape, optional
-        Constants of shapes that the file names alone, by label.
-
-    Raises
-    ------
-    ModelError
-        If a number is missing or wrong, or a section is not known here.
-    """
+    """Read materials, and the sections that objects have."""
     frames = {row.text("SECTION", "") for row in tables.rows("LINEASSIGN")}
     areas = {row.text("SECTION", "") for row in tables.rows("AREAASSIGN")}
     given = merged(tables.rows("FRAMESECTION"), "Section")
@@ -292,22 +249,7 @@ def _shell(row: Row, name: str, building: Building) -> AreaSection:
 
 
 def shell_factors(row: Row, pattern: str, building: Building) -> tuple[float, float]:
-    """Return the factors on in-plane and bending stiffness of a shell [-].
-
-    Parameters
-    ----------
-    row : Row
-        Of sections or assignments.
-    pattern : str
-        How a factor is called, by its letter and direction.
-    building : Building
-        Whose account refuses factors that differ by direction.
-
-    Returns
-    -------
-    tuple of float
-        Their means, which are they themselves where all directions have the same.
-    """
+    """Return the factors on in-plane and bending stiffness of a shell [-]."""
     found = []
     for letter in "FM":
         values = [row.number(pattern.format(letter, d), 1.0) for d in ("11", "22", "12")]

@@ -28,23 +28,6 @@ def read_excel(path: Path) -> Tables:
     """Read the tables of an .xlsx workbook.
 
     Each sheet begins with "TABLE:  Name", the names of the fields, and their units.
-
-    Parameters
-    ----------
-    path : Path
-        The workbook.
-
-    Returns
-    -------
-    Tables
-        All of them.
-
-    Raises
-    ------
-    ModelError
-        If it cannot be read or holds none.
-    ImportError
-        If openpyxl is not installed.
     """
     try:
         import openpyxl

@@ -33,27 +33,6 @@ def filled_section(
     Areas and inertias of the concrete count by its modulus over that of the steel, uncracked and
     bonded; torsion and shear by the shear moduli, each part for itself. Factors on mass and weight
     make them those of both materials.
-
-    Parameters
-    ----------
-    row : Row
-        Where it stands, with SHAPE.
-    name : str
-        Of the section.
-    sizes : tuple of float
-        Depth, width, thickness of flanges and of web [m]; of a pipe its diameter and thickness.
-    steel, fill : Material
-        Of the wall and of what fills it.
-
-    Returns
-    -------
-    FrameSection
-        Of the material of the steel.
-
-    Raises
-    ------
-    ModelError
-        If the dimensions do not fit, or the steel has no mass or weight and the concrete has.
     """
     shape = row.text("SHAPE")
     solid, hollow = ("circle", "pipe") if shape.strip().lower() == PIPE else ("rectangular", "tube")

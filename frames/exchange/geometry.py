@@ -32,17 +32,7 @@ def frame_axes(start: Point, end: Point, angle: float = 0.0) -> FloatArray:
     (sine of the angle to Z below 1e-3) 2 is +X; the angle turns 2 and 3 about 1.
     Source: CSI Analysis Reference Manual, "The Frame Element", local coordinate system.
 
-    Parameters
-    ----------
-    start, end : sequence of float, (3,)
-        Its joints [m].
-    angle : float
-        Of turn, right-handed about 1 [degrees].
-
-    Returns
-    -------
-    ndarray, (3, 3)
-        Rows are the unit vectors 1, 2, 3 in global components.
+    Shapes: start, end (3,), result (3, 3).
     """
     along = np.subtract(end, start)
     first = along / math.sqrt(along @ along)
@@ -61,17 +51,7 @@ def frame_axes(start: Point, end: Point, angle: float = 0.0) -> FloatArray:
 def area_normal(points: FloatArray) -> tuple[FloatArray, float]:
     """Return the unit normal of a plane polygon and its area [m2].
 
-    Parameters
-    ----------
-    points : ndarray, (n, 3)
-        Corners in order [m].
-
-    Returns
-    -------
-    normal : ndarray, (3,)
-        By the right hand around the corners; zero of a polygon without area.
-    area : float
-        Its area.
+    Shapes: points (n, 3), normal (3,).
     """
     centre = points.mean(axis=0)
     x, y, z = (points - centre).T
@@ -84,17 +64,7 @@ def area_normal(points: FloatArray) -> tuple[FloatArray, float]:
 def direction_of(word: str, axes: FloatArray | None) -> tuple[FloatArray, bool] | None:
     """Return the unit vector of a direction of loads, and whether it is per projected length.
 
-    Parameters
-    ----------
-    word : str
-        "Gravity", "X", "Y", "Z", "1", "2", "3", and "... Proj" of the global ones.
-    axes : ndarray, (3, 3), optional
-        Local axes of the object.
-
-    Returns
-    -------
-    tuple of ndarray (3,) and bool, or None
-        None for a word that is no direction.
+    Shapes: axes (3, 3), result (3,).
     """
     text = word.strip().lower()
     projected = "proj" in text
@@ -107,21 +77,7 @@ def direction_of(word: str, axes: FloatArray | None) -> tuple[FloatArray, bool] 
 
 
 def cardinal_shift(cardinal: int, depth: float, width: float) -> tuple[float, float]:
-    """Return where the centroid is from an insertion point of a doubly symmetric section.
-
-    Parameters
-    ----------
-    cardinal : int
-        1 to 9 from bottom left to top right, seen with 1 towards the viewer, 2 up and 3 to the
-        left; 10 is the centroid.
-    depth, width : float
-        Outer dimensions along 2 and 3 [m].
-
-    Returns
-    -------
-    tuple of float
-        Along 2 and along 3 [m].
-    """
+    """Return where the centroid is from an insertion point of a doubly symmetric section."""
     if not 1 <= cardinal <= 9:
         return 0.0, 0.0
     row, column = divmod(cardinal - 1, 3)

@@ -23,21 +23,7 @@ _STEPS = 30
 
 
 def joints_within(areas: Sequence[AreaObject], points: Points) -> Inside:
-    """Return the joints that lie within areas, not on their edges.
-
-    Parameters
-    ----------
-    areas : sequence of AreaObject
-        Of three or four corners.
-    points : dict of str to tuple
-        All joints [m].
-
-    Returns
-    -------
-    dict of str to dict of str to (float, float)
-        By area: joints, and the shares (u, v) at which the lines of a mesh of four corners meet in
-        them; of triangles the shares of its parallelogram.
-    """
+    """Return the joints that lie within areas, not on their edges."""
     names = list(points)
     where = np.array([points[name] for name in names]).reshape(-1, 3)
     tree = cKDTree(where)

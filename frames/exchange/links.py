@@ -41,27 +41,6 @@ def equivalent_bearing(link: LinkProperty, place: str, height: float = 0.0) -> L
     slides by u R_1 / L, and Q/W = 2 mu R_1 / L: so friction coefficients are the link's times
     L / (2 R_1), and the rate parameter is the link's times L / R_1. The slider is rigid, without
     rims; its axial stiffness is that of U1.
-
-    Parameters
-    ----------
-    link : LinkProperty
-        Of a friction isolator.
-    place : str
-        Where a link of it stands, for messages.
-    height : float
-        Height of the link, which plates above and below the slider fill [m]; 0 where its joints are
-        at one place.
-
-    Returns
-    -------
-    LIRBearing
-        The bearing; its slider's size is `SLIDER_HEIGHT`, or the link's if that is less, and
-        `SLIDER_RADIUS`. Its yield displacement is the default.
-
-    Raises
-    ------
-    ModelError
-        If radius or friction of U2 and U3 are missing, or differ.
     """
     shear = [link.dofs.get(name) for name in ("U2", "U3")]
     found = [dof.values for dof in shear if dof is not None and dof.nonlinear]
@@ -110,18 +89,6 @@ def yield_displacements(frame: FrameData, stiffness: Mapping[str, float]) -> dic
 
     The strength Q is reached at a displacement of Q / K, at which a surface has slid by its share
     R_i / L; Q is that of fast sliding under the permanent loads.
-
-    Parameters
-    ----------
-    frame : Frame
-        Complete, with its loads.
-    stiffness : mapping of str to float
-        K by bearing [N/m], > 0.
-
-    Returns
-    -------
-    dict of str to LIRBearing
-        Bearings that carry nothing have the load of the mean one.
     """
     system = assemble(frame)
     found = spring_forces(system, first_displacement(system))
@@ -162,13 +129,7 @@ class Links:
         self.stiffness: dict[str, float] = {}
 
     def add(self) -> None:
-        """Add all links.
-
-        Raises
-        ------
-        ModelError
-            If a link cannot be what it should.
-        """
+        """Add all links."""
         for name, link in self.building.links.items():
             prop = self.building.link_properties[link.property]
             if name in self.places.links:

@@ -80,22 +80,7 @@ class Sections:
 
 
 def add_members(frame: FrameEditor, divided: list[Divided], sections: Sections) -> None:
-    """Add the members of all frame objects to a frame that has their nodes.
-
-    Parameters
-    ----------
-    frame : Frame
-        It is added to.
-    divided : list of Divided
-        The frame objects.
-    sections : Sections
-        Their sections.
-
-    Raises
-    ------
-    ModelError
-        If stiff zones leave no length, or a member cannot be otherwise.
-    """
+    """Add the members of all frame objects to a frame that has their nodes."""
     for one in divided:
         given, last = one.frame, len(one.nodes) - 2
         for place, name in enumerate(one.members):
@@ -135,21 +120,6 @@ def add_line_load(
 ) -> None:
     """Add a load along a frame object, or a force on it, to its members and nodes.
 
-    Parameters
-    ----------
-    frame : Frame
-        With the members.
-    one : Divided
-        The frame object.
-    load : LineLoad
-        In shares of its length.
-    factor : float
-        By what it is multiplied [-].
-    case : str
-        Load case in the frame.
-
-    Notes
-    -----
     What acts on a stiff zone goes to its node as a force and a moment.
     """
     if load.point:

@@ -46,29 +46,7 @@ class Mesh:
 def mesh_areas(
     areas: Sequence[AreaObject], points: Points, size: float, inside: Inside | None = None
 ) -> Mesh:
-    """Divide areas into elements, and add their nodes to the points.
-
-    Parameters
-    ----------
-    areas : sequence of AreaObject
-        Of three or four corners.
-    points : dict of str to tuple
-        All nodes [m]; those of the mesh are added.
-    size : float
-        Longest side of an element [m], as far as corners and joints on edges allow.
-    inside : Inside, optional
-        Joints within areas which the mesh has to meet.
-
-    Returns
-    -------
-    Mesh
-        Its elements.
-
-    Raises
-    ------
-    ModelError
-        If an area has more corners, or is a triangle that would have to be divided.
-    """
+    """Divide areas into elements, and add their nodes to the points."""
     for area in areas:
         if len(area.joints) > 4:
             message = (

@@ -32,15 +32,7 @@ class Options:
     base_diaphragm: bool = True
 
     def __post_init__(self) -> None:
-        """Check what can be checked without the file.
-
-        Raises
-        ------
-        ModelError
-            If a value is out of its bounds.
-        TypeError
-            If it is of the wrong kind.
-        """
+        """Check what can be checked without the file."""
         choices = ("kept", "free", "fixed")
         require_choice("base_rotations", self.base_rotations, choices, error=ModelError)
         require_positive("mesh [m]", self.mesh, remedy="give metres", error=ModelError)

@@ -51,20 +51,6 @@ def pendulum_link(bearing: LIRBearing, load: float, displacement: float) -> Pend
     Q/W of a surface that slides by u R_i / L at a displacement u is mu_i R_i / L; its rate
     parameter counts for the speed of the bearing times R_i / L. Where the surfaces differ, the mean
     by what friction grows with the speed is taken. Rims, interface and slip have no link.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The bearing.
-    load : float
-        Axial load W [N], > 0.
-    displacement : float
-        D of the equivalent-linear analysis [m], > 0.
-
-    Returns
-    -------
-    PendulumLink
-        The link's numbers, in SI.
     """
     length = bearing.effective_radius
     shares = [radius / length for radius in bearing.radii]

@@ -18,23 +18,7 @@ END = "END TABLE DATA"
 
 
 def read_text(path: Path) -> str:
-    """Return the text of a file, whichever of the usual codes it is written in.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-
-    Returns
-    -------
-    str
-        Its text.
-
-    Raises
-    ------
-    ModelError
-        If there is no such file, or it is no text.
-    """
+    """Return the text of a file, whichever of the usual codes it is written in."""
     try:
         data = path.read_bytes()
     except OSError as cause:
@@ -57,25 +41,7 @@ _CODES = ("utf-8-sig", "cp1252", "latin-1")
 
 
 def read_s2k(path: Path, decimal: Decimal = ".") -> Tables:
-    """Read the tables of a .s2k or .$2k file.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    decimal : {".", ","}
-        Its decimal sign.
-
-    Returns
-    -------
-    Tables
-        All of them.
-
-    Raises
-    ------
-    ModelError
-        If it is no such file, ends early, or a line is not of that form.
-    """
+    """Read the tables of a .s2k or .$2k file."""
     name = path.name
     tables = Tables(name)
     rows: list[Row] = []

@@ -116,27 +116,7 @@ _OBJECTS = ("CONNECTIVITY", "CONSTRAINT DEFINITIONS", "JOINT ", "FRAME ", "AREA 
 def read_sap2000(
     path: str | Path, *, allow: Collection[str] = (), decimal: Decimal = "."
 ) -> Building:
-    """Read a SAP2000 model.
-
-    Parameters
-    ----------
-    path : str or Path
-        A .s2k or .$2k text file, or an .xlsx workbook with the same tables.
-    allow : collection of str
-        What may be left out although it changes the answer; the message of a refusal has the key.
-    decimal : {".", ","}
-        Decimal sign of a text file: that of the Windows that wrote it.
-
-    Returns
-    -------
-    Building
-        All that was read, in SI; `Building.account` says what became of the rest.
-
-    Raises
-    ------
-    ModelError
-        If the file cannot be used: the message has line, table and remedy.
-    """
+    """Read a SAP2000 model."""
     file = Path(path)
     tables = read_excel(file) if file.suffix.lower() in _BOOKS else read_s2k(file, decimal)
     account = Account(file.name, allow)

@@ -28,20 +28,7 @@ _FORCES, _MOMENTS = ("F1", "F2", "F3"), ("M1", "M2", "M3")
 
 
 def read_loads(tables: Tables, building: Building) -> None:
-    """Read patterns, loads, masses and combinations into a building.
-
-    Parameters
-    ----------
-    tables : Tables
-        Of the file.
-    building : Building
-        With its objects; it is added to.
-
-    Raises
-    ------
-    ModelError
-        If something is missing, wrong or not known.
-    """
+    """Read patterns, loads, masses and combinations into a building."""
     for name, row in by_name(tables.rows(PATTERNS), "LoadPat").items():
         kind, factor = row.text("DesignType", "Other"), row.number("SelfWtMult", 0.0)
         building.patterns[name] = Pattern(name, kind, factor)
@@ -77,24 +64,7 @@ def line_direction(
 ) -> tuple[FloatArray, float] | None:
     """Return the direction of a load along a frame object and the factor of its projection.
 
-    Parameters
-    ----------
-    row : Row
-        Where it stands.
-    building : Building
-        With the frame object.
-    frame, word, kind : str
-        The frame object, the direction's word, and "Force" or "Moment".
-
-    Returns
-    -------
-    tuple of ndarray (3,) and float, or None
-        None where `allow` accepts that it is left out.
-
-    Raises
-    ------
-    ModelError
-        If the word is no direction, or it is a moment along a frame.
+    Shapes: result (3,).
     """
     given = building.frames[frame]
     first, last = (building.joints[name].position for name in (given.i, given.j))
@@ -199,24 +169,7 @@ def _read_gravity(tables: Tables, building: Building) -> None:
 def area_direction(row: Row, building: Building, area: str, word: str) -> FloatArray:
     """Return the direction of a load on an area, times the factor of its projection (3,).
 
-    Parameters
-    ----------
-    row : Row
-        Where it stands.
-    building : Building
-        With the area.
-    area, word : str
-        The area, and the word of the direction.
-
-    Returns
-    -------
-    ndarray, (3,)
-        In global axes.
-
-    Raises
-    ------
-    ModelError
-        If it is none.
+    Shapes: result (3,).
     """
     points = np.array([building.joints[name].position for name in building.areas[area].joints])
     normal, _ = area_normal(points)

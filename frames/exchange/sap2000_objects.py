@@ -38,20 +38,7 @@ _GROUND = {"", "ground", "gnd", "none"}
 
 
 def read_objects(tables: Tables, building: Building) -> None:
-    """Read joints, frames, areas, links, supports, constraints and groups into a building.
-
-    Parameters
-    ----------
-    tables : Tables
-        Of the file.
-    building : Building
-        With its properties; it is added to.
-
-    Raises
-    ------
-    ModelError
-        If something is missing, wrong or not known.
-    """
+    """Read joints, frames, areas, links, supports, constraints and groups into a building."""
     for name, row in by_name(tables.needed(JOINTS, "export all tables"), "Joint").items():
         building.joints[name] = _joint(row, name, building)
     building.account.read(JOINTS, "joints", len(building.joints))

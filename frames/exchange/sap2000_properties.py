@@ -50,20 +50,7 @@ LINK_VALUES = {
 
 
 def read_properties(tables: Tables, building: Building) -> None:
-    """Read materials, sections and link properties into a building.
-
-    Parameters
-    ----------
-    tables : Tables
-        Of the file.
-    building : Building
-        It is added to.
-
-    Raises
-    ------
-    ModelError
-        If a number is missing or wrong, or a name is not known.
-    """
+    """Read materials, sections and link properties into a building."""
     frames, areas = (
         tables.rows("FRAME SECTION ASSIGNMENTS"),
         tables.rows("AREA SECTION ASSIGNMENTS"),
@@ -225,20 +212,7 @@ def _area_section(row: Row, name: str, building: Building) -> AreaSection:
 
 
 def shell_factors(row: Row, building: Building) -> tuple[float, float]:
-    """Return the factors on in-plane and bending stiffness of a shell [-].
-
-    Parameters
-    ----------
-    row : Row
-        Of sections or assignments, with F11Mod, f11 and so on.
-    building : Building
-        Whose account refuses factors that differ by direction.
-
-    Returns
-    -------
-    tuple of float
-        Their means, which are they themselves where all directions have the same.
-    """
+    """Return the factors on in-plane and bending stiffness of a shell [-]."""
     found = []
     for letter in "FM":
         names = [(f"{letter}{d}Mod", f"{letter.lower()}{d}") for d in ("11", "22", "12")]

@@ -26,23 +26,7 @@ class Shape(NamedTuple):
 
 
 def read_libraries(paths: str | Path | Sequence[str | Path]) -> dict[str, Shape]:
-    """Return the shapes of property files by their labels, in capitals.
-
-    Parameters
-    ----------
-    paths : str, Path or sequence of them
-        The files; of a label in several the first one counts.
-
-    Returns
-    -------
-    dict of str to Shape
-        Angles, channels, tees, I shapes, tubes and pipes.
-
-    Raises
-    ------
-    ModelError
-        If one is no such file: the message says where.
-    """
+    """Return the shapes of property files by their labels, in capitals."""
     given = [paths] if isinstance(paths, str | Path) else list(paths)
     found: dict[str, Shape] = {}
     for path in given:

@@ -27,27 +27,7 @@ _ANY = 1e9  # Pa: the constants of a shape are those of any material but for its
 def shape_constants(
     shape: str, sizes: tuple[float, float, float, float], poisson_ratio: float
 ) -> Section | None:
-    """Return the constants of a shape.
-
-    Parameters
-    ----------
-    shape : str
-        As the programs call it.
-    sizes : tuple of float
-        Depth, width, thickness of flanges and of web [m]; 0 for what it does not have.
-    poisson_ratio : float
-        Of the material [-].
-
-    Returns
-    -------
-    Section or None
-        Depth along local z; None of a shape that is not known here.
-
-    Raises
-    ------
-    ModelError
-        If the dimensions do not fit the shape.
-    """
+    """Return the constants of a shape."""
     word = shape.strip().lower()
     depth, width, flange, web = sizes
     if word in _SOLID:
@@ -75,29 +55,7 @@ def section_by_shape(
     sizes: tuple[float, float, float, float],
     poisson_ratio: float,
 ) -> FrameSection:
-    """Return a cross-section that is given by its shape.
-
-    Parameters
-    ----------
-    row : Row
-        Where it stands, for messages.
-    name, material, shape : str
-        As the file has them.
-    sizes : tuple of float
-        Depth, width, thickness of flanges and of web [m].
-    poisson_ratio : float
-        Of the material [-].
-
-    Returns
-    -------
-    FrameSection
-        Its constants; shear areas as `Section` has them.
-
-    Raises
-    ------
-    ModelError
-        If the shape is not known or its dimensions do not fit.
-    """
+    """Return a cross-section that is given by its shape."""
     try:
         if not sizes[0] and _ROLLED.fullmatch(shape.strip()):
             depth, width, flange, web, _ = catalogue_dimensions(shape)
@@ -125,23 +83,7 @@ def with_constants(
     found: Section,
     sizes: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0),
 ) -> FrameSection:
-    """Return a cross-section with the constants of a section, whose local z is axis 2.
-
-    Parameters
-    ----------
-    name, material, shape : str
-        As the file has them.
-    found : Section
-        With the constants; its own material does not count.
-    sizes : tuple of float
-        Depth, width and thicknesses [m]; without them depth and width are those of the rectangle
-        with the same area and inertia, for insertion points.
-
-    Returns
-    -------
-    FrameSection
-        The cross-section, its factors 1.
-    """
+    """Return a cross-section with the constants of a section, whose local z is axis 2."""
     depth = sizes[0] or math.sqrt(12.0 * found.inertia_y / found.area)
     width = sizes[1] or sizes[0] or found.area / depth
     return FrameSection(

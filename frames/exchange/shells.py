@@ -32,24 +32,7 @@ QUAD, TRIANGLE = "ShellMITC4", "ShellDKGT"
 
 
 def add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
-    """Add the stiffness of all shells to a frame that has their nodes.
-
-    Parameters
-    ----------
-    frame : Frame
-        It is added to: the superelement "shells" without mass and load.
-    building : Building
-        With areas, sections and materials.
-    mesh : Mesh
-        Their elements.
-
-    Raises
-    ------
-    ModelError
-        If OpenSees holds a model of its own, or an element cannot be.
-    ImportError
-        If openseespy is not installed.
-    """
+    """Add the stiffness of all shells to a frame that has their nodes."""
     if not mesh.elements:
         return
     ops = opensees()
@@ -134,21 +117,7 @@ def _part(
 
 
 def shell_numbers(building: Building, area: AreaObject) -> tuple[float, float, float, float]:
-    """Return what a shell's section is made of.
-
-    Parameters
-    ----------
-    building : Building
-        With sections and materials.
-    area : AreaObject
-        The area.
-
-    Returns
-    -------
-    tuple of float
-        Modulus of the membrane [Pa], Poisson's ratio [-], thickness [m], and the modulus of the
-        plate over that of the membrane [-].
-    """
+    """Return what a shell's section is made of."""
     section = building.area_sections[area.section]
     matter = building.materials[section.material]
     plane = section.in_plane * area.in_plane

@@ -29,15 +29,7 @@ def corner_shares(points: FloatArray) -> FloatArray:
     The polygon is cut into triangles from each corner in turn, a third of each goes to each of its
     corners, and the mean is taken: force and moments are those of the load.
 
-    Parameters
-    ----------
-    points : ndarray, (n, 3)
-        Corners in order [m].
-
-    Returns
-    -------
-    ndarray, (n,)
-        Shares, whose sum is 1.
+    Shapes: points (n, 3), result (n,).
     """
     count = len(points)
     normal, area = area_normal(points)
@@ -84,14 +76,7 @@ class Slabs:
     def add(self, area: AreaObject, load: FloatArray, case: str) -> None:
         """Add a load on an area.
 
-        Parameters
-        ----------
-        area : AreaObject
-            The area.
-        load : ndarray, (3,)
-            Per its own area, global axes [N/m2].
-        case : str
-            Load case.
+        Shapes: load (3,).
         """
         down = -float(load[2])
         if down > 0.0 and not load[:2].any():

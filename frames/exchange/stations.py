@@ -88,27 +88,7 @@ class Divided:
 def divide(
     building: Building, points: Points, loads: Mapping[str, Sequence[float]]
 ) -> list[Divided]:
-    """Divide all frame objects.
-
-    Parameters
-    ----------
-    building : Building
-        With the frame objects.
-    points : dict of str to tuple
-        All nodes [m]; nodes under point loads are added.
-    loads : mapping of str to sequence of float
-        Places of point loads by frame object, as shares of its length.
-
-    Returns
-    -------
-    list of Divided
-        One for each frame object.
-
-    Raises
-    ------
-    ModelError
-        If a frame object has no length, or a point between stiff zones cannot be.
-    """
+    """Divide all frame objects."""
     names = list(points)
     where = np.array([points[name] for name in names])
     tree = cKDTree(where)
@@ -212,20 +192,7 @@ def _at_loads(found: list[Divided], points: Points, loads: Mapping[str, Sequence
 
 
 def under_loads(found: list[Divided], joints: Points) -> dict[str, list[tuple[str, float]]]:
-    """Return the nodes under point loads, and by the rule of the lever those beside them.
-
-    Parameters
-    ----------
-    found : list of Divided
-        All frame objects.
-    joints : dict of str to tuple
-        Nodes that are there without point loads.
-
-    Returns
-    -------
-    dict of str to list of (str, float)
-        By node: the next joint towards i and towards j, with its share [-].
-    """
+    """Return the nodes under point loads, and by the rule of the lever those beside them."""
     beside = {}
     for one in found:
         real = [k for k, node in enumerate(one.nodes) if node in joints]

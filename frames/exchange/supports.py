@@ -102,29 +102,7 @@ def standing(building: Building) -> list[str]:
 def add_supports(
     frame: FrameEditor, building: Building, places: Places, options: Options
 ) -> list[str]:
-    """Fix supports, put bearings under joints, add springs to the ground.
-
-    Parameters
-    ----------
-    frame : Frame
-        With the nodes; it is added to.
-    building : Building
-        With its supports.
-    places : Places
-        Where bearings stand.
-    options : Options
-        Of the import.
-
-    Returns
-    -------
-    list of str
-        Joints on bearings whose rotations about horizontal axes are held.
-
-    Raises
-    ------
-    ModelError
-        If a bearing cannot stand where it should.
-    """
+    """Fix supports, put bearings under joints, add springs to the ground."""
     stay, turned = [joint for joint in building.restraints if joint not in places.joints], []
     for joint, held in building.restraints.items():
         if joint not in places.joints:
@@ -159,19 +137,7 @@ def add_supports(
 def add_constraints(
     frame: FrameEditor, building: Building, places: Places, options: Options
 ) -> None:
-    """Add diaphragms, bodies and equal displacements, and a base diaphragm over bearings.
-
-    Parameters
-    ----------
-    frame : Frame
-        With the nodes; it is added to.
-    building : Building
-        With its constraints.
-    places : Places
-        Where bearings stand.
-    options : Options
-        Of the import.
-    """
+    """Add diaphragms, bodies and equal displacements, and a base diaphragm over bearings."""
     plain = []
     for constraint in building.constraints.values():
         joints = [joint for joint in constraint.joints if joint in frame.nodes]

@@ -65,25 +65,7 @@ class Row:
         return all(self.values.get(field, "") != "" for field in fields)
 
     def text(self, field: str, default: str | None = None) -> str:
-        """Return a value as text; without a default it must be there.
-
-        Parameters
-        ----------
-        field : str
-            Name of the field.
-        default : str, optional
-            What an absent value stands for.
-
-        Returns
-        -------
-        str
-            The value; a whole number of a workbook without its ".0".
-
-        Raises
-        ------
-        ModelError
-            If there is none.
-        """
+        """Return a value as text; without a default it must be there."""
         self.looked_at.add(field)
         value = self.values.get(field, "")
         if value == "":
@@ -101,25 +83,7 @@ class Row:
         return value
 
     def number(self, field: str, default: float | None = None) -> float:
-        """Return a value as a finite number; without a default it must be there.
-
-        Parameters
-        ----------
-        field : str
-            Name of the field.
-        default : float, optional
-            What an absent value stands for.
-
-        Returns
-        -------
-        float
-            The number, in the units of the file.
-
-        Raises
-        ------
-        ModelError
-            If it is absent, no number or not finite.
-        """
+        """Return a value as a finite number; without a default it must be there."""
         self.looked_at.add(field)
         value = self.values.get(field, "")
         if value == "" and default is not None:
@@ -214,19 +178,7 @@ class Tables:
         return {name: len(self._rows[name]) for name in self if name not in self._read}
 
     def unknown(self, known: Mapping[str, str]) -> list[tuple[str, str, Row, int]]:
-        """Return fields that have a value, that nobody asked for and that are not known.
-
-        Parameters
-        ----------
-        known : mapping of str to str
-            Fields without effect by the beginning of a table's name, "" of every table. A field
-            with a value, "Mirror2=No", is without effect where it has this value; "*" is any field.
-
-        Returns
-        -------
-        list of (str, str, Row, int)
-            Table, field, the first row that has it, and how many have it.
-        """
+        """Return fields that have a value, that nobody asked for and that are not known."""
         found: dict[tuple[str, str], tuple[Row, int]] = {}
         for name in self:
             if name not in self._read:
@@ -245,25 +197,7 @@ class Tables:
 
 
 def by_name(rows: Sequence[Row], field: str) -> dict[str, Row]:
-    """Return rows by the text of a field; a name that comes twice is refused.
-
-    Parameters
-    ----------
-    rows : sequence of Row
-        Of one table.
-    field : str
-        The field with the name.
-
-    Returns
-    -------
-    dict of str to Row
-        In the order of the table.
-
-    Raises
-    ------
-    ModelError
-        If a name comes twice.
-    """
+    """Return rows by the text of a field; a name that comes twice is refused."""
     found: dict[str, Row] = {}
     for row in rows:
         name = row.text(field)

@@ -37,27 +37,7 @@ _KINDS = (
 
 
 def fill(frame: FrameEditor, building: Building, options: Options) -> dict[str, LIRBearing]:
-    """Add all of a building to an empty frame, on bearings.
-
-    Parameters
-    ----------
-    frame : Frame
-        It is added to.
-    building : Building
-        What was read; its account is added to.
-    options : Options
-        Of the import.
-
-    Returns
-    -------
-    dict of str to LIRBearing
-        Devices to be put in place of those of some bearings, now that their loads are known.
-
-    Raises
-    ------
-    ModelError
-        If something cannot be what it should; the message says where it stands in the file.
-    """
+    """Add all of a building to an empty frame, on bearings."""
     places = Places(building, options)
     factors = permanent(building, options)
     source = _source(building, options)
@@ -103,20 +83,7 @@ def fill(frame: FrameEditor, building: Building, options: Options) -> dict[str, 
 
 
 def permanent(building: Building, options: Options) -> dict[str, tuple[float, str]]:
-    """Return factor and case of the load patterns that are permanent loads of the frame.
-
-    Parameters
-    ----------
-    building : Building
-        With its patterns; its account notes those that are left out.
-    options : Options
-        As `permanent_shares`.
-
-    Returns
-    -------
-    dict of str to (float, str)
-        By pattern.
-    """
+    """Return factor and case of the load patterns that are permanent loads of the frame."""
     shares, account = permanent_shares(building, options), building.account
     account.left_out(
         "load patterns",
@@ -133,25 +100,7 @@ def permanent(building: Building, options: Options) -> dict[str, tuple[float, st
 
 
 def permanent_shares(building: Building, options: Options) -> dict[str, float]:
-    """Return the factors of the load patterns that are permanent loads of the frame.
-
-    Parameters
-    ----------
-    building : Building
-        With its patterns.
-    options : Options
-        Whose `loads` says which; None: dead loads, and others by their share in the mass source.
-
-    Returns
-    -------
-    dict of str to float
-        By pattern.
-
-    Raises
-    ------
-    ModelError
-        If a pattern or a combination is not known.
-    """
+    """Return the factors of the load patterns that are permanent loads of the frame."""
     given = options.loads
     if given == "all":
         given = {name: 1.0 for name, part in building.patterns.items() if case_of(part.kind)}

@@ -62,20 +62,7 @@ class Units:
 
 
 def link_scales(units: Units, *, turns: bool) -> dict[str, float]:
-    """Return by what the numbers of a link's deformation become SI, by their name in `LinkDof`.
-
-    Parameters
-    ----------
-    units : Units
-        Of the file.
-    turns : bool
-        Whether the deformation is a rotation.
-
-    Returns
-    -------
-    dict of str to float
-        Numbers that are not in it have no unit.
-    """
+    """Return by what the numbers of a link's deformation become SI, by their name in `LinkDof`."""
     factor = units.moment if turns else units.line
     return {
         "stiffness": factor,

@@ -14,26 +14,7 @@ MATERIALS = "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"
 def material_row(
     name: str, modulus: float, poisson_ratio: float, density: float, units: Units
 ) -> dict[str, Value]:
-    """Return the row of a material without weight: weights are loads of joints, as in a frame.
-
-    Parameters
-    ----------
-    name : str
-        Of the material.
-    modulus : float
-        Young's modulus [Pa].
-    poisson_ratio : float
-        [-].
-    density : float
-        [kg/m3].
-    units : Units
-        Of the file.
-
-    Returns
-    -------
-    dict of str to Value
-        The row.
-    """
+    """Return the row of a material without weight: weights are loads of joints, as in a frame."""
     return {
         "Material": name,
         "UnitWeight": 0.0,

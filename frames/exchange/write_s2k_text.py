@@ -12,18 +12,7 @@ Tables = dict[str, list[dict[str, Value]]]
 
 
 def text_of(tables: Tables) -> str:
-    """Return tables as the text that SAP2000 imports.
-
-    Parameters
-    ----------
-    tables : dict of str to list of dict
-        Rows by table.
-
-    Returns
-    -------
-    str
-        The text.
-    """
+    """Return tables as the text that SAP2000 imports."""
     lines = ["File written by lir-dcfp", " "]
     for name, rows in tables.items():
         lines.append(f'TABLE:  "{name}"')

@@ -27,18 +27,7 @@ _PLUMB = 1e-6
 
 
 def shell_parts(frame: FrameData) -> list[Superelement]:
-    """Return the superelements of a frame that are shells and nothing else.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-
-    Returns
-    -------
-    list of Superelement
-        Those that `Frame.from_sap2000` and `from_etabs` make of walls and slabs.
-    """
+    """Return the superelements of a frame that are shells and nothing else."""
     return [
         part
         for part in frame.superelements.values()
@@ -53,26 +42,6 @@ def shell_tables(frame: FrameData, units: Units, program: str) -> Tables:
 
     The modulus of the stiffer of membrane and plate is that of the material; a factor of the
     section makes the other one.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    units : Units
-        Of the file.
-    program : str
-        For messages.
-
-    Returns
-    -------
-    dict of str to list of dict
-        Rows by table.
-
-    Raises
-    ------
-    ModelError
-        If a shell lies within a rigid diaphragm, where it would be read as a slab that is not
-        stiff.
     """
     elements = [shell for part in shell_parts(frame) for shell in part.elements.shells]
     diaphragms = [(part.name, set(part.nodes)) for part in frame.diaphragms.values()]
@@ -109,22 +78,7 @@ def shell_tables(frame: FrameData, units: Units, program: str) -> Tables:
 
 
 def shell_lines(frame: FrameData, tables: Tables, places: EtabsPlaces) -> dict[str, list[str]]:
-    """Return the lines of shells of an ETABS text, by section of the text.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    tables : dict of str to list of dict
-        With those of `shell_tables`.
-    places : EtabsPlaces
-        Points and stories of its nodes.
-
-    Returns
-    -------
-    dict of str to list of str
-        Properties, connectivities and assignments.
-    """
+    """Return the lines of shells of an ETABS text, by section of the text."""
     found: dict[str, list[str]] = {f"{what} PROPERTIES": [] for what in ("SLAB", "WALL")}
     areas, assigns = [], []
     for row in tables.get(SECTIONS, []):

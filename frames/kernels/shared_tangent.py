@@ -190,26 +190,9 @@ def with_secants(
 ) -> int:
     """Improve Newton's correction `x` by what the ones before it did: Broyden's method.
 
-    Parameters
-    ----------
-    weights : (n_b,)
-        Of the coordinates in scalar products.
-    corrections, linear, sizes : (m, n_b), (m, n_b), (m,)
-        The corrections since the tangent was renewed, what the linear structure makes of them, and
-        their squared sizes; the new one joins them.
-    count : int
-        How many these are.
-    x, flow : (n_b,)
-        The correction by the kept tangent, and what the linear structure makes of it: overwritten.
-
-    Returns
-    -------
-    int
-        How many corrections are kept now.
-
-    Notes
-    -----
     Kelley 1995, Iterative Methods for Linear and Nonlinear Equations, algorithm brsol.
+
+    Shapes: weights (n_b,), corrections, linear, sizes (m, n_b), x, flow (n_b,).
     """
     n_b = x.shape[0]
     if count == sizes.shape[0]:

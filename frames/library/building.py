@@ -26,35 +26,7 @@ def build(
     damping: Damping | None = DEFAULT_DAMPING,
     gravity: float = STANDARD_GRAVITY,
 ) -> Frame:
-    """Return the frame of a building, without loads and masses but those of its members.
-
-    Parameters
-    ----------
-    plan : BuildingPlan
-        The building.
-    bearing : LIRBearing
-        Under each column of the first storey.
-    name : str
-        Name of the model.
-    damping : RayleighDamping, ModalDamping or None
-        Damping of the structure; default 2 per cent in every mode.
-    gravity : float
-        Acceleration of gravity [m/s2].
-
-    Returns
-    -------
-    Frame
-        Levels "base", "floor-1", ... with nodes "<level>-<line>", a diaphragm for what beams join
-        on each; fixed nodes "ground-<line>", bearings "bearing-<line>", members
-        "column-<storey>-<line>" and "<name of the beam>-<level>-<line>" with the line that
-        it begins at; where several begin there, the line that it ends at follows; walls and
-        braces as in `frames.library.building_walls`.
-
-    Raises
-    ------
-    ModelError
-        If a column or beam does not go from node to node, or a node hangs in the air.
-    """
+    """Return the frame of a building, without loads and masses but those of its members."""
     require_device("bearing", bearing)
     require_whole(plan)
     frame = Frame(name, gravity)

@@ -14,18 +14,7 @@ if TYPE_CHECKING:
 
 
 def require_whole(plan: BuildingPlan) -> None:
-    """Refuse a plan whose parts do not meet.
-
-    Parameters
-    ----------
-    plan : BuildingPlan
-        The building.
-
-    Raises
-    ------
-    ModelError
-        If a column, beam, brace or wall does not begin and end where there is something.
-    """
+    """Refuse a plan whose parts do not meet."""
     _require_walls(plan)
     count = len(plan.heights)
     for part in plan.columns:

@@ -52,24 +52,7 @@ def load_floors(
     pressures: Pressures,
     span: Span | None = None,
 ) -> None:
-    """Put loads on the floors of a building: on each field that beams enclose.
-
-    Parameters
-    ----------
-    frame : Frame
-        The building; it is changed.
-    edges : sequence of list of (str, str)
-        Beams of each level from node to node, the base first.
-    pressures : Pressures
-        The loads. A field is roof where no field of a level above lies over its middle.
-    span : {None, "x", "y"}
-        As in `Frame.add_floor_load`.
-
-    Raises
-    ------
-    ModelError
-        If a level has no field, one is not convex, or beams cross.
-    """
+    """Put loads on the floors of a building: on each field that beams enclose."""
     points = {name: (node.x, node.y) for name, node in frame.nodes.items()}
     levels = [fields_of(points, own, level_name(k)) for k, own in enumerate(edges)]
     members = {frozenset((m.i, m.j)): key for key, m in frame.members.items()}
@@ -106,18 +89,6 @@ def move_loads(frame: Frame, eccentricity: tuple[float, float]) -> None:
     """Move the centre of the loads of each level, case by case, by forces on its nodes.
 
     The loads of the nodes rise linearly towards where the centre goes; their sum stays.
-
-    Parameters
-    ----------
-    frame : Frame
-        A building whose loads are all vertical; it is changed.
-    eccentricity : (float, float)
-        How far along x and y, over the sides of the plan of the level [-].
-
-    Raises
-    ------
-    ModelError
-        If a node would be left without load.
     """
     if not any(eccentricity):
         return
@@ -163,15 +134,7 @@ def _tilted(
 
 
 def add_base_inertia(frame: Frame, depth: float) -> None:
-    """Give the nodes above the bearings the rotary inertia of their mass over a depth.
-
-    Parameters
-    ----------
-    frame : Frame
-        The building with its loads and its mass source; it is changed.
-    depth : float
-        Depth of base beams with their slab [m]: about x and y nodes get m depth^2 / 12.
-    """
+    """Give the nodes above the bearings the rotary inertia of their mass over a depth."""
     masses = load_masses(frame, applied_loads(frame))
     for link in frame.bearings.values():
         inertia = masses.get(link.j, 0.0) * depth**2 / 12.0

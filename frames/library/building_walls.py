@@ -23,22 +23,7 @@ HINGED = {"i": ("My", "Mz"), "j": ("T", "My", "Mz")}
 
 
 def add_wall_nodes(frame: Frame, plan: BuildingPlan, level: int) -> list[str]:
-    """Add the nodes on the axes of the walls of a level, midway between their ends.
-
-    Parameters
-    ----------
-    frame : Frame
-        The frame under construction, with the nodes of the lines at that level.
-    plan : BuildingPlan
-        The building.
-    level : int
-        The level.
-
-    Returns
-    -------
-    list of str
-        Their names.
-    """
+    """Add the nodes on the axes of the walls of a level, midway between their ends."""
     floor, found = level_name(level), []
     for wall in plan.walls_at(level):
         one, other = (frame.nodes[f"{floor}-{end}"] for end in (wall.start, wall.end))
@@ -49,17 +34,7 @@ def add_wall_nodes(frame: Frame, plan: BuildingPlan, level: int) -> list[str]:
 
 
 def add_walls(frame: Frame, plan: BuildingPlan, storey: int) -> None:
-    """Add the walls of a storey: members "wall-<storey>-<start>-<end>".
-
-    Parameters
-    ----------
-    frame : Frame
-        The frame under construction, with the nodes of the walls.
-    plan : BuildingPlan
-        The building.
-    storey : int
-        The storey.
-    """
+    """Add the walls of a storey: members "wall-<storey>-<start>-<end>"."""
     for wall in plan.walls_at(storey):
         foot, head = wall_node(wall, storey - 1), wall_node(wall, storey)
         name = f"wall-{storey}-{wall.start}-{wall.end}"
@@ -67,17 +42,7 @@ def add_walls(frame: Frame, plan: BuildingPlan, storey: int) -> None:
 
 
 def add_arms(frame: Frame, plan: BuildingPlan, level: int) -> None:
-    """Add the arms of the walls of a level, from their ends to their axes, without mass.
-
-    Parameters
-    ----------
-    frame : Frame
-        The frame under construction, with the nodes of the walls.
-    plan : BuildingPlan
-        The building.
-    level : int
-        The level.
-    """
+    """Add the arms of the walls of a level, from their ends to their axes, without mass."""
     floor = level_name(level)
     for wall in plan.walls_at(level):
         for end in (wall.start, wall.end):
@@ -107,17 +72,7 @@ def _along(plan: BuildingPlan, wall: WallPart) -> tuple[float, float, float]:
 
 
 def add_braces(frame: Frame, plan: BuildingPlan, storey: int) -> None:
-    """Add the rods of a storey: members "brace-<storey>-<start>-<end>", from foot to head.
-
-    Parameters
-    ----------
-    frame : Frame
-        The frame under construction, with the nodes of both levels.
-    plan : BuildingPlan
-        The building.
-    storey : int
-        The storey.
-    """
+    """Add the rods of a storey: members "brace-<storey>-<start>-<end>", from foot to head."""
     below, floor = level_name(storey - 1), level_name(storey)
     for rod in (rod for rod in plan.braces if rod.storey == storey):
         name = f"brace-{storey}-{rod.start}-{rod.end}"

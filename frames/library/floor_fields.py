@@ -30,27 +30,7 @@ class Fields(NamedTuple):
 
 
 def fields_of(points: Mapping[str, Point], beams: Iterable[tuple[str, str]], where: str) -> Fields:
-    """Return the fields that beams enclose, each without a beam across it.
-
-    Parameters
-    ----------
-    points : mapping of str to (float, float)
-        Where beams end, by name [m].
-    beams : iterable of (str, str)
-        Beams from point to point.
-    where : str
-        What floor it is, for messages.
-
-    Returns
-    -------
-    Fields
-        All faces of the plan but the outer one.
-
-    Raises
-    ------
-    ModelError
-        If beams cross between their ends, or lie on each other.
-    """
+    """Return the fields that beams enclose, each without a beam across it."""
     edges = [tuple(sorted(beam)) for beam in beams]
     _require_plane(points, edges, where)
     around: dict[str, set[str]] = {}

@@ -34,30 +34,7 @@ def bearing_grid(
 
     The base is level: ground nodes under bearings of less height stand higher.
 
-    Parameters
-    ----------
-    frame : Frame
-        The frame under construction.
-    bearing : LIRBearing or mapping
-        One bearing for every place, or one for each.
-    places : sequence of (ix, iy)
-        The grid.
-    width : tuple of two floats
-        Bay widths along x and y [m].
-    corner : tuple of two floats
-        Coordinates of place (0, 0) [m].
-
-    Returns
-    -------
-    float
-        Elevation of the nodes "base-<ix>-<iy>" [m].
-
-    Raises
-    ------
-    ModelError
-        If the mapping lacks a place of the grid or has one outside.
-    TypeError
-        If a device is no bearing.
+    Shapes: places (ix, iy).
     """
     chosen = bearing if isinstance(bearing, Mapping) else dict.fromkeys(places, bearing)
     missing = [place for place in places if place not in chosen]
@@ -85,27 +62,7 @@ def bearing_grid(
 def pair(
     value: float | tuple[float, float], what: str, *, count: bool = False
 ) -> tuple[float, float]:
-    """Accept one number for both horizontal directions, or two.
-
-    Parameters
-    ----------
-    value : float or tuple of two floats
-        What the caller gave, > 0.
-    what : str
-        What it is, as the message should call it.
-    count : bool
-        Whether the numbers must be whole.
-
-    Returns
-    -------
-    tuple of two floats
-        The numbers for x and y.
-
-    Raises
-    ------
-    ModelError
-        If there are not one or two numbers, or a count is not whole.
-    """
+    """Accept one number for both horizontal directions, or two."""
     values = tuple(value) if isinstance(value, Sequence) else (value, value)
     if len(values) != 2:
         message = f"{what} = {value!r} must be one number, or two for x and y"

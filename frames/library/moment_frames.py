@@ -167,30 +167,7 @@ def tributary_masses(
     per_area: float,
     eccentricity: tuple[float, float],
 ) -> dict[tuple[int, int], float]:
-    """Return the masses of the nodes of a floor, by tributary area.
-
-    Parameters
-    ----------
-    bays : tuple of two ints
-        Numbers of bays along x and y.
-    width : tuple of two floats
-        Bay widths along x and y [m].
-    per_area : float
-        Mass of the floor [kg/m2].
-    eccentricity : tuple of two floats
-        Of the centre of mass from the middle, over the sides of the plan [-]: the masses rise
-        linearly towards it.
-
-    Returns
-    -------
-    dict of (int, int) to float
-        Mass at each place (ix, iy) [kg].
-
-    Raises
-    ------
-    ModelError
-        If the eccentricity would leave columns without mass.
-    """
+    """Return the masses of the nodes of a floor, by tributary area."""
     shares, places = [], []  # of each direction: masses of its lines, and lines from the middle
     for n, span, off in zip(bays, width, eccentricity, strict=True):
         ratio = require_finite("moment_frame: eccentricity [-]", off, error=ModelError)

@@ -39,29 +39,6 @@ class _Floor(NamedTuple):
 def with_moved_masses(frame: Frame, shares: tuple[float, float], name: str | None = None) -> Frame:
     """Return a copy of a frame whose floors' masses are moved in plan; what they weigh stays.
 
-    Parameters
-    ----------
-    frame : Frame
-        The structure on its bearings.
-    shares : tuple of two floats
-        Along x and y, over the sides of each floor's plan [-]: ``(0.05, 0.0)`` moves the masses of
-        every floor by 5 % of its side along x towards +x.
-    name : str, optional
-        Name of the copy; that of the frame if None.
-
-    Returns
-    -------
-    Frame
-        With the superelement "moved-masses", which is mass alone.
-
-    Raises
-    ------
-    ModelError
-        If a share is out of bounds, the frame has a superelement of that name, or a floor has
-        no extent that way or cannot turn about the vertical.
-
-    Notes
-    -----
     Floors are the levels of the frame, or the elevations of its masses above the bearings where it
     has none; a mass belongs to the nearest. Where masses stand at several nodes of a floor each
     becomes ``m (1 + a (s - s_c))`` along the axis s, with ``a = c M / sum(m (s - s_c)^2)``, which

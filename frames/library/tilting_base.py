@@ -52,18 +52,6 @@ def default_bending(plan: GridPlan, mass: float) -> tuple[float, float]:
     Beams of all levels bend alike where columns hardly shorten, so that one beam on each grid line
     stands for those of all levels. Each of its spans, held at both ends, vibrates with a period of
     0.05 s under its share of the mass of all levels, if the beams along one axis carry all of it.
-
-    Parameters
-    ----------
-    plan : GridPlan
-        The grid.
-    mass : float
-        Mass of base and floors [kg].
-
-    Returns
-    -------
-    tuple of two floats
-        EI of one grid line along x, and along y [N m2].
     """
     square = (2.0 * math.pi / (_CLAMPED * VERTICAL_PERIOD)) ** 2
     lines = (plan.bays[1] + 1, plan.bays[0] + 1)
@@ -90,27 +78,6 @@ def add_tilting_base(
     the plane is resisted by the beams on the grid lines, whose ends the columns of the first storey
     hold against turning. Floors tilt as the foot does: the stick does not bend, and shears times
     heights reach the base.
-
-    Parameters
-    ----------
-    frame : Frame
-        The stick, with nodes "base" and `floors` free to turn.
-    plan : GridPlan
-        Grid with its nodes, free to turn about x and y.
-    bending : float, tuple of two floats, or None
-        EI of one grid line along x and y [N m2]; None as `default_bending`.
-    base_mass : float
-        Mass of the base [kg], for the inertia of the nodes over the bearings.
-    column : float
-        Moment about x and y that a column puts on its foot for a unit of turn against the plane of
-        the base, 4 E I / h [N m].
-    floors : list of str
-        Nodes of the floors. Masses beside base or floor stand on nodes "<floor>-mass".
-
-    Raises
-    ------
-    ModelError
-        If the bending stiffness is out of bounds.
     """
     total = sum(mass[0] for mass in frame.masses.values())
     given = default_bending(plan, total) if bending is None else bending

@@ -49,23 +49,7 @@ class AppliedLoads(NamedTuple):
 
 
 def applied_loads(frame: FrameData) -> AppliedLoads:
-    """Return the loads of floor panels and tapered loads.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-
-    Returns
-    -------
-    AppliedLoads
-        Along members and on nodes.
-
-    Raises
-    ------
-    ModelError
-        If members that a floor panel rests on have gone.
-    """
+    """Return the loads of floor panels and tapered loads."""
     found = AppliedLoads([], [])
     for member, loads in frame.tapered_loads.items():
         found.spans.extend(SpanLoad(member, x, frame.mass_source.get(x.case, 0.0)) for x in loads)
@@ -79,25 +63,7 @@ def applied_loads(frame: FrameData) -> AppliedLoads:
 
 
 def load_masses(frame: FrameData, applied: AppliedLoads) -> dict[str, float]:
-    """Return the masses that permanent loads make, by node.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    applied : AppliedLoads
-        Of `applied_loads`.
-
-    Returns
-    -------
-    dict of str to float
-        Mass at each node [kg]; empty where no load makes any.
-
-    Raises
-    ------
-    ModelError
-        If the loads of a node that make mass pull upwards in sum.
-    """
+    """Return the masses that permanent loads make, by node."""
     found: dict[str, float] = {}
     parts = [*_at_nodes(frame, applied), *_along_members(frame, applied)]
     for node, force in parts:

@@ -23,15 +23,7 @@ VERTICAL_SINE = 1e-3
 def default_up(start: FloatArray, end: FloatArray) -> FloatArray:
     """Return the default `up` vector: global Z, and global X for vertical members.
 
-    Parameters
-    ----------
-    start, end : ndarray, (n, 3)
-        Coordinates of the ends [m].
-
-    Returns
-    -------
-    ndarray, (n, 3)
-        Unit vectors [-].
+    Shapes: start, end (n, 3), result (n, 3).
     """
     along = end - start
     sine = np.hypot(along[:, 0], along[:, 1]) / np.linalg.norm(along, axis=1)
@@ -42,24 +34,7 @@ def default_up(start: FloatArray, end: FloatArray) -> FloatArray:
 def local_axes(start: FloatArray, end: FloatArray, up: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return local axes and lengths of members.
 
-    Parameters
-    ----------
-    start, end : ndarray, (n, 3)
-        Coordinates of the ends [m].
-    up : ndarray, (n, 3)
-        Vectors that fix the x-z plane, any length, not parallel to the member.
-
-    Returns
-    -------
-    axes : ndarray, (n, 3, 3)
-        Rows are the unit vectors of local x, y, z in global components [-].
-    length : ndarray, (n,)
-        Lengths [m].
-
-    Raises
-    ------
-    ModelError
-        If a member has no length, or its `up` vector is zero or parallel to it.
+    Shapes: start, end (n, 3), up (n, 3), axes (n, 3, 3), length (n,).
     """
     along = end - start
     length = np.linalg.norm(along, axis=1)
@@ -88,17 +63,7 @@ def local_axes(start: FloatArray, end: FloatArray, up: FloatArray) -> tuple[Floa
 def to_local(vectors: FloatArray, axes: FloatArray) -> FloatArray:
     """Turn end displacements or forces from global into local axes.
 
-    Parameters
-    ----------
-    vectors : ndarray, (..., n, 12)
-        Vectors in global axes.
-    axes : ndarray, (n, 3, 3)
-        Local axes.
-
-    Returns
-    -------
-    ndarray, (..., n, 12)
-        The same vectors in local axes.
+    Shapes: vectors (..., n, 12), axes (n, 3, 3), result (..., n, 12).
     """
     triads = vectors.reshape(*vectors.shape[:-1], 4, 3)
     turned: FloatArray = np.einsum("nab,...nkb->...nka", axes, triads)
@@ -108,17 +73,7 @@ def to_local(vectors: FloatArray, axes: FloatArray) -> FloatArray:
 def to_global(vectors: FloatArray, axes: FloatArray) -> FloatArray:
     """Turn end displacements or forces from local into global axes.
 
-    Parameters
-    ----------
-    vectors : ndarray, (..., n, 12)
-        Vectors in local axes.
-    axes : ndarray, (n, 3, 3)
-        Local axes.
-
-    Returns
-    -------
-    ndarray, (..., n, 12)
-        The same vectors in global axes.
+    Shapes: vectors (..., n, 12), axes (n, 3, 3), result (..., n, 12).
     """
     return to_local(vectors, axes.transpose(0, 2, 1))
 
@@ -126,17 +81,7 @@ def to_global(vectors: FloatArray, axes: FloatArray) -> FloatArray:
 def matrix_to_global(matrices: FloatArray, axes: FloatArray) -> FloatArray:
     """Turn member matrices from local into global axes.
 
-    Parameters
-    ----------
-    matrices : ndarray, (n, 12, 12)
-        Matrices in local axes.
-    axes : ndarray, (n, 3, 3)
-        Local axes.
-
-    Returns
-    -------
-    ndarray, (n, 12, 12)
-        The same matrices in global axes.
+    Shapes: matrices (n, 12, 12), axes (n, 3, 3), result (n, 12, 12).
     """
     count = axes.shape[0]
     blocks = matrices.reshape(count, 4, 3, 4, 3)

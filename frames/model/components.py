@@ -181,18 +181,7 @@ class Level:
 
 
 def bearing_axial_stiffness(bearing: LIRBearing) -> float:
-    """Return the axial stiffness of a bearing, its own default where none was specified.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The device.
-
-    Returns
-    -------
-    float
-        Axial stiffness in compression [N/m].
-    """
+    """Return the axial stiffness of a bearing, its own default where none was specified."""
     given = bearing.axial_stiffness
     return float(bearing.resolved()["axial_stiffness"] if given is None else given)
 
@@ -203,25 +192,7 @@ def bearing_rocking_stiffness(bearing: LIRBearing) -> float:
 
 
 def bearing_height(name: str, bearing: LIRBearing) -> float:
-    """Check that a device can be placed, and return its height.
-
-    Parameters
-    ----------
-    name : str
-        Name of the bearing in the frame, for the message.
-    bearing : LIRBearing
-        The device.
-
-    Returns
-    -------
-    float
-        Vertical distance from node i to node j [m].
-
-    Raises
-    ------
-    TypeError
-        If it is a class or lacks what a bearing has.
-    """
+    """Check that a device can be placed, and return its height."""
     if isinstance(bearing, type):
         message = f'bearing "{name}" is the class {bearing.__name__}: pass an instance of it'
         raise TypeError(message)

@@ -42,13 +42,7 @@ class RayleighDamping:
     periods: tuple[float, float]
 
     def __post_init__(self) -> None:
-        """Check every number.
-
-        Raises
-        ------
-        ModelError
-            If a number is out of its bounds.
-        """
+        """Check every number."""
         object.__setattr__(self, "ratio", _ratio(self.ratio, "RayleighDamping.ratio"))
         given: object = self.periods
         if not isinstance(given, Sequence) or len(given) != 2:
@@ -94,13 +88,7 @@ class ModalDamping:
     ratio: float | tuple[float, ...]
 
     def __post_init__(self) -> None:
-        """Check every number.
-
-        Raises
-        ------
-        ModelError
-            If a number is out of its bounds.
-        """
+        """Check every number."""
         if isinstance(self.ratio, Sequence):
             if not self.ratio:
                 message = "ModalDamping.ratio is empty: give one ratio, or one for each first mode"

@@ -48,31 +48,7 @@ class _Bay(NamedTuple):
 def floor_panel(
     nodes: Mapping[str, Node], name: str, given: Sequence[str], span: Span | None
 ) -> tuple[tuple[str, ...], tuple[float, float] | None]:
-    """Return the corners of a panel, anticlockwise, and the direction in which it carries.
-
-    Parameters
-    ----------
-    nodes : mapping of str to Node
-        Nodes of the frame.
-    name : str
-        Name of the load, for messages.
-    given : sequence of str
-        Corners in order.
-    span : Span, optional
-        Direction of a one-way panel.
-
-    Returns
-    -------
-    corners : tuple of str
-        The same corners.
-    direction : tuple of float, or None
-        Unit vector in plan; None for two ways.
-
-    Raises
-    ------
-    ModelError
-        If the panel is not horizontal or not convex, or the direction is none.
-    """
+    """Return the corners of a panel, anticlockwise, and the direction in which it carries."""
     owner = f'floor load "{name}"'
     chosen = node_list(nodes, given, owner, least=3)
     one_elevation(nodes, chosen, owner)
@@ -102,28 +78,7 @@ def members_at(members: Mapping[str, Member]) -> Around:
 
 
 def panel_loads(nodes: Mapping[str, Node], around: Around, load: FloorLoad) -> PanelLoads:
-    """Distribute a panel's load to the members along its edges.
-
-    Parameters
-    ----------
-    nodes : mapping of str to Node
-        Nodes of the frame.
-    around : Around
-        Its members, by `members_at`.
-    load : FloorLoad
-        The panel's load.
-
-    Returns
-    -------
-    PanelLoads
-        In sum the load of the panel, with the same moments as far as members lie on the edges; a
-        member beside its edge (offsets) takes the load where it is.
-
-    Raises
-    ------
-    ModelError
-        If no single chain of members runs along an edge that carries.
-    """
+    """Distribute a panel's load to the members along its edges."""
     corners = _plan(nodes, load.nodes)
     edges = nearest_edges(corners) if load.span is None else one_way(corners, np.array(load.span))
     found = PanelLoads([], [])

@@ -88,13 +88,7 @@ class FrameData:
                 frozen(values)
 
     def __repr__(self) -> str:
-        """Return the name and counts of the parts.
-
-        Returns
-        -------
-        str
-            One line.
-        """
+        """Return the name and counts of the parts."""
         parts = ["nodes", "members", "springs", "diaphragms", "bearings"]
         parts += [part for part in ("links", "hinges", "superelements") if getattr(self, part)]
         counts = ", ".join(f"{len(getattr(self, part))} {part}" for part in parts)

@@ -52,27 +52,7 @@ def isolator_combinations(s_ms: float = 0.0) -> dict[str, dict[str, float]]:
 
 
 def combination(frame: FrameData, factors: Mapping[str, float], weight: str) -> dict[str, float]:
-    """Return the factors of a combination once they fit the frame.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    factors : mapping of str to float
-        Factor of each load case.
-    weight : str
-        The case that what masses weigh belongs to.
-
-    Returns
-    -------
-    dict of str to float
-        The factors.
-
-    Raises
-    ------
-    ModelError
-        If a case of the frame, or that of the weight, has no factor, or one is not finite.
-    """
+    """Return the factors of a combination once they fit the frame."""
     what = 'factors by load case: write {"D": 1.2, "L": 1.0}'
     require_type("factors of combined", factors, Mapping, what)
     found = {
@@ -91,17 +71,7 @@ def combination(frame: FrameData, factors: Mapping[str, float], weight: str) -> 
 
 
 def factor_loads(frame: FrameData, factors: Mapping[str, float], weight: str) -> None:
-    """Multiply the permanent loads of a frame and what its masses weigh; masses stay.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model, a copy; it is changed.
-    factors : mapping of str to float
-        Of `combination`.
-    weight : str
-        The case of weights, those of superelements included.
-    """
+    """Multiply the permanent loads of a frame and what its masses weigh; masses stay."""
     for node, mass in load_masses(frame, applied_loads(frame)).items():
         both = np.array([mass] * 3 + [0.0] * 3)
         for group in (frame._masses, frame._weightless):
@@ -120,23 +90,7 @@ def factor_loads(frame: FrameData, factors: Mapping[str, float], weight: str) ->
 
 
 def factor_all(frame: FrameData, factors: Mapping[str, float], weight: str) -> None:
-    """Multiply permanent loads and masses of a frame, so that all that weighs is mass.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model, a copy; it is changed.
-    factors : mapping of str to float
-        Of `combination`.
-    weight : str
-        The case of masses, whose factor theirs is.
-
-    Raises
-    ------
-    ModelError
-        If that factor is not positive, or the frame has masses that do not weigh, or
-        superelements.
-    """
+    """Multiply permanent loads and masses of a frame, so that all that weighs is mass."""
     share = factors[weight]
     if share <= 0.0:
         message = f'combined: masses by the factor {share:g} of "{weight}", it must be positive'

@@ -10,29 +10,7 @@ from lir_element.argument_checks import require_type
 
 
 def new_name(name: str, taken: Collection[str], kind: str) -> str:
-    """Accept a name that is not empty and not taken.
-
-    Parameters
-    ----------
-    name : str
-        The name given by the caller.
-    taken : collection of str
-        The names in use.
-    kind : str
-        What is named: "node", "member", ...
-
-    Returns
-    -------
-    str
-        The name.
-
-    Raises
-    ------
-    TypeError
-        If the name is not a string.
-    ModelError
-        If the name is empty or taken.
-    """
+    """Accept a name that is not empty and not taken."""
     require_type(f"name of a {kind}", name, str, "a string: write it in quotes")
     if not name.strip():
         message = f"the name of a {kind} is empty: give it at least one visible character"
@@ -44,20 +22,7 @@ def new_name(name: str, taken: Collection[str], kind: str) -> str:
 
 
 def likely(name: object, known: Collection[str]) -> str:
-    """Return what the caller may have meant instead of `name`; empty where nothing is known.
-
-    Parameters
-    ----------
-    name : object
-        The name given by the caller.
-    known : collection of str
-        The names that exist.
-
-    Returns
-    -------
-    str
-        A part of a sentence, for a message.
-    """
+    """Return what the caller may have meant instead of `name`; empty where nothing is known."""
     close = difflib.get_close_matches(str(name), list(known), n=3)
     if close:
         return "did you mean " + " or ".join(f'"{other}"' for other in close) + "?"
@@ -65,27 +30,7 @@ def likely(name: object, known: Collection[str]) -> str:
 
 
 def known_name(name: object, known: Collection[str], kind: str) -> str:
-    """Accept a name that exists.
-
-    Parameters
-    ----------
-    name : str
-        The name given by the caller.
-    known : collection of str
-        The names that exist.
-    kind : str
-        What is named: "node", "member", ...
-
-    Returns
-    -------
-    str
-        The name.
-
-    Raises
-    ------
-    ModelError
-        If nothing has this name; the message suggests close names.
-    """
+    """Accept a name that exists."""
     if isinstance(name, str) and name in known:
         return name
     hint = likely(name, known) or f"the model has no {kind} yet"

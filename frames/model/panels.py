@@ -30,22 +30,7 @@ _FLAT = 1e-9  # of a sine or of a length: below, it is nothing
 def turning(corners: FloatArray, owner: str) -> float:
     """Return +1 for a convex outline that runs anticlockwise and -1 for a clockwise one.
 
-    Parameters
-    ----------
-    corners : ndarray, (n, 2)
-        Corners in order [m].
-    owner : str
-        What it is the outline of, for the message.
-
-    Returns
-    -------
-    float
-        +1 or -1.
-
-    Raises
-    ------
-    ModelError
-        If it is not convex, crosses itself or has no area.
+    Shapes: corners (n, 2).
     """
     edges = np.roll(corners, -1, axis=0) - corners
     length = np.linalg.norm(edges, axis=1)
@@ -80,15 +65,7 @@ def nearest_edges(corners: FloatArray) -> list[list[Piece]]:
     degrees at the corners of a rectangle. As the distance D to the outline is 0 on it,
     :math:`\int D \nabla D \, dA = 0`: the load moves to the edges without a moment in sum.
 
-    Parameters
-    ----------
-    corners : ndarray, (n, 2)
-        Corners of a convex outline, anticlockwise [m].
-
-    Returns
-    -------
-    list of list of Piece, (n,)
-        From each corner to the next one.
+    Shapes: corners (n, 2), result (n,).
     """
     edges = np.roll(corners, -1, axis=0) - corners
     length = np.linalg.norm(edges, axis=1)
@@ -113,17 +90,7 @@ def nearest_edges(corners: FloatArray) -> list[list[Piece]]:
 def one_way(corners: FloatArray, span: FloatArray) -> list[list[Piece]]:
     """Return what each edge carries where strips along `span` rest on the edges at their ends.
 
-    Parameters
-    ----------
-    corners : ndarray, (n, 2)
-        Corners of a convex outline, anticlockwise [m].
-    span : ndarray, (2,)
-        Unit vector of the strips.
-
-    Returns
-    -------
-    list of list of Piece, (n,)
-        From each corner to the next one; none of an edge along the strips.
+    Shapes: corners (n, 2), span (2,), result (n,).
     """
     across = np.array([-span[1], span[0]])
     offset, reach = corners @ across, corners @ span

@@ -120,27 +120,7 @@ class ElementTable(NamedTuple):
 def element_table(
     parts: Iterable[PartElements], index: dict[str, int], members: Iterable[str]
 ) -> ElementTable:
-    """Put the line elements of superelements one after the other.
-
-    Parameters
-    ----------
-    parts : iterable of PartElements
-        Of all superelements.
-    index : dict of str to int
-        Places of the nodes of the frame.
-    members : iterable of str
-        Names of its members.
-
-    Returns
-    -------
-    ElementTable
-        All of them.
-
-    Raises
-    ------
-    ModelError
-        If an element has the name of another one, or of a member.
-    """
+    """Put the line elements of superelements one after the other."""
     chosen = [no_elements(), *parts]
     names = [name for part in chosen for name in part.names]
     taken = {*members}
@@ -160,27 +140,7 @@ def element_table(
 
 
 def require_elements(elements: PartElements, nodes: tuple[str, ...], owner: str) -> PartElements:
-    """Return the elements of a superelement, their arrays checked.
-
-    Parameters
-    ----------
-    elements : PartElements
-        As given.
-    nodes : tuple of str
-        Nodes of the superelement.
-    owner : str
-        Whose they are, for messages.
-
-    Returns
-    -------
-    PartElements
-        The same.
-
-    Raises
-    ------
-    ModelError
-        If a shape is wrong, a number is not finite, or a node is not of the superelement.
-    """
+    """Return the elements of a superelement, their arrays checked."""
     count = len(elements.names)
     shapes = {"rows": (count, 12, 12), "rest": (count, 12), "middle": (count, 6)}
     for word, shape in shapes.items():

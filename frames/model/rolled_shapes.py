@@ -34,24 +34,6 @@ def rolled_i_constants(
         I_t = \tfrac23 (b - 0.63 t_f) t_f^3 + \tfrac13 (h - 2 t_f) t_w^3
         + 2 \frac{t_w}{t_f} \Bigl(0.145 + 0.1 \frac{r}{t_f}\Bigr) D^4, \quad
         D = \frac{(r + t_w/2)^2 + (r + t_f)^2 - r^2}{2 r + t_f}
-
-    Parameters
-    ----------
-    depth, flange_width, flange_thickness, web_thickness : float
-        Outer dimensions h, b, t_f and t_w [m].
-    radius : float
-        Radius r of the fillets between web and flanges [m], >= 0.
-
-    Returns
-    -------
-    dict of str to float
-        area [m2], inertia_y, inertia_z, torsion_constant [m4], shear_area_y, shear_area_z [m2] as
-        `Section` names them.
-
-    Raises
-    ------
-    ModelError
-        If a dimension is not positive, or the parts do not fit.
     """
     where = "Section.rolled_i"
     d, b, tf, tw = dimensions(
@@ -87,25 +69,7 @@ def rolled_i_constants(
 
 
 def catalogue_dimensions(name: str) -> tuple[float, float, float, float, float]:
-    """Return the dimensions of a rolled shape by its name.
-
-    Parameters
-    ----------
-    name : str
-        Such as "HEB 300", "HE 300 B" or "IPE 270"; case and blanks do not matter.
-
-    Returns
-    -------
-    tuple of float
-        Depth, flange width, flange thickness, web thickness and fillet radius [m].
-
-    Raises
-    ------
-    ModelError
-        If no series has it.
-    ImportError
-        If the package with the tables is not installed.
-    """
+    """Return the dimensions of a rolled shape by its name."""
     try:
         import steel_sections
     except ImportError as cause:

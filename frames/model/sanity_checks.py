@@ -38,18 +38,7 @@ a frame do not exceed [-]."""
 
 
 def refuse_extent(frame: FrameData) -> None:
-    """Refuse coordinates that no structure has.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-
-    Raises
-    ------
-    ModelError
-        If it is higher or wider than any; the message names the unit to suspect.
-    """
+    """Refuse coordinates that no structure has."""
     if not frame.nodes:
         return
     places = np.array([node.position for node in frame.nodes.values()])
@@ -67,18 +56,7 @@ def refuse_extent(frame: FrameData) -> None:
 
 
 def sanity_warnings(frame: FrameData) -> tuple[str, ...]:
-    """Return what is strange about a frame, a sentence each; nothing for usual ones.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-
-    Returns
-    -------
-    tuple of str
-        Each names the value, what is usual, and the unit to suspect.
-    """
+    """Return what is strange about a frame, a sentence each; nothing for usual ones."""
     return (
         *_of_gravity(frame),
         *_of_members(frame),

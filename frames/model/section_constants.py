@@ -42,13 +42,7 @@ class SectionConstants:
     shear_area_z: float = math.inf
 
     def __post_init__(self) -> None:
-        """Check every number.
-
-        Raises
-        ------
-        ModelError
-            If a number is out of its bounds.
-        """
+        """Check every number."""
         for field in fields(self):
             value = getattr(self, field.name)
             what = f"Section.{field.name}"

@@ -42,28 +42,7 @@ def shear_modulus_of(elastic_modulus: float, poisson_ratio: float) -> float:
 def circle_constants(
     diameter: float, thickness: float | None, poisson_ratio: float
 ) -> tuple[float, float, float]:
-    """Return the constants of a circle, or of a tube.
-
-    Parameters
-    ----------
-    diameter : float
-        Outer diameter [m].
-    thickness : float or None
-        Of the wall [m]; solid if None.
-    poisson_ratio : float
-        Of the material [-].
-
-    Returns
-    -------
-    tuple of float
-        Area [m2], second moment of area [m4], shear area [m2] by Cowper (1966), table 1, with m
-        the inner diameter over the outer one.
-
-    Raises
-    ------
-    ModelError
-        If a dimension is not positive, or the wall does not fit.
-    """
+    """Return the constants of a circle, or of a tube."""
     (outer,) = dimensions("Section.circle", diameter=diameter)
     inner = 0.0
     if thickness is not None:
@@ -86,24 +65,7 @@ def circle_constants(
 def i_shape_constants(
     depth: float, flange_width: float, flange_thickness: float, web_thickness: float
 ) -> dict[str, float]:
-    """Return the constants of a doubly symmetric I shape without fillets, web along local z.
-
-    Parameters
-    ----------
-    depth, flange_width, flange_thickness, web_thickness : float
-        Outer dimensions [m].
-
-    Returns
-    -------
-    dict of str to float
-        area [m2], inertia_y, inertia_z, torsion_constant [m4], shear_area_y, shear_area_z [m2] as
-        `Section` names them.
-
-    Raises
-    ------
-    ModelError
-        If a dimension is not positive, or flanges or web do not fit.
-    """
+    """Return the constants of a doubly symmetric I shape without fillets, web along local z."""
     d, b, tf, tw = dimensions(
         "Section.i_shape",
         depth=depth,

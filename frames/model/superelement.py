@@ -50,33 +50,7 @@ def superelement(
 ) -> Superelement:
     """Check the arrays of a superelement; see `Frame.add_superelement`.
 
-    Parameters
-    ----------
-    name : str
-        Name of the part.
-    nodes : tuple of str, (n,)
-        Its nodes.
-    stiffness, mass, damping : array_like or sparse, (6 n, 6 n)
-        Symmetric matrices.
-    load : array_like, (6 n,)
-        Permanent loads.
-    equations : array_like or sparse, (m, 6 n)
-        Ties.
-    notes : sequence of str
-        What should be known.
-    elements : PartElements, optional
-        Line elements in it whose forces are told.
-
-    Returns
-    -------
-    Superelement
-        The part.
-
-    Raises
-    ------
-    ModelError
-        If a shape is wrong, a number is not finite, a matrix is not symmetric or an element ends at
-        no node of the part.
+    Shapes: nodes (n,), stiffness, mass, damping (6 n, 6 n), load (6 n,), equations (m, 6 n).
     """
     size = 6 * len(nodes)
     owner = f'superelement "{name}"'
@@ -151,20 +125,7 @@ class Placed(NamedTuple):
 
 
 def placed(parts: Iterable[Superelement], index: dict[str, int]) -> Placed:
-    """Sum up superelements.
-
-    Parameters
-    ----------
-    parts : iterable of Superelement
-        What is summed up.
-    index : dict of str to int
-        Places of the nodes of the frame.
-
-    Returns
-    -------
-    Placed
-        Matrices over all nodal displacements.
-    """
+    """Sum up superelements."""
     size = 6 * len(index)
     stiffness, mass, damping = (sparse.csr_array((size, size), dtype=np.float64) for _ in range(3))
     load = np.zeros(size)

@@ -63,17 +63,7 @@ class Drift(NamedTuple):
 def integrated(acceleration: FloatArray, dt: float) -> tuple[FloatArray, FloatArray]:
     """Return velocity and displacement (n,) of an acceleration that is linear between samples.
 
-    Parameters
-    ----------
-    acceleration : ndarray, (n,)
-        Samples [m/s2].
-    dt : float
-        Time step [s].
-
-    Returns
-    -------
-    tuple of ndarray
-        Velocities [m/s] and displacements [m] at the samples, from rest.
+    Shapes: acceleration (n,).
     """
     first, last = acceleration[:-1], acceleration[1:]
     velocity = np.concatenate([[0.0], np.cumsum(0.5 * dt * (first + last))])
@@ -100,23 +90,7 @@ def has_faded(acceleration: FloatArray) -> bool:
 
 
 def left_at_end(given: Mapping[str, FloatArray], dt: float, *, recorded: bool) -> str:
-    """Say which components of a motion still move at its end, and how.
-
-    Parameters
-    ----------
-    given : mapping of str to ndarray
-        Components (n,) by axis [m/s2].
-    dt : float
-        Time step [s].
-    recorded : bool
-        Whether they are known to be a record. Otherwise one that ends at full strength, as a sine
-        that was cut, is taken to be meant.
-
-    Returns
-    -------
-    str
-        Velocities and displacements; empty where the ground is at rest, or the motion a pulse.
-    """
+    """Say which components of a motion still move at its end, and how."""
     found = []
     for axis, values in given.items():
         if (len(values) - 1) * dt < LEAST_RECORD or not (recorded or has_faded(values)):
@@ -133,19 +107,7 @@ def left_at_end(given: Mapping[str, FloatArray], dt: float, *, recorded: bool) -
 def corrected(acceleration: FloatArray, dt: float, *, displacement: bool) -> FloatArray:
     """Return an acceleration whose velocity vanishes at its end, and on demand displacement.
 
-    Parameters
-    ----------
-    acceleration : ndarray, (n,)
-        Samples [m/s2].
-    dt : float
-        Time step [s].
-    displacement : bool
-        Whether the displacement shall vanish, too.
-
-    Returns
-    -------
-    ndarray, (n,)
-        The corrected samples.
+    Shapes: acceleration (n,), result (n,).
     """
     velocity, displaced = (values[-1] for values in integrated(acceleration, dt))
     length = dt * (len(acceleration) - 1)

@@ -75,34 +75,7 @@ class ColumnLayout(NamedTuple):
 
 
 def read_columns(path: PathLike, column: int | None, layout: ColumnLayout) -> AccelerationTrace:
-    """Read one component from a text file of numbers.
-
-    Parameters
-    ----------
-    path : str or path
-        The file.
-    column : int or None
-        Column of the accelerations, counted from 0; None for the only one besides the times, and
-        of files row by row or in pairs.
-    layout : ColumnLayout
-        How the file is written.
-
-    Returns
-    -------
-    AccelerationTrace
-        Accelerations [m/s2] and time step [s].
-
-    Raises
-    ------
-    MotionError
-        If the unit is unknown, a column is missing or unclear, an entry is not a number, or the
-        times are uneven or missing.
-
-    Warns
-    -----
-    MotionWarning
-        If the numbers seem to follow one another in the other order.
-    """
+    """Read one component from a text file of numbers."""
     name = Path(path).name
     factor = acceleration_unit(layout.unit)
     if factor is None:

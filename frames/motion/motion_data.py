@@ -29,13 +29,7 @@ class MotionData:
     name: str = ""
 
     def __post_init__(self) -> None:
-        """Copy, check and freeze the components.
-
-        Raises
-        ------
-        MotionError
-            If a field is out of its bounds.
-        """
+        """Copy, check and freeze the components."""
         self._freeze()
         self._warn_of_drift(recorded=False)
 

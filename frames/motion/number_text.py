@@ -66,23 +66,7 @@ def acceleration_unit(text: str) -> float | None:
 
 
 def text_lines(path: Path) -> list[str]:
-    """Return the lines of a file, without a mark of UTF-8, or raise a MotionError if it is binary.
-
-    Parameters
-    ----------
-    path : Path
-        The file: Latin-1, UTF-8, or UTF-16 with its mark.
-
-    Returns
-    -------
-    list of str
-        The lines.
-
-    Raises
-    ------
-    MotionError
-        If the file holds bytes that no text has.
-    """
+    """Return the lines of a file, without a mark of UTF-8, or raise a MotionError if it is binary."""
     raw = path.read_bytes()
     if raw[:2] in {b"\xff\xfe", b"\xfe\xff"}:
         return raw.decode("utf-16").splitlines()
@@ -117,27 +101,7 @@ def number(text: str, writing: Writing) -> float:
 
 
 def rows_of(name: str, lines: Lines, writing: Writing) -> list[list[float]]:
-    """Return the numbers of each line.
-
-    Parameters
-    ----------
-    name : str
-        The file, for messages.
-    lines : sequence of (int, str)
-        Numbered lines; empty ones are left out before.
-    writing : Writing
-        How the numbers are written.
-
-    Returns
-    -------
-    list of list of float
-        A list a line.
-
-    Raises
-    ------
-    MotionError
-        If a text is no number: the message names line and cause.
-    """
+    """Return the numbers of each line."""
     rows: list[list[float]] = []
     for at, (where, line) in enumerate(lines):
         try:
@@ -231,15 +195,7 @@ def likely_order(table: FloatArray) -> str:
     row continues its end, steps along rows are small beside those down a column; of components in
     columns it is the other way.
 
-    Parameters
-    ----------
-    table : ndarray, (rows, columns)
-        Numbers.
-
-    Returns
-    -------
-    str
-        "rows" or "columns"; empty of noise, of one column, and of fewer than 20 rows.
+    Shapes: table (rows, columns).
     """
     count, size = table.shape
     if count < _LEAST_ROWS or size < 2:

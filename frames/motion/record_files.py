@@ -44,29 +44,7 @@ def is_record(path: PathLike) -> bool:
 
 
 def read_record(path: PathLike) -> list[Component]:
-    """Read all components of a file in the format of a network.
-
-    Parameters
-    ----------
-    path : str or path
-        A file in one of `frames.motion.formats.FORMATS`, or a PEER AT2 file.
-
-    Returns
-    -------
-    list of Component
-        In the order of the file.
-
-    Raises
-    ------
-    MotionError
-        If the format is not known, the header lacks what is needed or contradicts the numbers, or
-        the samples are counts, or unevenly spaced.
-
-    Warns
-    -----
-    MotionWarning
-        If the samples miss the peak that the header names.
-    """
+    """Read all components of a file in the format of a network."""
     name, lines = Path(path).name, text_lines(Path(path))
     if is_at2(lines):
         return [Component(lines[1].rpartition(",")[2].strip(), read_at2(path))]
@@ -288,26 +266,7 @@ def _azimuths(chosen: dict[str, Component]) -> dict[str, float]:
 def record_traces(
     paths: Sequence[PathLike], wanted: dict[str, str | None]
 ) -> tuple[dict[str, AccelerationTrace], dict[str, float]]:
-    """Read files of one record, and put their components on axes.
-
-    Parameters
-    ----------
-    paths : sequence of str or path
-        The files.
-    wanted : dict of str to str or None
-        Direction, as the files name it, of x, y and z. Without any, x and y are the horizontal
-        components in the order of the files, and z is the vertical one, turned up.
-
-    Returns
-    -------
-    tuple of dict
-        Components by axis, and azimuths of x and y as facts, where they are known.
-
-    Raises
-    ------
-    MotionError
-        If a direction is not in the files, or they hold more components than axes.
-    """
+    """Read files of one record, and put their components on axes."""
     if not paths:
         msg = "no file is given: name those of the record, from_record('A.EW', 'A.NS', 'A.UD')"
         raise MotionError(msg)

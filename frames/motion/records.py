@@ -67,22 +67,6 @@ def read_at2(path: PathLike) -> AccelerationTrace:
     ``NPTS=  4000, DT=   .0050 SEC`` or as ``4000  0.005  NPTS, DT``. The unit is the one that
     line 3 names (g, cm/s2, gal, m/s2 or mm/s2), and g, the unit of the format, where it names none.
     Zeros that fill the last line up are left out.
-
-    Parameters
-    ----------
-    path : str or path
-        The file.
-
-    Returns
-    -------
-    AccelerationTrace
-        Accelerations [m/s2] and time step [s].
-
-    Raises
-    ------
-    MotionError
-        If the header has no sizes, the unit is not an acceleration's, a value is not a number, or
-        the file holds fewer or more values than its header says.
     """
     name = Path(path).name
     lines = text_lines(Path(path))

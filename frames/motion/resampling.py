@@ -12,23 +12,7 @@ if TYPE_CHECKING:
 
 
 def seen_by_steps(motion: GroundMotion, dt: float) -> tuple[FloatArray, float]:
-    """Return ground accelerations and their step for an analysis in steps of `dt`.
-
-    Parameters
-    ----------
-    motion : GroundMotion
-        Acceleration, linear between its samples.
-    dt : float
-        Step of the analysis [s].
-
-    Returns
-    -------
-    tuple
-        Accelerations (n, 3) [m/s2] and their step [s]: those of the motion where `dt` is not larger
-        than its step. Otherwise the second difference of the ground's displacement over `dt`,
-        which is the mean of the acceleration with the weight of a triangle two steps wide: the
-        ground ends with its velocity and displacement, whatever happens between two steps.
-    """
+    """Return ground accelerations and their step for an analysis in steps of `dt`."""
     given = np.ascontiguousarray(motion.components, dtype=np.float64)
     step = float(motion.dt)
     if dt <= step * (1.0 + 1e-9) or len(given) < 2:

@@ -39,22 +39,7 @@ LAST_PART, LARGEST_END = 0.05, 0.02
 
 
 def record_doubts(given: Mapping[str, FloatArray], dt: float) -> tuple[str, ...]:
-    """Return what is strange about a record, a sentence for each thing; nothing for usual ones.
-
-    Parameters
-    ----------
-    given : mapping of str to ndarray
-        Components (n,) by axis [m/s2].
-    dt : float
-        Time step [s].
-
-    Returns
-    -------
-    tuple of str
-        About peaks, components that are the same, the time step, and an end that is missing.
-        Motions shorter than 8 s may be pulses of any step, those below 2 s any pulses, and vertical
-        components count in the first alone.
-    """
+    """Return what is strange about a record, a sentence for each thing; nothing for usual ones."""
     length = (max(len(values) for values in given.values()) - 1) * dt
     flat = {axis: values for axis, values in given.items() if axis != "z" and values.any()}
     found = _of_peak(given)

@@ -48,27 +48,7 @@ def response_spectrum(
 ) -> xr.Dataset:
     """Return the elastic response spectrum of an acceleration.
 
-    Parameters
-    ----------
-    acceleration : ndarray, shape (n,)
-        Ground acceleration [m/s2], linear between its samples, zero after the last one.
-    dt : float
-        Time step [s].
-    periods : array_like, shape (m,)
-        Natural periods [s], >= 0. At 0 the pseudo-acceleration is the peak of the ground's.
-    damping : float
-        Part of the critical damping [-], in [0, 1).
-
-    Returns
-    -------
-    xarray.Dataset
-        `pseudo_acceleration` [m/s2], `pseudo_velocity` [m/s] and `displacement` [m], relative to
-        the ground, on the dimension `period` [s].
-
-    Raises
-    ------
-    MotionError
-        If a period or the damping is out of its bounds.
+    Shapes: acceleration (n,), periods (m,).
     """
     period, ratio = checked_oscillators(periods, damping)
     shift = spectral_displacement(acceleration, dt, period, ratio)
@@ -109,21 +89,7 @@ def spectral_displacement(
 ) -> FloatArray:
     """Return the largest displacements of elastic oscillators at rest at the first sample.
 
-    Parameters
-    ----------
-    acceleration : ndarray, shape (n,)
-        Ground acceleration [m/s2], linear between its samples, zero after the last one.
-    dt : float
-        Time step [s].
-    periods : ndarray, shape (m,)
-        Natural periods [s], >= 0; a period of 0 gives 0.
-    damping : float
-        Part of the critical damping [-], in [0, 1).
-
-    Returns
-    -------
-    ndarray, shape (m,)
-        Largest displacement relative to the ground [m], positive.
+    Shapes: acceleration (n,), periods (m,), result (m,).
 
     Examples
     --------
@@ -153,21 +119,7 @@ def displacement_history(
 ) -> FloatArray:
     """Return the displacement of an elastic oscillator, and a period of its free vibration after.
 
-    Parameters
-    ----------
-    acceleration : ndarray, shape (n,)
-        Ground acceleration [m/s2], linear between its samples, zero after the last one.
-    dt : float
-        Time step [s].
-    period : float
-        Natural period [s], > 0.
-    damping : float
-        Part of the critical damping [-], in [0, 1).
-
-    Returns
-    -------
-    ndarray, shape (k,)
-        Displacement relative to the ground [m], at `POINTS_PER_PERIOD` points or more a period.
+    Shapes: acceleration (n,), result (k,).
     """
     divisions = _divisions(dt, period)
     return _history(_refine(acceleration, divisions), dt / divisions, period, damping)

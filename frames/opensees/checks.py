@@ -32,18 +32,7 @@ _RANK = 1e-4  # of the largest singular value of a block, below which it has no 
 
 
 def refuse_unsymmetric(model: OpenSeesModel) -> None:
-    """Refuse matrices that are not symmetric.
-
-    Parameters
-    ----------
-    model : OpenSeesModel
-        The model.
-
-    Raises
-    ------
-    ModelError
-        If one is not; the message names a node and its elements.
-    """
+    """Refuse matrices that are not symmetric."""
     for word in ("mass", "damping", "stiffness"):
         apart, largest, row = asymmetry(getattr(model, word))
         if apart > _SYMMETRY * largest:
@@ -67,18 +56,6 @@ def changed_elements(
     Off the diagonal a stiffness matrix shows what joins two nodes. The change is measured in the
     deformation that it affects most, relative to the initial stiffness in it. Those that share
     their nodes are told together.
-
-    Parameters
-    ----------
-    model : OpenSeesModel
-        The model.
-    elements : list of ElementEntry
-        Those that may be nonlinear.
-
-    Returns
-    -------
-    list of (ElementEntry, float)
-        The elements, and the change of their stiffness [-].
     """
     change = model.stiffness - model.initial
     at = {tag: place for place, tag in enumerate(model.tags)}
@@ -114,29 +91,7 @@ def _relative_change(initial: FloatArray, change: FloatArray, length: float, ndm
 def judge_elements(
     model: OpenSeesModel, found: list[Nature], vertical: int, *, accept: bool
 ) -> list[str]:
-    """Refuse elements that no linear stiffness stands for, or that have left their initial one.
-
-    Parameters
-    ----------
-    model : OpenSeesModel
-        The model.
-    found : list of Nature
-        What is known of its elements.
-    vertical : int
-        The axis of the model that points up: 1 or 2.
-    accept : bool
-        Whether to take such elements at their present stiffness.
-
-    Returns
-    -------
-    list of str
-        Notes on them, and on those that may leave their stiffness later.
-
-    Raises
-    ------
-    ModelError
-        If there is such an element and `accept` is False.
-    """
+    """Refuse elements that no linear stiffness stands for, or that have left their initial one."""
     notes = refuse_one_sided(found, accept=accept)
     doubtful = [nature for nature in found if not nature.is_linear]
     changed = changed_elements(model, [nature.element for nature in doubtful])
@@ -166,22 +121,7 @@ def judge_elements(
 def refuse_other_supports(
     model: OpenSeesModel, bases: Collection[int], meant: Collection[int]
 ) -> None:
-    """Refuse supports that carry elements and are neither base nodes nor said to be meant.
-
-    Parameters
-    ----------
-    model : OpenSeesModel
-        The model.
-    bases : collection of int
-        Tags of the base nodes.
-    meant : collection of int
-        Tags of supports that shall stay.
-
-    Raises
-    ------
-    ModelError
-        If there are such; the message names the elements between a support and a base node.
-    """
+    """Refuse supports that carry elements and are neither base nodes nor said to be meant."""
     ndm = model.coordinates.shape[1]
     held = np.all(model.fixed.reshape(-1, model.ndf)[:, :ndm], axis=1).tolist()
     allowed = {*bases, *meant}
@@ -211,17 +151,7 @@ def refuse_other_supports(
 def refuse_leaning(system: System, initial: SparseMatrix) -> None:
     """Refuse a structure that falls over under its loads on a fixed base.
 
-    Parameters
-    ----------
-    system : System
-        The structure, its stiffness with the second-order effect of its loads.
-    initial : csr_array, (6 n, 6 n)
-        Stiffness of the elements before any load, over the first n nodes.
-
-    Raises
-    ------
-    ModelError
-        If it falls; the message tells a hinged column that leans from one that buckles.
+    Shapes: initial (6 n, 6 n).
     """
     touched = np.unique(bearing_rows(system).tocoo().coords[1])
     rest = np.setdiff1d(np.arange(len(system.dof_labels)), touched)

@@ -31,25 +31,7 @@ _OTHERWISE = "OpenSees tells another stiffness of it than it assembles"
 
 
 def line_elements(ops: Any, model: OpenSeesModel, options: Options) -> PartElements:
-    """Read how the forces in beams, columns and bars follow from displacements of their nodes.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model, at rest. It stays as it is.
-    model : OpenSeesModel
-        What was read of it.
-    options : Options
-        Which axis is up, and the units.
-
-    Returns
-    -------
-    PartElements
-        In SI units, about the local axes of OpenSees, at the ends of rigid offsets; named
-        "element-<tag>". `without` has the elements whose forces are not known: shells, springs,
-        what is loaded in ways that cannot be read, and those whose stiffness is not the one that
-        OpenSees assembles.
-    """
+    """Read how the forces in beams, columns and bars follow from displacements of their nodes."""
     points = dict(zip(model.tags, model.coordinates, strict=True))
     lines = [element for element in model.elements if _is_line(points, element)]
     tags = {element.tag for element in lines}

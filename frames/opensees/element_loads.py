@@ -29,21 +29,7 @@ class ElementLoad(NamedTuple):
 
 
 def element_loads(ops: Any, ndm: int) -> dict[int, list[ElementLoad | None]]:
-    """Read the loads of all elements.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model.
-    ndm : int
-        Dimensions of the model.
-
-    Returns
-    -------
-    dict of int to list of ElementLoad or None
-        By tag of the element, times the load factors of their patterns; None for a load that
-        cannot be read.
-    """
+    """Read the loads of all elements."""
     found: dict[int, list[ElementLoad | None]] = {}
     for pattern in ops.getPatterns() or ():
         tags = [int(tag) for tag in ops.getEleLoadTags(pattern) or ()]
@@ -77,19 +63,7 @@ def middle_of(
 ) -> FloatArray | None:
     """Return what loads of an element add in its middle to the mean of both ends.
 
-    Parameters
-    ----------
-    loads : sequence of ElementLoad or None
-        Its loads.
-    length : float
-        Between its ends.
-    ends : ndarray, (12,)
-        Forces on its ends, which hold these loads.
-
-    Returns
-    -------
-    ndarray, (6,), or None
-        Forces and moments; None where loads are not known, or others act than those.
+    Shapes: ends (12,), result (6,).
     """
     total, found = np.zeros(3), np.zeros(6)
     for load in loads:

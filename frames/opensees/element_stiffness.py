@@ -64,26 +64,7 @@ def geometry(
     printed: Printed,
     options: Options,
 ) -> Geometry:
-    """Return where elements lie, and how.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model.
-    model : OpenSeesModel
-        What was read of it.
-    lines : sequence of ElementEntry
-        The elements.
-    printed : Printed
-        The model as printed, for rigid offsets.
-    options : Options
-        Which axis is up.
-
-    Returns
-    -------
-    Geometry
-        Of the undeformed elements.
-    """
+    """Return where elements lie, and how."""
     ndm = model.coordinates.shape[1]
     axes, turn = turning(ndm, options.vertical)
     points = np.zeros((len(model.tags), 3))
@@ -126,24 +107,7 @@ def stiffnesses(
 ) -> FloatArray:
     """Return the stiffness of elements over the displacements of their nodes.
 
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model, at rest.
-    model : OpenSeesModel
-        What was read of it.
-    lines : sequence of ElementEntry
-        The elements.
-    printed : Printed
-        The model as printed, for its coordinate transformations.
-    place : Geometry
-        Of the elements.
-
-    Returns
-    -------
-    ndarray, (n, 12, 12)
-        In axes of the frame and units of the model, with the second-order effect of the present
-        axial force where the transformation has it.
+    Shapes: result (n, 12, 12).
     """
     found = np.zeros((len(lines), 12, 12))
     silent = []
@@ -229,21 +193,7 @@ def apart_from_assembled(
 ) -> set[int]:
     """Return places of elements whose stiffness is not what OpenSees assembles of them.
 
-    Parameters
-    ----------
-    model : OpenSeesModel
-        What was read of it.
-    lines : sequence of ElementEntry
-        The elements.
-    found : ndarray, (n, 12, 12)
-        Their stiffness, of `stiffnesses`.
-    place : Geometry
-        Where they lie.
-
-    Returns
-    -------
-    set of int
-        Those. Where elements of other kinds join the same two nodes nothing is compared.
+    Shapes: found (n, 12, 12).
     """
     ndf = model.ndf
     at = {tag: k for k, tag in enumerate(model.tags)}

@@ -43,23 +43,7 @@ LEVEL_STEP = 1e-3  # m, within which nodes are at one elevation
 
 
 def read(options: Options) -> tuple[Taken, Structure]:
-    """Read the current model of OpenSeesPy: what a frame on bearings is given, and the structure.
-
-    Parameters
-    ----------
-    options : Options
-        What was asked for.
-
-    Returns
-    -------
-    tuple of Taken and Structure
-        For `Frame.from_opensees` to add, and for `refuse_taken` to judge what came of it.
-
-    Raises
-    ------
-    ModelError
-        If the model cannot be imported.
-    """
+    """Read the current model of OpenSeesPy: what a frame on bearings is given, and the structure."""
     _check_options(options)
     model = read_model()
     unknown = [
@@ -95,22 +79,7 @@ def read(options: Options) -> tuple[Taken, Structure]:
 
 
 def refuse_taken(frame: FrameData, structure: Structure, options: Options) -> None:
-    """Refuse a frame imported whose bearings could not work, or that would fall.
-
-    Parameters
-    ----------
-    frame : Frame
-        With all that was read.
-    structure : Structure
-        What was read.
-    options : Options
-        What was asked for.
-
-    Raises
-    ------
-    ModelError
-        If constraints still hold a base node, or the structure leans.
-    """
+    """Refuse a frame imported whose bearings could not work, or that would fall."""
     system = assemble(frame)
     _refuse_held_bases(system, structure, options)
     refuse_leaning(system, structure.initial)

@@ -23,25 +23,7 @@ _RATIO = (0.2, 5.0)  # weight over mass times gravity that raises no doubt about
 
 
 def permanent_load(structure: Structure, options: Options) -> tuple[FloatArray, list[str]]:
-    """Find what the bearings have to carry.
-
-    Parameters
-    ----------
-    structure : Structure
-        The model in axes of the frame.
-    options : Options
-        What was asked for.
-
-    Returns
-    -------
-    tuple
-        Loads of all displacements (6 n,) [N, N m], and doubts about them.
-
-    Raises
-    ------
-    ModelError
-        If there is no vertical load, or gravity is given besides.
-    """
+    """Find what the bearings have to carry."""
     count = len(structure.tags)
     units = [np.tile(np.eye(6)[axis], count) for axis in range(3)]
     mass = structure.matrices["mass"]
@@ -83,20 +65,7 @@ def permanent_load(structure: Structure, options: Options) -> tuple[FloatArray, 
 
 
 def rigid_damping(structure: Structure, options: Options) -> list[str]:
-    """Measure how far the damping acts on the building as a whole, moving on its bearings.
-
-    Parameters
-    ----------
-    structure : Structure
-        The model in axes of the frame.
-    options : Options
-        What was asked for.
-
-    Returns
-    -------
-    list of str
-        A note where that is worth one.
-    """
+    """Measure how far the damping acts on the building as a whole, moving on its bearings."""
     length = float(np.mean([b.effective_radius for b in options.bearings.values()]))
     omega = math.sqrt(STANDARD_GRAVITY / length)
     unit = np.tile(np.eye(6)[0], len(structure.tags))
@@ -115,20 +84,7 @@ def rigid_damping(structure: Structure, options: Options) -> list[str]:
 
 
 def light_base(structure: Structure, options: Options) -> list[str]:
-    """Note bases without mass: friction then acts on nothing that has inertia.
-
-    Parameters
-    ----------
-    structure : Structure
-        The model in axes of the frame.
-    options : Options
-        What was asked for.
-
-    Returns
-    -------
-    list of str
-        A note where that is so.
-    """
+    """Note bases without mass: friction then acts on nothing that has inertia."""
     moved = lumped(structure.matrices["mass"])[:, 0]
     bases = [structure.tags.index(tag) for tag in options.base_nodes]
     if moved[bases].sum() > _LIGHT * moved.sum():

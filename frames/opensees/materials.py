@@ -79,18 +79,7 @@ class Law(NamedTuple):
 
 
 def printed_model(ops: Any) -> Printed:
-    """Read what OpenSees prints of its model.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model.
-
-    Returns
-    -------
-    Printed
-        By tag.
-    """
+    """Read what OpenSees prints of its model."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "model.json"
         ops.printModel("-JSON", "-file", str(path))
@@ -142,25 +131,6 @@ def _plain(part: str) -> dict[str, dict[str, Any]]:
 def law_of(ops: Any, printed: Printed, tag: str, span: float) -> Law | None:
     """Find how a uniaxial material answers.
 
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model.
-    printed : Printed
-        What it printed.
-    tag : str
-        Of the material.
-    span : float
-        Deformation up to which it is tried: 1 for strains and rotations, the size of the model
-        for springs between nodes.
-
-    Returns
-    -------
-    Law or None
-        None if the printed model does not name it.
-
-    Notes
-    -----
     OpenSees tries materials on the original, from which later elements are copied. So the trial
     is made on a copy, which stays in the model under a tag from 2,147,000,000 on; no element has
     it. Elastic materials are judged by what is printed of them.

@@ -85,20 +85,7 @@ class OpenSeesModel:
 
 
 def read_model() -> OpenSeesModel:
-    """Read the current model of OpenSeesPy.
-
-    Returns
-    -------
-    OpenSeesModel
-        Its matrices, constraints and loads. The model stays as it is; its analysis objects are
-        wiped.
-
-    Raises
-    ------
-    ModelError
-        If there is no model, it is not of a shape that can be read, too large, not at rest, or
-        shaken; or if constraints or elements of removed nodes are left.
-    """
+    """Read the current model of OpenSeesPy."""
     ops = opensees()
     tags = tuple(int(tag) for tag in ops.getNodeTags() or ())
     ndf = _shape(ops, tags)

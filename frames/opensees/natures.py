@@ -126,20 +126,7 @@ def _tags(entry: dict[str, Any], word: str) -> list[str]:
 
 
 def natures(ops: Any, model: OpenSeesModel) -> list[Nature]:
-    """Find what is known of all elements that are not linear by their class.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model.
-    model : OpenSeesModel
-        What was read of it.
-
-    Returns
-    -------
-    list of Nature
-        In the order of the model.
-    """
+    """Find what is known of all elements that are not linear by their class."""
     others = [element for element in model.elements if element.kind not in LINEAR]
     if not others:
         return []
@@ -149,25 +136,7 @@ def natures(ops: Any, model: OpenSeesModel) -> list[Nature]:
 
 
 def refuse_one_sided(found: list[Nature], *, accept: bool) -> list[str]:
-    """Refuse bars and springs that a linear stiffness cannot stand for: gaps, ties, dashpots.
-
-    Parameters
-    ----------
-    found : list of Nature
-        Of the model.
-    accept : bool
-        Whether to take them at their present stiffness all the same.
-
-    Returns
-    -------
-    list of str
-        Notes, if they are accepted.
-
-    Raises
-    ------
-    ModelError
-        If there are such; the message names the law of this package that stands for it.
-    """
+    """Refuse bars and springs that a linear stiffness cannot stand for: gaps, ties, dashpots."""
     bad = [
         (nature.element, law)
         for nature in found
@@ -205,20 +174,7 @@ def refuse_one_sided(found: list[Nature], *, accept: bool) -> list[str]:
 
 
 def told(found: list[Nature], shares: dict[int, float]) -> list[str]:
-    """Name elements that may leave their present stiffness, and what that is worth.
-
-    Parameters
-    ----------
-    found : list of Nature
-        Of the model.
-    shares : dict of int to float
-        Share of the strain energy under horizontal load that each of these elements holds [-].
-
-    Returns
-    -------
-    list of str
-        A note for each class and law.
-    """
+    """Name elements that may leave their present stiffness, and what that is worth."""
     groups: dict[tuple[str, str], list[Nature]] = {}
     for nature in found:
         if not nature.is_linear:

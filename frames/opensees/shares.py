@@ -25,23 +25,6 @@ def energy_shares(model: OpenSeesModel, tags: Collection[int], vertical: int) ->
     The compliance to a load changes by that share of the change of an element's stiffness:
     ``d(u' F) / (u' F) = -share dk / k``.
 
-    Parameters
-    ----------
-    model : OpenSeesModel
-        The model on its supports.
-    tags : collection of int
-        Elements to be looked at.
-    vertical : int
-        The axis that points up: 1 or 2.
-
-    Returns
-    -------
-    dict of int to float
-        Share [-] by tag, the larger one of the horizontal directions; elements that share two
-        nodes share what is between these.
-
-    Notes
-    -----
     In an element that is free of force in rigid motions the energy is a sum over pairs of its
     nodes, ``-u_a' K_ab (u_b - R_ab u_a) / 2`` in both orders, R_ab the motion of node b that goes
     with that of node a. So the blocks of the assembled stiffness are enough.

@@ -27,21 +27,6 @@ def strain_rows(
 
     A strain is ``e_0 - y k_z + z k_y``, of the section's initial stiffness; what it is divided by
     is the strain up to which the material keeps its stiffness (`Law.limit`).
-
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model.
-    printed : Printed
-        What it printed.
-    lines : sequence of ElementEntry
-        Beams, columns and bars.
-
-    Returns
-    -------
-    dict of int to (ndarray, ndarray)
-        Of elements that may leave their stiffness, by tag: (k, 3) at ends i and j over N, My and
-        Mz, in units of the model.
     """
     laws: dict[str, Law | None] = {}
 

@@ -36,17 +36,7 @@ class Options:
 def turning(ndm: int, vertical: str | None) -> tuple[FloatArray, FloatArray]:
     """Return how vectors and displacements of a node turn from the model's axes to the frame's.
 
-    Parameters
-    ----------
-    ndm : int
-        Dimensions of the model: a plane one lies in x-z of the frame.
-    vertical : str or None
-        The axis that points up, as `Options` has it.
-
-    Returns
-    -------
-    tuple of ndarray, (3, 3) and (6, ndf)
-        Of vectors and of displacements.
+    Shapes: result (3, 3).
     """
     y_up = ndm == 2 or vertical == "y"
     axes = np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]) if y_up else np.eye(3)

@@ -27,27 +27,7 @@ _LEVEL = 1e-3  # m, within which nodes are at one elevation
 def with_vertical_mass(
     structure: Structure, given: str | Mapping[int, float] | None
 ) -> tuple[SparseMatrix, list[str]]:
-    """Return the mass of a structure with the vertical mass that was asked for.
-
-    Parameters
-    ----------
-    structure : Structure
-        The model in axes of the frame.
-    given : {None, "horizontal"} or mapping
-        None: as it is. "horizontal": each node as much as along x; what a node that cannot rise
-        has (the master of a diaphragm), the nodes of its elevation that can rise share evenly. A
-        mapping: masses [kg] by tag, added.
-
-    Returns
-    -------
-    tuple
-        The mass matrix, and notes.
-
-    Raises
-    ------
-    ModelError
-        If nothing that can rise has mass, or the option is not one of these.
-    """
+    """Return the mass of a structure with the vertical mass that was asked for."""
     mass = structure.matrices["mass"]
     own = lumped(mass)
     rises = ~structure.fixed[:, 2]

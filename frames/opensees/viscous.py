@@ -23,21 +23,6 @@ _DIRECTIONS = {"P": 0, "Vy": 1, "Vz": 2, "T": 3, "My": 4, "Mz": 5}
 def with_viscous_springs(ops: Any, model: OpenSeesModel) -> tuple[SparseMatrix, list[str]]:
     """Return the damping of a model with the viscous part of all springs of zero length.
 
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model.
-    model : OpenSeesModel
-        What was read of it.
-
-    Returns
-    -------
-    tuple
-        Its damping (n ndf, n ndf), and notes on springs of which it cannot be told whether their
-        viscous part is in it.
-
-    Notes
-    -----
     A ``zeroLength`` with ``-doRayleigh 1`` puts Rayleigh damping in place of its materials' in
     the damping matrix, while its force has both. What a pair of nodes has in the matrix is either
     the materials' own, or in proportion to the stiffness of the springs.

@@ -42,24 +42,7 @@ _SLIPS = 1e-3  # m, interface slip that tells which swing matters
 
 
 def impact_instants(data: xr.Dataset, name: str) -> dict[str, float]:
-    """Return instants that tell the story of a bearing's impact.
-
-    Parameters
-    ----------
-    data : Dataset
-        Result of `frames.time_history`.
-    name : str
-        The bearing.
-
-    Returns
-    -------
-    dict of str to float
-        Times [s]: "before the impact" (half the displacement of the contact), "rim contact" (the
-        first of the swing with the largest slip), "largest displacement" (of the whole result; if
-        that is another swing, the largest of this one is "turn of the swing") and "after the
-        impact" (the bearing passes its centre, if the run lasts until then). Without any contact:
-        "before", "largest displacement" and "after".
-    """
+    """Return instants that tell the story of a bearing's impact."""
     time = data["time"].to_numpy()
     u = data["bearing_displacement"].sel(bearing=name, axis=list(ps.PLANE)).to_numpy()
     size = np.linalg.norm(u, axis=1)
@@ -212,19 +195,7 @@ def _draw_panels(
 
 
 def draw_section(ax: Axes, bearing: Geometry, now: Posture, *, reach: float | None = None) -> None:
-    """Draw the four bodies of a bearing into a panel, to scale, without its frame.
-
-    Parameters
-    ----------
-    ax : Axes
-        The panel.
-    bearing : Device or LIRBearing
-        The device.
-    now : Posture
-        Its bodies.
-    reach : float, optional
-        Half the width of the surfaces of a bearing without rims [m].
-    """
+    """Draw the four bodies of a bearing into a panel, to scale, without its frame."""
     bodies = outlines(bearing, now, reach)
     if bearing.is_dcfp:  # rigid slider: both caps without the plane faces between
         caps = [bodies.pop("bottom slider")[:-2], bodies.pop("top slider")[-3::-1]]

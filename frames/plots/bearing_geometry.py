@@ -63,23 +63,7 @@ def posture(
 ) -> Posture:
     """Return the bodies at an instant, projected on a vertical plane.
 
-    Parameters
-    ----------
-    data : Dataset
-        Result of `frames.time_history`.
-    bearing : Device or LIRBearing
-        The device.
-    name : str
-        Its name in the Dataset.
-    time : float
-        Instant [s]; the nearest recorded one is taken.
-    direction : ndarray, shape (2,)
-        Horizontal unit vector of the plane.
-
-    Returns
-    -------
-    Posture
-        Axes, slip and lift in the plane.
+    Shapes: direction (2,).
     """
     place = int(np.argmin(np.abs(data["time"].to_numpy() - time)))
     now = movement(data.isel(time=[place]), bearing, name)
@@ -93,22 +77,7 @@ def posture(
 
 
 def contact_points(bearing: Geometry, now: Posture) -> dict[str, FloatArray]:
-    """Return the points that fix the bodies, shape (2,) each [m].
-
-    Parameters
-    ----------
-    bearing : Device or LIRBearing
-        The device.
-    now : Posture
-        Its bodies.
-
-    Returns
-    -------
-    dict of str to ndarray
-        "centre bottom", "centre top": of the spheres, C1 and C2; "bottom", "top": contacts on the
-        sliders' axes; "interface bottom", "interface top": where the axes of the bottom and the
-        top slider pierce the interface; "vertex": of the top concave surface.
-    """
+    """Return the points that fix the bodies, shape (2,) each [m]."""
     r_1, r_2 = bearing.radii
     centre = np.array([0.0, r_1])
     bottom = centre - r_1 * now.axis
@@ -137,18 +106,6 @@ def rim_face(bearing: Geometry, surface: int) -> float:
 
     The slider's edge, `slider_radius` from its axis on the sphere, is there when the axis has slid
     by `rim_displacement`.
-
-    Parameters
-    ----------
-    bearing : Device or LIRBearing
-        The device.
-    surface : {0, 1}
-        Bottom or top plate.
-
-    Returns
-    -------
-    float
-        The distance; infinite without a rim.
     """
     reach, radius = bearing.rim_displacement[surface], bearing.radii[surface]
     if not math.isfinite(reach):
@@ -157,22 +114,7 @@ def rim_face(bearing: Geometry, surface: int) -> float:
 
 
 def rim_gap(bearing: Geometry, now: Posture, surface: int) -> float:
-    """Return the distance from the slider's edge to the nearer rim face [m].
-
-    Parameters
-    ----------
-    bearing : Device or LIRBearing
-        The device.
-    now : Posture
-        Its bodies.
-    surface : {0, 1}
-        Bottom or top plate.
-
-    Returns
-    -------
-    float
-        The gap; negative where the rim is pressed in, infinite without a rim.
-    """
+    """Return the distance from the slider's edge to the nearer rim face [m]."""
     radius = bearing.radii[surface]
     tilt = _turn(now, surface)
     edge = radius * math.sin(abs(tilt) + math.asin(bearing.slider_radius / radius))
@@ -183,17 +125,6 @@ def rim_height(bearing: Geometry) -> float:
     """Return a height of the rims over the plates' edges that leaves all bodies free [m].
 
     The model does not know it: this one is for the picture.
-
-    Parameters
-    ----------
-    bearing : Device or LIRBearing
-        The device.
-
-    Returns
-    -------
-    float
-        A share of the smallest of: the edges of both sliders, and half the space between the
-        edges of the plates. Zero where there is no space, or no rim.
     """
     faces = [rim_face(bearing, k) for k in (0, 1)]
     if not all(math.isfinite(face) for face in faces):
@@ -210,24 +141,7 @@ def rim_height(bearing: Geometry) -> float:
 
 
 def outlines(bearing: Geometry, now: Posture, reach: float | None = None) -> dict[str, FloatArray]:
-    """Return the outlines of the four bodies, closed polygons of shape (n, 2) [m].
-
-    Parameters
-    ----------
-    bearing : Device or LIRBearing
-        The device.
-    now : Posture
-        Its bodies.
-    reach : float, optional
-        Half the width of the concave surfaces of a bearing without rims [m]; a third of the
-        smaller radius if left out.
-
-    Returns
-    -------
-    dict of str to ndarray
-        "bottom plate", "bottom slider", "top slider", "top plate". A rim that is pressed in is
-        drawn moved outwards, so that nothing overlaps.
-    """
+    """Return the outlines of the four bodies, closed polygons of shape (n, 2) [m]."""
     points = contact_points(bearing, now)
     lower = plane_height(bearing)
     upper = bearing.slider_height - lower
@@ -246,20 +160,7 @@ def outlines(bearing: Geometry, now: Posture, reach: float | None = None) -> dic
 
 
 def surface_reach(data: xr.Dataset, bearing: Geometry) -> float:
-    """Return half the width of the concave surfaces as drawn [m], also where there are no rims.
-
-    Parameters
-    ----------
-    data : Dataset
-        Holds `slider_displacement`, which the surfaces of a bearing without rims shall hold.
-    bearing : Device or LIRBearing
-        The device.
-
-    Returns
-    -------
-    float
-        To the face of the wider rim; without rims to the edge of the slider where it went farthest.
-    """
+    """Return half the width of the concave surfaces as drawn [m], also where there are no rims."""
     face = max(rim_face(bearing, 0), rim_face(bearing, 1))
     if math.isfinite(face):
         return face

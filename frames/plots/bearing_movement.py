@@ -44,19 +44,7 @@ def slider_axis(data: xr.Dataset, bearing: Geometry, name: str) -> FloatArray:
 
     With ``d1 = -R1 (n - e_i)`` and a bottom plate that stays level, ``n = (0, 0, 1) - d1 / R1``.
 
-    Parameters
-    ----------
-    data : Dataset
-        Holds `slider_displacement`.
-    bearing : Device or LIRBearing
-        The device.
-    name : str
-        Its name in the Dataset.
-
-    Returns
-    -------
-    ndarray, shape (n_steps, 3)
-        Unit vectors n.
+    Shapes: result (n_steps, 3).
     """
     sliding = data["slider_displacement"].sel(bearing=name, surface="bottom").to_numpy()
     return np.array([0.0, 0.0, 1.0]) - sliding / bearing.radii[0]
@@ -65,22 +53,6 @@ def slider_axis(data: xr.Dataset, bearing: Geometry, name: str) -> FloatArray:
 def movement(data: xr.Dataset, bearing: Geometry, name: str) -> Movement:
     """Return how the bodies of a bearing move.
 
-    Parameters
-    ----------
-    data : Dataset
-        Result of `frames.time_history`.
-    bearing : Device or LIRBearing
-        The device.
-    name : str
-        Its name in the Dataset.
-
-    Returns
-    -------
-    Movement
-        Axes, slip and opening over time.
-
-    Notes
-    -----
     In contact the centres of the spheres are ``c = C2 - C1 = -L n + s`` apart (docs/theory.md,
     section 1). What a bearing that carries nothing has opened is the difference of c, by the
     nodes' displacements and rotations, from that: what is recorded as sliding on its top surface

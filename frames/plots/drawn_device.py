@@ -78,25 +78,7 @@ def has_device(data: xr.Dataset) -> bool:
 
 
 def device_of(data: xr.Dataset, name: str) -> Device:
-    """Return the geometry of a bearing of a Dataset.
-
-    Parameters
-    ----------
-    data : Dataset
-        Result of `frames.time_history`.
-    name : str
-        One of its bearings.
-
-    Returns
-    -------
-    Device
-        Its geometry.
-
-    Raises
-    ------
-    ValueError
-        If the Dataset does not have it, because variables were taken out.
-    """
+    """Return the geometry of a bearing of a Dataset."""
     need(data, _USED, "draw from the whole result of time_history")
     own = {key: data[key].sel(bearing=name).to_numpy() for key in _USED}
     first, second = (float(r) for r in own["radius"])
@@ -111,25 +93,7 @@ def device_of(data: xr.Dataset, name: str) -> Device:
 
 
 def require_own(data: xr.Dataset, name: str, bearing: object) -> None:
-    """Raise unless a device is the one that a Dataset has under a name.
-
-    Parameters
-    ----------
-    data : Dataset
-        Result of `frames.time_history`.
-    name : str
-        One of its bearings.
-    bearing : LIRBearing
-        The device.
-
-    Raises
-    ------
-    ValueError
-        If a property differs; the message names it with both values, and the bearings of the
-        Dataset that are of this device.
-    TypeError
-        If it is no LIRBearing.
-    """
+    """Raise unless a device is the one that a Dataset has under a name."""
     if not isinstance(bearing, LIRBearing):
         msg = f"bearing is a {type(bearing).__name__}: give a LIRBearing, or only the name"
         raise TypeError(msg)

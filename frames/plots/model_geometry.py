@@ -22,19 +22,7 @@ def member_lines(table: MemberTable, coordinates: FloatArray, u: FloatArray) -> 
     Between its ends a member bends by the cubic of their displacements and rotations, which is
     exact for end forces without shear deformation.
 
-    Parameters
-    ----------
-    table : MemberTable
-        The members.
-    coordinates : ndarray, (n_nodes, 3)
-        Places of the nodes [m].
-    u : ndarray, (n_nodes, 6)
-        Displacements of the nodes [m, rad], enlarged as they are to be drawn.
-
-    Returns
-    -------
-    ndarray, (n_members, STATIONS, 3)
-        Points in global axes [m].
+    Shapes: coordinates (n_nodes, 3), u (n_nodes, 6), result (n_members, STATIONS, 3).
     """
     axes, length = table.arrays.axes, table.arrays.length[:, None]
     local = np.einsum("mab,mb->ma", table.follow, to_local(u.reshape(-1)[table.dofs], axes))

@@ -65,24 +65,7 @@ def draw_links(
 ) -> list[Any]:
     """Draw the links of a model.
 
-    Parameters
-    ----------
-    panel : Axes3D
-        Where to.
-    model : Frame
-        The model.
-    system : System
-        It assembled.
-    place : ndarray, (n_nodes, 3)
-        Where its nodes are drawn [m].
-    enlarged : float
-        By how much displacements are enlarged, and with them the gaps of walls.
-
-    Returns
-    -------
-    list of artists
-        A line between the nodes of each link and its mark in the middle, with a tick along its
-        direction where that is another; walls as bars across it, at their gap from node i.
+    Shapes: place (n_nodes, 3).
     """
     index = {name: k for k, name in enumerate(system.node_names)}
     extent = float(np.linalg.norm(np.ptp(system.coordinates, axis=0)))

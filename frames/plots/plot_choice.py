@@ -28,28 +28,7 @@ _NAMED = 12  # names that a message lists in full
 def as_systems(
     systems: Systems, start: float | None = None, end: float | None = None
 ) -> dict[str, xr.Dataset]:
-    """Return systems by name, in a window of time; a single Dataset goes by its title.
-
-    Parameters
-    ----------
-    systems : Dataset or mapping of name to Dataset
-        Results of `frames.time_history`.
-    start, end : float, optional
-        Window [s]; from the beginning and to the end if left out.
-
-    Returns
-    -------
-    dict of str to Dataset
-        In the order given, at least one and at most six.
-
-    Raises
-    ------
-    ValueError
-        If there are none, or more than the palette has colours for; if the window is empty, or
-        holds fewer than two steps of a system.
-    TypeError
-        If something else is given.
-    """
+    """Return systems by name, in a window of time; a single Dataset goes by its title."""
     given: object = systems  # callers may not check their types
     if isinstance(given, xr.Dataset):
         found: dict[str, object] = {str(given.attrs.get("title", "result")): given}
@@ -108,29 +87,7 @@ def in_window(
 
 
 def choose(name: object, known: Collection[str], kind: str, where: str = "") -> str:
-    """Return a name that exists.
-
-    Parameters
-    ----------
-    name : object
-        The name given.
-    known : collection of str
-        The names that exist.
-    kind : str
-        What is named: "bearing", "quantity", ...
-    where : str
-        Where it was looked for, for the message.
-
-    Returns
-    -------
-    str
-        The name.
-
-    Raises
-    ------
-    ValueError
-        If nothing has this name; the message has close names, or the known ones.
-    """
+    """Return a name that exists."""
     if isinstance(name, str) and name in known:
         return name
     msg = f"there is no {kind} {name!r}{where}"
@@ -144,27 +101,7 @@ def choose(name: object, known: Collection[str], kind: str, where: str = "") -> 
 def choose_bearing(
     systems: Mapping[str, xr.Dataset], bearing: str | None, variable: str | None = None
 ) -> str:
-    """Return the bearing that a figure shows, which all systems must have.
-
-    Parameters
-    ----------
-    systems : mapping of name to Dataset
-        The results.
-    bearing : str, optional
-        Left out: the `worst_bearing` of the first result.
-    variable : str, optional
-        By which variable; left out: by the slip, or by the displacement where nothing slips.
-
-    Returns
-    -------
-    str
-        Its name.
-
-    Raises
-    ------
-    ValueError
-        If a system has no such bearing.
-    """
+    """Return the bearing that a figure shows, which all systems must have."""
     first = next(iter(systems.values()))
     need(first, ("bearing",), "figures of bearings need a Dataset of an isolated frame")
     if bearing is None:

@@ -169,18 +169,6 @@ def wrapped(text: str, width: float, size: float = TITLE) -> str:
 def engineering(units: str, peak: float) -> tuple[float, str]:
     """Return the factor and the unit that show values up to `peak` with sensible digits.
 
-    Parameters
-    ----------
-    units : str
-        SI unit, as the Dataset's attributes name it.
-    peak : float
-        Largest absolute value, in that unit.
-
-    Returns
-    -------
-    (float, str)
-        What to multiply with, and the unit for the label; empty for pure numbers.
-
     Examples
     --------
     >>> engineering("N", 2.5e6)

@@ -53,28 +53,7 @@ def build_dataset(
 ) -> xr.Dataset:
     """Put the first `count` recorded steps into a Dataset (docs/results.md).
 
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    state : GravityState
-        The state the run started from, and the run.
-    shaking : Ground
-        The ground motion as the loop integrated it.
-    peak : ndarray, (3,)
-        Peak velocities of the motion as it was given [m/s].
-    out, states : Output, records
-        What was recorded.
-    count : int
-        Number of recorded steps.
-    kept : bool
-        Whether what was recorded stays as it is: states are not copied then, and what takes long
-        is formed when it is first looked at.
-
-    Returns
-    -------
-    xarray.Dataset
-        Without attributes.
+    Shapes: peak (3,).
     """
     system = state.system
     motion = _Motion(state, shaking, out, states, count)

@@ -90,17 +90,7 @@ class ForceMaps(NamedTuple):
     def of(self, out: Output, states: Records, rows: slice) -> FloatArray:
         """Return the forces at recorded steps.
 
-        Parameters
-        ----------
-        out, states : Output, records
-            What was recorded.
-        rows : slice
-            The steps.
-
-        Returns
-        -------
-        ndarray, (n_sections, 6, n_steps)
-            Forces [N] and moments [N m].
+        Shapes: result (n_sections, 6, n_steps).
         """
         beyond, force = out.beyond[rows], states["force"][rows]
         x = np.hstack([out.b[rows], out.e[rows], beyond])
@@ -119,21 +109,7 @@ class _Rows(NamedTuple):
 
 
 def force_maps(model: FrameData, state: GravityState) -> ForceMaps:
-    """Return how forces follow from what a time history of a structure records.
-
-    Parameters
-    ----------
-    model : Frame
-        The structure; its levels say where storeys begin and end.
-    state : GravityState
-        The structure in equilibrium, whose permanent axial forces make the second-order effects.
-
-    Returns
-    -------
-    ForceMaps
-        Of members, and of line elements of superelements, at both ends and in the middle, of
-        storeys, of bearings.
-    """
+    """Return how forces follow from what a time history of a structure records."""
     system, axial = state.system, state.member_forces
     names = tuple(placed.name for placed in system.bearings)
     levels = tuple(level.name for level in model.levels)
@@ -203,17 +179,7 @@ _SECTIONS = _sections()
 def element_sections(system: System, kept: Sequence[int]) -> tuple[SparseMatrix, FloatArray]:
     """Return the forces at the sections of line elements of superelements.
 
-    Parameters
-    ----------
-    system : System
-        The structure.
-    kept : sequence of int
-        Places of the elements in its table.
-
-    Returns
-    -------
-    tuple of csr_array (18 n, n_free) and ndarray (18 n,)
-        Over the free displacements, and where these are nought; `MEMBER_FORCES` at `STATIONS`.
+    Shapes: result (18 n, n_free).
     """
     table, at = system.elements, np.array(kept, dtype=np.int64)
     count, height = len(at), 3 * _SIX
@@ -273,20 +239,7 @@ def _member_rows(model: FrameData, system: System, axial: FloatArray) -> _Rows:
 def between_ends(model: FrameData, table: MemberTable, share: float = 0.5) -> FloatArray:
     """Return what loads along members add between their ends.
 
-    Parameters
-    ----------
-    model : Frame
-        The structure.
-    table : MemberTable
-        Its members.
-    share : float
-        Where, over the length between the ends [-]: 0 at end i, 1 at end j.
-
-    Returns
-    -------
-    ndarray, (n, 6)
-        Forces of the section less those interpolated between the sections at both ends [N, N m]:
-        of a uniform load q L^2 / 8 in the middle.
+    Shapes: result (n, 6).
     """
     place = {name: k for k, name in enumerate(table.names)}
     spans = [

@@ -91,20 +91,7 @@ def devices_of(state: GravityState) -> Devices:
 
 
 def shape_of(state: GravityState, places: Places) -> Shape:
-    """Return what the peaks of the structure are formed with.
-
-    Parameters
-    ----------
-    state : GravityState
-        The state that a run starts from.
-    places : Places
-        Levels and lines of nodes.
-
-    Returns
-    -------
-    Shape
-        Rows of the free degrees of freedom that are needed.
-    """
+    """Return what the peaks of the structure are formed with."""
     basis, system = state.basis, state.system
     drifts, shear = _drift_rows(state, places), _shear_rows(state)
     over_u = sparse.csr_array(sparse.vstack([drifts, shear[0]]))

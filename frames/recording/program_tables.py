@@ -40,35 +40,6 @@ def program_tables(
 ) -> dict[str, pd.DataFrame]:
     """Return largest and smallest results in the columns of SAP2000's and ETABS' tables.
 
-    Parameters
-    ----------
-    model : Frame
-        The model that was analysed.
-    data : xarray.Dataset or mapping
-        Of `time_history`; or several by name of the output case.
-    units : str
-        Units of force and length: "KN, m", "N, m", "N, mm", "Kip, in" or "Kip, ft".
-    stations : int
-        Stations of each member at equal distances, both ends among them, 2 at least.
-
-    Returns
-    -------
-    dict of str to pandas.DataFrame
-        "Joint Displacements", "Joint Reactions", "Base Reactions", "Element Forces - Frames" and
-        "Story Drifts", as far as the model has them: a row for the largest ("Max") and one for the
-        smallest values ("Min") over the recorded steps of each case. Values of a row are not of
-        one instant. `write_tables` writes them.
-
-    Raises
-    ------
-    ModelError
-        If the model is not the one that was analysed, the units are not known, or there are less
-        than two stations.
-    ValueError
-        If the recording does not have what is needed.
-
-    Notes
-    -----
     It is `Frame.program_tables`. Stations are measured from joint i of each member; between the
     ends forces follow from those at both and from the loads along it. P is tension positive; axis
     2 is local z and 3 is -y, so that V2 = Vz, V3 = -Vy, M2 = -Mz and M3 = -My of the section:

@@ -131,18 +131,7 @@ class Recorder:
         require_room(bytes_over_time(row), count, BUFFER)
 
     def room(self, done: int) -> int:
-        """Return the last base step that there is room for; a full buffer is emptied first.
-
-        Parameters
-        ----------
-        done : int
-            Base steps done.
-
-        Returns
-        -------
-        int
-            A base step after `done`.
-        """
+        """Return the last base step that there is room for; a full buffer is emptied first."""
         last = self.first + self._rows - 1
         if done < last:
             return last
@@ -158,18 +147,7 @@ class Recorder:
         return self.first + self._rows - 1
 
     def data(self, done: int) -> xr.Dataset:
-        """Return the result of `done` base steps, or what the assumption check reads of it.
-
-        Parameters
-        ----------
-        done : int
-            Base steps done.
-
-        Returns
-        -------
-        xarray.Dataset
-            With the attribute `features_left_out` alone.
-        """
+        """Return the result of `done` base steps, or what the assumption check reads of it."""
         self.strains.take(self.out, 0, done - self.first + 1)
         data = self._dataset(done - self.first + 1, kept=self._is_whole)
         if self._is_whole:
@@ -183,19 +161,7 @@ class Recorder:
         return judged.assign_coords(coordinates).assign(variables)
 
     def judgeable(self, data: xr.Dataset) -> xr.Dataset:
-        """Return what the assumption check reads of a result that `data` gave.
-
-        Parameters
-        ----------
-        data : xarray.Dataset
-            The result.
-
-        Returns
-        -------
-        xarray.Dataset
-            Where all steps are recorded and it can be (`can_track`), what was reached instead of
-            histories: compiled code takes it up in a fraction of the time. Else `data` itself.
-        """
+        """Return what the assumption check reads of a result that `data` gave."""
         if not self._is_whole or not can_track(self._state):
             return data
         count = data.sizes["time"]
@@ -207,18 +173,7 @@ class Recorder:
         return with_other_findings(judged, found, data.variables["peak_ground_velocity"].values)
 
     def reached(self, data: xr.Dataset) -> dict[str, Extreme]:
-        """Return the largest values of all quantities of a result that `data` gave, by name.
-
-        Parameters
-        ----------
-        data : xarray.Dataset
-            The result.
-
-        Returns
-        -------
-        dict of str to Extreme
-            By compiled code where it can be.
-        """
+        """Return the largest values of all quantities of a result that `data` gave, by name."""
         if not self._is_whole or not can_track(self._state):
             return {name: largest(data, name) for name in present_quantities(data)}
         return self._gauged(data.sizes["time"], shape_of(self._state, places_of(data)))[0]

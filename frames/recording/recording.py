@@ -143,27 +143,7 @@ class Recording:
 
 
 def recording_of(recording: object, record_every: object) -> Recording:
-    """Return what `time_history` was asked to record.
-
-    Parameters
-    ----------
-    recording : Recording or None
-        Its argument.
-    record_every : int
-        The older argument, which stands for ``Recording(every=record_every)``.
-
-    Returns
-    -------
-    Recording
-        Checked.
-
-    Raises
-    ------
-    ValueError
-        If both are given, or `record_every` is no whole number of at least 1.
-    TypeError
-        If the recording is none.
-    """
+    """Return what `time_history` was asked to record."""
     every = whole_steps("record_every", record_every)
     if recording is None:
         return Recording(every=every)
@@ -183,20 +163,7 @@ def recording_of(recording: object, record_every: object) -> Recording:
 
 
 def require_known(recording: Recording, data: xr.Dataset) -> None:
-    """Refuse names that a model or its results do not have.
-
-    Parameters
-    ----------
-    recording : Recording
-        What was asked for.
-    data : xarray.Dataset
-        A result with all variables, of any step.
-
-    Raises
-    ------
-    ValueError
-        If a name is unknown, or a channel has no history.
-    """
+    """Refuse names that a model or its results do not have."""
     known = {
         "channels": [str(name) for name in data.data_vars if "time" in data[name].dims],
         "bearings": [str(name) for name in data["bearing"].to_numpy()],

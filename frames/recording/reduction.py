@@ -58,20 +58,7 @@ class Findings(NamedTuple):
 
 
 def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
-    """Return a result without histories with what its run reached, as the check reads it.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        All of a result that has no time.
-    found : Findings
-        What was reached.
-
-    Returns
-    -------
-    xarray.Dataset
-        The same with the variables ``reached_...`` (docs/results.md).
-    """
+    """Return a result without histories with what its run reached, as the check reads it."""
     variables: dict[str, xr.Variable] = {}
     for name, most in found.reached.items():
         dims, unit, meaning = QUANTITIES[name][:3]
@@ -96,19 +83,7 @@ def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
 def with_other_findings(data: xr.Dataset, found: Findings, peak: FloatArray) -> xr.Dataset:
     """Return what `with_findings` gave of one run with the numbers of another one.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a run of the same structure.
-    found : Findings
-        What the other run reached.
-    peak : ndarray, (3,)
-        Peak velocities of its motion [m/s].
-
-    Returns
-    -------
-    xarray.Dataset
-        As `with_findings` makes it, in a tenth of the time.
+    Shapes: peak (3,).
     """
     known = data.variables
     values: dict[str, Any] = {str(name): known[name].data for name in data.data_vars}
@@ -134,19 +109,7 @@ class Reduction:
         self._state = _State(0, (), None, -np.inf, -1, {}, {}, {}, None)
 
     def take(self, piece: xr.Dataset, first: int, *, final: bool) -> None:
-        """Take up the steps of a piece that are new.
-
-        Parameters
-        ----------
-        piece : xarray.Dataset
-            All variables of consecutive base steps: where it does not begin with the run, it
-            begins with the last two steps taken up or before, so that differences over time can
-            be formed.
-        first : int
-            The base step of its first row.
-        final : bool
-            Whether it is the last one.
-        """
+        """Take up the steps of a piece that are new."""
         state, count = self._state, piece.sizes["time"]
         fresh = slice(state.taken - first, count)
         step = np.arange(state.taken, first + count)
@@ -178,18 +141,7 @@ class Reduction:
         return with_findings(_without_time(tail), found)
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
-        """Return the result: what `judgeable` gave, judged, with what is recorded besides.
-
-        Parameters
-        ----------
-        judged : xarray.Dataset
-            From `judgeable`, its attributes complete.
-
-        Returns
-        -------
-        xarray.Dataset
-            Of the bearings and nodes that the recording names.
-        """
+        """Return the result: what `judgeable` gave, judged, with what is recorded besides."""
         state, tail = self._state, _tail(self._state)
         self._state = state._replace(parts=())
         data = self._selected(judged)
@@ -291,38 +243,14 @@ class Reduction:
 
 
 def reduced(data: xr.Dataset, recording: Recording) -> xr.Dataset:
-    """Return what a recording keeps of a result that holds all steps, its attributes kept.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history, complete.
-    recording : Recording
-        What to keep.
-
-    Returns
-    -------
-    xarray.Dataset
-        As if the run had recorded it so.
-    """
+    """Return what a recording keeps of a result that holds all steps, its attributes kept."""
     reduction = Reduction(recording)
     reduction.take(data, 0, final=True)
     return reduction.recorded(reduction.judgeable().assign_attrs(data.attrs))
 
 
 def judgeable_of(data: xr.Dataset) -> xr.Dataset:
-    """Return what the check reads of a result that holds all steps, without its histories.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history, complete.
-
-    Returns
-    -------
-    xarray.Dataset
-        What it reached, and all that has no time; its attributes.
-    """
+    """Return what the check reads of a result that holds all steps, without its histories."""
     reduction = Reduction(Recording(every=None))
     reduction.take(data, 0, final=True)
     return reduction.judgeable().assign_attrs(data.attrs)

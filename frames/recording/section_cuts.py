@@ -49,19 +49,7 @@ class StoreyRows:
 def cuts(system: System, axial: FloatArray, heights: Sequence[float]) -> list[SectionCut]:
     """Return the cuts of the storeys: below the lowest level, then above each but the last.
 
-    Parameters
-    ----------
-    system : System
-        The frame.
-    axial : ndarray, (n_members,)
-        Axial forces of permanent loads, tension positive [N].
-    heights : sequence of float, (n_levels,)
-        Elevations of the levels [m].
-
-    Returns
-    -------
-    list of Cut
-        One for each level: what is above it passes there through what is below.
+    Shapes: axial (n_members,), heights (n_levels,).
     """
     table = system.members
     own, whole = (
@@ -84,18 +72,7 @@ def cuts(system: System, axial: FloatArray, heights: Sequence[float]) -> list[Se
 
 
 def storey_rows(system: System, axial: FloatArray, heights: Sequence[float]) -> StoreyRows:
-    """Return the forces of the storeys above the lowest level.
-
-    Parameters
-    ----------
-    system, axial, heights
-        As for `cuts`; at least two levels.
-
-    Returns
-    -------
-    StoreyRows
-        Positive with positive displacement of what is above, as bearing forces are.
-    """
+    """Return the forces of the storeys above the lowest level."""
     over_q, over_beyond, constant, crossed = [], [], [], []
     for cut in cuts(system, axial, heights)[1:]:
         below = np.repeat(~cut.above, 6).astype(np.float64)
@@ -115,19 +92,7 @@ def storey_rows(system: System, axial: FloatArray, heights: Sequence[float]) -> 
 def resultant(coordinates: FloatArray, about: FloatArray, chosen: BoolArray) -> SparseMatrix:
     """Return the rows that sum up forces on nodes: force, and moment about a point.
 
-    Parameters
-    ----------
-    coordinates : ndarray, (n_nodes, 3)
-        Places of the nodes [m].
-    about : ndarray, (3,)
-        The point [m].
-    chosen : ndarray of bool, (n_nodes,)
-        Nodes whose forces count.
-
-    Returns
-    -------
-    csr_array, (6, 6 n_nodes)
-        Over forces and moments on the nodes.
+    Shapes: coordinates (n_nodes, 3), about (3,), chosen (n_nodes,), result (6, 6 n_nodes).
     """
     nodes: IntArray = np.flatnonzero(chosen)
     x, y, z = (coordinates[nodes] - about).T

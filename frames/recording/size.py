@@ -30,27 +30,7 @@ COPIES = 3.0
 
 
 def number_of_steps(duration: float, dt: float | None, largest: float) -> int:
-    """Return the base steps of a run, or refuse what cannot end.
-
-    Parameters
-    ----------
-    duration : float
-        Length of the run [s].
-    dt : float or None
-        Step that was asked for [s].
-    largest : float
-        Step where none was [s].
-
-    Returns
-    -------
-    int
-        Steps, at least 1.
-
-    Raises
-    ------
-    ValueError
-        If the step is longer than the run or than `COARSEST`, or there are more than `MOST_STEPS`.
-    """
+    """Return the base steps of a run, or refuse what cannot end."""
     step = largest if dt is None else require_positive("dt", dt, "s")
     if dt is not None and dt > duration * (1.0 + 1e-9):
         msg = (
@@ -83,40 +63,12 @@ def bytes_of_step(state: GravityState) -> float:
 
 
 def require_memory(state: GravityState, records: int) -> None:
-    """Refuse to record all variables of more steps than the machine's memory holds.
-
-    Parameters
-    ----------
-    state : GravityState
-        Of the frame.
-    records : int
-        Steps to be recorded.
-
-    Raises
-    ------
-    ValueError
-        If the results would not fit.
-    """
+    """Refuse to record all variables of more steps than the machine's memory holds."""
     require_room(bytes_of_step(state), records)
 
 
 def require_room(step: float, records: int, besides: float = 0.0) -> None:
-    """Refuse to record more than the machine's memory holds.
-
-    Parameters
-    ----------
-    step : float
-        Memory of a recorded step [bytes].
-    records : int
-        Steps to be recorded; what lies around impacts comes besides.
-    besides : float
-        Memory of what does not grow with the steps [bytes].
-
-    Raises
-    ------
-    ValueError
-        If the results would not fit.
-    """
+    """Refuse to record more than the machine's memory holds."""
     needed, there = step * records + besides, memory()
     if needed > there:
         msg = (
@@ -142,20 +94,7 @@ def bytes_over_time(data: xr.Dataset) -> float:
 
 
 def require_rows(needed: float, runs: int, asked: int) -> None:
-    """Refuse more results of many runs than the machine's memory holds.
-
-    Parameters
-    ----------
-    needed : float
-        Memory of the rows of `runs` runs, their Dataset included [bytes].
-    runs, asked : int
-        Runs of the structures so far, and of all.
-
-    Raises
-    ------
-    ValueError
-        If they would not fit.
-    """
+    """Refuse more results of many runs than the machine's memory holds."""
     there = memory()
     if needed > there:
         msg = (

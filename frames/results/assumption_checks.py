@@ -243,18 +243,7 @@ def report_of(findings: tuple[Finding, ...]) -> str:
 
 
 def doubts_of(data: xr.Dataset) -> tuple[str, ...]:
-    """Return what the assumption check of a result marks with "!", a sentence each.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history, also one that was loaded; others have none.
-
-    Returns
-    -------
-    tuple of str
-        Without their marks.
-    """
+    """Return what the assumption check of a result marks with "!", a sentence each."""
     lines = str(data.attrs.get("audit", "")).splitlines()
     return tuple(line[2:] for line in lines if line.startswith("! "))
 
@@ -265,20 +254,7 @@ def is_missing(finding: Finding) -> bool:
 
 
 def needed_level(findings: tuple[Finding, ...]) -> str:
-    """Return the cheapest level that is sufficient: "pendulum", or "contact".
-
-    Parameters
-    ----------
-    findings : tuple of Finding
-        Of `audit`.
-
-    Returns
-    -------
-    str
-        "contact" where a bearing met its rims, lifted off or moved little on surfaces of unlike
-        friction (`level_doubts`); where the sliders spun by more than half a radian; where a slip
-        is so large that a few per cent decide whether it holds.
-    """
+    """Return the cheapest level that is sufficient: "pendulum", or "contact"."""
     return "contact" if asking_for_contact(findings) else "pendulum"
 
 

@@ -34,18 +34,7 @@ class Remark(NamedTuple):
 
 
 def equilibrium(data: xr.Dataset) -> tuple[Remark, ...]:
-    """Judge whether forces, weight and inertia agree, and whether nodes moved beyond reason.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        What the assumption check reads of a time history.
-
-    Returns
-    -------
-    tuple of Remark
-        None of a result that an earlier version saved.
-    """
+    """Judge whether forces, weight and inertia agree, and whether nodes moved beyond reason."""
     if "imbalance" not in data and "reached_imbalance" not in data:
         return ()
     gaps = largest(data, "imbalance")
@@ -91,18 +80,7 @@ def _violence(data: xr.Dataset) -> tuple[Remark, ...]:
 
 
 def time_step(data: xr.Dataset) -> tuple[Remark, ...]:
-    """Judge the step of a run whose step was given.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        What the assumption check reads of a time history.
-
-    Returns
-    -------
-    tuple of Remark
-        None where the program chose the step.
-    """
+    """Judge the step of a run whose step was given."""
     error = float(data.attrs.get("estimated_error", np.nan))
     if data.attrs.get("step_control") != "fixed" or not np.isfinite(error):
         return ()

@@ -29,16 +29,7 @@ def of_hinges(data: xr.Dataset, name: str) -> FloatArray:
 def link_ductility(data: xr.Dataset) -> FloatArray:
     """Return the deformations of links over those at yield.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history.
-
-    Returns
-    -------
-    ndarray, (n_steps, n_links)
-        The ratio [-]. A deformation without a force that resists it is none: a tie that is slack. 0
-        of links that do not yield.
+    Shapes: result (n_steps, n_links).
     """
     d, force = of_links(data, "link_deformation"), of_links(data, "link_force")
     ratio = np.abs(d) / np.where(can_yield(data), data.variables["link_yield_deformation"], np.inf)

@@ -104,19 +104,7 @@ def levels_of_bearings(data: xr.Dataset) -> tuple[str, ...]:
 
 
 def level_doubts(data: xr.Dataset) -> LevelDoubts:
-    """Return what bearings at the level 'pendulum' may have wrong in a run.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history.
-
-    Returns
-    -------
-    LevelDoubts
-        None doubtful where all bearings were at another level, lay still, or met no rim, did
-        not lift and moved far or on surfaces of one friction.
-    """
+    """Return what bearings at the level 'pendulum' may have wrong in a run."""
     names = tuple(str(name) for name in data.variables["bearing"].to_numpy())
     met, lifted, share = (
         largest(data, name).values for name in ("rims_met", "lifted", "eccentricity")
@@ -135,21 +123,8 @@ def errors_of(
 ) -> tuple[FloatArray, BoolArray]:
     """Return what nine bearings in ten of the same class stay below, and which are in a class.
 
-    Parameters
-    ----------
-    met, lifted : ndarray of bool, (..., n_bearings)
-        Whether a rim was met, and whether the bearing lifted off.
-    share : ndarray, (..., n_bearings)
-        Largest eccentricity over the slider's radius [-].
-    unequal : ndarray of bool, (n_bearings,)
-        Whether one rim is met before the other.
-    travel : ndarray, (..., n_bearings)
-        Largest displacement over what brings both surfaces to slide [-]: `travels`.
-
-    Returns
-    -------
-    tuple of ndarray
-        Errors (..., n_bearings, 5) over the value, as `DOUBTED`; whether any is to be expected.
+    Shapes: met, lifted (..., n_bearings), share (..., n_bearings), unequal (n_bearings,), travel
+    (..., n_bearings).
     """
     members = (
         met & unequal,
@@ -176,19 +151,8 @@ def travels(displacement: FloatArray, friction: FloatArray, length: FloatArray) 
     The surface of the higher friction slides from about the difference of both coefficients times
     the effective radius on.
 
-    Parameters
-    ----------
-    displacement : ndarray, (..., n_bearings)
-        Largest displacements [m].
-    friction : ndarray, (n_bearings, 2)
-        Coefficients at speed of bottom and top [-].
-    length : ndarray, (n_bearings,)
-        Effective radii [m].
-
-    Returns
-    -------
-    ndarray, (..., n_bearings)
-        Travels; inf of surfaces of one friction, and of bearings that hardly moved.
+    Shapes: displacement (..., n_bearings), friction (n_bearings, 2), length (n_bearings,), result
+    (..., n_bearings).
     """
     way = np.abs(friction[:, 0] - friction[:, 1]) * length
     counts = (way > 0.0) & (displacement > STILL * length)

@@ -158,16 +158,7 @@ def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
 def floor_shares(data: xr.Dataset) -> FloatArray:
     """Return the share of each node in its level's mean acceleration.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history.
-
-    Returns
-    -------
-    ndarray, (n_nodes, 3)
-        Its part of the level's mass along x, y and z; equal parts where the level has none, or
-        masses are not in the result. 0 of nodes on no level.
+    Shapes: result (n_nodes, 3).
     """
     place = data["level_node"].to_numpy()
     mass = np.ones((len(place), 3))

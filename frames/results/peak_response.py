@@ -32,22 +32,7 @@ class Extreme(NamedTuple):
 
 
 def largest(data: xr.Dataset, name: str) -> Extreme:
-    """Return what was reached of a quantity.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history.
-    name : str
-        One of `QUANTITIES`.
-
-    Returns
-    -------
-    Extreme
-        Largest values over the quantity's dimensions, and their times [s]: of all base steps where
-        the recording kept them, else of the steps that `data` holds; and of the step at which a
-        bearing passed its limit, which is in no history.
-    """
+    """Return what was reached of a quantity."""
     kept = largest_kept(data, name)
     if kept is None:
         kept = extreme_of(QUANTITIES[name].of(data), data["time"].to_numpy())

@@ -76,15 +76,7 @@ def vertical_force(data: xr.Dataset) -> FloatArray:
     load along the pendulum's path would have added, ``W / g`` times the acceleration of
     ``L - sqrt(L^2 - U^2)``.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history.
-
-    Returns
-    -------
-    ndarray, (n_steps, n_bearings)
-        Axial forces [N].
+    Shapes: result (n_steps, n_bearings).
     """
     axial: FloatArray = data.variables["axial_force"].to_numpy()
     if "vertical_coupling" not in left_out(data):

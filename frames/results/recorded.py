@@ -22,20 +22,7 @@ REACHED = "reached_"
 
 
 def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] | None:
-    """Return what a recording kept of a quantity: its largest values and their times [s].
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history.
-    name : str
-        A quantity of `frames.results.quantities`.
-
-    Returns
-    -------
-    tuple of ndarray, or None
-        None where the result has the histories of all steps instead.
-    """
+    """Return what a recording kept of a quantity: its largest values and their times [s]."""
     if REACHED + name not in data.variables:
         return None
     values, at = (data.variables[REACHED + key].to_numpy() for key in (name, f"{name}_at"))
@@ -95,15 +82,7 @@ def require_whole_levels(data: xr.Dataset, what: str) -> None:
 def standing(data: xr.Dataset) -> FloatArray:
     """Return 1 where a bearing stands, 0 where it has failed and its backup carries.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history.
-
-    Returns
-    -------
-    ndarray, shape (time, bearing) or ()
-        One number where no bearing has a backup.
+    Shapes: result (time, bearing).
     """
     if "bearing_failed" not in data.variables:
         return np.ones(())

@@ -68,20 +68,7 @@ def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
 
 
 def save_groups(results: Mapping[str, xr.Dataset], path: str | Path) -> None:
-    """Write Datasets to one netCDF file, a group each; histories compressed, in single precision.
-
-    Parameters
-    ----------
-    results : mapping of str to xarray.Dataset
-        Results by name of group.
-    path : str or path
-        The file. An existing one is replaced once all groups are complete.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be written; the message names it.
-    """
+    """Write Datasets to one netCDF file, a group each; histories compressed, in single precision."""
     write_whole(path, _content(results, compress=True))
 
 
@@ -115,38 +102,13 @@ def _packed(data: xr.Dataset) -> dict[Hashable, dict[str, object]]:
 
 
 def as_packed(data: xr.Dataset) -> xr.Dataset:
-    """Return a result as `save` with `compress` keeps it.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Any.
-
-    Returns
-    -------
-    xarray.Dataset
-        Histories in single precision, the energy as it is.
-    """
+    """Return a result as `save` with `compress` keeps it."""
     names = [key for key, kept in _packed(data).items() if "dtype" in kept]
     return data.assign({key: data[key].astype(np.float32) for key in names})
 
 
 def write_whole(path: str | Path, content: bytes | memoryview | str) -> None:
-    """Write a file beside its place, then move it there.
-
-    Parameters
-    ----------
-    path : str or path
-        The file; where it is a link within its folder, the file that it points to.
-    content : bytes or str
-        All of it; a text is written in UTF-8.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written, or is a link that leads out of its folder; the message names the
-        file and a remedy.
-    """
+    """Write a file beside its place, then move it there."""
     whole = content.encode() if isinstance(content, str) else content
     target = place_of(path)
     beside = target.with_name(f".{target.name[:60]}.{uuid.uuid4().hex}.part")
@@ -171,24 +133,7 @@ def write_whole(path: str | Path, content: bytes | memoryview | str) -> None:
 
 
 def place_of(path: str | Path) -> Path:
-    """Return where a file or a folder really is.
-
-    Parameters
-    ----------
-    path : str or path
-        What is to be written.
-
-    Returns
-    -------
-    Path
-        Without links.
-
-    Raises
-    ------
-    OSError
-        If it is a link that leads out of its folder: it may be of somebody else, and what it points
-        to is nothing that was named.
-    """
+    """Return where a file or a folder really is."""
     given = Path(path)
     folder, target = Path(os.path.realpath(given.parent)), Path(os.path.realpath(given))
     if given.name not in {"", ".."} and not target.is_relative_to(folder):
@@ -197,18 +142,7 @@ def place_of(path: str | Path) -> Path:
 
 
 def refuse_links(folder: str | Path) -> None:
-    """Refuse a folder that is a link, or holds one, that leads out of it.
-
-    Parameters
-    ----------
-    folder : str or path
-        The folder, or where it will be.
-
-    Raises
-    ------
-    OSError
-        With the first link.
-    """
+    """Refuse a folder that is a link, or holds one, that leads out of it."""
     whole = place_of(folder)
     for where, folders, names in os.walk(whole):
         for name in (*folders, *names):
@@ -225,23 +159,7 @@ def _leads_out(link: Path) -> str:
 
 
 def make_folder(path: str | Path) -> Path:
-    """Make a folder for results if it is not there, and return it.
-
-    Parameters
-    ----------
-    path : str or path
-        The folder.
-
-    Returns
-    -------
-    Path
-        The same.
-
-    Raises
-    ------
-    OSError
-        If it cannot be made, is a file, or is or holds a link that leads out of it.
-    """
+    """Make a folder for results if it is not there, and return it."""
     folder = Path(path)
     refuse_links(folder)
     try:
@@ -254,38 +172,13 @@ def make_folder(path: str | Path) -> Path:
 
 
 def csv_of(table: pd.DataFrame, *, index: bool = True) -> str:
-    """Return a table as CSV in which no text is a formula.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        The table.
-    index : bool
-        Whether with its index.
-
-    Returns
-    -------
-    str
-        Lines of the file.
-    """
+    """Return a table as CSV in which no text is a formula."""
     text: str = without_formulas(table).to_csv(index=index, lineterminator="\n")
     return text
 
 
 def without_formulas(table: pd.DataFrame) -> pd.DataFrame:
-    """Return a table for a spreadsheet: texts that it would run as formulas have an apostrophe.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        The table.
-
-    Returns
-    -------
-    pandas.DataFrame
-        The same; cells, heads and labels that begin with =, +, - or @ and are no numbers begin
-        with an apostrophe. Axes with a sign, "+x", stay: they run nothing, and programs read them.
-    """
+    """Return a table for a spreadsheet: texts that it would run as formulas have an apostrophe."""
     found = table.copy()
     for k, kind in enumerate(table.dtypes):
         if not pd.api.types.is_numeric_dtype(kind):

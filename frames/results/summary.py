@@ -117,18 +117,6 @@ def write_results(results: Mapping[str, xr.Dataset], folder: Path) -> None:
     """Write `results.nc`, a group for each system in single precision, and `summary.csv` (SI).
 
     What stood in either before is replaced once all of it is written.
-
-    Parameters
-    ----------
-    results : mapping of str to xarray.Dataset
-        Results by name of system.
-    folder : Path
-        Where to.
-
-    Raises
-    ------
-    OSError
-        If a file cannot be written; the message names it.
     """
     save_groups({group_of(name): data for name, data in results.items()}, folder / "results.nc")
     table = io.StringIO(newline="")

@@ -26,22 +26,7 @@ MOST_RUNS = 5
 def escalate_level(
     analyse: Callable[[Features, Level], xr.Dataset], features: Features
 ) -> xr.Dataset:
-    """Run with `features`, and again with what was missing.
-
-    Parameters
-    ----------
-    analyse : callable
-        ``analyse(features, level)`` runs the test case; its Dataset can be checked for its
-        assumptions.
-    features : Features
-        To begin with.
-
-    Returns
-    -------
-    xarray.Dataset
-        Of the last run. Its attribute `auto_runs` has a line for each run: level, features left
-        out, seconds, and what followed from its assumption check.
-    """
+    """Run with `features`, and again with what was missing."""
     level: Level = "pendulum"
     lines: list[str] = []
     for count in range(1, MOST_RUNS + 1):
@@ -65,15 +50,7 @@ def escalate_level(
 
 
 def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) -> None:
-    """Say in the check of a result of `escalate_level` that an earlier run ended otherwise.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of the last run; its attributes `audit` and `auto_runs` get a line.
-    ends : sequence of (RunStatus, float)
-        How each run ended, and when [s].
-    """
+    """Say in the check of a result of `escalate_level` that an earlier run ended otherwise."""
     last, time = ends[-1]
     others = [
         k for k, (status, _) in enumerate(ends[:-1]) if status.is_complete != last.is_complete

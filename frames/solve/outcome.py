@@ -47,20 +47,7 @@ class Outcome(NamedTuple):
 
 
 def evaluated(data: xr.Dataset) -> tuple[RunStatus, str]:
-    """Judge a completed run by its energy balance, and by its sliders where they are bodies.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of the run, complete but for its status. Gets the attributes `energy_error` and
-        `numerical_share` [-], and a line in its assumption check where they are too large.
-
-    Returns
-    -------
-    RunStatus, str
-        OK, or INACCURATE with what is wrong. OK with a sentence where numerical damping, which was
-        asked for, took out more than an accurate run leaves over.
-    """
+    """Judge a completed run by its energy balance, and by its sliders where they are bodies."""
     gap, numerical, given = (
         float(largest(data, name).values)
         for name in ("energy_gap", "energy_numerical", "energy_input")
@@ -113,24 +100,7 @@ def _tumbled(data: xr.Dataset) -> str:
 
 
 def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str]) -> Outcome:
-    """Check the assumptions of a run and judge it.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        What the assumption check reads of the run. Gets the attribute `audit`, those of
-        `evaluated`, and, where a bearing passed a limit at the last step tried, ``exceeded``,
-        ``exceeded_value``, ``exceeded_at`` and ``exceeded_bearing``.
-    state : GravityState
-        The state it left.
-    end : tuple
-        As `ended` has it.
-
-    Returns
-    -------
-    Outcome
-        How it ended, and where it failed if it did.
-    """
+    """Check the assumptions of a run and judge it."""
     status, detail = end
     data.attrs |= _exceeded(state, status)
     data.attrs["audit"] = audit_report(data)

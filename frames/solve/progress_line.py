@@ -28,17 +28,7 @@ class ProgressLine:
         self._told = 0.0
 
     def write(self, text: str, elapsed: float, *, ends: bool) -> None:
-        """Write a text, if it ends or enough time has passed since the last one.
-
-        Parameters
-        ----------
-        text : str
-            How far it is.
-        elapsed : float
-            Time since the beginning [s].
-        ends : bool
-            Whether this is the last text.
-        """
+        """Write a text, if it ends or enough time has passed since the last one."""
         over = replaces_lines()
         if sys.stderr is None or not (ends or elapsed - self._told >= _EVERY[0 if over else 1]):
             return
@@ -69,23 +59,7 @@ class _Share(ProgressLine):
 
 
 def share_told(progress: object) -> Callable[[float], None] | None:
-    """Return whom to tell the share of a time history that is done.
-
-    Parameters
-    ----------
-    progress : callable, bool or None
-        As given: a function of the share (0 to 1); True: a bar on the standard error.
-
-    Returns
-    -------
-    callable or None
-        Called with the share.
-
-    Raises
-    ------
-    TypeError
-        If it is something else.
-    """
+    """Return whom to tell the share of a time history that is done."""
     if progress is None or progress is False:
         return None
     if progress is True:

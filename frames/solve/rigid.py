@@ -70,41 +70,7 @@ def rigid_time_history(
     recording: Recording,
     progress: Callable[[float], None] | None,
 ) -> tuple[xr.Dataset, Outcome]:
-    """Analyse one bearing with a mass on it as rigid bodies in contact.
-
-    Parameters
-    ----------
-    model : Frame
-        One bearing on the ground and the mass on it.
-    motion : GroundMotion
-        Acceleration of the ground.
-    length : float
-        Length of the analysis [s].
-    dt : float or None
-        Implicit: largest step, and time between outputs; None: that of the motion, at most 5 ms.
-        Explicit: the step; None: half the stability limit.
-    integrator : {None, "explicit"}
-        None: Bossak's method with control of the error.
-    tolerance : float or None
-        Error of a step over the effective radius [-]; None: 1e-8.
-    recording, progress
-        As for `time_history`; in the explicit mode outputs are those of the motion's step. A
-        recording of every n-th step alone takes outputs n steps apart; any other holds all of them
-        while the run goes on.
-
-    Returns
-    -------
-    tuple
-        The Dataset (docs/results.md), and status, time, place and detail of its end.
-
-    Raises
-    ------
-    ModelError
-        If the model is more than one bearing on the ground with a mass on it.
-    ValueError
-        If the integrator is not one of this level, the explicit step is not stable, or forces of a
-        structure are asked for.
-    """
+    """Analyse one bearing with a mass on it as rigid bodies in contact."""
     if integrator not in (None, "explicit"):
         msg = f'integrator = {integrator!r}: level="rigid_body" has None (implicit) or "explicit"'
         raise ValueError(msg)

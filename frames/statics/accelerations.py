@@ -60,17 +60,7 @@ class AtRest(Protocol):
 def accelerating(state: AtRest) -> FloatArray:
     """Return how accelerations of b and eta accelerate the free degrees of freedom.
 
-    Parameters
-    ----------
-    state : AtRest
-        The structure at rest.
-
-    Returns
-    -------
-    ndarray, (n_free, n_b + n_e)
-        Of coordinates with mass as they move the structure. What has no mass, or next to none
-        (`without_inertia`), follows the rest as in the elastic structure on its bearings, pressed
-        as at rest; what lags without mass has no column of use.
+    Shapes: result (n_free, n_b + n_e).
     """
     basis = state.basis
     found = np.hstack([basis.expand_b, basis.mass_e * basis.expand_e])
@@ -102,18 +92,7 @@ def present_stiffness(state: AtRest) -> SparseMatrix:
 def without_inertia(state: AtRest, stiffness: SparseMatrix) -> BoolArray:
     """Return which free degrees of freedom have no mass, or so little that no step follows it.
 
-    Parameters
-    ----------
-    state : AtRest
-        The structure at rest.
-    stiffness : csr_array, (n_free, n_free)
-        Its stiffness, bearings included.
-
-    Returns
-    -------
-    ndarray of bool, (n_free,)
-        Those without mass; those whose own period is below `FASTEST`, of translations with less
-        mass than `LIGHTEST` besides.
+    Shapes: stiffness (n_free, n_free), result (n_free,).
     """
     system = state.system
     mass, held = system.mass.diagonal(), stiffness.diagonal()

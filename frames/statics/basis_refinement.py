@@ -67,31 +67,6 @@ def refined(
 ) -> Refined:
     """Run a structure with few vectors, then with more of them, until two runs agree.
 
-    Parameters
-    ----------
-    model : Frame
-        The structure.
-    features : Features
-        What is modelled.
-    level : str or mapping
-        Levels of the bearings.
-    tolerance : float
-        Largest difference of two runs in displacement and base shear over their largest value;
-        ten times that of axial forces, floors and storeys, a hundred times that of vertical
-        accelerations [-].
-    run : callable
-        Makes a run from a state at rest; returns what it reached, and whether it is to be the last.
-
-    Returns
-    -------
-    Refined
-        Of the last run: attributes `reduction_runs` and ``reduction_error_...``, the
-        differences to the run before [-], which are larger than what the last one leaves out (of
-        vertical accelerations, which settle last, that may be half more);
-        NaN of a single run, and zero where all modes were taken.
-
-    Notes
-    -----
     Where most of the modes would be needed, all are taken, as by the method "direct".
     """
     prepared = prepare(model, features, level)

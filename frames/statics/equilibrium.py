@@ -56,28 +56,7 @@ def find_equilibrium(
     down to the true one stage by stage, each from the equilibria before. The bearings are at rest
     before each solution, so that the last one is the equilibrium that was asked for.
 
-    Parameters
-    ----------
-    system : System
-        The frame.
-    basis : Basis
-        The frame in bearing coordinates.
-    linear : ndarray, (n_free,)
-        Displacements of the linear solution.
-    levels : mapping of str to str
-        Levels of the bearings by name.
-    static_load : ndarray or None
-        Constant loads of the bearings without vertical coupling [N].
-
-    Returns
-    -------
-    Equilibrium
-        What the kernels work on, the equilibrium being committed.
-
-    Raises
-    ------
-    AnalysisError
-        If there is no equilibrium, or a bearing carries no compression.
+    Shapes: linear (n_free,).
     """
     model = model_arrays(system, basis, static_load)
     chosen = [levels[placed.name] for placed in system.bearings]

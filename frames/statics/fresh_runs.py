@@ -21,20 +21,7 @@ _REMADE = frozenset({"reduced", "inverse_e", "follow_e", "lead_e", "follow", "po
 
 
 def with_own_arrays(shared: GravityState, seconds: float) -> GravityState:
-    """Return a state for runs to change, at rest as `restart` makes it.
-
-    Parameters
-    ----------
-    shared : GravityState
-        The equilibrium under gravity.
-    seconds : float
-        Time that it took [s].
-
-    Returns
-    -------
-    GravityState
-        The same, with arrays of its own of what a run changes.
-    """
+    """Return a state for runs to change, at rest as `restart` makes it."""
     own: dict[str, Any] = {"run": run_arrays(shared.model), "seconds": seconds}
     if shared.contacts is not None:
         own["contacts"] = detached(shared.contacts)
@@ -50,22 +37,7 @@ def with_own_arrays(shared: GravityState, seconds: float) -> GravityState:
 
 
 def once(state: GravityState, name: str, form: Callable[[], T]) -> T:
-    """Return what results form of a structure alone, formed by the first of its runs.
-
-    Parameters
-    ----------
-    state : GravityState
-        Of the run.
-    name : str
-        Under which it is kept; one name stands for one `form`.
-    form : callable
-        Returns it; nobody changes it, but by a copy.
-
-    Returns
-    -------
-    object
-        The same for all states that share an equilibrium.
-    """
+    """Return what results form of a structure alone, formed by the first of its runs."""
     if name not in state.formed:  # by two threads at once: the same twice
         state.formed[name] = form()
     found: T = state.formed[name]

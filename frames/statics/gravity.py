@@ -244,29 +244,7 @@ def prepare(
 def at_rest(
     prepared: Prepared, basis: Basis, seconds: float, *, silent: bool = False
 ) -> GravityState:
-    """Find the equilibrium under permanent loads in a basis.
-
-    Parameters
-    ----------
-    prepared : Prepared
-        Of `prepare`.
-    basis : Basis
-        The frame in bearing coordinates.
-    seconds : float
-        Time that the basis took [s].
-    silent : bool
-        Whether doubts about the model have been told.
-
-    Returns
-    -------
-    GravityState
-        The equilibrium.
-
-    Raises
-    ------
-    AnalysisError
-        As `gravity`.
-    """
+    """Find the equilibrium under permanent loads in a basis."""
     began = perf_counter()
     system, _, member_forces, linear, levels, before = prepared
     found = find_equilibrium(system, basis, linear, levels, None)
@@ -298,27 +276,7 @@ def at_rest(
 
 
 def levels_of(names: tuple[str, ...], level: str | Mapping[str, str]) -> dict[str, str]:
-    """Look up the level of each bearing.
-
-    Parameters
-    ----------
-    names : tuple of str
-        Of the bearings.
-    level : str or mapping
-        One level for all bearings, or levels by name of bearing.
-
-    Returns
-    -------
-    dict of str to str
-        Levels by name.
-
-    Raises
-    ------
-    ValueError
-        If a level or the name of a bearing is unknown.
-    TypeError
-        If `level` is neither a name nor a mapping.
-    """
+    """Look up the level of each bearing."""
     require_type("level", level, (str, Mapping), "a level, or levels by name of bearing")
     given = dict.fromkeys(names, level) if isinstance(level, str) else dict(level)
     unknown = sorted(set(given) - set(names))

@@ -65,27 +65,7 @@ _KEPT: list[_Kept] = []  # the one asked for last at the end
 def kept_gravity(
     frame: FrameData, features: Features, level: str | Mapping[str, str]
 ) -> GravityState:
-    """Return what `gravity` does, without finding again what was found of the same parts.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    features : Features
-        What is modelled.
-    level : str or mapping
-        Levels of the bearings.
-
-    Returns
-    -------
-    GravityState
-        With arrays of its own of what a run changes; all else is shared, and stays as it is.
-
-    Raises
-    ------
-    ModelError, AnalysisError
-        As `gravity`, which also warns of the same.
-    """
+    """Return what `gravity` does, without finding again what was found of the same parts."""
     began = perf_counter()
     case = features, tuple(level.items()) if isinstance(level, Mapping) else level
     parts = list(_parts(vars(frame)))

@@ -165,25 +165,7 @@ def _held(load: BearingLoad) -> str:
 
 
 def check_model(frame: FrameData, motion: GroundMotion | None = None) -> ModelCheck:
-    """Add up a model, and judge it: `Frame.check`.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model, complete.
-    motion : GroundMotion, optional
-        The motion it is meant for.
-
-    Returns
-    -------
-    ModelCheck
-        Totals, what each bearing carries, and what is strange.
-
-    Raises
-    ------
-    ModelError
-        If the model cannot be assembled; a failure of the equilibrium is in the result instead.
-    """
+    """Add up a model, and judge it: `Frame.check`."""
     sanity_checks.refuse_extent(frame)
     system = assemble(frame)
     masses = system.node_mass[:, :3].sum(axis=0)

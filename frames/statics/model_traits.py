@@ -23,22 +23,7 @@ if TYPE_CHECKING:
 
 
 def exact_features(frame: FrameData, motion: GroundMotion) -> Features:
-    """Return what a test case needs as far as that is certain before the run.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    motion : GroundMotion
-        The ground motion.
-
-    Returns
-    -------
-    Features
-        Only what takes no part at all is left out: the second direction where the motion has none
-        and the model does not couple the x-z plane with the rest; velocity dependence where no
-        friction depends on speed; rims and interface where no bearing has them.
-    """
+    """Return what a test case needs as far as that is certain before the run."""
     system = assemble(frame)
     bearings = [placed.bearing for placed in system.bearings]
     lacking = []
@@ -74,19 +59,7 @@ def is_plane(system: System) -> bool:
 
 
 def plane_coupling(frame: FrameData) -> float:
-    """Return how far a frame moves along y when it is pushed along x.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model, with at least one bearing.
-
-    Returns
-    -------
-    float
-        Largest displacement of a bearing along y over that along x under a uniform acceleration
-        along x, bearings as linear springs [-].
-    """
+    """Return how far a frame moves along y when it is pushed along x."""
     system = assemble(frame)
     stiffness = sparse.csc_array(system.stiffness + guessed_springs(system))
     moves: FloatArray = spsolve(stiffness, system.inertia_load[:, 0])

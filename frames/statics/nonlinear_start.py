@@ -25,24 +25,7 @@ def parts_at_rest(
 ) -> NonlinearElements | None:
     """Return the nonlinear parts as a time history starts with them.
 
-    Parameters
-    ----------
-    system : System
-        The frame.
-    basis : Basis
-        It in bearing coordinates.
-    displacement : ndarray, (n_free,)
-        Displacements under permanent loads.
-
-    Returns
-    -------
-    NonlinearElements or None
-        Deformed as the structure is; what is put in under permanent loads is not. None without.
-
-    Raises
-    ------
-    ModelError
-        If one yields under permanent loads.
+    Shapes: displacement (n_free,).
     """
     found = system.parts
     if not len(found.kind):

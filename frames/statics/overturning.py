@@ -70,16 +70,6 @@ def overturning_share(system: System) -> Overturning:
     bearings pushed sideways, whose moment about the tops of the bearings is the sum of m (z - z_t),
     and vertical forces on the tops of the bearings that rise linearly over the plan. What the
     bearings do not carry of either moment goes to supports that hold the structure's tilt.
-
-    Parameters
-    ----------
-    system : System
-        The assembled frame.
-
-    Returns
-    -------
-    Overturning
-        The smaller share of the two, for motion along x and along y.
     """
     tops = np.array([placed.j for placed in system.bearings])
     mass = np.where(above_bearings(system), system.node_mass[:, 0], 0.0)
@@ -124,39 +114,12 @@ def overturning_share(system: System) -> Overturning:
 
 
 def unknown_axial_forces(frame: FrameData) -> str:
-    """Return why the axial forces of a frame's bearings are not known; empty where they are.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-
-    Returns
-    -------
-    str
-        The sentence of its `Overturning`.
-
-    Raises
-    ------
-    ModelError
-        If the model cannot work.
-    """
+    """Return why the axial forces of a frame's bearings are not known; empty where they are."""
     return overturning_share(assemble(frame, None, tuple(frame.bearings))).sentence()
 
 
 def mass_centre(system: System) -> tuple[float, float]:
-    """Return x and y of the centre of the masses above the bearings [m].
-
-    Parameters
-    ----------
-    system : System
-        The assembled frame.
-
-    Returns
-    -------
-    tuple of two floats
-        In the frame's coordinates; NaN without mass.
-    """
+    """Return x and y of the centre of the masses above the bearings [m]."""
     mass = np.where(above_bearings(system), system.node_mass[:, 0], 0.0)
     total = float(mass.sum())
     if total <= 0.0:

@@ -100,23 +100,7 @@ class Resultants:
     def of(
         self, out: Output, states: Records, ground: FloatArray, first: int, last: int
     ) -> FloatArray:
-        """Return what is left of all forces at rows first <= k < last of what was recorded.
-
-        Parameters
-        ----------
-        out, states : Output, records
-            What was recorded.
-        ground : ndarray, (last - first, 3)
-            Ground acceleration [m/s2].
-        first, last : int
-            The rows.
-
-        Returns
-        -------
-        ndarray, (last - first, len(names))
-            Sums of forces over the weight, of moments over weight times half the structure's
-            extent [-].
-        """
+        """Return what is left of all forces at rows first <= k < last of what was recorded."""
         rows = slice(first, last)
         x = np.hstack([out.b[rows], out.e[rows], out.beyond[rows]])
         rates = np.hstack([out.a_b[rows], out.a_e[rows]])
@@ -239,15 +223,7 @@ class Plausibility:
 def moving_mass(state: AtRestMoving) -> FloatArray:
     """Return the masses of the nodes that can move (n_nodes, 3), 0 along what supports hold [kg].
 
-    Parameters
-    ----------
-    state : AtRestMoving
-        The structure.
-
-    Returns
-    -------
-    ndarray, (n_nodes, 3)
-        Along x, y and z.
+    Shapes: result (n_nodes, 3).
     """
     mass = np.array(state.system.node_mass, dtype=np.float64).ravel()
     mass[state.system.fixed_dofs] = 0.0

@@ -100,15 +100,7 @@ def isolated_period(system: System, axial_forces: FloatArray) -> float:
 def held_periods(omega2: FloatArray, mass: FloatArray) -> tuple[float, ...]:
     """Return the periods of the structure with its bearings and plates held, longest first [s].
 
-    Parameters
-    ----------
-    omega2, mass : ndarray, (n_e,)
-        Squared circular frequencies and masses of the fixed-interface modes.
-
-    Returns
-    -------
-    tuple of float
-        Of the modes with mass.
+    Shapes: omega2, mass (n_e,).
     """
     modes = np.sort(omega2[(mass > 0.0) & (omega2 > 0.0)])
     return tuple((2.0 * math.pi / np.sqrt(modes)).tolist())
@@ -119,24 +111,7 @@ def sanity_warnings(
 ) -> tuple[str, ...]:
     """Return what is strange about a frame in equilibrium, a sentence each.
 
-    Parameters
-    ----------
-    system : System
-        The frame.
-    axial_forces : ndarray, (n_bearings,)
-        Under permanent loads, compression positive [N].
-    periods : tuple of float
-        With the fixed base, longest first [s].
-
-    Returns
-    -------
-    tuple of str
-        Each names the value, what is usual, and the unit to suspect.
-
-    Raises
-    ------
-    ModelError
-        If a slider is pressed as no material can be.
+    Shapes: axial_forces (n_bearings,).
     """
     loads = bearing_loads(system, axial_forces)
     devices = {placed.name: placed.bearing for placed in system.bearings}
@@ -221,20 +196,7 @@ def _of_periods(periods: tuple[float, ...], isolated: float) -> list[str]:
 
 
 def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
-    """Return what is strange about a motion under a frame, a sentence each.
-
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    motion : GroundMotion
-        The motion.
-
-    Returns
-    -------
-    tuple of str
-        Whether it is stronger than any ground, or too weak for the bearings to slide.
-    """
+    """Return what is strange about a motion under a frame, a sentence each."""
     peak = float(np.hypot(*motion.components[:, :2].T).max())
     if peak > STRONG_GROUND:
         return (
@@ -260,25 +222,7 @@ def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
 
 
 def check_analysis(model: object, motion: object) -> None:
-    """Refuse what cannot be analysed, and warn of what was probably not meant.
-
-    Parameters
-    ----------
-    model : Frame
-        The structure.
-    motion : GroundMotion
-        The motion.
-
-    Raises
-    ------
-    TypeError
-        If model and motion are not what they should be, or swapped.
-
-    Warns
-    -----
-    ModelWarning
-        On a motion that is stronger or weaker than what was probably meant.
-    """
+    """Refuse what cannot be analysed, and warn of what was probably not meant."""
     if isinstance(model, GroundMotion) and isinstance(motion, FrameData):
         msg = "the arguments are swapped: time_history(model, motion), the frame comes first"
         raise TypeError(msg)

@@ -21,17 +21,7 @@ if TYPE_CHECKING:
 def guessed_springs(system: System, with_points: Collection[str] = ()) -> SparseMatrix:
     """Model the bearings as linear springs: axial stiffness, a hundredth of it sideways.
 
-    Parameters
-    ----------
-    system : System
-        The frame.
-    with_points : collection of str
-        Bearings with contact points, which resist the rotation of their plates.
-
-    Returns
-    -------
-    csr_array, (n_free, n_free)
-        Their stiffness.
+    Shapes: result (n_free, n_free).
     """
     values = np.zeros((len(system.bearings), 6))
     values[:, 2] = [bearing_axial_stiffness(placed.bearing) for placed in system.bearings]
@@ -45,18 +35,7 @@ def guessed_springs(system: System, with_points: Collection[str] = ()) -> Sparse
 def first_displacement(system: System, with_points: Collection[str] = ()) -> FloatArray:
     """Return the displacements under permanent loads on those springs, linear.
 
-    Parameters
-    ----------
-    system : System
-        The frame.
-    with_points : collection of str
-        Bearings with contact points.
-
-    Returns
-    -------
-    ndarray, (n_free,)
-        Displacements of the free degrees of freedom; the members' axial forces under them make
-        the geometric stiffness of an analysis.
+    Shapes: result (n_free,).
     """
     springs = guessed_springs(system, with_points)
     stiffness = sparse.csr_array(system.stiffness + springs)
@@ -68,17 +47,7 @@ def first_displacement(system: System, with_points: Collection[str] = ()) -> Flo
 def spring_forces(system: System, displacement: FloatArray) -> FloatArray:
     """Return the axial forces of the bearings as linear springs, compression positive.
 
-    Parameters
-    ----------
-    system : System
-        The frame.
-    displacement : ndarray, (n_free,)
-        Of the free DOFs [m, rad].
-
-    Returns
-    -------
-    ndarray, (n_bearings,)
-        Axial forces [N].
+    Shapes: displacement (n_free,), result (n_bearings,).
     """
     moves = np.asarray(bearing_rows(system) @ displacement).reshape(-1, 12)
     axial = np.array([bearing_axial_stiffness(placed.bearing) for placed in system.bearings])

@@ -75,23 +75,7 @@ class Movements(NamedTuple):
 
 
 def movements(data: xr.Dataset) -> Movements:
-    """Return the histories of all bearings of a result.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Result of `frames.time_history`.
-
-    Returns
-    -------
-    Movements
-        At all its steps.
-
-    Raises
-    ------
-    ValueError
-        If a variable was not recorded.
-    """
+    """Return the histories of all bearings of a result."""
     need(data, _NEEDED, "record all variables of bearings (frames.Recording), to view them")
     names = [str(name) for name in data["bearing"].to_numpy()]
     bodies = [movement(data, device_of(data, name), name) for name in names]
@@ -121,19 +105,7 @@ def movements(data: xr.Dataset) -> Movements:
 
 
 def devices(data: xr.Dataset) -> list[dict[str, object]]:
-    """Return the geometry of all bearings as drawn, lengths in m, None for what is infinite.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Result of `frames.time_history`.
-
-    Returns
-    -------
-    list of dict
-        A bearing each: "name", "radii", "sliderHeight", "sliderRadius", "rimFaces", "rimHeight",
-        "planeHeight", "capacity", "slipCapacity", "reach", "rigid".
-    """
+    """Return the geometry of all bearings as drawn, lengths in m, None for what is infinite."""
     found = []
     for name in data["bearing"].to_numpy():
         device = device_of(data, str(name))
@@ -158,18 +130,7 @@ def devices(data: xr.Dataset) -> list[dict[str, object]]:
 def peaks_of(time: FloatArray, moved: Movements) -> dict[str, list[list[float]]]:
     """Return the extremes of each bearing over all recorded steps, with their times.
 
-    Parameters
-    ----------
-    time : ndarray, (n_steps,)
-        Times [s].
-    moved : Movements
-        Of all steps.
-
-    Returns
-    -------
-    dict
-        By quantity a list of [value, time] for each bearing: sizes of "displacement", "force" and
-        "slip", "rimBottom", "rimTop", "gap", "axial" and "axialLeast".
+    Shapes: time (n_steps,).
     """
     sizes = {
         "displacement": np.linalg.norm(moved.displacement[..., :2], axis=-1),

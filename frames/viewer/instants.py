@@ -24,21 +24,7 @@ def kept_steps(time: FloatArray, curves: FloatArray, contact: BoolArray, count: 
     The first and the last step and the extremes of each curve are kept. Then, again and again,
     the step that lies farthest off the line between its kept neighbours.
 
-    Parameters
-    ----------
-    time : ndarray, (n_steps,)
-        Times [s].
-    curves : ndarray, (n_steps, m)
-        Curves, each over its largest absolute value.
-    contact : ndarray of bool, (n_steps,)
-        Where errors count `CONTACT` times as much, with `WINDOW` around it.
-    count : int
-        How many steps are kept; more where there are more extremes.
-
-    Returns
-    -------
-    ndarray of int
-        The steps, rising.
+    Shapes: time (n_steps,), curves (n_steps, m), contact (n_steps,).
     """
     if count >= len(time):
         return np.arange(len(time))

@@ -18,22 +18,7 @@ STEPS = 32767
 
 
 def scaled(values: npt.ArrayLike, *, along: int = 0) -> Packed:
-    """Return histories in 16 bits.
-
-    Parameters
-    ----------
-    values : array_like
-        Finite numbers, any shape.
-    along : int
-        The axis over which values share one scale, as time.
-
-    Returns
-    -------
-    dict
-        "type" "int16", "shape", "along", "scale" (packed as `exact` does, the shape without that
-        axis) and "data", base64 of the little-endian numbers in C order. A value is its number
-        times its scale, within half a scale: 1.5e-5 of the largest.
-    """
+    """Return histories in 16 bits."""
     array = np.asarray(values, dtype=np.float64)
     largest = np.abs(array).max(axis=along, keepdims=True)
     # in single precision, as it is read: the numbers are found with the same scale
@@ -49,20 +34,7 @@ def scaled(values: npt.ArrayLike, *, along: int = 0) -> Packed:
 
 
 def exact(values: npt.ArrayLike, kind: str) -> Packed:
-    """Return numbers as they are.
-
-    Parameters
-    ----------
-    values : array_like
-        Numbers, any shape.
-    kind : str
-        As what: "uint8", "int32", "float32" or "float64".
-
-    Returns
-    -------
-    dict
-        "type", "shape" and "data", base64 of the little-endian numbers in C order.
-    """
+    """Return numbers as they are."""
     array = np.asarray(values)
     return {
         "type": kind,

@@ -101,18 +101,7 @@ def write_view(
 
 
 def page_of(content: dict[str, object]) -> str:
-    """Return the page that shows a payload.
-
-    Parameters
-    ----------
-    content : dict
-        Of `payload_of`.
-
-    Returns
-    -------
-    str
-        HTML with styles, scripts and the payload as JSON in it.
-    """
+    """Return the page that shows a payload."""
     folder = files("frames.viewer") / "assets"
     held = json.dumps(content, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
     scripts = [

@@ -89,31 +89,7 @@ class Payload(NamedTuple):
 def payload_of(
     data: xr.Dataset, model: Frame, checks: Iterable[ShownCheck], size: float
 ) -> Payload:
-    """Return what the page of a time history holds.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Result of `frames.time_history`.
-    model : Frame
-        Its model.
-    checks : iterable of ShownCheck
-        Checks to be shown.
-    size : float
-        What the histories may take [MB].
-
-    Returns
-    -------
-    Payload
-        Histories at the steps kept, extremes of all.
-
-    Raises
-    ------
-    ModelError
-        If the result is not one of this model.
-    ValueError
-        If a variable was not recorded, or is not finite.
-    """
+    """Return what the page of a time history holds."""
     data = in_window(data, None, None)
     system = assemble(model)
     require_own(model, system, data)

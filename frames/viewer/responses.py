@@ -37,19 +37,7 @@ class Response(NamedTuple):
 
 
 def responses(data: xr.Dataset) -> list[Response]:
-    """Return the histories of floors and storeys that a result has, and of its base.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Result of `frames.time_history`.
-
-    Returns
-    -------
-    list of Response
-        Accelerations of levels and drifts of storeys where there are any, forces of storeys where
-        they were recorded, the base shear, the ground's acceleration.
-    """
+    """Return the histories of floors and storeys that a result has, and of its base."""
     found = []
     levels = data.sizes.get("level", 0)
     if levels and "node_acceleration" in data:

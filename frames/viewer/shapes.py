@@ -33,19 +33,7 @@ class Shapes(NamedTuple):
 def as_shapes(moves: FloatArray, arm: float, tolerance: float) -> Shapes:
     """Return displacements of nodes as the fewest shapes that hold them (their proper modes).
 
-    Parameters
-    ----------
-    moves : ndarray, (n_steps, n_nodes, 6)
-        Displacements and rotations [m, rad].
-    arm : float
-        Length by which a rotation counts as a displacement [m].
-    tolerance : float
-        Allowed difference over the largest displacement [-].
-
-    Returns
-    -------
-    Shapes
-        Singular vectors of the histories, as many as the tolerance asks for, or all.
+    Shapes: moves (n_steps, n_nodes, 6).
     """
     weights = np.array([1.0, 1.0, 1.0, arm, arm, arm])
     table = (moves * weights).reshape(len(moves), -1)

@@ -18,24 +18,7 @@ if TYPE_CHECKING:
 
 
 def structure_of(model: FrameData, system: System) -> dict[str, object]:
-    """Return the model as it stands, and how its members follow the nodes.
-
-    Parameters
-    ----------
-    model : Frame
-        The model.
-    system : System
-        It assembled.
-
-    Returns
-    -------
-    dict
-        "nodes", (n, 3) coordinates [m]; "members" with "nodes" (m, 2), "ends" (m, 2, 3),
-        "kind" (m,) and "bending" (k, stations, 3, 12), what a member of each kind adds to its
-        straight line for a unit of each displacement of its nodes; "pairs", node indices of
-        springs and links; "bearings", of the bearings; "floors", node indices around each level;
-        "supports", node indices; "masses", (n,) shares of the largest.
-    """
+    """Return the model as it stands, and how its members follow the nodes."""
     index = {name: k for k, name in enumerate(system.node_names)}
     table = system.members
     kinds, of_kind = _bending(system)

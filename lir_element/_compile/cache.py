@@ -75,16 +75,6 @@ def fields_of(signature: Any) -> tuple[tuple[str, ...], ...]:
     numba tells bundles apart by the name of their class and the types in it. A kernel has the
     places of the fields in its code, and so is stale once two of one type change places. (Of a
     record numba names fields and places itself.)
-
-    Parameters
-    ----------
-    signature : tuple of types, or Signature
-        Of a kernel.
-
-    Returns
-    -------
-    tuple of tuple of str
-        Names by bundle, those in bundles included.
     """
     found: list[tuple[str, ...]] = []
     new = list(getattr(signature, "args", signature))[::-1]
@@ -140,20 +130,7 @@ class Sources:
 
 
 def keep(path: Path | None, content: bytes) -> bool:
-    """Write a file of the cache: all of it or nothing.
-
-    Parameters
-    ----------
-    path : Path or None
-        The file; None where there is no folder for it.
-    content : bytes
-        What it shall hold.
-
-    Returns
-    -------
-    bool
-        Whether it is kept. If not, the first time a warning says why and names the remedy.
-    """
+    """Write a file of the cache: all of it or nothing."""
     if path is None:
         _warn("cannot be kept: this user has no home folder", again=True)
         return False
@@ -177,18 +154,7 @@ def keep(path: Path | None, content: bytes) -> bool:
 
 
 def content_of(path: Path) -> bytes | None:
-    """Return the content of a file of the cache.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-
-    Returns
-    -------
-    bytes or None
-        None if there is none, or it is not to be opened, which a warning says.
-    """
+    """Return the content of a file of the cache."""
     try:
         with path.open("rb") as file:
             why = _doubt_of_folder(path.parent) or _doubt(os.fstat(file.fileno()), path.parent)

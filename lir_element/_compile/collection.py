@@ -12,13 +12,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def without_collection() -> Generator[None]:
-    """Keep Python from looking for garbage in what is still needed.
-
-    Yields
-    ------
-    None
-        While it does not look.
-    """
+    """Keep Python from looking for garbage in what is still needed."""
     looks = gc.isenabled()
     gc.disable()
     try:

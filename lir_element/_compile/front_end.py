@@ -24,18 +24,7 @@ _signatures: dict[tuple[Any, ...], Any] = {}
 
 @contextmanager
 def shortened(typing: Any) -> Generator[None]:
-    """Shorten the front end's ways; whoever compiles holds numba's lock.
-
-    Parameters
-    ----------
-    typing : object
-        numba's typing context.
-
-    Yields
-    ------
-    None
-        While it is shortened.
-    """
+    """Shorten the front end's ways; whoever compiles holds numba's lock."""
     if "resolve_function_type" in vars(typing):  # by the kernel that is compiled around this one
         yield
         return

@@ -41,23 +41,7 @@ class KernelDecorator(Protocol):
 
 
 def kernels_of(sources: Sources, inline: bool = False, counts: bool = False) -> KernelDecorator:
-    """Make a decorator that compiles the kernels of some packages.
-
-    Parameters
-    ----------
-    sources : Sources
-        What the kernels depend on, by which they are kept on disk.
-    inline : bool
-        Whether a kernel becomes part of those that call it: for kernels that pass bundles of many
-        arrays on, whose every call would otherwise cost as much as a small kernel's work.
-    counts : bool
-        Whether a kernel counts references: for those that make arrays of addresses (`carray`).
-
-    Returns
-    -------
-    KernelDecorator
-        The decorator.
-    """
+    """Make a decorator that compiles the kernels of some packages."""
 
     def decorate(function: F) -> F:
         if config.DISABLE_JIT:
@@ -82,19 +66,7 @@ def kernels_of(sources: Sources, inline: bool = False, counts: bool = False) -> 
 
 
 def entry_point(signature: str) -> Callable[[Callable[..., Any]], Any]:
-    """Make a decorator that compiles a function with the calling convention of C.
-
-    Parameters
-    ----------
-    signature : str
-        Types of the result and of the arguments, such as "int32(int64)".
-
-    Returns
-    -------
-    callable
-        The decorator; what it returns has the function's `address`. It compiles at once (or takes
-        the code from the cache).
-    """
+    """Make a decorator that compiles a function with the calling convention of C."""
     types = sigutils.normalize_signature(signature)
 
     def decorate(function: Callable[..., Any]) -> Any:
@@ -125,18 +97,7 @@ return: a bundle of records.
 
 
 def on_arrays(formula: Callable[..., float]) -> Callable[..., Any]:
-    """Return the Python of a kernel that is a formula of numbers: it takes arrays as well.
-
-    Parameters
-    ----------
-    formula : callable
-        A kernel that calls no other one, of operations that numpy has for arrays.
-
-    Returns
-    -------
-    callable
-        The same of arrays, which are broadcast.
-    """
+    """Return the Python of a kernel that is a formula of numbers: it takes arrays as well."""
     return cast("Callable[..., Any]", getattr(formula, "py_func", formula))
 
 

@@ -59,18 +59,7 @@ class PartLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
         return list(dict.fromkeys(self._linking_libraries))
 
     def reduced(self, result: Any) -> tuple[Any, ...] | None:
-        """Return the part in a form that can be kept; None if something below is not kept.
-
-        Parameters
-        ----------
-        result : CompileResult
-            Of the part.
-
-        Returns
-        -------
-        tuple or None
-            Its code, what it calls (parts by their files, anything else by its code), and the rest.
-        """
+        """Return the part in a form that can be kept; None if something below is not kept."""
         below: list[tuple[Any, ...]] = []
         for callee in self.below():
             if isinstance(callee, PartLibrary):
@@ -236,22 +225,7 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no typ
 def rebuilt_part(
     context: Any, reduced: tuple[Any, ...], part_of: Callable[[str, bytes], Any]
 ) -> Any:
-    """Return a part from what was kept of it.
-
-    Parameters
-    ----------
-    context : object
-        numba's target context.
-    reduced : tuple
-        From `PartLibrary.reduced`.
-    part_of : callable
-        From name and digest of a file to the compiled part that is kept there, or None.
-
-    Returns
-    -------
-    CompileResult or None
-        The part; None if one below is not there any more.
-    """
+    """Return a part from what was kept of it."""
     name, code, below, fndesc, environment, signature = reduced
     library = _library(context, name, code)
     for known_by, digest, *rest in below:

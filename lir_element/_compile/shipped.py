@@ -27,35 +27,13 @@ x86-64-v3 is that of the x86-64 psABI: Intel since Haswell (2013), AMD since Exc
 
 
 def baseline(machine: str) -> str | None:
-    """Return the name of the processor that kernels are shipped for.
-
-    Parameters
-    ----------
-    machine : str
-        The architecture, as `platform.machine` names it.
-
-    Returns
-    -------
-    str or None
-        LLVM's name; None where none are shipped.
-    """
+    """Return the name of the processor that kernels are shipped for."""
     name, _ = _BASELINES.get(machine.lower().replace("amd64", "x86_64"), (None, ""))
     return name
 
 
 def shipped_for(own: Processor) -> Processor | None:
-    """Return what shipped kernels were compiled for, if this processor can run them.
-
-    Parameters
-    ----------
-    own : tuple of three str
-        Triple, name and features (``"+avx2,-amx-tile,..."``) of this processor.
-
-    Returns
-    -------
-    tuple or None
-        The same of the shipped kernels; None if there are none, or they may use what it lacks.
-    """
+    """Return what shipped kernels were compiled for, if this processor can run them."""
     triple, _, features = own
     name, needs = _BASELINES.get(triple.split("-", 1)[0], ("", "none"))
     has = set(features.split(","))

@@ -38,16 +38,6 @@ def compiled_sources(*folders: Path) -> list[tuple[Path, Path]]:
     from, if only for an annotation, and from there on each that constants and classes are imported
     from at runtime. By the rules of names these begin with a capital; functions of Python that make
     the arguments of kernels are left out.
-
-    Parameters
-    ----------
-    *folders : Path
-        The packages.
-
-    Returns
-    -------
-    list of tuple of Path
-        Package and file, in an order that does not depend on where they are.
     """
     kernels = {path for folder in folders for path in folder.glob("**/kernels/**/*.py")}
     found = kernels | {path for f in folders for name in COMPILERS for path in f.glob(name)}

@@ -65,22 +65,7 @@ class BodyStep(NamedTuple):
 def contact_arrays(
     bearings: Sequence[LIRBearing], chosen: Sequence[bool], gravity: float
 ) -> Contacts:
-    """Return the bundle of those `bearings` that are `chosen`, undeformed and unloaded.
-
-    Parameters
-    ----------
-    bearings : sequence of LIRBearing
-        All bearings of a model.
-    chosen : sequence of bool
-        Which of them have sliders that are bodies.
-    gravity : float
-        Acceleration that gives the sliders their weight [m/s2].
-
-    Returns
-    -------
-    Contacts
-        Records of the chosen ones.
-    """
+    """Return the bundle of those `bearings` that are `chosen`, undeformed and unloaded."""
     row = np.full(len(bearings), -1, dtype=np.int64)
     row[np.flatnonzero(chosen)] = np.arange(int(np.sum(chosen)))
     picked = [b for b, choice in zip(bearings, chosen, strict=True) if choice]

@@ -50,23 +50,7 @@ def rig_run(
 ) -> RigRun:
     """Return a bearing at rest that is to follow a path.
 
-    Parameters
-    ----------
-    props, start : records, (1,)
-        Constants and undeformed state of the bearing.
-    heat : ndarray
-        Parts of its temperatures.
-    path : ndarray, (n, 2)
-        Places of the top plate [m].
-    loads : ndarray, (n,)
-        Axial loads there [N].
-    velocity, increment : float
-        Speed along the path [m/s], largest increment [m].
-
-    Returns
-    -------
-    RigRun
-        Its arrays.
+    Shapes: props, start (1,), path (n, 2), loads (n,).
     """
     old, new = start.copy(), start.copy()
     states, bodies = np.zeros(len(path), dtype=STATE), np.zeros(len(path), dtype=BODIES)

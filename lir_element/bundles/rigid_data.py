@@ -119,25 +119,7 @@ def rigid_run(
 ) -> RigidRun:
     """Return a run that starts from the equilibrium held by `contacts` and `state` (1,).
 
-    Parameters
-    ----------
-    props : records, (1,)
-        Constants of the bearing.
-    contacts : Contacts
-        Its sliders, in static equilibrium.
-    state : records, (1,)
-        The bearing's committed record.
-    mass, inertia : ndarray, (3,), (3,)
-        Of the top plate [kg, kg m2].
-    free : ndarray, (6,)
-        1 where a degree of freedom of the top plate is free.
-    driven : bool
-        Whether its horizontal place is imposed.
-
-    Returns
-    -------
-    RigidRun
-        States, scratch and constants.
+    Shapes: props (1,), state (1,), mass, inertia (3,), free (6,).
     """
     sliders = contacts.sliders
     masses, inertias = np.zeros((3, 3)), np.zeros((3, 3))
@@ -194,21 +176,7 @@ def rigid_input(
 ) -> tuple[RigidInput, RigidOutput]:
     """Return what a run is given, and the records that it will write.
 
-    Parameters
-    ----------
-    ground : ndarray (n, 3) and float
-        Ground acceleration [m/s2] and its step [s].
-    times : ndarray, (n_out,)
-        Output times [s], the first one that of the start.
-    drive : ndarray, (n_out, 2)
-        Imposed places of the top plate [m], linear between.
-    load : ndarray, (n_out, 6)
-        Load on the top plate [N, N m], linear between.
-
-    Returns
-    -------
-    RigidInput, RigidOutput
-        The same memory, for the kernels and for the results.
+    Shapes: ground (n, 3), times (n_out,), drive (n_out, 2), load (n_out, 6).
     """
     count = len(times)
     out = RigidOutput(
@@ -232,17 +200,7 @@ def rigid_input(
 def stable_step(sliders: Records, props: Records, load: float) -> float:
     """Return an explicit step at half the stability limit.
 
-    Parameters
-    ----------
-    sliders, props : records, (1,), (1,)
-        Constants of the bearing.
-    load : float
-        Largest axial force to count on [N]; it sets the stiffness of friction before slip.
-
-    Returns
-    -------
-    float
-        Step [s]; the limit is that of the stiffest motion of a slider.
+    Shapes: sliders, props (1,).
     """
     mass = float(sliders["mass"][0].min())
     across = sliders["radius"][0] ** 2 / sliders["inertia"][0, :, :2].min()
@@ -264,25 +222,6 @@ def rigid_setup(
     spectral_radius: float = 0.0,
     explicit: float = 0.0,
 ) -> RigidSetup:
-    """Return the constants of the time integration.
-
-    Parameters
-    ----------
-    length : float
-        Effective radius [m], to which the tolerance refers.
-    largest : float
-        Largest step [s].
-    tolerance : float
-        Error of a step over the effective radius [-].
-    spectral_radius : float
-        Of Bossak's method at infinite frequency [-].
-    explicit : float
-        Step of the explicit mode [s], 0 for the implicit one.
-
-    Returns
-    -------
-    RigidSetup
-        What the kernels read.
-    """
+    """Return the constants of the time integration."""
     alpha, beta, gamma = bossak(spectral_radius)
     return RigidSetup(alpha, beta, gamma, tolerance * length, 1e-9, largest, explicit)

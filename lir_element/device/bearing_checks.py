@@ -60,15 +60,7 @@ class DesignWarning(UserWarning):
 
 
 def check_bearing(bearing: Specification) -> None:
-    """Check every number of a bearing and what they make together.
-
-    Raises
-    ------
-    ValueError
-        If a value is out of bounds: the message names value, bound and remedy.
-    TypeError
-        If a value is not of the kind it has to be.
-    """
+    """Check every number of a bearing and what they make together."""
     _check_geometry(bearing)
     _check_friction(bearing)
     _check_rims(bearing)
@@ -109,40 +101,14 @@ TO_OPENSEES = "the mapping to elements of OpenSees does not know", "bearing_elem
 
 
 def require_constant_friction(bearing: Specification, words: tuple[str, str]) -> None:
-    """Refuse a bearing whose friction depends on pressure or temperature.
-
-    Parameters
-    ----------
-    bearing : Specification
-        The device.
-    words : (str, str)
-        Who does not know that, and what does, for the message: `AT_RIGID_BODY`, `TO_OPENSEES`.
-
-    Raises
-    ------
-    ValueError
-        If it is.
-    """
+    """Refuse a bearing whose friction depends on pressure or temperature."""
     for name in ("pressure_dependence", "friction_heating"):
         if getattr(bearing, name) is not None:
             raise ValueError(_unknown(name, "None", words))
 
 
 def require_lasting_rims(bearing: Specification, words: tuple[str, str]) -> None:
-    """Refuse a bearing whose rims yield, or break and let the slider go on.
-
-    Parameters
-    ----------
-    bearing : Specification
-        The device.
-    words : (str, str)
-        As of `require_constant_friction`.
-
-    Raises
-    ------
-    ValueError
-        If it has such rims.
-    """
+    """Refuse a bearing whose rims yield, or break and let the slider go on."""
     for name, value, none in (
         ("rim_yield_force", bearing.rim_yield_force, "math.inf"),
         ("flange", bearing.flange or math.inf, "None"),
@@ -152,20 +118,7 @@ def require_lasting_rims(bearing: Specification, words: tuple[str, str]) -> None
 
 
 def require_no_backup(bearing: Specification, words: tuple[str, str]) -> None:
-    """Refuse a bearing whose failure does not end the analysis.
-
-    Parameters
-    ----------
-    bearing : Specification
-        The device.
-    words : (str, str)
-        As of `require_constant_friction`.
-
-    Raises
-    ------
-    ValueError
-        If it has a backup.
-    """
+    """Refuse a bearing whose failure does not end the analysis."""
     if bearing.backup is not None:
         raise ValueError(_unknown("backup", "None", words))
 

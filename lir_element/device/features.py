@@ -143,26 +143,7 @@ class Features:
 def apply(features: Features, props: Records, static_load: ArrayLike | None = None) -> Records:
     """Return bearing properties with features left out.
 
-    Parameters
-    ----------
-    features : Features
-        What is modelled. `plate_rotation` and `second_direction` are not a matter of the bearing's
-        properties: they take displacements out of the model.
-    props : records, shape (n,)
-        Properties with everything modelled; they are not changed.
-    static_load : array_like, shape (n,), optional
-        Vertical force of each bearing under permanent loads, compression positive [N]. It takes
-        effect where vertical coupling is left out; None: not known yet, coupled.
-
-    Returns
-    -------
-    records, shape (n,)
-        Properties for the kernels.
-
-    Raises
-    ------
-    ValueError
-        If a static load is not compression.
+    Shapes: props (n,), static_load (n,), result (n,).
     """
     out = props.copy()
     if not features.rims:

@@ -308,31 +308,13 @@ class _Tabulated(FrictionLaw):
 
 
 def without_class(law: FrictionLaw) -> FrictionLaw:
-    """Return a law that any process of this package can read: its table, if it is another's.
-
-    Parameters
-    ----------
-    law : FrictionLaw
-        The law.
-
-    Returns
-    -------
-    FrictionLaw
-        With the same values for kernels.
-    """
+    """Return a law that any process of this package can read: its table, if it is another's."""
     own = isinstance(law, (CoulombFriction, VelocityFriction))
     return law if own else _Tabulated(law.kernel_values())
 
 
 def known_laws() -> tuple[type[FrictionLaw], ...]:
-    """Return the classes of all laws, those of this module first.
-
-    Returns
-    -------
-    tuple of type
-        Dataclasses that give `at_speed`, whose name has no underscore before it. Two may have one
-        name, of different modules.
-    """
+    """Return the classes of all laws, those of this module first."""
     public = [places for name, places in _KNOWN.items() if not name.startswith("_")]
     return tuple(law for places in public for law in places.values() if _is_complete(law))
 
@@ -349,10 +331,7 @@ def unit_of(law: type[FrictionLaw], name: str) -> str:
 def least_coefficients(props: Records) -> Floats:
     """Return the friction coefficients at rest of bearings with properties `props` (n,).
 
-    Returns
-    -------
-    ndarray, (n, 2)
-        Of the bottom and the top surface [-].
+    Shapes: result (n, 2).
     """
     return np.asarray(props["friction_max"] - props["friction_drop"])
 

@@ -74,26 +74,7 @@ class FrictionValues(NamedTuple):
 
 
 def sampled(name: str, law: Law) -> FrictionValues:
-    """Return the table of a law, cubic between knots that lie evenly over v / (v + v_ref).
-
-    Parameters
-    ----------
-    name : str
-        The law in words, for messages.
-    law : callable
-        Friction coefficient [-] at a speed [m/s].
-
-    Returns
-    -------
-    FrictionValues
-        With the reference speed v_ref whose table is nearest to the law, and its error.
-
-    Raises
-    ------
-    ValueError
-        If the coefficient is not finite, outside of 0 to 1, falls with speed, has no limit at high
-        speed, or changes too abruptly for a table.
-    """
+    """Return the table of a law, cubic between knots that lie evenly over v / (v + v_ref)."""
     values = _checked(name, law)
     least, most = float(values[0]), _coefficient(name, law, FASTEST)
     drop = most - least

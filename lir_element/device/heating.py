@@ -192,20 +192,7 @@ class FrictionHeating:
 
 
 def response(time: Floats, path: float) -> Floats:
-    """Return a plate's temperature after a unit of heat, over ``sqrt(D / pi) / k`` [1/s^(1/2)].
-
-    Parameters
-    ----------
-    time : ndarray
-        Since the heat entered [s].
-    path : float
-        Square of the plate's thickness over its diffusivity [s]; infinite for a half-space.
-
-    Returns
-    -------
-    ndarray
-        Of (11.3): by images while heat has not been through the plate, then by modes.
-    """
+    """Return a plate's temperature after a unit of heat, over ``sqrt(D / pi) / k`` [1/s^(1/2)]."""
     squares = np.arange(1, 6)[:, None] ** 2
     early = time < 0.3 * path
     found = 1.0 / np.sqrt(time)

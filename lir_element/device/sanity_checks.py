@@ -72,18 +72,7 @@ def pressure_remedy(pressure: float) -> str:
 
 
 def refuse_sizes(bearing: Specification) -> None:
-    """Refuse lengths that no bearing has.
-
-    Parameters
-    ----------
-    bearing : Specification
-        Its lengths are positive numbers.
-
-    Raises
-    ------
-    ValueError
-        If one is out of bounds; the message names the unit to suspect.
-    """
+    """Refuse lengths that no bearing has."""
     for name in ("slider_radius", "slider_height"):
         _refuse(name, getattr(bearing, name), LARGEST_SLIDER, (2e-3, 1.5))
     for value in as_pair("plate_thickness", bearing.plate_thickness):
@@ -107,19 +96,7 @@ def _refuse(name: str, value: float, bound: float, usual: tuple[float, float]) -
 
 
 def refuse_forces(bearing: Specification) -> None:
-    """Refuse loads and stiffnesses that no bearing has.
-
-    Parameters
-    ----------
-    bearing : Specification
-        Its numbers are checked one by one.
-
-    Raises
-    ------
-    ValueError
-        If the design load crushes any material, or shortens the slider by more than its height;
-        the message names the unit to suspect.
-    """
+    """Refuse loads and stiffnesses that no bearing has."""
     options = bearing.resolved()
     load, stiffness = options["design_load"], options["axial_stiffness"]
     area = _area(bearing)  # of the smallest numbers 0
@@ -142,18 +119,7 @@ def refuse_forces(bearing: Specification) -> None:
 
 
 def sanity_warnings(bearing: Specification) -> tuple[str, ...]:
-    """Return what is strange about a bearing, a sentence each; nothing for usual ones.
-
-    Parameters
-    ----------
-    bearing : Specification
-        The device, checked.
-
-    Returns
-    -------
-    tuple of str
-        Each names the value, what is usual, and the unit to suspect.
-    """
+    """Return what is strange about a bearing, a sentence each; nothing for usual ones."""
     return (
         *_of_geometry(bearing),
         *_of_loads(bearing),

@@ -24,25 +24,7 @@ INTERFACES = 3
 def half_slider(
     radius: float, sphere: float, height: float, density: float
 ) -> tuple[float, float, tuple[float, float]]:
-    """Return mass, place and inertia of one half of the slider: a plane and a spherical cap.
-
-    Parameters
-    ----------
-    radius : float
-        Radius in plan [m].
-    sphere : float
-        Radius of its spherical face [m].
-    height : float
-        Height on its axis, from the vertex to the plane [m].
-    density : float
-        Density [kg/m3].
-
-    Returns
-    -------
-    tuple
-        Mass [kg], height of the mass centre above the vertex [m], moments of inertia about a
-        transverse axis through it and about the slider's axis [kg m2].
-    """
+    """Return mass, place and inertia of one half of the slider: a plane and a spherical cap."""
     nodes, weights = np.polynomial.legendre.leggauss(24)
     r = 0.5 * radius * (nodes + 1.0)
     dr = 0.5 * radius * weights
@@ -56,23 +38,7 @@ def half_slider(
 
 
 def ring_points(count: int, radius: float) -> tuple[Floats, Floats]:
-    """Return the contact points of an interface in plan.
-
-    Parameters
-    ----------
-    count : int
-        Below eight: one ring on the slider's edge, as in the paper's Fig. 5. Up to 64: two rings,
-        on the edge with a third of the stiffness and at half the radius with the rest, which give
-        the area, the torque 2/3 a mu N and the rocking stiffness of a full disc. Beyond: rings of
-        32, by Gauss-Radau quadrature over the radius, the last on the edge.
-    radius : float
-        Slider's radius [m].
-
-    Returns
-    -------
-    tuple
-        Places (count, 2) [m] and shares of the stiffness (count,) [-].
-    """
+    """Return the contact points of an interface in plan."""
     rings = 1 if count < 8 else 2 if count <= 64 else count // 32
     each = count // rings
     where, weight = np.ones(1), np.ones(1)
@@ -95,19 +61,7 @@ def gripping(plan: Floats, share: Floats, sphere: float) -> float:
     Pressures point to the sphere's centre, so that their sum exceeds the axial force; the lever of
     friction about that centre is shorter beside the line of sliding. docs/theory.md, Eq. (7.7).
 
-    Parameters
-    ----------
-    plan : ndarray, shape (n, 2)
-        Places of the points [m].
-    share : ndarray, shape (n,)
-        Their shares of the stiffness [-].
-    sphere : float
-        Radius of the sphere [m].
-
-    Returns
-    -------
-    float
-        About ``1 + (a / R)^2 / 8`` for a slider of radius a.
+    Shapes: plan (n, 2), share (n,).
     """
     upright = np.sqrt(1.0 - np.sum(plan**2, axis=1) / sphere**2)
     lever = np.sqrt(1.0 - plan**2 / sphere**2).mean(axis=1)
@@ -122,17 +76,7 @@ def interface_height(
     The edges of both sliders are equally high, whatever their caps take: with the caps' heights
     ``c = R - sqrt(R^2 - a^2)``, ``h_b - c_1 = (h - h_b) - c_2``, so ``h_b = (h + c_1 - c_2) / 2``.
 
-    Parameters
-    ----------
-    radii : array_like, shape (..., 2)
-        Radius of the bottom and of the top surface [m].
-    slider_radius, slider_height : array_like, shape (...)
-        Radius in plan and height of the whole slider [m].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        The height h_b [m]: half the slider's height where the radii are equal.
+    Shapes: radii (..., 2).
     """
     spheres, edge = np.asarray(radii, dtype=np.float64), np.asarray(slider_radius)[..., None]
     caps = edge**2 / (spheres + np.sqrt(spheres**2 - edge**2))  # R - sqrt(R^2 - a^2)
@@ -183,18 +127,7 @@ def slider_record(bearing: LIRBearing, gravity: float = STANDARD_GRAVITY) -> Rec
 
 
 def face_records(bearing: LIRBearing) -> tuple[Records, Records]:
-    """Return the sliders' faces as discs or contact points, and their state undeformed.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The device.
-
-    Returns
-    -------
-    tuple of records
-        POINT and TOUCH, shapes (1, 3) or (1, 3 n): bottom surface, interface, top surface.
-    """
+    """Return the sliders' faces as discs or contact points, and their state undeformed."""
     if bearing.contact_points is None:
         return _discs(bearing)
     points = point_records(bearing, bearing.contact_points)

@@ -23,29 +23,7 @@ def bearings_by_node(
     *,
     error: type[ValueError] = ValueError,
 ) -> dict[int, LIRBearing]:
-    """Return bearings by base node, in the order of those.
-
-    Parameters
-    ----------
-    base_nodes : sequence of int
-        Tags of the nodes that shall stand on a bearing.
-    bearing : LIRBearing or mapping
-        One for all, or one by tag.
-    error : type
-        What is raised.
-
-    Returns
-    -------
-    dict of int to LIRBearing
-        The bearings.
-
-    Raises
-    ------
-    ValueError
-        If there is no tag, one repeats, or bearings and tags do not match.
-    TypeError
-        If something is no LIRBearing.
-    """
+    """Return bearings by base node, in the order of those."""
     bases = [int(tag) for tag in base_nodes]
     repeated = [tag for tag in bases if bases.count(tag) > 1]
     if not bases or repeated:

@@ -23,27 +23,7 @@ _WAIT = 5.0
 
 
 def add_host_element(ops: Any, tag: int, placement: Placement) -> socket.socket:
-    """Add a `genericClient` to the current model and return our end of its connection.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy.
-    tag : int
-        Of the element.
-    placement : Placement
-        Its nodes and degrees of freedom.
-
-    Returns
-    -------
-    socket
-        Connected to the element; nothing listens any more.
-
-    Raises
-    ------
-    ConnectionError
-        If the element's connection did not arrive.
-    """
+    """Add a `genericClient` to the current model and return our end of its connection."""
     dofs = [*range(1, placement.dofs // 2 + 1)]
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listener:
         listener.bind((_LOOPBACK, 0))
@@ -75,18 +55,7 @@ def add_host_element(ops: Any, tag: int, placement: Placement) -> socket.socket:
 
 
 def own_connections() -> list[Any]:
-    """Return this process's TCP connections, as psutil does, that have another end.
-
-    Returns
-    -------
-    list
-        Each with `laddr`, `raddr` and `fd`.
-
-    Raises
-    ------
-    ImportError
-        If psutil is not installed.
-    """
+    """Return this process's TCP connections, as psutil does, that have another end."""
     try:
         import psutil
     except ImportError as cause:

@@ -10,18 +10,6 @@ from lir_element.argument_checks import listed
 def leftovers(ops: Any) -> str:
     """Look for constraints and elements whose nodes are gone.
 
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model.
-
-    Returns
-    -------
-    str
-        What is left and how to remove it; empty if nothing is.
-
-    Notes
-    -----
     ``ops.remove('node', tag)`` leaves the node's supports, constraints and elements in the model.
     The next analysis then ends the process, mostly without a word.
     """

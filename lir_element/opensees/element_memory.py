@@ -117,19 +117,7 @@ class ElementMemory:
     ) -> RunStatus:
         """Determine the state at a motion of the model.
 
-        Parameters
-        ----------
-        displacement, velocity : ndarray, (n,)
-            In the model's degrees of freedom and units.
-        dt : float
-            Step since the last commit [s].
-        time : float
-            The model's time [s].
-
-        Returns
-        -------
-        RunStatus
-            Why there is no state, if there is none.
+        Shapes: displacement, velocity (n,).
         """
         self._u[:] = displacement
         self._v[:] = velocity
@@ -172,17 +160,7 @@ class ElementMemory:
         return self.messages[int(self._telling[0])] if self._telling[0] else ""
 
     def outcome(self) -> tuple[int, bool, float]:
-        """Return how the analysis stands.
-
-        Returns
-        -------
-        int
-            RunStatus code of the first trial without a state since the last commit, or OK.
-        bool
-            Whether there was a trial after the last commit: its step was not finished.
-        float
-            The model's time at the last commit [s].
-        """
+        """Return how the analysis stands."""
         block = self.block
         refused, unfinished = int(block["refused"][0]), bool(block["unfinished"][0])
         return refused, unfinished, self.committed_time
@@ -196,15 +174,7 @@ class ElementMemory:
     def recorded(self) -> tuple[Floats, Floats, Records, Records]:
         """Return the states that were recorded.
 
-        Returns
-        -------
-        time, velocity, states, bodies : ndarray, (n,), (n, 3), (n,), (n,)
-            The model's time [s], velocity of node j relative to i in bearing axes [m/s], records.
-
-        Raises
-        ------
-        MemoryError
-            If there was no memory for all of them.
+        Shapes: time, velocity, states, bodies (n,).
         """
         if self.block["record_every"][0] < 0:
             msg = f"bearing element {self.tag}: no memory for more states, record fewer (every=)"

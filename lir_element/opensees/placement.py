@@ -69,37 +69,7 @@ def place(
     length_unit: float,
     force_unit: float,
 ) -> Placement:
-    """Check where a bearing is to stand, and return its map.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSeesPy with the current model.
-    i, j : int
-        Nodes below and above.
-    bearing : LIRBearing
-        The device.
-    orient : sequence of 3 or 6 floats or None
-        As for `bearing_element`.
-    length_unit, force_unit : float
-        Of the model [m], [N].
-
-    Returns
-    -------
-    Placement
-        The map.
-
-    Raises
-    ------
-    ValueError
-        If a node does not exist, has other degrees of freedom, or is not where it must be.
-
-    Warns
-    -----
-    PlacementWarning
-        If the model seems to stand on its y axis, and no `orient` is given; or if nodes that
-        coincide are held as if they were swapped.
-    """
+    """Check where a bearing is to stand, and return its map."""
     metre = require_positive("length_unit", length_unit, "m")
     newton = require_positive("force_unit", force_unit, "N")
     i, j = _two_tags(i, j)

@@ -50,18 +50,7 @@ class _Session:
                 bearing.release()
 
     def running_server(self) -> Server:
-        """Return the server, started if there is none.
-
-        Returns
-        -------
-        Server
-            Of all bearings of this process.
-
-        Raises
-        ------
-        ServerError
-            If it is gone, and the model still has bearings that it served.
-        """
+        """Return the server, started if there is none."""
         if self.server is not None and not self.server.alive:
             if any(each.is_served_by(self.server) for each in self._remotes()):
                 raise ServerError(self.server.end_message())
@@ -280,23 +269,7 @@ def bearing_tags() -> tuple[int, ...]:
 
 
 def bearing_at(tag: int) -> Grafted | Remote:
-    """Return what stands behind a bearing's element.
-
-    Parameters
-    ----------
-    tag : int
-        Of the element.
-
-    Returns
-    -------
-    Grafted or Remote
-        By its route.
-
-    Raises
-    ------
-    ValueError
-        If there is no such bearing in the model.
-    """
+    """Return what stands behind a bearing's element."""
     found = _SESSION.bearings.get(tag)
     if found is None or tag not in element_tags() or not found.alive:
         msg = f"element {tag} is no bearing of the current model: it has {bearing_tags()}"

@@ -72,21 +72,7 @@ def bearing_variables(
 ) -> dict[str, xr.Variable]:
     """Return the variables of the contract from states (n_steps, n_bearings).
 
-    Parameters
-    ----------
-    step : str
-        Name of the first dimension, 'time' or 'step'.
-    states : records, shape (n_steps, n_bearings)
-        Committed states.
-    velocity : ndarray or `deferred`, shape (n_steps, n_bearings, 3)
-        Velocity of node j relative to node i [m/s].
-    kept : bool
-        Whether the states stay as they are: they are not copied then.
-
-    Returns
-    -------
-    dict
-        Variables by name.
+    Shapes: states (n_steps, n_bearings), velocity (n_steps, n_bearings, 3).
     """
 
     def own(field: Floats) -> Floats:
@@ -197,19 +183,7 @@ def _works(step: str, states: Records, own: Callable[[Floats], Floats]) -> dict[
 def body_variables(step: str, bodies: Records, displacement: Floats) -> dict[str, xr.Variable]:
     """Return places and rotations of the bodies of a bearing with contact points.
 
-    Parameters
-    ----------
-    step : str
-        Name of the first dimension, 'time' or 'step'.
-    bodies : records, shape (n_steps, n_bearings)
-        Committed states of the bodies.
-    displacement : ndarray, shape (n_steps, n_bearings, 12)
-        Displacements of the nodes; those of node j belong to the top plate.
-
-    Returns
-    -------
-    dict
-        Variables by name; dimension 'body' is bottom_slider, top_slider, top_plate.
+    Shapes: bodies (n_steps, n_bearings), displacement (n_steps, n_bearings, 12).
     """
     from scipy.spatial.transform import Rotation  # as long to import as numba, for this level
 
@@ -235,19 +209,7 @@ def some_bodies(
 ) -> dict[str, xr.Variable]:
     """Return `body_variables` of all bearings, NaN for those without contact points.
 
-    Parameters
-    ----------
-    step : str
-        Name of the first dimension.
-    row : ndarray, shape (n_bearings,)
-        Where a bearing stands in `bodies`, -1 if it does not.
-    states, bodies : records, shape (n_steps, n_bearings), (n_steps, n_with_points)
-        Committed states.
-
-    Returns
-    -------
-    dict
-        Variables by name.
+    Shapes: row (n_bearings,), states, bodies (n_steps, n_bearings).
     """
     full = np.zeros(states.shape, dtype=bodies.dtype)
     chosen = row >= 0

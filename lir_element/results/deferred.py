@@ -23,20 +23,7 @@ indexing: Any = xarray_indexing  # its types are those of another kind of arrays
 
 
 def deferred(shape: tuple[int, ...], form: Callable[[], Floats]) -> Any:
-    """Return an array for a variable that is formed when it is first needed.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Its shape.
-    form : callable
-        Returns it, an array of float64 of its own; what it is made from must stay as it is.
-
-    Returns
-    -------
-    object
-        What `xarray.Variable` takes as values.
-    """
+    """Return an array for a variable that is formed when it is first needed."""
     return indexing.MemoryCachedArray(_Deferred(shape, form))
 
 

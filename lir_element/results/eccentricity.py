@@ -23,18 +23,7 @@ def interface_eccentricity(props: Records, states: Records) -> Floats:
 
     Where sliders are bodies with discs as faces it is the centre of pressure between them.
 
-    Parameters
-    ----------
-    props : records, shape (n_bearings,)
-        Properties.
-    states : records, shape (n_steps, n_bearings)
-        Committed states.
-
-    Returns
-    -------
-    ndarray, shape (n_steps, n_bearings)
-        The larger of both eccentricities [m]; zero where the axial force has faded (below 0.1 % of
-        the design load). For a rigid slider: in the same plane.
+    Shapes: props (n_bearings,), states (n_steps, n_bearings), result (n_steps, n_bearings).
     """
     slider_height = props["radius"].sum(axis=1) - props["length"]
     vectors = (

@@ -18,21 +18,7 @@ CONTACTS = (*SURFACES, "interface")
 def optional_variables(step: str, states: Records, props: Records) -> dict[str, xr.Variable]:
     """Return temperatures, deformations of rims that yield, failures; nothing of bearings without.
 
-    Parameters
-    ----------
-    step : str
-        Name of the first dimension, 'time' or 'step'.
-    states, props : records, shape (n_steps, n_bearings), (n_bearings,)
-        Committed states, and properties.
-
-    Returns
-    -------
-    dict
-        Variables by name. Of bearings that are not heated temperatures are NaN; dimension 'contact'
-        is bottom, top, interface. Deformations of rims [m]: 'rim_closure' with its plastic part
-        where a rim presses, 'rim_plastic' the largest plastic deformation so far, infinite once the
-        rim is broken. 'bearing_failed' where bearings have backups, 1 from the step after their
-        failure on.
+    Shapes: states, props (n_steps, n_bearings).
     """
     found: dict[str, xr.Variable] = {}
     if props["heats"].any():

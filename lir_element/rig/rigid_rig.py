@@ -27,26 +27,9 @@ def drive_path(
 ) -> tuple[Records, Records, int, RunStatus, float, Records]:
     """Take one bearing in equilibrium through a path of its top plate, as rigid bodies.
 
-    Parameters
-    ----------
-    props, contacts, state
-        The bearing, its sliders and its record in equilibrium under ``loads[0]``.
-    path : ndarray, (n, 2)
-        Places of the top plate [m], gone through at `velocity`.
-    loads : ndarray, (n,)
-        Compression held at the points [N], linear between.
-    velocity : float
-        Speed along the path [m/s].
-
-    Returns
-    -------
-    tuple
-        States (n,), bodies (n,), number of points reached, status, time of the end, and the
-        last state tried (1,).
-
-    Notes
-    -----
     The rig's plate weighs what it carries: axial load over standard gravity.
+
+    Shapes: path (n, 2), loads (n,).
     """
     mass = np.max(loads) / STANDARD_GRAVITY
     run = rigid_run(

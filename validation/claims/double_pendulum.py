@@ -38,18 +38,6 @@ def rigid(bearing: LIRBearing, displacement: FloatArray) -> FloatArray:
     """Return the rigid slider's force over the load while it slides outwards [-].
 
     ``H = W tan(theta + atan(m))`` with ``sin(theta) = U / L``, ``m = (mu1 R1 + mu2 R2) / L``.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The device.
-    displacement : ndarray
-        Displacements U [m].
-
-    Returns
-    -------
-    ndarray
-        The force.
     """
     tilt = np.arcsin(displacement / bearing.effective_radius)
     return np.asarray(np.tan(tilt + np.arctan(bearing.effective_friction)))

@@ -107,21 +107,7 @@ def slender(section: Section) -> Section:
 
 
 def apart(setting: Building, record: GroundMotion) -> Gap:
-    """Run the building in both programs and return the differences.
-
-    Parameters
-    ----------
-    setting : Building
-        What is run.
-    record : GroundMotion
-        A motion along x; it is turned in plan.
-
-    Returns
-    -------
-    dict of str to float
-        Of the largest displacement of the base, drift of the roof against it and base shear, and
-        the largest distance of the base's displacements at any time over their peak.
-    """
+    """Run the building in both programs and return the differences."""
     frame = frame_of(setting)
     motion = record.scaled(setting.scale).rotated(ANGLE).trimmed(0.0, DURATION)
     data = time_history(

@@ -233,22 +233,7 @@ def largest(differences: Gap) -> float:
 
 
 def ladder(first: S, rungs: Sequence[Rung], differences: Callable[[S], Gap]) -> list[Row]:
-    """Leave out one cause after the other.
-
-    Parameters
-    ----------
-    first : dataclass with a field `kind`
-        Where to begin.
-    rungs : sequence
-        Causes, how they are left out, and what changes.
-    differences : callable
-        The differences of a setting.
-
-    Returns
-    -------
-    list of Row
-        One for each cause; each begins where the one before ends.
-    """
+    """Leave out one cause after the other."""
     rows, setting, before = [], first, differences(first)
     for cause, how, changes in rungs:
         setting = replace(setting, **changes)

@@ -70,23 +70,7 @@ def in_opensees(
 ) -> tuple[xr.Dataset, FloatArray]:
     """Run the building in OpenSees; return the bearings' Dataset and the roof's displacements.
 
-    Parameters
-    ----------
-    frame : Frame
-        The building.
-    motion : GroundMotion
-        The motion.
-    level : str
-        Of the bearings.
-    dt : float
-        Step [s].
-    route : str
-        Of the bearings.
-
-    Returns
-    -------
-    Dataset, ndarray (n, 3)
-        From the end of gravity on.
+    Shapes: result (n, 3).
     """
     recordings = []
 

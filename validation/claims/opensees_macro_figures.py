@@ -63,19 +63,7 @@ def draw_loops(found: Mapping[str, Loop]) -> Figure:
 def draw_rims(found: Mapping[str, Rim], orbits: Mapping[str, Floats], capacity: float) -> Figure:
     """Draw where the interface slips first, and the place of the slider in an oblique contact.
 
-    Parameters
-    ----------
-    found : mapping of str to Rim
-        By name.
-    orbits : mapping of str to ndarray (n, 2)
-        Displacement less slip under two pulses [m], by name.
-    capacity : float
-        Displacement at which the rims of those are met [m].
-
-    Returns
-    -------
-    Figure
-        The figure.
+    Shapes: orbits (n, 2).
     """
     drawn = new_figure(3.7)
     left, right = grid_of(drawn, 1, 2)[0]

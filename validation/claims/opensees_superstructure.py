@@ -165,33 +165,7 @@ def compare(
     features: Features | None = None,
     dt: float = DT,
 ) -> Comparison:
-    """Analyse the building imported, and wholly in OpenSees.
-
-    Parameters
-    ----------
-    motion : GroundMotion
-        Acceleration of the ground.
-    bearing : LIRBearing
-        The device under every column.
-    isolator : Isolator
-        What stands for it in OpenSees.
-    damping : str
-        One of `DAMPINGS`.
-    features : Features, optional
-        What is modelled of the bearing.
-    dt : float
-        Step [s].
-
-    Returns
-    -------
-    Comparison
-        Both results.
-
-    Raises
-    ------
-    RuntimeError
-        If OpenSees does not complete.
-    """
+    """Analyse the building imported, and wholly in OpenSees."""
     with empty_model() as ops:
         built = fixed_base(ops, building(bearing), damping)
         with warnings.catch_warnings():
@@ -213,14 +187,7 @@ def compare(
 
 
 def independent() -> tuple[float, float]:
-    """Compare with the building built by members here: periods, and a history on LIR-DCFPs.
-
-    Returns
-    -------
-    tuple of two floats
-        Largest relative differences of all periods on sticking bearings, and of the bearings'
-        displacements.
-    """
+    """Compare with the building built by members here: periods, and a history on LIR-DCFPs."""
     bearing = resilient()
     here = building(bearing)
     with empty_model() as ops:
@@ -240,13 +207,7 @@ def independent() -> tuple[float, float]:
 
 
 def page(_: Path | None) -> Page:
-    """Run the claim.
-
-    Returns
-    -------
-    Page
-        Checks, text and figures.
-    """
+    """Run the claim."""
     weak, strong = waves(0.03, 6.0), waves(0.5, 6.0)
     linear = {
         name: compare(weak, device(1e-7), spring, damping=name, features=PENDULUM)

@@ -131,13 +131,7 @@ SHOWN = (0, 2, 3, 11)
 
 
 def page(_: Path | None) -> Page:
-    """Run the claim.
-
-    Returns
-    -------
-    Page
-        Checks, text and figures.
-    """
+    """Run the claim."""
     found = {one: run_both(one.make(), pulse(one.scale), one.dt, one.duration) for one in CASES}
     own, fibres = section.here(bearing(0.2)), section.in_opensees(bearing(0.2))
     apart = {one: differences(one, both) for one, both in found.items()}

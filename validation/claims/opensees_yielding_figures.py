@@ -24,18 +24,7 @@ NAMES = ("here", "OpenSees")
 
 
 def draw_loops(cases: Sequence[tuple[str, Both]]) -> Figure:
-    """Draw force over deformation of the part of each building that reaches most.
-
-    Parameters
-    ----------
-    cases : sequence of (str, Both)
-        Four titles and results.
-
-    Returns
-    -------
-    Figure
-        A panel for each.
-    """
+    """Draw force over deformation of the part of each building that reaches most."""
     drawn, axes = plt.subplots(2, 2, figsize=(8.0, 6.0), layout="constrained")
     for axis, (title, both) in zip(axes.flat, cases, strict=True):
         part = int(np.argmax(both.reached[1]))

@@ -94,17 +94,7 @@ class Both:
     def apart(self, values: tuple[FloatArray, FloatArray], least: float = LEAST) -> float:
         """Return the largest difference of parts' values over their own, of those that matter.
 
-        Parameters
-        ----------
-        values : tuple of two ndarrays, (parts,)
-            Found and expected.
-        least : float
-            Share of the largest value from which on a part is compared [-].
-
-        Returns
-        -------
-        float
-            The difference [-].
+        Shapes: values (parts,).
         """
         found, expected = values
         large = np.abs(expected) >= least * np.abs(expected).max()
@@ -179,27 +169,7 @@ def hinged(on: LIRBearing) -> Frame:
 
 
 def run_both(frame: Frame, motion: GroundMotion, dt: float, duration: float) -> Both:
-    """Run a building with links or hinges here and in OpenSees.
-
-    Parameters
-    ----------
-    frame : Frame
-        With links or hinges, not both.
-    motion : GroundMotion
-        Acceleration of the ground.
-    dt, duration : float
-        Step and length [s].
-
-    Returns
-    -------
-    Both
-        What both say.
-
-    Raises
-    ------
-    RuntimeError
-        If OpenSees does not complete.
-    """
+    """Run a building with links or hinges here and in OpenSees."""
     data = time_history(frame, motion, duration, dt, on_failure="raise")
     names = [str(name) for name in data["hinge" if frame.hinges else "link"].to_numpy()]
     count, width = data.sizes["time"], len(names) * (2 if frame.hinges else 1)

@@ -55,20 +55,7 @@ def fitting_rims(
 
 
 def random_bearing(rng: np.random.Generator, size: float | None = None) -> LIRBearing:
-    """Draw a bearing that can be built, with everything that an engineer can choose.
-
-    Parameters
-    ----------
-    rng : Generator
-        Source of all choices.
-    size : float, optional
-        Mean radius [m]; drawn from `SIZES` if None.
-
-    Returns
-    -------
-    LIRBearing
-        The bearing.
-    """
+    """Draw a bearing that can be built, with everything that an engineer can choose."""
     size = log_uniform(rng, *SIZES) if size is None else size
     ratio = 1.0 if rng.random() < 0.4 else rng.uniform(0.5, 2.0)
     radii = (2.0 * size / (1.0 + ratio), 2.0 * size * ratio / (1.0 + ratio))

@@ -27,18 +27,7 @@ CONTACT_SHARE = 0.1
 
 
 def random_building(seed: int, number: int) -> tuple[Frame, str]:
-    """Draw a building on a grid of bearings, light to overloaded.
-
-    Parameters
-    ----------
-    seed, number : int
-        Of the series, and of the building in it.
-
-    Returns
-    -------
-    tuple
-        The model and a line about it.
-    """
+    """Draw a building on a grid of bearings, light to overloaded."""
     rng = np.random.default_rng((seed, number, 20))
     bays = (int(rng.integers(1, 4)), int(rng.integers(1, 4)))
     storeys, width = int(rng.integers(1, 7)), rng.uniform(3.0, 9.0, 2)
@@ -86,18 +75,7 @@ def _bearing(rng: np.random.Generator) -> LIRBearing:
 
 
 def try_building(seed: int, number: int) -> Report:
-    """Bring a building into equilibrium and leave it alone for a moment.
-
-    Parameters
-    ----------
-    seed, number : int
-        Which building.
-
-    Returns
-    -------
-    Report
-        What came out.
-    """
+    """Bring a building into equilibrium and leave it alone for a moment."""
     began = time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # overloaded sliders are meant

@@ -34,20 +34,6 @@ def same_end(model: Frame, data: xr.Dataset, finer: xr.Dataset, error: float) ->
     A bearing that fails must fail in both, at about the same time; which of its limits it passes
     first is a matter of the step once a slider rocks on an edge. Where one run completes, it must
     about then have come as near to the limit that the other passed as `error`.
-
-    Parameters
-    ----------
-    model : Frame
-        The model of both.
-    data, finer : Dataset
-        The results, that of the chosen step and that of a finer one.
-    error : float
-        That of the displacements of the first run, against the second [m].
-
-    Returns
-    -------
-    bool
-        Whether they say the same of the bearings.
     """
     ends = end_of(data), end_of(finer)
     if ends[0] == ends[1]:
@@ -63,22 +49,7 @@ def same_end(model: Frame, data: xr.Dataset, finer: xr.Dataset, error: float) ->
 
 
 def left_over(model: Frame, data: xr.Dataset, status: str) -> float:
-    """Return how far a run stayed away from the limit that a status names.
-
-    Parameters
-    ----------
-    model : Frame
-        The model.
-    data : Dataset
-        The result.
-    status : str
-        Name of a failure of a bearing.
-
-    Returns
-    -------
-    float
-        Smallest distance over all bearings and times [m]; negative beyond the limit.
-    """
+    """Return how far a run stayed away from the limit that a status names."""
     least = math.inf
     for name, link in model.bearings.items():
         limits, own = link.bearing.resolved(), data.sel(bearing=name)

@@ -40,18 +40,6 @@ def random_level_scene(
     """Return building, bearing, motion and goal of test case `number` of the series `seed`.
 
     One to four storeys that overturn, slender ones that lift among them, masses off the centre.
-
-    Parameters
-    ----------
-    seed, number : int
-        Of the series, and of the test case in it.
-    unlike : bool
-        Whether the two surfaces are of unlike friction.
-
-    Returns
-    -------
-    tuple
-        Building, its bearing, motion to be scaled, peak displacement wanted over the capacity [-].
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DesignWarning)

@@ -22,22 +22,7 @@ DIRECTIONS = {"xyz": 0.45, "xy": 0.25, "x": 0.15, "xz": 0.08, "y": 0.04, "z": 0.
 def random_motion(
     rng: np.random.Generator, period: float, *, shortest: float = 1e-3
 ) -> GroundMotion:
-    """Draw a motion that suits a pendulum of this period.
-
-    Parameters
-    ----------
-    rng : Generator
-        Source of all choices.
-    period : float
-        Of the pendulum [s].
-    shortest : float
-        Smallest step [s].
-
-    Returns
-    -------
-    GroundMotion
-        One to some four periods long; the vertical component may lift what stands on the bearing.
-    """
+    """Draw a motion that suits a pendulum of this period."""
     duration = min(max(rng.uniform(0.8, 2.5) * period, 1.0), 8.0)
     step = log_uniform(rng, shortest, 0.03) if rng.random() < 0.6 else 0.005
     step = max(step, duration / MOST_SAMPLES)

@@ -58,22 +58,7 @@ KINDS = {
 
 
 def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent: str) -> str:
-    """Return the page.
-
-    Parameters
-    ----------
-    scenes, buildings : sequences of dict
-        The reports.
-    call : str
-        How the command was called.
-    spent : str
-        What it cost.
-
-    Returns
-    -------
-    str
-        Markdown.
-    """
+    """Return the page."""
     everything = [*scenes, *buildings]
     bad = sum(bool(entry["findings"]) for entry in everything)
     return (

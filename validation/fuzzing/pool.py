@@ -27,25 +27,7 @@ class _Worker:
 def in_children(
     function: Callable[[Any], Any], tasks: Iterable[Any], workers: int, limit: float
 ) -> Iterator[tuple[Any, Any, str]]:
-    """Run `function` on every task, as many at a time as there are workers.
-
-    Parameters
-    ----------
-    function : callable
-        Of a module; takes a task.
-    tasks : iterable
-        What to run it on.
-    workers : int
-        Number of child processes.
-    limit : float
-        Longest time for a task [s]; the first one of a child has ten times as long, for it has
-        to load.
-
-    Yields
-    ------
-    tuple
-        Task, result (None where it has none) and "", "hang" or "crash".
-    """
+    """Run `function` on every task, as many at a time as there are workers."""
     waiting = iter(tasks)
     crew: list[_Worker] = []
     for _ in range(workers):

@@ -15,18 +15,7 @@ if TYPE_CHECKING:
 
 
 def with_yielding_rims(scene: Scene) -> Scene:
-    """Return a test case with rims of a drawn strength, in half of the cases with a flange.
-
-    Parameters
-    ----------
-    scene : Scene
-        The test case.
-
-    Returns
-    -------
-    Scene
-        The same with rims that yield at 0.02 to 1 times the design load of their bearing.
-    """
+    """Return a test case with rims of a drawn strength, in half of the cases with a flange."""
     rng = np.random.default_rng((scene.seed, scene.number, 77))
     flange = 0.05 if rng.random() < 0.5 else None
     share, hardening, overrun = (

@@ -87,20 +87,7 @@ class Scene:
 
 
 def random_scene(seed: int, number: int, level: str | None = None) -> Scene:
-    """Return test case `number` of the series `seed`: always the same one.
-
-    Parameters
-    ----------
-    seed, number : int
-        Of the series, and of the test case in it; at least 0.
-    level : str or None
-        Of model fidelity, for all bearings; None draws it.
-
-    Returns
-    -------
-    Test case
-        The test case.
-    """
+    """Return test case `number` of the series `seed`: always the same one."""
     kind = chosen(np.random.default_rng((seed, number, 0)), MODELS)
     rng = np.random.default_rng((seed, number, 1))
     devices, build = _MAKERS[kind](rng)

@@ -14,18 +14,7 @@ _LOADED = 0.4
 
 
 def sound(rng: np.random.Generator) -> Document:
-    """Return a project that can be run, of a random code and structure.
-
-    Parameters
-    ----------
-    rng : numpy.random.Generator
-        Chooses.
-
-    Returns
-    -------
-    dict of str to dict
-        Sections of the file.
-    """
+    """Return a project that can be run, of a random code and structure."""
     code = str(rng.choice(["ASCE 7-22", "EN 1998", "NCh2745"]))
     frame = rng.random() < 0.5
     structure: dict[str, Any] = {

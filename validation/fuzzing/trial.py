@@ -64,26 +64,7 @@ def try_scene(
     finer: bool = True,
     change: Callable[[Scene], Scene] | None = None,
 ) -> Report:
-    """Run a test case with all its checks.
-
-    Parameters
-    ----------
-    seed, number : int
-        Which test case.
-    level : str or None
-        Of model fidelity, for all bearings; None draws it.
-    again : bool
-        Whether it is run again, turned, mirrored.
-    finer : bool
-        Whether chosen steps are compared with finer ones.
-    change : callable, optional
-        What makes another test case of it.
-
-    Returns
-    -------
-    Report
-        What came out.
-    """
+    """Run a test case with all its checks."""
     began = time.process_time()
     with warnings.catch_warnings(record=True) as doubts:
         warnings.simplefilter("always")
@@ -159,20 +140,7 @@ def _judge(
 
 
 def sensitivity(scene: Scene, data: xr.Dataset) -> tuple[float, set[str]]:
-    """Return how much the result changes with the motion's last digits, and how it then ends.
-
-    Parameters
-    ----------
-    scene : Test case
-        The test case.
-    data : Dataset
-        Its result.
-
-    Returns
-    -------
-    tuple
-        Largest change of the displacement over its peak [-], and the statuses.
-    """
+    """Return how much the result changes with the motion's last digits, and how it then ends."""
     rng = np.random.default_rng((scene.seed, scene.number, 10))
     changed, ends = [], set()
     for _ in range(NOISY_RUNS):

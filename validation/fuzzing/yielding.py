@@ -29,18 +29,7 @@ PRESSURE = 40e6  # Pa, of the sliders
 
 
 def random_yielding(seed: int, number: int) -> tuple[Frame, GroundMotion, dict[str, Any], str]:
-    """Draw a building that yields, a motion, the options of its analysis, and a line about it.
-
-    Parameters
-    ----------
-    seed, number : int
-        Of the series, and of the test case in it; the same ones give the same test case.
-
-    Returns
-    -------
-    tuple
-        Frame, GroundMotion, keyword arguments of `time_history`, and text.
-    """
+    """Draw a building that yields, a motion, the options of its analysis, and a line about it."""
     rng = np.random.default_rng((seed, number, 30))
     if rng.random() < 0.5:
         frame, line = _stick(rng)

@@ -49,22 +49,7 @@ CASES = ("a", "b", "f", "profile", "e", "c", "d")
 
 
 def measured(key: str, kept: dict[str, Any], *, short: bool) -> dict[str, Any]:
-    """Run one structure in a process of its own; return what was found.
-
-    Parameters
-    ----------
-    key : str
-        Of the structure.
-    kept : dict
-        What was found before.
-    short : bool
-        Whether as little as possible is run.
-
-    Returns
-    -------
-    dict
-        As `benchmark_cases.Found`; its "state" is "ok", "hang" or "crash".
-    """
+    """Run one structure in a process of its own; return what was found."""
     smaller = kept.get(SMALLER.get(key, "b"), {})
     with Worker(LIMIT) as worker:
         state, found = worker.run(measure, structure=STRUCTURES[key], smaller=smaller, short=short)

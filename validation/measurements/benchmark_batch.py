@@ -40,19 +40,7 @@ def motions() -> dict[str, GroundMotion]:
 
 
 def batch_here(dt: float) -> dict[str, Any]:
-    """Run all histories here.
-
-    Parameters
-    ----------
-    dt : float
-        Step [s].
-
-    Returns
-    -------
-    dict
-        Number of histories, time by the clock and CPU time [s], the process's largest memory
-        [bytes], and how they were run.
-    """
+    """Run all histories here."""
     structure = STRUCTURES["b"]
     frame = structure.frame(structure.bearing())
     run_here(frame, motion_of(LENGTH), 2.0 * dt, dt)  # loads the kernels
@@ -103,24 +91,7 @@ def histories_there(kind: str, dt: float, setting: Setting, first: int) -> list[
 
 
 def batch_there(kind: str, dt: float, setting: Setting, limit: float) -> dict[str, Any]:
-    """Run some of the histories in OpenSees, one process a core at the same time.
-
-    Parameters
-    ----------
-    kind : str
-        Element in OpenSees.
-    dt : float
-        Step [s].
-    setting : Setting
-        How it solves.
-    limit : float
-        Seconds after which a process counts as hanging.
-
-    Returns
-    -------
-    dict
-        CPU time of a history [s], how many were run, and the step [s].
-    """
+    """Run some of the histories in OpenSees, one process a core at the same time."""
     count = os.cpu_count() or 1
 
     def serve(place: int) -> list[float]:

@@ -117,23 +117,7 @@ def devices_here(structure: Structure) -> dict[str, LIRBearing]:
 def measure(
     structure: Structure, smaller: dict[str, Any] | None = None, *, short: bool = False
 ) -> Found:
-    """Run a structure in both programs.
-
-    Parameters
-    ----------
-    structure : Structure
-        What is run.
-    smaller : dict, optional
-        What was found of a smaller structure: steps and settings of OpenSees for one that is too
-        large to be run at all steps there, and beyond `SEARCHABLE` the steps here as well.
-    short : bool
-        Whether OpenSees runs one turn of a short window at an assumed step.
-
-    Returns
-    -------
-    Found
-        Everything.
-    """
+    """Run a structure in both programs."""
     effort, found = EFFORTS[structure.case], Found(structure.key)
     if short:
         effort = Effort(SOME, full=False, window=min(0.1, effort.window), turns=1)
@@ -215,29 +199,7 @@ def turns(
     there: dict[str, Any],
     effort: Effort,
 ) -> dict[str, Any]:
-    """Run both programs in turns, each at its own step; return medians.
-
-    Parameters
-    ----------
-    structure : Structure
-        What is run.
-    bearing : LIRBearing
-        Under it, its design load that at rest.
-    kind : str
-        Element in OpenSees.
-    frame : Frame
-        The structure here.
-    ours, there : dict
-        Of `here` by method, and of `steps_there`.
-    effort : Effort
-        How long and how often.
-
-    Returns
-    -------
-    dict
-        By "usual" and "best": CPU time of a step [s] and of the window [s]; by method the same,
-        and the medians of the ratios of theirs to ours.
-    """
+    """Run both programs in turns, each at its own step; return medians."""
     motion = strong(effort.window)
     methods = {m: v["dt"] for m, v in ours.items() if math.isfinite(v.get("dt", math.nan))}
     times: dict[str, list[float]] = {}

@@ -137,18 +137,7 @@ tests and by others, lost. Measured by hand on 2026-11-26."""
 
 
 def goals(kept: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return rows: goal, device, what was found, and whether it is met.
-
-    Parameters
-    ----------
-    kept : dict
-        Of the benchmark, by key of structure, and "e".
-
-    Returns
-    -------
-    list of tuple
-        In the order of the structures.
-    """
+    """Return rows: goal, device, what was found, and whether it is met."""
     rows: list[tuple[str, ...]] = []
     for one in there_are(kept):
         for setting, goal in GOALS.get(one.case, {}).items():
@@ -204,18 +193,7 @@ def batch_goals(here: dict[str, Any]) -> list[tuple[str, ...]]:
 
 
 def before(found: dict[str, Any]) -> dict[str, Any]:
-    """Return what is kept of results that are measured anew.
-
-    Parameters
-    ----------
-    found : dict
-        Of a structure, or of the batch.
-
-    Returns
-    -------
-    dict
-        "when", and by goal and device what was "found".
-    """
+    """Return what is kept of results that are measured anew."""
     rows = goals({found.get("key", "e"): found})
     return {"when": found["when"], "found": {_name(row): row[2] for row in rows}}
 
@@ -225,18 +203,7 @@ def _name(row: tuple[str, ...]) -> str:
 
 
 def goals_text(kept: dict[str, Any]) -> str:
-    """Return the page, from what was kept of the benchmark.
-
-    Parameters
-    ----------
-    kept : dict
-        As `goals` takes it.
-
-    Returns
-    -------
-    str
-        The page.
-    """
+    """Return the page, from what was kept of the benchmark."""
     earlier = {
         name: f"{got}; {one['before']['when']}"
         for one in kept.values()

@@ -111,18 +111,7 @@ STRUCTURES = {
 
 
 def motion_of(duration: float) -> GroundMotion:
-    """Return the motion: Newhall 1994 at 30 degrees in plan, else synthetic motions of such a size.
-
-    Parameters
-    ----------
-    duration : float
-        Its length [s].
-
-    Returns
-    -------
-    GroundMotion
-        Two components.
-    """
+    """Return the motion: Newhall 1994 at 30 degrees in plan, else synthetic motions of such a size."""
     folder = os.environ.get("LIR_RECORDS")
     if folder and (Path(folder) / EXAMPLE_RECORD).is_file():
         record = GroundMotion.from_at2(x=Path(folder) / EXAMPLE_RECORD)

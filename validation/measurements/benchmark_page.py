@@ -51,18 +51,7 @@ LIMITS = (
 
 
 def text(kept: dict[str, Any]) -> str:
-    """Return the page from what was kept; what was not measured is left out.
-
-    Parameters
-    ----------
-    kept : dict
-        By key of structure, and "profile", "e", "machine".
-
-    Returns
-    -------
-    str
-        The page.
-    """
+    """Return the page from what was kept; what was not measured is left out."""
     dates = sorted({one["when"] for one in kept.values() if isinstance(one, dict)})
     measured = there_are(kept)
     missing = [

@@ -53,25 +53,7 @@ def _median_of(run: Callable[[], object]) -> float:
 def multiply_adds(
     coordinates: int, modes: int, bearings: int, iterations: float, states: float, tangents: float
 ) -> float:
-    """Return the multiply-adds that a step needs besides the bearings' state determinations.
-
-    Parameters
-    ----------
-    coordinates, modes : int
-        Bearing coordinates b and fixed-interface modes eta of the structure.
-    bearings : int
-        Number of bearings.
-    iterations, states, tangents : float
-        A step: of Newton's method; determinations of all bearings' states; tangents made.
-
-    Returns
-    -------
-    float
-        Mass, damping and stiffness of b; the coupling of b and eta there and back, in the
-        right-hand sides and in their elimination; a residual a state determination; a guess of
-        the step; a solution an iteration and one for the guess; a bearing's 12 x 12 put in place,
-        and a factorisation, a tangent.
-    """
+    """Return the multiply-adds that a step needs besides the bearings' state determinations."""
     b, eta = float(coordinates), float(modes)
     linear = 3.0 * b * b + 4.0 * b * eta + 10.0 * eta
     residuals = (states + 1.0) * b * b
@@ -81,20 +63,7 @@ def multiply_adds(
 
 
 def profile(key: str) -> dict[str, float]:
-    """Return what a step of a structure on LIR-DCFPs is spent on.
-
-    Parameters
-    ----------
-    key : str
-        Of the structure.
-
-    Returns
-    -------
-    dict of str to float
-        Times of a step [us]: "step", of it "states", "tangents" and "arithmetic"; "recording",
-        which comes on top where all is recorded; and how many there are a step [-]:
-        "multiply-adds", "iterations", "states made", "tangents made".
-    """
+    """Return what a step of a structure on LIR-DCFPs is spent on."""
     structure = STRUCTURES[key]
     bearing = structure.bearing()
     frame, motion = structure.frame(bearing), strong(LENGTH)

@@ -129,28 +129,7 @@ def run_here(
     method: str = "direct",
     recording: Recording | None = BEARINGS_ALONE,
 ) -> Run:
-    """Run a structure here.
-
-    Parameters
-    ----------
-    frame : Frame
-        The structure.
-    motion : GroundMotion
-        Acceleration of the ground.
-    duration : float
-        Length of the analysis [s].
-    dt : float or None
-        Step [s]; None lets the program choose.
-    method : str
-        Of `time_history`.
-    recording : Recording or None
-        Of `time_history`, the bearings' displacements among it.
-
-    Returns
-    -------
-    Run
-        Cost and peak; a method that is refused has the refusal as its status.
-    """
+    """Run a structure here."""
     options: Any = {"method": method, "recording": recording}
     cpu = process_time()
     try:
@@ -189,30 +168,7 @@ def run_there(
     steps: int,
     setting: Setting = USUAL,
 ) -> Run:
-    """Run a structure in OpenSees, on elements of its own or ours.
-
-    Parameters
-    ----------
-    structure : Structure
-        What is run.
-    bearing : LIRBearing
-        The LIR-DCFP under it, its design load that at rest.
-    kind : str
-        One of `opensees_cost.devices`.
-    motion : GroundMotion
-        Acceleration of the ground.
-    dt : float
-        Step [s].
-    steps : int
-        How many.
-    setting : Setting
-        How OpenSees solves.
-
-    Returns
-    -------
-    Run
-        Cost and peak.
-    """
+    """Run a structure in OpenSees, on elements of its own or ours."""
     device, place = devices(bearing, bearing.resolved()["design_load"])[kind]
     frame = structure.frame(device)
     began = process_time()
@@ -253,29 +209,7 @@ def use(ops: Any, setting: Setting) -> None:
 
 
 def march(ops: Any, setting: Setting, steps: int, dt: float) -> int:
-    """Take steps; where the setting's algorithm fails take the step with another one.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSees, its analysis transient.
-    setting : Setting
-        Which is used.
-    steps : int
-        How many.
-    dt : float
-        Their length [s].
-
-    Returns
-    -------
-    int
-        Steps that needed another algorithm.
-
-    Raises
-    ------
-    RuntimeError
-        If no algorithm solves a step, or more than `RESCUES` of all steps need another.
-    """
+    """Take steps; where the setting's algorithm fails take the step with another one."""
     began, done, rescued = ops.getTime(), 0, 0
     while done < steps:
         if ops.analyze(steps - done, dt) == 0:

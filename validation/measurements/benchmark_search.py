@@ -47,20 +47,7 @@ TESTS = (
 
 
 def coarsest(runs: Sequence[Run], reference: float) -> float:
-    """Return the largest step that keeps the peak, as do all smaller ones [s]; NaN if none does.
-
-    Parameters
-    ----------
-    runs : sequence of Run
-        At several steps.
-    reference : float
-        Converged peak displacement [m].
-
-    Returns
-    -------
-    float
-        The step.
-    """
+    """Return the largest step that keeps the peak, as do all smaller ones [s]; NaN if none does."""
     best = math.nan
     for run in sorted((r for r in runs if math.isfinite(r.dt)), key=lambda r: r.dt):
         if run.status != "ok" or error(run, reference) > ALLOWED:
@@ -77,24 +64,7 @@ def error(run: Run, reference: float) -> float:
 def steps_there(
     structure: Structure, bearing: LIRBearing, kind: str, reference: float | None
 ) -> dict[str, Any]:
-    """Find steps and settings of OpenSees for a kind of element.
-
-    Parameters
-    ----------
-    structure : Structure
-        What is run.
-    bearing : LIRBearing
-        Under it.
-    kind : str
-        Element in OpenSees.
-    reference : float or None
-        Converged peak [m]; None: OpenSees's own at a fine step.
-
-    Returns
-    -------
-    dict
-        "usual" and "best": the step, its error and the setting; "runs", "reference", "tried".
-    """
+    """Find steps and settings of OpenSees for a kind of element."""
     motion = motion_of(DURATION)
 
     def run(dt: float, setting: Setting = USUAL) -> Run:
@@ -120,18 +90,7 @@ def steps_there(
 
 
 def cheapest(ways: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """Return that of several steps and settings whose run cost least; the first if none is good.
-
-    Parameters
-    ----------
-    ways : sequence of dict
-        With "dt" and, where that is finite, "loop": CPU time of the steps [s].
-
-    Returns
-    -------
-    dict
-        One of them.
-    """
+    """Return that of several steps and settings whose run cost least; the first if none is good."""
     return min(ways, key=lambda way: way["loop"] if math.isfinite(way["dt"]) else math.inf)
 
 
@@ -170,27 +129,7 @@ def setting_of(values: dict[str, Any]) -> Setting:
 def search(
     structure: Structure, bearing: LIRBearing, kind: str, dt: float, length: float = 1.0
 ) -> tuple[list[Setting], dict[str, float]]:
-    """Search cheap settings of OpenSees: one part after the other, from the usual one.
-
-    Parameters
-    ----------
-    structure : Structure
-        What is run.
-    bearing : LIRBearing
-        Under it.
-    kind : str
-        Element in OpenSees.
-    dt : float
-        Step [s].
-    length : float
-        Of the strong part of the motion that is run [s].
-
-    Returns
-    -------
-    list of Setting, dict
-        The `CANDIDATES` cheapest, the first one first, and the CPU time of a step by setting [s],
-        NaN where it stops.
-    """
+    """Search cheap settings of OpenSees: one part after the other, from the usual one."""
     motion = strong(length)
     tried: dict[str, float] = {}
     costs: dict[Setting, float] = {}

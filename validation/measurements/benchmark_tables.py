@@ -49,22 +49,7 @@ def there_are(kept: dict[str, Any]) -> list[Structure]:
 
 
 def rival(found: dict[str, Any], device: str, setting: str) -> Rival | None:
-    """Return the cheapest way in OpenSees; None where no element of it keeps the error.
-
-    Parameters
-    ----------
-    found : dict
-        Of a structure.
-    device : str
-        One of `GROUPS`.
-    setting : str
-        "usual" or "best".
-
-    Returns
-    -------
-    Rival or None
-        With the cheapest method here.
-    """
+    """Return the cheapest way in OpenSees; None where no element of it keeps the error."""
     ways = []
     for kind in GROUPS[device]:
         ratios = found["pairs"].get(kind, {}).get("ratios", {})
@@ -76,22 +61,7 @@ def rival(found: dict[str, Any], device: str, setting: str) -> Rival | None:
 
 
 def step_cost(found: dict[str, Any], kind: str, who: str) -> float:
-    """Return the CPU time of a step [s]: of a setting there, or of a method here.
-
-    Parameters
-    ----------
-    found : dict
-        Of a structure.
-    kind : str
-        Element in OpenSees with which the turns were taken.
-    who : str
-        "usual" or "best" there, or a method here.
-
-    Returns
-    -------
-    float
-        NaN where there is none.
-    """
+    """Return the CPU time of a step [s]: of a setting there, or of a method here."""
     pairs = found["pairs"].get(kind, {})
     if who not in pairs:
         return math.nan
@@ -108,18 +78,7 @@ def second_cost(found: dict[str, Any], kind: str, who: str) -> float:
 
 
 def power(x: Sequence[float], y: Sequence[float]) -> float:
-    """Return the exponent p of the power law y = c x^p, fitted by least squares of logarithms.
-
-    Parameters
-    ----------
-    x, y : sequence of float
-        Positive; pairs that are not finite are left out.
-
-    Returns
-    -------
-    float
-        NaN for less than two values of x.
-    """
+    """Return the exponent p of the power law y = c x^p, fitted by least squares of logarithms."""
     pairs = np.array([(a, b) for a, b in zip(x, y, strict=True) if math.isfinite(a * b)])
     if len(pairs) < 2 or len(set(pairs[:, 0])) < 2:
         return math.nan
@@ -156,18 +115,7 @@ def growth_with_steps(found: dict[str, Any]) -> float:
 
 
 def short(kept: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return rows: structure, device, its cheapest element in OpenSees, and how often it costs more.
-
-    Parameters
-    ----------
-    kept : dict
-        By key of structure.
-
-    Returns
-    -------
-    list of tuple
-        "-" where no setting of OpenSees keeps the error.
-    """
+    """Return rows: structure, device, its cheapest element in OpenSees, and how often it costs more."""
     rows = []
     for one in there_are(kept):
         for device in GROUPS:

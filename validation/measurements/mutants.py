@@ -76,20 +76,7 @@ class Mutant(NamedTuple):
 
 
 def sites(source: bytes, file: str = "") -> list[Mutant]:
-    """Return all errors that can be put into the functions of a module.
-
-    Parameters
-    ----------
-    source : bytes
-        Its content.
-    file : str
-        Its name, which the errors get.
-
-    Returns
-    -------
-    list of Mutant
-        By place. Annotations, decorators, defaults of arguments and texts have none.
-    """
+    """Return all errors that can be put into the functions of a module."""
     starts = [0]
     for line in source.splitlines(keepends=True):
         starts.append(starts[-1] + len(line))
@@ -183,29 +170,7 @@ def _operator(left: ast.expr, right: ast.expr, source: bytes, at: Place) -> Iter
 
 
 def drawn(files: Sequence[str], count: int, seed: int, root: Path = ROOT) -> list[Mutant]:
-    """Draw errors: a line of those where one is possible, then one of the line's.
-
-    Parameters
-    ----------
-    files : sequence of str
-        Modules, and folders with all modules in them, from the root of the checkout.
-    count : int
-        How many; no line has two.
-    seed : int
-        Of the random numbers: the same errors for the same sources.
-    root : Path, optional
-        Where the files are.
-
-    Returns
-    -------
-    list of Mutant
-        In the order of drawing.
-
-    Raises
-    ------
-    ValueError
-        If a file is not there, none are asked for, or there are fewer lines than errors.
-    """
+    """Draw errors: a line of those where one is possible, then one of the line's."""
     lines: dict[tuple[str, int], list[Mutant]] = {}
     for path in _modules(files, root):
         name = path.relative_to(root).as_posix()
@@ -255,24 +220,7 @@ class Tried(NamedTuple):
 def tried(
     mutant: Mutant, before: Sequence[str], now: Sequence[str], copy: Path, longest: float
 ) -> Tried:
-    """Put an error into a copy and run the tests of before, and where one fails those of now.
-
-    Parameters
-    ----------
-    mutant : Mutant
-        The error; it is taken out again.
-    before, now : sequence of str
-        Files or names of tests.
-    copy : Path
-        Of `validation.mutations.copied`.
-    longest : float
-        Time that each of them may take [s].
-
-    Returns
-    -------
-    Tried
-        Which noticed it. What nothing noticed before cannot be lost: `now` is not run.
-    """
+    """Put an error into a copy and run the tests of before, and where one fails those of now."""
     wrong = mutant.put((copy / mutant.file).read_bytes())
     first = first_failure(mutant.file, wrong, before, copy, longest)
     then = first_failure(mutant.file, wrong, now, copy, longest) if first else ""
@@ -280,26 +228,7 @@ def tried(
 
 
 def require_sound(file: str, tests: Sequence[str], copy: Path, longest: float) -> None:
-    """Require that tests pass without an error: else they would notice whatever is put in.
-
-    Parameters
-    ----------
-    file : str
-        Any file of the copy.
-    tests : sequence of str
-        Files or names of tests.
-    copy : Path
-        Of `validation.mutations.copied`.
-    longest : float
-        Time that each of them may take [s].
-
-    Raises
-    ------
-    ValueError
-        If one fails or takes longer.
-    RuntimeError
-        If they cannot be run.
-    """
+    """Require that tests pass without an error: else they would notice whatever is put in."""
     sound = (copy / file).read_bytes()
     if failed := first_failure(file, sound, list(dict.fromkeys(tests)), copy, longest):
         msg = f"{failed} fails without an error: give tests that pass, or a larger --longest"

@@ -99,22 +99,7 @@ def devices(bearing: LIRBearing, load: float) -> dict[str, tuple[LIRBearing, Pla
 
 
 def microseconds(frame: Frame, place: Place, motion: GroundMotion) -> float:
-    """Run a structure in OpenSees and return the time of a step of the transient analysis [us].
-
-    Parameters
-    ----------
-    frame : Frame
-        The structure.
-    place : callable
-        Puts the bearings.
-    motion : GroundMotion
-        The motion.
-
-    Returns
-    -------
-    float
-        Mean over all steps; not a number if the analysis fails.
-    """
+    """Run a structure in OpenSees and return the time of a step of the transient analysis [us]."""
     with empty_model() as ops:
         add_loads(ops, frame, build(ops, frame, place))
         gravity_analysis(ops)

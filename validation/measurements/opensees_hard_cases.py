@@ -88,23 +88,7 @@ def cases() -> list[Case]:
 
 
 def energies(done: Shaken, motion: GroundMotion, bearing: LIRBearing) -> tuple[float, float]:
-    """Return how far the balance of energy stays open, and the energy that the device made.
-
-    Parameters
-    ----------
-    done : Shaken
-        A run.
-    motion : GroundMotion
-        Acceleration of the ground.
-    bearing : LIRBearing
-        What the device stands for.
-
-    Returns
-    -------
-    (float, float)
-        Input less kinetic energy less work done on the device, over the largest input; and how much
-        of what the device had taken up, less what it stores, it gave back, over the largest.
-    """
+    """Return how far the balance of energy stays open, and the energy that the device made."""
     if len(done.time) < 3:
         return float("nan"), float("nan")
     ground = np.column_stack(

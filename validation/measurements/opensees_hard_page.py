@@ -170,26 +170,7 @@ def remarks(found: list[Entry], capacity: float) -> list[str]:
 def write(
     found: list[Entry], sizes: list[Entry], traces: str, *, capacity: float, dt: float, alike: float
 ) -> str:
-    """Return the page.
-
-    Parameters
-    ----------
-    found, sizes : list of Entry
-        Runs of all cases, and those of several steps.
-    traces : str
-        The table of what steps taken back leave.
-    capacity : float
-        Displacement at which the rims are met [m].
-    dt : float
-        Step of the element [s].
-    alike : float
-        Change of the axial load within which energies are compared [-].
-
-    Returns
-    -------
-    str
-        The page in Markdown.
-    """
+    """Return the page."""
     findings = (
         "Completed runs and the largest error of their peaks, all cases but those of several "
         "steps:",

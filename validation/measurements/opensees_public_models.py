@@ -100,20 +100,7 @@ class Standing:
 
 
 def stand(ops: Any, public: Public) -> Standing:
-    """Load a public model into OpenSees, give it a slab, its weight and damping.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSees.
-    public : Public
-        The model.
-
-    Returns
-    -------
-    Standing
-        What it stands on.
-    """
+    """Load a public model into OpenSees, give it a slab, its weight and damping."""
     import opstool  # optional, and slow to import
 
     opstool.load_ops_examples(public.name)
@@ -204,20 +191,7 @@ class Outcome:
 
 
 def compare(public: Public, duration: float = DURATION) -> Outcome:
-    """Analyse a public model in both programs.
-
-    Parameters
-    ----------
-    public : Public
-        The model.
-    duration : float
-        Length of the analysis [s].
-
-    Returns
-    -------
-    Outcome
-        What came out.
-    """
+    """Analyse a public model in both programs."""
     units = {"length_unit": public.length, "force_unit": public.force}
     motion = waves(public.shaking, duration)
     there = []

@@ -104,18 +104,7 @@ def _size(vectors: FloatArray) -> float:
 
 
 def given_back(data: xr.Dataset) -> float:
-    """Return the least work that a link or hinge has taken up, over the largest input of energy.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        A time history.
-
-    Returns
-    -------
-    float
-        Zero where none ever gave back more than it had taken up, else less [-].
-    """
+    """Return the least work that a link or hinge has taken up, over the largest input of energy."""
     given = float(np.abs(data["energy"].sel(term="input")).max())
     least = min(float(data[name].min()) for name in ("link_work", "hinge_work") if name in data)
     return min(least, 0.0) / max(given, 1e-300)

@@ -66,30 +66,7 @@ def frame_history(
     duration: float | None = None,
     stiffness_damping: float = 0.0,
 ) -> Track:
-    """Run a frame in OpenSees: gravity, then the ground motion with Newmark's average acceleration.
-
-    Parameters
-    ----------
-    frame : Frame
-        The structure.
-    place : callable
-        Puts the element of a bearing.
-    motion : GroundMotion
-        Acceleration of the ground.
-    dt : float
-        Step [s].
-    nodes : sequence of str
-        Nodes whose displacements are handed back.
-    duration : float, optional
-        Length of the analysis [s]; that of the motion if None.
-    stiffness_damping : float
-        Damping of members over their stiffness [s]; bearings have no part in it.
-
-    Returns
-    -------
-    Track
-        Of the nodes asked for and of all bearings.
-    """
+    """Run a frame in OpenSees: gravity, then the ground motion with Newmark's average acceleration."""
     with empty_model() as ops:
         built = build(ops, frame, place)
         add_loads(ops, frame, built)
@@ -109,26 +86,7 @@ def build(
     transformation: str = "PDelta",
     diaphragms: Collection[str] | None = None,
 ) -> Built:
-    """Write a frame into an empty model, without its loads.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSees.
-    frame : Frame
-        The structure.
-    place : callable, optional
-        Puts the element of a bearing; None leaves bearings out, and the nodes below them.
-    transformation : str
-        Geometric transformation of the members.
-    diaphragms : collection of str, optional
-        Names of the diaphragms to build; None is all.
-
-    Returns
-    -------
-    Built
-        The tags.
-    """
+    """Write a frame into an empty model, without its loads."""
     devices = frame.bearings.values()
     left_out = {link.i for link in devices} if place is None else set()
     system = assemble(frame)

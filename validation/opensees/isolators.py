@@ -75,20 +75,7 @@ def put_on_isolators(
 ) -> None:
     """Put isolators under a building that stands on supports, and find its equilibrium.
 
-    Parameters
-    ----------
-    ops : module
-        OpenSees; displacements of the bases are held by its supports, and their ground is there.
-    bases : sequence of int
-        Nodes above the isolators.
-    bearing : LIRBearing
-        The device under each of them.
-    loads : ndarray, (bases,)
-        What they carry [N].
-    isolator : Isolator
-        What stands for the device.
-    diaphragm : bool
-        Whether a rigid diaphragm joins the bases.
+    Shapes: loads (bases,).
     """
     for tag, load in zip(bases, loads, strict=True):
         ground = _GROUND + tag
@@ -101,17 +88,7 @@ def put_on_isolators(
 
 
 def damp(ops: Any, built: Built, kind: str) -> None:
-    """Give a building Rayleigh damping.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSees.
-    built : Built
-        The building.
-    kind : str
-        "mass and initial stiffness", "present stiffness" or "by regions"; others give none.
-    """
+    """Give a building Rayleigh damping."""
     if kind == "mass and initial stiffness":
         ops.rayleigh(0.2, 0.0, 0.002, 0.0)
     elif kind == "present stiffness":

@@ -42,22 +42,7 @@ def empty_model() -> Generator[Any, None, None]:
 def stand(
     height: float, mass: float = 0.0, held: tuple[int, int] = (0, 0)
 ) -> Generator[Any, None, None]:
-    """Hand out OpenSees with a fixed node and one above it that stays level; empty it after use.
-
-    Parameters
-    ----------
-    height : float
-        Distance of the nodes [m].
-    mass : float
-        Mass of the node above [kg].
-    held : (int, int)
-        Whether the node above is held along x and along y: 1 or 0.
-
-    Yields
-    ------
-    module
-        OpenSees; the nodes are `BELOW` and `ABOVE`.
-    """
+    """Hand out OpenSees with a fixed node and one above it that stays level; empty it after use."""
     with empty_model() as ops:
         ops.node(BELOW, 0.0, 0.0, 0.0)
         ops.node(ABOVE, 0.0, 0.0, height)
@@ -109,22 +94,7 @@ def solver(
     iterations: int = _ITERATIONS,
     system: str = "UmfPack",
 ) -> None:
-    """Drop the analysis and set constraints, equations and Newton's method for the next one.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSees.
-    tolerance : float
-        Of the test, in its unit.
-    test : str
-        What is tested.
-    iterations : int
-        How many there may be.
-    system : str
-        Storage of the equations; the tangents are unsymmetric. Modal damping fills the matrix and
-        needs "FullGeneral".
-    """
+    """Drop the analysis and set constraints, equations and Newton's method for the next one."""
     ops.wipeAnalysis()
     ops.constraints("Transformation")
     ops.numberer("RCM")
@@ -146,13 +116,7 @@ def transient_steps(ops: Any) -> None:
 
 
 def gravity_analysis(ops: Any) -> None:
-    """Bring the loads of the model up, hold them and set the time back to zero.
-
-    Raises
-    ------
-    RuntimeError
-        If OpenSees finds no equilibrium.
-    """
+    """Bring the loads of the model up, hold them and set the time back to zero."""
     solver(ops)
     static_steps(ops, 1.0 / _GRAVITY_STEPS)
     advance(ops, _GRAVITY_STEPS)
@@ -161,13 +125,7 @@ def gravity_analysis(ops: Any) -> None:
 
 
 def settle(ops: Any) -> None:
-    """Find equilibrium under the present loads, where the model has changed.
-
-    Raises
-    ------
-    RuntimeError
-        If OpenSees finds none.
-    """
+    """Find equilibrium under the present loads, where the model has changed."""
     solver(ops)
     static_steps(ops, 0.0)
     advance(ops, 1)
@@ -177,27 +135,6 @@ def advance(ops: Any, steps: int, dt: float | None = None, tolerance: float = TO
     """Advance the analysis; return how many steps needed a tolerance a hundred times as large.
 
     A friction that follows the velocity of the iteration before may never settle to less.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSees.
-    steps : int
-        Number of steps.
-    dt : float, optional
-        Step of a transient analysis [s].
-    tolerance : float
-        Norm of the last correction [m, rad].
-
-    Returns
-    -------
-    int
-        Steps that were accepted with the larger tolerance.
-
-    Raises
-    ------
-    RuntimeError
-        If OpenSees finds no equilibrium.
     """
     arguments, loose = () if dt is None else (dt,), 0
     attempts = (("Newton", 1.0), ("KrylovNewton", 1.0), ("Newton", 100.0), ("KrylovNewton", 100.0))

@@ -163,23 +163,7 @@ def hinged_member(
     length: float,
     hinges: tuple[PlasticHinge | None, PlasticHinge | None],
 ) -> None:
-    """Add a member with plastic hinges at its ends; its transformation has the same tag.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSees.
-    tag : int
-        Tag of the element.
-    member : Member
-        The member.
-    ends : tuple of two ints
-        Tags of its nodes.
-    length : float
-        Its length [m].
-    hinges : tuple
-        At either end a PlasticHinge or None.
-    """
+    """Add a member with plastic hinges at its ends; its transformation has the same tag."""
     s = member.section
     first = FIRST + SECTIONS * tag
     elastic = first + SECTIONS - 1
@@ -241,33 +225,7 @@ def _hinge(ops: Any, first: int, member: Member, hinge: PlasticHinge, length: fl
 
 
 def sandwich(ops: Any, first: int, member: Member, hinge: PlasticHinge, length: float) -> int:
-    """Make a section of four fibres, which yields at ``|N / axial| + |My / moment_y| = 1``.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSees.
-    first : int
-        First tag of its materials and sections.
-    member : Member
-        Whose elastic stiffness it has; the fibres are where they give its inertias. Bent about z
-        they yield, too.
-    hinge : PlasticHinge
-        Its plastic moment about y is ``axial (I / A)^(1/2)``. The fibres harden as it does in
-        bending, and six times as much in tension.
-    length : float
-        Of the member [m].
-
-    Returns
-    -------
-    int
-        Tag of the section.
-
-    Raises
-    ------
-    ValueError
-        If the hinge is none that fibres make.
-    """
+    """Make a section of four fibres, which yields at ``|N / axial| + |My / moment_y| = 1``."""
     s = member.section
     across, arm = (math.sqrt(inertia / s.area) for inertia in (s.inertia_z, s.inertia_y))
     fits = math.isclose(hinge.moment_y, hinge.axial * arm) and math.isinf(hinge.moment_z)

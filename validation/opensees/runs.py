@@ -69,21 +69,7 @@ class Track:
 def cycle(place: Place, height: float, load: float, path: FloatArray) -> Track:
     """Take the node above along a path in x under a held vertical load, statically.
 
-    Parameters
-    ----------
-    place : callable
-        Puts the element.
-    height : float
-        Distance of the nodes [m].
-    load : float
-        Vertical load, downwards [N].
-    path : ndarray, (n,)
-        Displacements [m], the first one zero.
-
-    Returns
-    -------
-    Track
-        At each point of the path.
+    Shapes: path (n,).
     """
     with stand(height, held=(0, 1)) as ops:
         place(ELEMENT, BELOW, ABOVE)
@@ -103,28 +89,7 @@ def lumped(
     dt: float,
     duration: float | None = None,
 ) -> Track:
-    """Run a mass on one element under a ground motion.
-
-    Parameters
-    ----------
-    place : callable
-        Puts the element.
-    height : float
-        Distance of the nodes [m].
-    mass : float
-        Mass above [kg].
-    motion : GroundMotion
-        Acceleration of the ground.
-    dt : float
-        Step [s].
-    duration : float, optional
-        Length of the analysis [s]; that of the motion if None.
-
-    Returns
-    -------
-    Track
-        At each step.
-    """
+    """Run a mass on one element under a ground motion."""
     with stand(height, mass) as ops:
         place(ELEMENT, BELOW, ABOVE)
         weigh_down(ops, mass * STANDARD_GRAVITY)
@@ -144,32 +109,7 @@ def respond(
     system: str = "UmfPack",
     length_unit: float = 1.0,
 ) -> Track:
-    """Run the model at hand under a ground motion, by Newmark's average acceleration.
-
-    Parameters
-    ----------
-    ops : module
-        OpenSees; its model is at rest, its loads held.
-    motion : GroundMotion
-        Acceleration of the ground.
-    dt : float
-        Step [s].
-    nodes, elements : sequence of int
-        Tags of what is recorded.
-    duration : float, optional
-        Length of the analysis [s]; that of the motion if None.
-    tolerance : float
-        Norm of the last correction [m, rad].
-    system : str
-        Storage of the equations.
-    length_unit : float
-        Of the model [m].
-
-    Returns
-    -------
-    Track
-        At each step.
-    """
+    """Run the model at hand under a ground motion, by Newmark's average acceleration."""
     ground_motion(ops, motion, length_unit)
     solver(ops, tolerance, system=system)
     transient_steps(ops)

@@ -107,22 +107,7 @@ def _quiet_stand(height: float, mass: float) -> Generator[Any, None, None]:
 def pull(make: Maker, bearing: LIRBearing, load: float, path: Floats) -> Shaken:
     """Take a device slowly along a path by stiff springs, as a rig does.
 
-    Parameters
-    ----------
-    make : callable
-        One of `DEVICES`.
-    bearing : LIRBearing
-        What it stands for.
-    load : float
-        Axial load, held [N].
-    path : ndarray, shape (n,) or (n, 2)
-        Of the rig's end, x or (x, y), from the centre [m].
-
-    Returns
-    -------
-    Shaken
-        Its histories over the number of the point; the device lags behind the path by what the
-        springs give.
+    Shapes: path (n,).
     """
     way = path if path.ndim == 2 else np.column_stack([path, np.zeros_like(path)])
     with _rig(make, bearing, load) as (ops, made):
@@ -152,22 +137,7 @@ def _rig(
 
 
 def take_back(make: Maker, bearing: LIRBearing, load: float) -> float:
-    """Return the lateral force over friction that a failed step leaves, once it is taken back.
-
-    Parameters
-    ----------
-    make : callable
-        One of `DEVICES`.
-    bearing : LIRBearing
-        What it stands for.
-    load : float
-        Axial load [N].
-
-    Returns
-    -------
-    float
-        The force after three steps without motion; NaN if the first step does not fail.
-    """
+    """Return the lateral force over friction that a failed step leaves, once it is taken back."""
     with _rig(make, bearing, load) as (ops, made):
         lead(ops, RIG, 1, np.array([0.0, 1.0]))  # the time is the displacement
         ops.integrator("LoadControl", 2e-3)  # m
@@ -190,28 +160,7 @@ def shake(
     dt: float,
     algorithms: Steps = PLAIN,
 ) -> Shaken:
-    """Run a mass on a device under a ground motion.
-
-    Parameters
-    ----------
-    make : callable
-        One of `DEVICES`.
-    bearing : LIRBearing
-        What it stands for.
-    mass : float
-        Mass on it [kg].
-    motion : GroundMotion
-        Acceleration of the ground.
-    duration, dt : float
-        Length of the analysis and its step [s].
-    algorithms : tuple
-        `PLAIN` or `ROBUST`.
-
-    Returns
-    -------
-    Shaken
-        Its histories.
-    """
+    """Run a mass on a device under a ground motion."""
     weight = mass * STANDARD_GRAVITY
     with _quiet_stand(bearing.height, mass) as ops:
         made = make(bearing, weight)

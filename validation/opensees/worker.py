@@ -44,13 +44,7 @@ class Worker:
         self._start()
 
     def __enter__(self) -> Worker:
-        """Return the worker.
-
-        Returns
-        -------
-        Worker
-            Itself.
-        """
+        """Return the worker."""
         return self
 
     def __exit__(
@@ -59,30 +53,11 @@ class Worker:
         value: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """End the process.
-
-        Parameters
-        ----------
-        kind, value, trace
-            Of an exception that is under way.
-        """
+        """End the process."""
         self._end()
 
     def run(self, function: Callable[..., Any], **arguments: Any) -> tuple[str, Any]:
-        """Run a function of a module.
-
-        Parameters
-        ----------
-        function : callable
-            What to run.
-        **arguments
-            For it.
-
-        Returns
-        -------
-        (str, object)
-            "ok" and what it returned; or "hang" or "crash (exit code)", and None.
-        """
+        """Run a function of a module."""
         self.connection.send((function, arguments))
         if not self.connection.poll(self.limit):
             self._end()

@@ -68,18 +68,7 @@ class Definition(NamedTuple):
     bearings: bool = True
 
     def of(self, runs: IntensityRuns) -> tuple[IntensityRuns, LimitState]:
-        """Return runs with the largest demand over its limit, and the limit state of 1.
-
-        Parameters
-        ----------
-        runs : IntensityRuns
-            Runs of a building.
-
-        Returns
-        -------
-        tuple of IntensityRuns and LimitState
-            Where failed bearings do not count, runs are judged as far as they went.
-        """
+        """Return runs with the largest demand over its limit, and the limit state of 1."""
         table = runs.table
         shares = [table[quantity].to_numpy() / limit for quantity, limit in self.limits]
         changes = {"share": np.max(shares, axis=0) if shares else np.zeros(len(table))}
@@ -131,19 +120,7 @@ def facts_of(one: Building) -> dict[str, float]:
 
 
 def numbers_of(runs: Runs) -> dict[str, Any]:
-    """Return what is kept of a building's runs.
-
-    Parameters
-    ----------
-    runs : mapping of str to IntensityRuns
-        By device, with ductility.
-
-    Returns
-    -------
-    dict
-        Medians, ratios and shares by limit state; definitions; how runs ended; uplift; frames
-        whose bearings failed.
-    """
+    """Return what is kept of a building's runs."""
     limits = {}
     for limit in LIMITS:
         curves = {name: curve_of(each, limit, RESAMPLES) for name, each in runs.items()}
@@ -213,18 +190,7 @@ HALVED_AT = 2.6
 
 
 def halved(motions: Mapping[str, GroundMotion]) -> list[dict[str, Any]]:
-    """Return demands of each building on two devices at the step of the campaigns and at half of it.
-
-    Parameters
-    ----------
-    motions : mapping of str to GroundMotion
-        Records of an intensity of 1 m/s2; each building takes another one.
-
-    Returns
-    -------
-    list of dict
-        "building", "device", "motion", and "runs": status and demands at both steps.
-    """
+    """Return demands of each building on two devices at the step of the campaigns and at half of it."""
     rows = []
     for k, one in enumerate(BUILDINGS):
         name, motion = list(motions.items())[HALVED_EVERY * k]

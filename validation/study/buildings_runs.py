@@ -116,18 +116,6 @@ def bearing_of(one: Building, load: float) -> LIRBearing:
 
     Plates of wide sliders would touch at their edges with low ones. Radii grow along, so that
     period and capacity are the same in all buildings.
-
-    Parameters
-    ----------
-    one : Building
-        The building.
-    load : float
-        Axial load at rest [N].
-
-    Returns
-    -------
-    LIRBearing
-        The LIR-DCFP of the smaller plan.
     """
     own, height = bearing_for(load), SLIDERS[one.storeys]
     more = 0.5 * (height - own.slider_height)
@@ -152,16 +140,6 @@ def strength(one: Building) -> float:
     """Return the base shear of a beam mechanism over the weight [-]: equal forces at all floors.
 
     Beams turn at both ends at every floor, columns and walls at their feet alone.
-
-    Parameters
-    ----------
-    one : Building
-        The building.
-
-    Returns
-    -------
-    float
-        By the kinematic theorem, without interaction with axial forces.
     """
     frame, total, both = building(one), 0.0, ("i", "j")
     for name, pair in frame.hinges.items():
@@ -235,16 +213,6 @@ def wall_hinge(load: float) -> PlasticHinge:
 
     M = 0.5 L (A_s f_y + N)(1 - c / L), bars spread over the length (Cardenas and Magura 1973), with
     a compressed zone c of a fifth of the length; the load is that at rest.
-
-    Parameters
-    ----------
-    load : float
-        Axial load at rest [N].
-
-    Returns
-    -------
-    PlasticHinge
-        It does not yield about the weak axis.
     """
     bars = STEEL * LENGTH * THICKNESS * BAR_STRESS
     return PlasticHinge(moment_y=0.4 * LENGTH * (bars + load), hardening=0.02)

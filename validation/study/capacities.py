@@ -35,20 +35,7 @@ class Line:
 def bounds_of(runs: IntensityRuns, limit: LimitState, records: Sequence[str]) -> FloatArray:
     """Return the intensities between which each record first exceeds a limit state.
 
-    Parameters
-    ----------
-    runs : IntensityRuns
-        Runs of one structure at several intensities.
-    limit : LimitState
-        The limit state.
-    records : sequence of str
-        Names of motions, (n,).
-
-    Returns
-    -------
-    ndarray, shape (n, 2)
-        The highest intensity below, 0 where there is none, and the lowest one that exceeds,
-        infinite where none does. Runs whose analysis failed are passed over.
+    Shapes: result (n, 2).
     """
     table = runs.table.assign(exceeded=runs.exceeded(limit))
     found = []
@@ -65,17 +52,7 @@ def bounds_of(runs: IntensityRuns, limit: LimitState, records: Sequence[str]) ->
 def fitted(bounds: FloatArray, x: FloatArray | None = None) -> Line:
     """Fit by maximum likelihood a lognormal capacity, or a line of its logarithm over x.
 
-    Parameters
-    ----------
-    bounds : ndarray, shape (n, 2)
-        Of `bounds_of`.
-    x : ndarray, shape (n,), optional
-        Property of the records; a slope of 0 without it.
-
-    Returns
-    -------
-    Line
-        The fit: each record counts with the probability between its bounds.
+    Shapes: bounds (n, 2), x (n,).
     """
     with np.errstate(divide="ignore"):
         low, high = np.log(bounds).T

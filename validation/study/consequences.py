@@ -146,17 +146,7 @@ COMPONENTS = (
 def repair(drift: FloatArray, acceleration: FloatArray) -> dict[str, FloatArray]:
     """Return the expected repair over the cost of a new building, by component.
 
-    Parameters
-    ----------
-    drift : ndarray, shape (..., storeys)
-        Largest drift of the storeys [-].
-    acceleration : ndarray, shape (..., storeys + 1)
-        Largest acceleration in plan of the levels, the base first [m/s2].
-
-    Returns
-    -------
-    dict of str to ndarray, shape (...)
-        Shares [-]; their sum may exceed 1.
+    Shapes: drift (..., storeys), acceleration (..., storeys + 1).
     """
     floors = np.asarray(acceleration) / STANDARD_GRAVITY
     whole = REPLACEMENT * AREA * STOREYS

@@ -67,42 +67,13 @@ def rim_width(bearing: LIRBearing, strength: float | None) -> float:
     """Return the width of the ring that a rim of a strength needs [m].
 
     Its foot is sheared over the diameter of the slider that presses on it.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The bearing.
-    strength : float or None
-        Over the design load; None: one that never breaks, `UNBROKEN`.
-
-    Returns
-    -------
-    float
-        At least `FLANGE`.
     """
     force = (UNBROKEN if strength is None else strength) * bearing.resolved()["design_load"]
     return max(FLANGE, force / (2.0 * bearing.slider_radius * 0.6 * YIELD_STRESS))
 
 
 def parts_of(bearing: LIRBearing, strength: float | None, prices: Prices) -> dict[str, float]:
-    """Return the cost of a bearing by part.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The bearing; both dishes alike.
-    strength : float or None
-        Of its rims over the design load.
-    prices : Prices
-        The prices.
-
-    Returns
-    -------
-    dict of str to float
-        Of both plates (blanks, a ring's width larger than the dish on all sides and as thick as the
-        dish is deep at its edge, and `thickness`), rims, sliders, liners and overlays, and of the
-        bearing as one.
-    """
+    """Return the cost of a bearing by part."""
     dish, a = dish_diameter(bearing), bearing.slider_radius
     radius = max(bearing.radii)
     width = rim_width(bearing, strength)
@@ -134,18 +105,7 @@ def cost_of(
 
 
 def volume_of(bearings: Iterable[LIRBearing]) -> float:
-    """Return the volume that `lir design --objective cost-like` counts [m3].
-
-    Parameters
-    ----------
-    bearings : iterable of LIRBearing
-        All bearings of a building.
-
-    Returns
-    -------
-    float
-        Plates' area, with rims of 25 mm, times the slider's height, of all.
-    """
+    """Return the volume that `lir design --objective cost-like` counts [m3]."""
     return sum(
         0.25 * math.pi * (dish_diameter(each) + 2.0 * FLANGE) ** 2 * each.slider_height
         for each in bearings
@@ -160,18 +120,7 @@ def repriced(parts: Mapping[str, float], factors: Mapping[str, float]) -> float:
 def at_equal_cost(
     first: Mapping[float, float], second: Mapping[float, float]
 ) -> list[tuple[float, float, float]]:
-    """Return cost, value of the first and value of the second where both are known.
-
-    Parameters
-    ----------
-    first, second : mapping of float to float
-        Values, as margins, by cost, of devices of several plans.
-
-    Returns
-    -------
-    list of (float, float, float)
-        At the costs of the first that lie within those of the second, which is interpolated.
-    """
+    """Return cost, value of the first and value of the second where both are known."""
     costs = sorted(second)
     return [
         (cost, value, float(np.interp(cost, costs, [second[each] for each in costs])))

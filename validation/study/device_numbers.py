@@ -42,20 +42,7 @@ def curve_of(runs: IntensityRuns, limit: LimitState, resamples: int) -> Curve:
 
 
 def free_of(runs: IntensityRuns, plan: float) -> IntensityRuns:
-    """Return runs of DCFPs without rims as those of a plan: a slider beyond its dish is a failure.
-
-    Parameters
-    ----------
-    runs : IntensityRuns
-        Of bearings whose dishes have no end.
-    plan : float
-        Diameter of the dish under the centre bearing [m]. The edge of a slider may not leave it.
-
-    Returns
-    -------
-    IntensityRuns
-        With the failures of the plan. Up to one a run is the same in any dish.
-    """
+    """Return runs of DCFPs without rims as those of a plan: a slider beyond its dish is a failure."""
     own = own_bearings()
     way = 0.5 * plan - max(each.slider_radius for each in own)
     reach = way * own[0].effective_radius / shape_of(plan, own[0])[0]
@@ -84,21 +71,7 @@ def drawn(records: int, resamples: int) -> np.ndarray:
 def ahead(own: FloatArray, other: FloatArray, samples: np.ndarray, middle: str) -> list[list[Any]]:
     """Return who has the smaller demand at each stripe.
 
-    Parameters
-    ----------
-    own, other : ndarray, shape (records, stripes)
-        Demands of two devices under the same records: collapse as 1 or 0, or accelerations, in
-        which failed bearings are infinite. NaN: unknown, left out in both.
-    samples : ndarray, shape (resamples, records)
-        Records that are drawn.
-    middle : {"mean", "median"}
-        What is compared.
-
-    Returns
-    -------
-    list of [float or None, float or None, float]
-        By stripe what is compared of both, None where infinite; and the shares of resamples in which
-        the first is the smaller one, and in which the second is.
+    Shapes: own, other (records, stripes), samples (resamples, records).
     """
     rows = []
     for first, second in zip(own.T, other.T, strict=True):
@@ -163,14 +136,7 @@ def pair_of(
     curves: tuple[Mapping[str, Curve], Mapping[str, Curve]],
     resamples: int,
 ) -> dict[str, Any]:
-    """Return a device beside another one under the same records.
-
-    Returns
-    -------
-    dict
-        "ratios" of medians by limit state (value, low, high, share of resamples above 1), None
-        where there is no curve; "collapse" and "floors" as `ahead` has them.
-    """
+    """Return a device beside another one under the same records."""
     samples = drawn(len(own.motions), resamples)
     collapses = [by_stripe(each, each.exceeded(COLLAPSE)) for each in (own, other)]
     floors = [by_stripe(each, each.demand(FLOOR)) for each in (own, other)]

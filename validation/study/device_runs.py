@@ -84,18 +84,6 @@ def shape_of(plan: float, own: LIRBearing) -> tuple[float, float]:
 
     The dishes rise towards their edges. Where both together would rise by more than the sliders are
     high the plates touch at rest: the sliders are higher, and the radius is larger by half of that.
-
-    Parameters
-    ----------
-    plan : float
-        Diameter of the dish [m].
-    own : LIRBearing
-        The bearing of the study, both surfaces of one radius.
-
-    Returns
-    -------
-    (float, float)
-        Those of the study up to a plan of 744 mm.
     """
     (radius, _), height = own.radii, own.slider_height
     while 2.0 * (radius - math.sqrt(radius**2 - 0.25 * plan**2)) >= height:
@@ -105,22 +93,7 @@ def shape_of(plan: float, own: LIRBearing) -> tuple[float, float]:
 
 
 def bearing_of(own: LIRBearing, device: Device, reach: float) -> LIRBearing:
-    """Return the bearing of a device in the place of one whose slider is as its load asks.
-
-    Parameters
-    ----------
-    own : LIRBearing
-        The bearing there.
-    device : Device
-        The device.
-    reach : float
-        Way from the centre to the rim [m], the same in all dishes.
-
-    Returns
-    -------
-    LIRBearing
-        The bearing; the stiffness and damping of its rims are those of `own`.
-    """
+    """Return the bearing of a device in the place of one whose slider is as its load asks."""
     options = own.resolved()
     radius, height = shape_of(device.plan, own)
     changes: dict[str, Any] = {
@@ -202,20 +175,7 @@ BY_LOAD = "sliders by load, 60 mm more"
 
 
 def varied_devices(best: Device) -> dict[str, Device]:
-    """Return a LIR-DCFP with other rims, another interface, and with sliders as their loads ask.
-
-    Parameters
-    ----------
-    best : Device
-        The LIR-DCFP that collapses last, of the example's plan.
-
-    Returns
-    -------
-    dict of str to Device
-        By what is other. The interface is beyond what lets sliders tip. Sliders by load have 60 mm
-        more in radius each, so that all nine dishes are those of the DCFP, and the friction that
-        has the same share of the bound of tipping.
-    """
+    """Return a LIR-DCFP with other rims, another interface, and with sliders as their loads ask."""
     own = own_bearings()[0]
     smallest = min(each.slider_radius for each in own_bearings()) + MORE
     share = (best.interface - own.effective_friction) / best.least
@@ -264,15 +224,7 @@ def half_campaign(
 
 
 def best_devices() -> dict[str, Device]:
-    """Return the LIR-DCFP and the DCFPs by their rims of the plan that is the example.
-
-    Returns
-    -------
-    dict of str to Device
-        "LIR-DCFP", that of study_device.md with its friction rounded down; and "DCFP, rims of 1 W"
-        and so on: their sliders are as small as the pressure allows, so that all of the plan is way
-        to the rims.
-    """
+    """Return the LIR-DCFP and the DCFPs by their rims of the plan that is the example."""
     plan = plan_of(REFERENCE)
     lir = Device(plan, False, least=0.1527, interface=0.20)
     plain = [Device(plan, True, strength=strength) for strength in (None, 2.0, 1.0, 0.5)]

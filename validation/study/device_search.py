@@ -78,41 +78,12 @@ def sliders() -> Sliders:
 
 
 def least_of(share: float) -> float:
-    """Return the least radius of a slider [m].
-
-    Parameters
-    ----------
-    share : float
-        0: sliders as their loads ask; 1: all as large as the largest of them, which takes nothing
-        from the way to the rims; 2: all so large that the pressure is the least.
-
-    Returns
-    -------
-    float
-        Linear between.
-    """
+    """Return the least radius of a slider [m]."""
     return float(np.interp(share, (0.0, 1.0, 2.0), sliders()))
 
 
 def interface_of(kappa: float, least: float, plan: float) -> float:
-    """Return the friction of the interface, ``mu_e + kappa a / L``.
-
-    Parameters
-    ----------
-    kappa : float
-        1: the slip may use up the overlap of the smallest slider (theory.md, 2.7: s* = a);
-        2: the resultant stands at the edge of the smallest slider where one rim alone is pressed
-        (``(R - h / 2) mu_h - mu R = a``), and beyond the slider tips.
-    least : float
-        Radius of the smallest slider [m].
-    plan : float
-        Of the device [m].
-
-    Returns
-    -------
-    float
-        Friction coefficient.
-    """
+    """Return the friction of the interface, ``mu_e + kappa a / L``."""
     own = own_bearings()[0]
     one = bearing_of(own, Device(plan, True), 0.1)  # the way to the rims has no part in it
     return one.effective_friction + kappa * least / one.effective_radius
@@ -125,20 +96,7 @@ def device_at(plan: float, share: float, kappa: float) -> Device:
 
 
 def energies(device: Device) -> dict[str, float]:
-    """Return the work that a device takes in one way from rest, over the weight [m].
-
-    Parameters
-    ----------
-    device : Device
-        The device.
-
-    Returns
-    -------
-    dict of str to float
-        "sliding", ``D^2 / 2 L + mu_e D`` to the rims; "slip", ``(D / L + mu_h) a`` over the overlap
-        of the smallest slider, 0 of a DCFP; "rims", their strength times the deformation at which
-        they break, 0 where they never do (theory.md, section 2).
-    """
+    """Return the work that a device takes in one way from rest, over the weight [m]."""
     own = own_bearings()
     bearings = [bearing_of(each, device, reach_of(device, own)) for each in own]
     one = bearings[0]
@@ -168,18 +126,6 @@ def median_of(shares: Sequence[float], stripes: Sequence[float] = STRIPES) -> fl
 
     Of a lognormal curve of a known dispersion whose mean over the stripes is that of the shares:
     there is one even where a fit of both would not settle.
-
-    Parameters
-    ----------
-    shares : sequence of float
-        Of runs that collapse.
-    stripes : sequence of float
-        Their intensities [m/s2].
-
-    Returns
-    -------
-    float
-        The median.
     """
     at, mean = np.log(stripes), float(np.mean(shares))
     mean = min(max(mean, 1e-3), 1.0 - 1e-3)
@@ -257,18 +203,6 @@ def proposals(
 
     The surface is a power of the work by hand, and on it radial functions of what that leaves over;
     `direct` finds its maximum without a start.
-
-    Parameters
-    ----------
-    rows : sequence of mapping
-        Of `rows_of`, of all plans.
-    plans : sequence of float
-        The plans [m].
-
-    Returns
-    -------
-    list of (float, float, float)
-        Plan [m], share of sliders and kappa.
     """
     low = np.array([plan_of(LEAST), 0.0, 1.0])
     span = np.array([plan_of(MOST), 2.0, 2.0]) - low
@@ -297,18 +231,7 @@ def proposals(
 
 
 def second_points(rows: Sequence[Mapping[str, Any]]) -> list[tuple[float, float, float]]:
-    """Return the points that are tried at each plan compared.
-
-    Parameters
-    ----------
-    rows : sequence of mapping
-        Of the first design.
-
-    Returns
-    -------
-    list of (float, float, float)
-        By plan where the response surface is highest, and `EDGE`.
-    """
+    """Return the points that are tried at each plan compared."""
     plans = [plan_of(more) for more in SEARCHED]
     found = {point[0]: point for point in proposals(rows, plans)}
     return list(dict.fromkeys(p for plan in plans for p in (found[plan], (plan, *EDGE))))

@@ -29,24 +29,7 @@ def far_field(
     store: Path,
     workers: int | str,
 ) -> dict[str, Any]:
-    """Run a campaign of the far-field set, or go on with it, and return what is found.
-
-    Parameters
-    ----------
-    campaign : callable
-        Makes the campaign of motions in a folder.
-    found_of : callable
-        Makes plain numbers of its results, motions and a number of resamples.
-    store : Path
-        The folder.
-    workers : int or str
-        As for `performed`.
-
-    Returns
-    -------
-    dict
-        What `found_of` gives, with the cost and the number of records.
-    """
+    """Run a campaign of the far-field set, or go on with it, and return what is found."""
     motions = normalised(MotionSet.fema_p695(RECORDS))
     runs = campaign(motions, store)
     cost = performed(runs, workers)

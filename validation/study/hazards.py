@@ -76,20 +76,7 @@ class Site:
 
 
 def italian(a_g: float, f_0: float, t_star: float, period: float) -> float:
-    """Return Sa of the Italian code on ground C from its hazard [m/s2].
-
-    Parameters
-    ----------
-    a_g, f_0, t_star : float
-        Peak acceleration on rock [m/s2], amplification [-], T*_C [s].
-    period : float
-        Natural period [s], beyond T_C.
-
-    Returns
-    -------
-    float
-        Sa of 5 % damping (NTC 2018, 3.2.3.2.1).
-    """
+    """Return Sa of the Italian code on ground C from its hazard [m/s2]."""
     share = a_g / STANDARD_GRAVITY
     soil = float(np.clip(1.70 - 0.60 * f_0 * share, 1.0, 1.5))
     t_c, t_d = 1.05 * t_star**-0.33 * t_star, 4.0 * share + 1.6

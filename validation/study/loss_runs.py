@@ -88,21 +88,7 @@ def floor_levels() -> dict[str, float]:
 def floor_spectra(
     motions: Mapping[str, GroundMotion], folder: Path
 ) -> dict[str, dict[str, list[Any]]]:
-    """Run what floor spectra need, or read what is there.
-
-    Parameters
-    ----------
-    motions : mapping of str to GroundMotion
-        Records of an intensity of 1 m/s2.
-    folder : path
-        Keeps a file a device and intensity.
-
-    Returns
-    -------
-    dict
-        By intensity and device: a list a record, of spectra (base and roof, periods) [m/s2] of the
-        larger component, or of the status where a bearing or the analysis failed.
-    """
+    """Run what floor spectra need, or read what is there."""
     folder.mkdir(parents=True, exist_ok=True)
     found: dict[str, dict[str, list[Any]]] = {}
     keep = Recording(channels=("node_acceleration",))
@@ -202,22 +188,7 @@ def losses_of(
 ) -> dict[str, FloatArray]:
     """Return expected losses of the runs of a device over the cost of a new building.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Results of the campaign.
-    runs : IntensityRuns
-        Those of the device, in the same order.
-    name : str
-        The device.
-    left_out : sequence of str
-        Numbers of components that cost nothing.
-
-    Returns
-    -------
-    dict of str to ndarray, shape (runs,)
-        "collapse", and each component's number, which are 0 where the building collapses; NaN where
-        the analysis failed. Where repair exceeds the cost of a new building it is scaled down.
+    Shapes: result (runs,).
     """
     own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == name))
     down = runs.exceeded(COLLAPSE)
@@ -234,19 +205,7 @@ def losses_of(
 def annual(loss: FloatArray, at: FloatArray, hazard: HazardCurve) -> FloatArray:
     """Return expected annual losses.
 
-    Parameters
-    ----------
-    loss : ndarray, shape (..., n)
-        Losses at intensities; from 0 at 0 straight between them, constant beyond.
-    at : ndarray, shape (n,)
-        Rising intensities.
-    hazard : HazardCurve
-        Of the same intensity.
-
-    Returns
-    -------
-    ndarray, shape (...)
-        Losses a year.
+    Shapes: loss (..., n), at (n,).
     """
     low, high = hazard.ends
     im = np.union1d(np.geomspace(low, high, 1000), at)

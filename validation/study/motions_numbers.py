@@ -21,21 +21,7 @@ if TYPE_CHECKING:
 
 
 def of_angles(runs: Mapping[int, Mapping[str, IntensityRuns]], resamples: int) -> dict[str, Any]:
-    """Return medians by angle and device, ratios, and how often an angle decides.
-
-    Parameters
-    ----------
-    runs : mapping
-        By angle [degrees] and device.
-    resamples : int
-        Of the intervals.
-
-    Returns
-    -------
-    dict
-        "limits" by limit state and angle; "differ" by device: runs of a record and an intensity
-        whose collapse depends on the angle, and how many are known at all angles.
-    """
+    """Return medians by angle and device, ratios, and how often an angle decides."""
     found: dict[str, Any] = {"limits": {}, "differ": {}}
     for limit in LIMITS:
         own: dict[str, Any] = {}
@@ -60,22 +46,7 @@ def of_seconds(
     after: Mapping[str, Mapping[str, pd.DataFrame]],
     kinds: Mapping[str, After],
 ) -> dict[str, Any]:
-    """Return what second shocks do to buildings that survived the first.
-
-    Parameters
-    ----------
-    alone : mapping of str to DataFrame
-        Runs of first shocks alone by device, with motion, scale, outcome, ductility and slip.
-    after : mapping
-        Runs of both shocks by second shock and device.
-    kinds : mapping of str to After
-        The second shocks by name.
-
-    Returns
-    -------
-    dict
-        By second shock and device a row an intensity.
-    """
+    """Return what second shocks do to buildings that survived the first."""
     return {
         second: {name: _second(alone[name], table, kinds[second]) for name, table in own.items()}
         for second, own in after.items()
@@ -134,21 +105,7 @@ VERTICAL_SHOWN = (
 def of_vertical(
     flat: Mapping[str, IntensityRuns], whole: Mapping[str, IntensityRuns], resamples: int
 ) -> dict[str, Any]:
-    """Return what the vertical component changes, by device.
-
-    Parameters
-    ----------
-    flat, whole : mapping of str to IntensityRuns
-        Runs without and with the vertical component, of the same motions.
-    resamples : int
-        Of the intervals.
-
-    Returns
-    -------
-    dict
-        "devices": medians, shares and peaks without and with it, and "turned": runs that collapse
-        with it alone, and without it alone; "ratios" of the LIR-DCFP over the weaker DCFP.
-    """
+    """Return what the vertical component changes, by device."""
     found: dict[str, Any] = {}
     for name, before in flat.items():
         after = whole[name]
@@ -187,18 +144,7 @@ def of_vertical(
 
 
 def of_pulses(runs: Mapping[str, IntensityRuns]) -> dict[str, Any]:
-    """Return by device and pulse the intensity of collapse, and where the bearing failed first.
-
-    Parameters
-    ----------
-    runs : mapping of str to IntensityRuns
-        By device; intensities of each pulse rise.
-
-    Returns
-    -------
-    dict
-        By device and pulse what `first_over` says.
-    """
+    """Return by device and pulse the intensity of collapse, and where the bearing failed first."""
     found: dict[str, Any] = {}
     for name, each in runs.items():
         table = each.table.assign(over=each.exceeded(COLLAPSE))
@@ -215,16 +161,7 @@ def of_pulses(runs: Mapping[str, IntensityRuns]) -> dict[str, Any]:
 def first_over(im: Any, over: Any, status: Sequence[str]) -> dict[str, Any]:
     """Return between which intensities collapse begins, how, and whether it goes on above.
 
-    Parameters
-    ----------
-    im, over, status : array_like, shape (n,)
-        Rising intensities; 1, 0 or NaN; how the runs ended.
-
-    Returns
-    -------
-    dict
-        "low": the last known intensity before the first collapse (None: none); "high": that of
-        the first collapse (None: none); "status" of it; "again": known runs above that hold.
+    Shapes: im, over, status (n,).
     """
     known = np.isfinite(over)
     places = np.flatnonzero(known & (np.asarray(over) > 0.5))

@@ -88,20 +88,7 @@ def turned(motions: Mapping[str, GroundMotion], angle: float) -> dict[str, Groun
 
 
 def followed(motions: Mapping[str, GroundMotion], after: After) -> dict[str, GroundMotion]:
-    """Return each motion with a second shock behind it; motions have their time of rest behind.
-
-    Parameters
-    ----------
-    motions : mapping of str to GroundMotion
-        Of one intensity.
-    after : After
-        The second shock.
-
-    Returns
-    -------
-    dict of str to GroundMotion
-        By the names of the first shocks.
-    """
+    """Return each motion with a second shock behind it; motions have their time of rest behind."""
     names = list(motions)
     seconds = names[1:] + names[:1] if after.other else names
     return {
@@ -126,18 +113,7 @@ def _component(motion: GroundMotion, axis: str) -> Any:
 
 
 def three_components(folder: Path) -> dict[str, GroundMotion]:
-    """Return records with a vertical component whose factors stay small, normalised.
-
-    Parameters
-    ----------
-    folder : Path
-        Of records (`LIR_RECORDS`): Chi-Chi TCU065, and a folder `landers` of stations.
-
-    Returns
-    -------
-    dict of str to GroundMotion
-        With their vertical components, by name.
-    """
+    """Return records with a vertical component whose factors stay small, normalised."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MotionWarning)
         found = {

@@ -65,18 +65,7 @@ WEIGHED = 0.9
 
 
 def lir_device(own: Iterable[LIRBearing]) -> Device:
-    """Return the best LIR-DCFP for a building: all sliders as wide as the widest.
-
-    Parameters
-    ----------
-    own : iterable of LIRBearing
-        The building's bearings of the smaller plan.
-
-    Returns
-    -------
-    Device
-        Interface and rims are those of `best_devices`; the plan is the building's own.
-    """
+    """Return the best LIR-DCFP for a building: all sliders as wide as the widest."""
     bearings = list(own)
     widest = max(each.slider_radius for each in bearings)
     plan = 2.0 * (bearings[0].rim_displacement[0] + widest + MORE)
@@ -84,18 +73,7 @@ def lir_device(own: Iterable[LIRBearing]) -> Device:
 
 
 def devices_of(own: Mapping[str, LIRBearing]) -> dict[str, dict[str, LIRBearing]]:
-    """Return each device's bearings by name.
-
-    Parameters
-    ----------
-    own : mapping of str to LIRBearing
-        LIR-DCFPs of the smaller plan.
-
-    Returns
-    -------
-    dict of str to dict
-        By device.
-    """
+    """Return each device's bearings by name."""
     best = lir_device(own.values())
     reach = reach_of(best, own.values())
     found = {LIR: {name: best_of(each, best, reach) for name, each in own.items()}}
@@ -132,26 +110,7 @@ def performed_each(
     scales: Sequence[float],
     workers: int,
 ) -> tuple[dict[str, xr.Dataset], dict[str, Any]]:
-    """Run a campaign a building: one that changes leaves the runs of the others.
-
-    Parameters
-    ----------
-    frames : mapping of str to Frame
-        Buildings by name.
-    motions : mapping of str to GroundMotion
-        Motions, before their scales.
-    store : Path
-        Folder of the stores.
-    scales : sequence of float
-        Factors on the motions [-].
-    workers : int
-        Runs at a time.
-
-    Returns
-    -------
-    tuple of dict
-        Results by building, and what all cost, with the digests of the stores.
-    """
+    """Run a campaign a building: one that changes leaves the runs of the others."""
     found, costs = {}, []
     for name, frame in frames.items():
         place = store / "".join(c if c.isalnum() else "-" for c in name)
@@ -217,13 +176,7 @@ def ratio_of(own: Curve | str, other: Curve | str) -> list[float] | None:
 
 
 def shares_of(runs: IntensityRuns, limit: LimitState) -> list[list[float]]:
-    """Return by intensity: runs that exceed a limit, of them failed bearings, known, unknown.
-
-    Returns
-    -------
-    list of lists
-        Intensity, and these four counts.
-    """
+    """Return by intensity: runs that exceed a limit, of them failed bearings, known, unknown."""
     over, table = runs.exceeded(limit), runs.table
     im, outcome = table["im"].to_numpy(), table["outcome"].to_numpy()
     rows = []

@@ -40,21 +40,7 @@ def quietly() -> Generator[None, None, None]:
 
 
 def performed(runs: Campaign, workers: int | str) -> dict[str, Any]:
-    """Run what is not done, and return what it cost, with the results database's digest.
-
-    Parameters
-    ----------
-    runs : Campaign
-        The campaign.
-    workers : int or str
-        Runs at a time, here; or the address of a Dask scheduler, whose workers' processor time is
-        not counted.
-
-    Returns
-    -------
-    dict
-        Runs, seconds, memory [MB], digest, date and machine.
-    """
+    """Run what is not done, and return what it cost, with the results database's digest."""
     before = runs.store.status().done if runs.store.exists else 0
     clock, cpu = perf_counter(), process_time()
     with quietly():
@@ -112,19 +98,7 @@ def run_part(
     found_of: Callable[[Path, int | str], Found],
     write: Callable[[Found], None],
 ) -> None:
-    """Run a part, or go on with it, and write its page; with ``--again`` from the numbers kept.
-
-    Parameters
-    ----------
-    part : str
-        Its name, as in ``python -m validation.study.<part>``.
-    given : sequence of str or None
-        Options; None: those of the command.
-    found_of : callable
-        Runs what is not done, in a folder and with workers, and returns plain numbers.
-    write : callable
-        Writes what was found.
-    """
+    """Run a part, or go on with it, and write its page; with ``--again`` from the numbers kept."""
     options = options_of(part, given)
     if options.again:
         write(json.loads((FOLDER / f"study_{part}.json").read_text(encoding="utf-8")))
@@ -140,21 +114,7 @@ def write_part(
     found: Found | None = None,
     tables: Mapping[str, str] | None = None,
 ) -> None:
-    """Write a part's page, its figures and tables by their names, and its numbers.
-
-    Parameters
-    ----------
-    name : str
-        Of the page and of the numbers, without ending.
-    page : str
-        The page.
-    figures : mapping of str to Figure
-        By the names of their files.
-    found : mapping, optional
-        The numbers; a page of other parts' numbers has none.
-    tables : mapping of str to str, optional
-        CSV by the names of their files.
-    """
+    """Write a part's page, its figures and tables by their names, and its numbers."""
     for file, figure in figures.items():
         figure.savefig(FOLDER / "figures" / file, dpi=DPI, metadata={"Software": None})
     for file, text in (tables or {}).items():

@@ -140,17 +140,7 @@ def yield_rotations() -> dict[str, float]:
 def ductilities_of(data: xr.Dataset, at_yield: Callable[[str], float]) -> Any:
     """Return the largest ductility of rotation of each run, (runs,): 1 where no hinge yields.
 
-    Parameters
-    ----------
-    data : Dataset
-        Of a campaign.
-    at_yield : callable
-        Gives the rotation at which a hinge yields [rad], by its name.
-
-    Returns
-    -------
-    ndarray, shape (runs,)
-        Ductilities.
+    Shapes: result (runs,).
     """
     limits = np.array([at_yield(str(name)) for name in data["hinge"].to_numpy()])
     return 1.0 + (data["reached_hinge_rotation"].to_numpy() / limits).max(axis=1)
@@ -171,13 +161,7 @@ def runs_of(data: xr.Dataset, motions: Mapping[str, GroundMotion], device: str) 
 
 
 def considered() -> float:
-    """Return the Sa of the maximum considered earthquake that fills the capacity [m/s2].
-
-    Returns
-    -------
-    float
-        Of 5 % damping, at 3 s.
-    """
+    """Return the Sa of the maximum considered earthquake that fills the capacity [m/s2]."""
     assert INTENSITY.period is not None
     return filling_intensity(bearing_for(1000e3), INTENSITY.period)
 

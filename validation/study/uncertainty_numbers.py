@@ -38,20 +38,7 @@ def capped(data: xr.Dataset) -> FloatArray:
 def table_of(
     results: Sequence[tuple[Sequence[int], xr.Dataset]], samples: int
 ) -> dict[str, FloatArray]:
-    """Return the results of the sample, by device.
-
-    Parameters
-    ----------
-    results : sequence of (list of int, Dataset)
-        Numbers of sets and results of each campaign of `sampled`.
-    samples : int
-        Samples n of the design.
-
-    Returns
-    -------
-    dict of str to ndarray, shape (properties + 2, n)
-        Of `capped`: sample A, sample B, then A with one property of B after the other.
-    """
+    """Return the results of the sample, by device."""
     count = samples * (len(SPREADS) + 2)
     found = {name: np.full(count, np.nan) for name in PAIR}
     for numbers, data in results:
@@ -72,21 +59,7 @@ def indices(table: FloatArray) -> FloatArray:
 
 
 def shares_of(tables: Mapping[str, FloatArray], resamples: int) -> dict[str, Any]:
-    """Return first and total Sobol' indices, of both devices and of their difference.
-
-    Parameters
-    ----------
-    tables : mapping of str to ndarray
-        Of `table_of`. A sample with a run whose analysis failed is left out as a whole.
-    resamples : int
-        Of the samples, for the intervals.
-
-    Returns
-    -------
-    dict
-        By device and "ratio": "first" and "total" by property, each with its interval; "mean",
-        "deviation" and "left out".
-    """
+    """Return first and total Sobol' indices, of both devices and of their difference."""
     whole = dict(tables) | {"ratio": tables["LIR-DCFP"] - tables["DCFP"]}
     found: dict[str, Any] = {}
     for name, values in whole.items():
@@ -114,25 +87,7 @@ def effects_of(
     count: int,
     resamples: int,
 ) -> dict[str, Any]:
-    """Return what a property changes from its fractile of 16 % to that of 84 %, on average.
-
-    Parameters
-    ----------
-    tables : mapping of str to ndarray
-        Of `table_of`.
-    sets : sequence of mapping
-        Those of the tables, in their order.
-    count : int
-        Records.
-    resamples : int
-        Of the samples, for the intervals.
-
-    Returns
-    -------
-    dict
-        By device and "ratio", by property: changes of the logarithm of the ductility, with their
-        intervals, from a line through all runs with a constant for each record.
-    """
+    """Return what a property changes from its fractile of 16 % to that of 84 %, on average."""
     names = [name for name in SPREADS if name != RECORD]
     shares = np.array([[float(SPREADS[n].cdf(each[n])) for n in names] for each in sets])
     record = np.array([record_of(each, count) for each in sets])
@@ -165,23 +120,7 @@ def effects_of(
 def stiffness_of(
     results: Sequence[xr.Dataset], motions: Mapping[str, GroundMotion], resamples: int
 ) -> dict[str, Any]:
-    """Return collapse margins by device and stiffness of the rims, and their ratios.
-
-    Parameters
-    ----------
-    results : sequence of xarray.Dataset
-        Of `stiffness_campaign`, `elastic_campaign` and `best_campaign`.
-    motions : mapping of str to GroundMotion
-        Its records.
-    resamples : int
-        Of the records.
-
-    Returns
-    -------
-    dict
-        "margins" and "failed" (share of failed bearings by intensity) by device and stiffness,
-        "ratios" of the best LIR-DCFP over the others.
-    """
+    """Return collapse margins by device and stiffness of the rims, and their ratios."""
     records, at = list(motions), considered()
     drawn = draws(len(records), resamples)
     found: dict[str, Any] = {"margins": {}, "failed": {}, "collapse": {}, "ratios": {}}

@@ -84,21 +84,7 @@ def record_of(each: Mapping[str, float], count: int) -> int:
 
 
 def changed(own: LIRBearing, parameters: Mapping[str, float]) -> LIRBearing:
-    """Return a bearing with other properties; those that are not named stay.
-
-    Parameters
-    ----------
-    own : LIRBearing
-        The bearing.
-    parameters : mapping of str to float
-        Of `SPREADS`, but for the record.
-
-    Returns
-    -------
-    LIRBearing
-        A copy. The deformation at which a rim breaks is what it has behind its yielding, so that a
-        softer rim breaks later.
-    """
+    """Return a bearing with other properties; those that are not named stay."""
     law = own.frictions[0]
     factor = parameters.get("friction", 1.0)
     friction = replace(law, f_max=factor * law.f_max, f_min=factor * law.f_min)  # type: ignore[attr-defined,call-arg]
@@ -145,22 +131,7 @@ def sampled(
     store: Path,
     sets: Sequence[Mapping[str, float]],
 ) -> Iterator[tuple[list[int], Campaign]]:
-    """Yield a campaign a record: the numbers of its sets, and the runs of both devices.
-
-    Parameters
-    ----------
-    motions : mapping of str to GroundMotion
-        Records of an intensity of 1 m/s2.
-    store : path
-        Folder of all stores.
-    sets : sequence of mapping
-        Of `sets_of`.
-
-    Yields
-    ------
-    tuple of list of int, Campaign
-        Record after record.
-    """
+    """Yield a campaign a record: the numbers of its sets, and the runs of both devices."""
     names = [name for name in SPREADS if name != RECORD]
     for k, (name, motion) in enumerate(motions.items()):
         own = [n for n, each in enumerate(sets) if record_of(each, len(motions)) == k]
@@ -225,13 +196,7 @@ def best_campaign(motions: Mapping[str, GroundMotion], store: Path) -> Campaign:
 
 
 def elastic_frames() -> dict[str, Frame]:
-    """Return the building on DCFPs whose rims stay elastic and break at one deformation, by name.
-
-    Returns
-    -------
-    dict of str to Frame
-        The force at which a rim breaks falls with its stiffness.
-    """
+    """Return the building on DCFPs whose rims stay elastic and break at one deformation, by name."""
     found = {}
     for share in BREAKING:
         frame = plain({"stiffness": share})

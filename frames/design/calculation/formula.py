@@ -38,25 +38,7 @@ RESERVED = frozenset({"pi", *_ONE, *_MANY})
 
 @lru_cache(maxsize=1024)
 def parse(formula: str) -> ast.expr:
-    """Return a formula as a tree.
-
-    Parameters
-    ----------
-    formula : str
-        In Python's notation: numbers, names, ``+ - * / **``, ``pi`` and the functions ``sqrt``,
-        ``abs``, ``exp``, ``log``, ``acos``, ``min``, ``max``. Of several values ``sum``, and
-        ``min`` and ``max`` of one argument, go over all; ``above`` sums each with those after it.
-
-    Returns
-    -------
-    ast.expr
-        Its tree, of which each part is known to `evaluate`.
-
-    Raises
-    ------
-    CheckError
-        If it is no such formula.
-    """
+    """Return a formula as a tree."""
     try:
         tree = ast.parse(formula, mode="eval").body
     except SyntaxError as cause:
@@ -104,20 +86,7 @@ def call(node: ast.expr) -> tuple[str, list[ast.expr]]:
 
 
 def evaluate(tree: ast.expr, values: Mapping[str, Value]) -> Value:
-    """Return the value of a formula.
-
-    Parameters
-    ----------
-    tree : ast.expr
-        From `parse`.
-    values : mapping of str to float or tuple
-        What its names stand for.
-
-    Returns
-    -------
-    float or tuple of float
-        Its value; NaN or infinite where the formula has none.
-    """
+    """Return the value of a formula."""
     with np.errstate(all="ignore"):
         found = _value(tree, {name: np.asarray(v, float) for name, v in values.items()})
     return tuple(map(float, found)) if found.ndim else float(found)

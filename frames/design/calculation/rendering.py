@@ -118,20 +118,7 @@ def symbol_mathml(name: str) -> str:
 
 
 def text(tree: ast.expr, style: Style) -> str:
-    """Return a formula as a line of text.
-
-    Parameters
-    ----------
-    tree : ast.expr
-        The formula.
-    style : Style
-        How.
-
-    Returns
-    -------
-    str
-        As in "g T² / (4 π²)".
-    """
+    """Return a formula as a line of text."""
     return _text(tree, style)[0]
 
 

@@ -94,23 +94,7 @@ LEGEND = f"clauses, formulas and factors with a star: {MEMORY}"
 
 
 def standing_of(text: str) -> Standing:
-    """Return the standing that a table has in words.
-
-    Parameters
-    ----------
-    text : str
-        As `str` of a standing gives it.
-
-    Returns
-    -------
-    Standing
-        The standing.
-
-    Raises
-    ------
-    CheckError
-        If the words are of none.
-    """
+    """Return the standing that a table has in words."""
     for kind, words in _WORDS.items():
         if text == words or text.startswith(f"{words} "):
             return Standing(kind, text.removeprefix(words).strip())

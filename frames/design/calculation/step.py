@@ -82,14 +82,7 @@ class Step:
         return self.result.unit
 
     def text(self) -> str:
-        """Return the line as text: symbol, formula, numbers, value and unit.
-
-        Returns
-        -------
-        str
-            Numbers have units where not all are in the unit they are kept in; what there are
-            several of keeps its symbol.
-        """
+        """Return the line as text: symbol, formula, numbers, value and unit."""
         if not self.formula:
             at = ", ".join(f"{symbol_text(e.symbol)} = {e}" for e in self.entered)
             return f"{symbol_text(self.symbol)} = {self.result}{f' at {at}' if at else ''}"

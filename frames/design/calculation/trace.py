@@ -127,27 +127,7 @@ class Trace:
         note: str = "",
         shown: str = "",
     ) -> float:
-        """Evaluate a formula, enter its line and return its value.
-
-        Parameters
-        ----------
-        symbol : str
-            Name of what it gives.
-        formula : str
-            As `parse` has it, of names that stand above.
-        unit, source, note, shown : str
-            As in `given`.
-
-        Returns
-        -------
-        float
-            The value, in `unit`.
-
-        Raises
-        ------
-        CheckError
-            If a name is not known, or the value is NaN, infinite or no single number.
-        """
+        """Evaluate a formula, enter its line and return its value."""
         return _single(self._formed(symbol, formula, unit, source, note, shown))
 
     def each(

@@ -21,23 +21,7 @@ NOT_EVALUATED = "not evaluated"
 
 
 def not_evaluated(checks: Iterable[Check], why: str, needs: Iterable[str] = ()) -> Checks:
-    """Return checks that do not pass, for what they need is not known.
-
-    Parameters
-    ----------
-    checks : iterable of Check
-        The checks.
-    why : str
-        Why it is not known; if empty, all checks are returned as they are.
-    needs : iterable of str
-        Only checks whose calculation has one of these symbols; all of them if none is given.
-
-    Returns
-    -------
-    Checks
-        In place of each a check without a demand: infinite, on the side that does not pass. Its
-        note begins with the reason.
-    """
+    """Return checks that do not pass, for what they need is not known."""
     symbols = tuple(needs)
     return Checks(
         _without_demand(check, why)

@@ -37,20 +37,7 @@ class AcceptanceRule(NamedTuple):
 
 
 def accepted_of(rules: Iterable[AcceptanceRule], test: str) -> str:
-    """Return what is accepted of a test, with clauses and stars, "; " between.
-
-    Parameters
-    ----------
-    rules : iterable of AcceptanceRule
-        Of the code.
-    test : str
-        Name of the test.
-
-    Returns
-    -------
-    str
-        Empty where no rule is of it.
-    """
+    """Return what is accepted of a test, with clauses and stars, "; " between."""
     return "; ".join(
         f"{rule.value.what} ({rule.value.standing.cited(rule.value.clause)})"
         for rule in rules

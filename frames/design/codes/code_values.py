@@ -52,23 +52,7 @@ class CodeValue(NamedTuple):
 
 
 def weakest(standings: Iterable[Standing]) -> Standing:
-    """Return the standing of what rests on several values.
-
-    Parameters
-    ----------
-    standings : iterable of Standing
-        Of each, one at least.
-
-    Returns
-    -------
-    Standing
-        That of the weakest kind; sources of those of the same kind are all named.
-
-    Raises
-    ------
-    CheckError
-        If there is none, or one is of no code.
-    """
+    """Return the standing of what rests on several values."""
     found = tuple(dict.fromkeys(standings))
     if not found or any(one.kind == "own" for one in found):
         msg = (
@@ -80,28 +64,7 @@ def weakest(standings: Iterable[Standing]) -> Standing:
 
 
 def standing_by(values: Mapping[str, CodeValue], *names: str, analysis: object = None) -> Standing:
-    """Return the standing of a check that rests on values of a code.
-
-    Parameters
-    ----------
-    values : mapping of str to CodeValue
-        Of the code, by name.
-    *names : str
-        Of those that it rests on.
-    analysis : object, optional
-        Analysis of the code with its factors: of one that is not the code's own, nothing is known
-        but that somebody gave it.
-
-    Returns
-    -------
-    Standing
-        That of the weakest.
-
-    Raises
-    ------
-    CheckError
-        If the code has no value of a name.
-    """
+    """Return the standing of a check that rests on values of a code."""
     missing = [name for name in names if name not in values]
     if missing:
         msg = f"value {missing[0]!r} is none of the code's: it has {', '.join(values)}"

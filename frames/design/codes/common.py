@@ -23,22 +23,7 @@ if TYPE_CHECKING:
 def eccentricities(
     t: Trace, system: IsolationSystem, accidental: str, source: str, *, by_direction: bool
 ) -> None:
-    """Enter plan, distances from the centres, and eccentricities e_x and e_y.
-
-    Parameters
-    ----------
-    t : Trace
-        With loads P and forces F of the bearings.
-    system : IsolationSystem
-        The system.
-    accidental : str
-        Symbol of the accidental eccentricity over the side.
-    source : str
-        Clause.
-    by_direction : bool
-        Whether the accidental eccentricity along an axis goes by the side along that axis, or by
-        the longest side whichever the axis.
-    """
+    """Enter plan, distances from the centres, and eccentricities e_x and e_y."""
     t.given("b", system.plan[0], "m", note="side of the plan along x")
     t.given("d", system.plan[1], "m", note="side of the plan along y")
     for k, axis in enumerate("xy"):
@@ -75,17 +60,7 @@ def enter_storeys(t: Trace, above: Superstructure) -> None:
 
 
 def enter_restoring(t: Trace, displacement: str, share: float) -> None:
-    """Enter Delta_F, the force that the second half of a displacement adds, and its limit.
-
-    Parameters
-    ----------
-    t : Trace
-        With loads P, radii L, frictions mu and the weight W.
-    displacement : str
-        Symbol of the displacement.
-    share : float
-        Of the weight that the force must reach.
-    """
+    """Enter Delta_F, the force that the second half of a displacement adds, and its limit."""
     d = displacement
     t.given("a_R", share)
     t("Delta_F", f"sum(P * ({d} / L + mu)) - sum(P * ({d} / (2 * L) + mu))", "N")
@@ -98,13 +73,6 @@ def overturning(t: Trace, moment: str, share: str) -> None:
     The base is rigid: loads go by the distance from the bearings' centre; `share` of what the
     other direction gives adds. A direction in which all bearings stand in one line has no lever
     and is left out.
-
-    Parameters
-    ----------
-    t : Trace
-        With the bearings' places x and y.
-    moment, share : str
-        Symbols of the moment, and of the share.
     """
     t.given("n_b", float(len(t.values("x"))), note="bearings")
     loads: list[str] = []
@@ -122,24 +90,7 @@ def overturning(t: Trace, moment: str, share: str) -> None:
 
 
 def overturning_check(t: Trace, judge: CheckBuilder, clause: str) -> Checks:
-    """Return the check that the structure as a whole does not overturn on its bearings.
-
-    Parameters
-    ----------
-    t : Trace
-        With the weight W, the moment M_o of unreduced forces, the bearings' places and the centre
-        of mass.
-    judge : CheckBuilder
-        Makes the check.
-    clause : str
-        Clause.
-
-    Returns
-    -------
-    Checks
-        The moment against that of the weight about the nearest row of outer bearings; none where
-        the bearings stand in one line, across which the model has no lever.
-    """
+    """Return the check that the structure as a whole does not overturn on its bearings."""
     if not all(t.value(f"I_{axis}") > 0.0 for axis in "xy"):
         return Checks()
     for axis in "xy":
@@ -156,32 +107,7 @@ def vertical_checks(
     clause: str,
     pressure_limit: float | None,
 ) -> Checks:
-    """Return the checks of axial loads: no uplift, and pressure on the sliders.
-
-    Parameters
-    ----------
-    t : Trace
-        With axial loads N_E from overturning; the loads of all combinations are entered.
-    system : IsolationSystem
-        The system with its combinations.
-    judge : CheckBuilder
-        Makes the checks.
-    clause : str
-        Clause.
-    pressure_limit : float, optional
-        Pressure that sliders stand at the largest displacement [Pa]; not checked if None.
-
-    Returns
-    -------
-    Checks
-        For each combination the bearing that is worst; not evaluated where the loads of single
-        bearings are not known.
-
-    Raises
-    ------
-    CheckError
-        If pressure is to be checked of something that has no slider.
-    """
+    """Return the checks of axial loads: no uplift, and pressure on the sliders."""
     found: list[Check] = []
     sliders = [b.slider_radius for b in system.bearings if isinstance(b, LIRBearing)]
     if pressure_limit is not None and system.combinations:
@@ -271,28 +197,7 @@ def capacity_check(
 def drift_checks(
     t: Trace, above: Superstructure, judge: CheckBuilder, clause: str, *, limit: float, factor: str
 ) -> Checks:
-    """Return the check of storey drifts under the floors' forces F_x, for the worst storey.
-
-    Parameters
-    ----------
-    t : Trace
-        With the forces.
-    above : Superstructure
-        With the stiffness of its storeys.
-    judge : CheckBuilder
-        Makes the check.
-    clause : str
-        Clause.
-    limit : float
-        Drift over height [-].
-    factor : str
-        What the drifts are multiplied by, a formula.
-
-    Returns
-    -------
-    Checks
-        One check; none where the storeys' stiffness is not known.
-    """
+    """Return the check of storey drifts under the floors' forces F_x, for the worst storey."""
     if above.storey_stiffness is None:
         return Checks()
     t.given_each("k_x", above.storey_stiffness, "N/m")

@@ -68,27 +68,7 @@ def factors_of_asce7(
     full_scale_tests: bool = False,
     **others: Any,
 ) -> PropertyModificationFactors:
-    """Return the factors of ASCE 7-22, 17.2.8.4, of their sources.
-
-    Parameters
-    ----------
-    ageing, contamination, test, specification : tuple of two floats
-        Lower and upper factor [-].
-    full_scale_tests : bool
-        Whether dynamic tests of full-scale prototypes justify less than 1.8 and more than 0.60.
-    **others
-        None: keys of other codes are refused.
-
-    Returns
-    -------
-    PropertyModificationFactors
-        As `PropertyModificationFactors.asce7`.
-
-    Raises
-    ------
-    CheckError
-        If a factor is out of bounds, or a key belongs to the rule of another code.
-    """
+    """Return the factors of ASCE 7-22, 17.2.8.4, of their sources."""
     _refuse_others(others, ("ageing", "contamination", "test", "specification", "full_scale_tests"))
     return PropertyModificationFactors.asce7(
         ageing=ageing,
@@ -109,29 +89,7 @@ def factors_of_en1998(
     importance_class: str = "II",
     **others: Any,
 ) -> PropertyModificationFactors:
-    """Return the factors of EN 1998-2, annexes J and JJ, of their sources.
-
-    Parameters
-    ----------
-    ageing, temperature, contamination, wear : tuple of two floats
-        Lower and upper factor [-]; annex JJ lets them raise friction only, the lower one is 1.
-    specification : tuple of two floats
-        Range of tested and specified values about the nominal one.
-    importance_class : {"I", "II", "III"}
-        For the combination factor psi.
-    **others
-        None: keys of other codes are refused.
-
-    Returns
-    -------
-    PropertyModificationFactors
-        As `PropertyModificationFactors.en1998`.
-
-    Raises
-    ------
-    CheckError
-        If a factor is out of bounds, or a key belongs to the rule of another code.
-    """
+    """Return the factors of EN 1998-2, annexes J and JJ, of their sources."""
     raising = {
         "ageing": ageing,
         "temperature": temperature,

@@ -21,18 +21,6 @@ def slip_threshold(system: IsolationSystem, bounds: PropertyBounds) -> Checks:
     Away from the rims the interface carries ``mu1 R1 + mu2 R2`` over L times the load, whatever
     the displacement and the load: it holds where its friction at the lower bound is at least that
     of the surfaces at the upper one.
-
-    Parameters
-    ----------
-    system : IsolationSystem
-        With nominal properties.
-    bounds : PropertyBounds
-        The factors.
-
-    Returns
-    -------
-    Checks
-        One check; none where all sliders are rigid.
     """
     pairs = zip(system.labels, system.bearings, strict=True)
     found = [(name, b) for name, b in pairs if isinstance(b, LIRBearing) and not b.is_dcfp]

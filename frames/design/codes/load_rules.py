@@ -56,18 +56,7 @@ class LoadRule(NamedTuple):
 
 
 def fixed_combinations(combinations: Combinations) -> Callable[[float | None], Combinations]:
-    """Return a rule whose factors do not depend on the spectrum.
-
-    Parameters
-    ----------
-    combinations : dict of str to dict of str to float
-        Factors of the load cases by name of the combination.
-
-    Returns
-    -------
-    callable
-        For `LoadRule.combinations`.
-    """
+    """Return a rule whose factors do not depend on the spectrum."""
     return lambda s_ms: {name: dict(factors) for name, factors in combinations.items()}
 
 

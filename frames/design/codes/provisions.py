@@ -179,25 +179,7 @@ def states_of(
     *,
     is_run: bool = True,
 ) -> tuple[ProvisionState, ...]:
-    """Return whether each provision is checked in a project.
-
-    Parameters
-    ----------
-    provisions : iterable of Provision
-        Those of the code, and `OF_BEARINGS`.
-    facts : collection of str
-        Names of `NEEDS` that the project has, and those of its structure.
-    checks : iterable of Check
-        All that were made, those of the equivalent-linear analysis among them.
-    is_run : bool
-        Whether the time histories were run: if not, their checks count as made by ``lir run``.
-
-    Returns
-    -------
-    tuple of ProvisionState
-        In the order of the provisions, those for other structures aside. A check that was not
-        evaluated, or has no limit, is none; one that fails is.
-    """
+    """Return whether each provision is checked in a project."""
     made = tuple(checks)
     return tuple(
         _state(one, facts, made, is_run) for one in provisions if not one.only or one.only in facts
@@ -205,20 +187,7 @@ def states_of(
 
 
 def checks_of_provision(one: Provision, checks: Iterable[Check]) -> list[Check]:
-    """Return the checks that are made of a provision; a code's are none but those that cite one.
-
-    Parameters
-    ----------
-    one : Provision
-        The provision.
-    checks : iterable of Check
-        All of them.
-
-    Returns
-    -------
-    list of Check
-        Those whose titles begin as it names.
-    """
+    """Return the checks that are made of a provision; a code's are none but those that cite one."""
     own = one.clause.startswith(NO_CODE)
     return [
         check
@@ -260,18 +229,7 @@ def _is_made(check: Check) -> bool:
 
 
 def not_checked(states: Iterable[ProvisionState]) -> list[str]:
-    """Return the provisions that are not checked, each in a sentence with its reason.
-
-    Parameters
-    ----------
-    states : iterable of ProvisionState
-        Of a project.
-
-    Returns
-    -------
-    list of str
-        Sentences.
-    """
+    """Return the provisions that are not checked, each in a sentence with its reason."""
     return [one.said for one in states if one.state == "not checked"]
 
 

@@ -134,24 +134,7 @@ MOST_IMPORTANT = 3.0
 def example_bearing(
     radius: str, slider: int, capacity: int, friction: float, interface: float, why: str
 ) -> str:
-    """Return the section ``[bearing]`` of an example.
-
-    Parameters
-    ----------
-    radius : str
-        With its unit.
-    slider, capacity : int
-        Height and radius of the slider, and capacity [mm].
-    friction, interface : float
-        Of surfaces and interface [-].
-    why : str
-        What the capacity goes by.
-
-    Returns
-    -------
-    str
-        The section's lines.
-    """
+    """Return the section ``[bearing]`` of an example."""
     return (
         f'radius = "{radius}"\nslider_height = "{slider} mm"\n'
         f'slider_radius = "{slider} mm"          # as wide as keeps the resultant on it (e/a)\n'
@@ -364,20 +347,7 @@ def code_named(name: str, error: type[ValueError] = CheckError) -> DesignCode:
 
 
 def standing_in(code: str, name: str) -> Standing:
-    """Return how well a value of a code is known.
-
-    Parameters
-    ----------
-    code : str
-        Name of the code.
-    name : str
-        Of one of its `DesignCode.values`.
-
-    Returns
-    -------
-    Standing
-        From memory where the code, or its value, is not known.
-    """
+    """Return how well a value of a code is known."""
     spelled = canonical(code)
     found = [one for one in known_codes() if one.name == spelled]
     return found[0].standing(name) if found else MEMORY

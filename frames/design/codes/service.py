@@ -32,22 +32,6 @@ def service_checks(
 
     Bearings begin to slide with the friction of low speed at its lower bound, under their average
     loads, all surfaces of a bearing at once.
-
-    Parameters
-    ----------
-    system : IsolationSystem
-        With nominal properties.
-    bounds : PropertyBounds
-        Factors on friction.
-    above : Superstructure
-        With its wind shear, and the displacement of the bearings in service.
-    wind : CodeValue, optional
-        What the code has of wind; None if nothing is known.
-
-    Returns
-    -------
-    Checks
-        One of wind and one of movements in service, each where its number is given.
     """
     found: list[Check] = []
     if above.wind_shear > 0.0:
@@ -69,20 +53,7 @@ def service_checks(
 
 
 def least_strength(system: IsolationSystem, bounds: PropertyBounds) -> Trace:
-    """Return what wind must stay below: the force that starts sliding, at the lower bound.
-
-    Parameters
-    ----------
-    system : IsolationSystem
-        With nominal properties.
-    bounds : PropertyBounds
-        Factors on friction.
-
-    Returns
-    -------
-    Trace
-        The calculation, the force "Q_min" [N] at its end.
-    """
+    """Return what wind must stay below: the force that starts sliding, at the lower bound."""
     t = Trace()
     t.given_each("P", system.loads, "N", note=f"loads of the {len(system.loads)} bearings")
     slow = [slow_friction(b) for b in system.bearings]
@@ -93,18 +64,7 @@ def least_strength(system: IsolationSystem, bounds: PropertyBounds) -> Trace:
 
 
 def slow_friction(bearing: LIRBearing | FrictionPendulum) -> float:
-    """Return the friction of low speed with which all surfaces slide, over the load [-].
-
-    Parameters
-    ----------
-    bearing : LIRBearing or FrictionPendulum
-        The bearing; pendulums of design formulas have one friction alone.
-
-    Returns
-    -------
-    float
-        (mu_1 R_1 + mu_2 R_2) / L with the least friction of the laws.
-    """
+    """Return the friction of low speed with which all surfaces slide, over the load [-]."""
     if not isinstance(bearing, LIRBearing):
         return bearing.effective_friction
     pairs = zip(bearing.frictions, bearing.radii, strict=True)

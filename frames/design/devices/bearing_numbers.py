@@ -46,31 +46,7 @@ def enter_bearing(
     bounds: PropertyBounds | None,
     loads: tuple[float, float] | None = None,
 ) -> Trace:
-    """Return a calculation with a bearing's geometry, frictions at their bounds, and its slips.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        A bearing with rims, its slider in two pieces, friction nominal.
-    bounds : PropertyBounds or None
-        Factors of its friction; that of the bearing alone if None.
-    loads : (float, float), optional
-        Least and maximum axial force [N], entered as N_min and N_max: friction that depends on
-        pressure is then at its upper bound that of the least, at its lower one that of the
-        largest pressure. None: that of its reference pressure.
-
-    Returns
-    -------
-    Trace
-        The calculation: R_1, R_2, h, L, d_rim_1, d_rim_2, U_cap, a; h_1 and h_2, the heights of
-        the bottom and the top slider; mu_1, mu_2 and mu_h with _U and _L, upper and lower;
-        mu_e, characteristic strength ratio Q/W; s_star, s_cap, and s_lim, the smaller of both.
-
-    Raises
-    ------
-    CheckError
-        If it has no rims, or its slider is rigid.
-    """
+    """Return a calculation with a bearing's geometry, frictions at their bounds, and its slips."""
     require_rims(bearing)
     if bearing.is_dcfp:
         msg = "the slider is rigid: it has no interface to check"

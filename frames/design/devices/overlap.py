@@ -43,22 +43,7 @@ def overlap_area(radius: float, offset: float) -> float:
 
 
 def pressure(t: Trace, symbol: str, load: str, offset: str) -> float:
-    """Enter the mean pressure of a load on what two circles of radius `a` share.
-
-    Parameters
-    ----------
-    t : Trace
-        The calculation, with `a` [m].
-    symbol : str
-        Symbol of the pressure.
-    load, offset : str
-        Symbols of the load [N] and of the distance of the circles' centres [m].
-
-    Returns
-    -------
-    float
-        The pressure [Pa], infinite where nothing overlaps.
-    """
+    """Enter the mean pressure of a load on what two circles of radius `a` share."""
     area, s = f"A_{symbol}", t.value(offset)
     if math.isinf(s):
         return t.given(symbol, math.inf, "Pa", note=t[offset].note)
@@ -74,22 +59,7 @@ def pressure(t: Trace, symbol: str, load: str, offset: str) -> float:
 
 
 def liner_pressure(t: Trace, k: int, load: str) -> float:
-    """Enter the mean pressure on the part of a liner around its resultant, no restrainer contact.
-
-    Parameters
-    ----------
-    t : Trace
-        The calculation of `enter_bearing`, with the slip `s`.
-    k : int
-        Surface: 1 below, 2 above.
-    load : str
-        Symbol of the load [N].
-
-    Returns
-    -------
-    float
-        The pressure ``p_k`` [Pa], infinite where the resultant lies outside.
-    """
+    """Enter the mean pressure on the part of a liner around its resultant, no restrainer contact."""
     if not math.isfinite(t.value("s")):
         return t.given(f"p_{k}", math.inf, "Pa", note=t["s"].note)
     note = "twice the offset of the centre of pressure, no restrainer contact"

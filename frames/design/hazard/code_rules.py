@@ -136,20 +136,7 @@ def known_names() -> tuple[str, ...]:
 
 
 def add_rules(code: HazardRules, *, replace: bool = False) -> None:
-    """Enter a code in the table.
-
-    Parameters
-    ----------
-    code : HazardRules
-        The code.
-    replace : bool
-        Whether it may take the place of one of its name.
-
-    Raises
-    ------
-    MotionError
-        If one of its spellings, or of its rules of scaling, is that of another code.
-    """
+    """Enter a code in the table."""
     words = {code.name, *code.aliases, *(rule.name for rule in code.scaling)}
     for other in _KNOWN.values():
         if other is code or (replace and other.name == code.name):
@@ -178,25 +165,7 @@ def canonical(name: str) -> str:
 
 
 def rules_named(name: str, error: type[ValueError] = MotionError) -> HazardRules:
-    """Return a code by its name or another spelling.
-
-    Parameters
-    ----------
-    name : str
-        The code.
-    error : type
-        What is raised.
-
-    Returns
-    -------
-    HazardRules
-        The code.
-
-    Raises
-    ------
-    ValueError
-        Of the type given, if there is none: the message lists those that are known.
-    """
+    """Return a code by its name or another spelling."""
     spelled = canonical(name)
     require_choice("code", spelled, known_names(), error=error)
     return _KNOWN[spelled]
@@ -207,26 +176,7 @@ _FORMER = {"ASCE 7-10": "ASCE 7-16"}
 
 
 def scaling_named(name: str, error: type[ValueError] = MotionError) -> ScalingRule:
-    """Return a rule by which motions are scaled.
-
-    Parameters
-    ----------
-    name : str
-        Of the rule, or of a code in any spelling, whose own it is then; "ASCE 7-10" is what
-        "ASCE 7-16" was called.
-    error : type
-        What is raised.
-
-    Returns
-    -------
-    ScalingRule
-        The rule.
-
-    Raises
-    ------
-    ValueError
-        Of the type given, if there is none: the message lists those that are known.
-    """
+    """Return a rule by which motions are scaled."""
     rules = {rule.name: rule for code in _KNOWN.values() for rule in code.scaling}
     current = name if name in rules else _FORMER.get(name, name)
     if current in rules:

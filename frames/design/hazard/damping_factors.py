@@ -10,23 +10,6 @@ from lir_element.argument_checks import require_between
 def damping_factor(code: str, damping: float) -> float:
     """Return the factor by which a code divides a spectrum of 5 % damping.
 
-    Parameters
-    ----------
-    code : str
-        Whose rule: "ASCE 7-22", "EN 1998", "NCh2745", or a code that was registered.
-    damping : float
-        Part of the critical damping [-], in [0, 1).
-
-    Returns
-    -------
-    float
-        B [-]; 1 at 5 %.
-
-    Raises
-    ------
-    MotionError
-        If the code is not known, or the damping out of its bounds.
-
     Examples
     --------
     >>> damping_factor("ASCE 7-22", 0.25)

@@ -25,27 +25,7 @@ def angle_of(name: str, known: Mapping[str, object], key: str) -> float:
 
 
 def to_fault(name: str, motion: GroundMotion, known: Mapping[str, object]) -> GroundMotion:
-    """Return a motion with x fault-normal (strike + 90 degrees) and y fault-parallel.
-
-    Parameters
-    ----------
-    name : str
-        Name, for messages.
-    motion : GroundMotion
-        The motion.
-    known : mapping of str to object
-        Facts, with "strike", "azimuth_x" and "azimuth_y" [degrees clockwise from north].
-
-    Returns
-    -------
-    GroundMotion
-        The turned motion.
-
-    Raises
-    ------
-    MotionError
-        If a fact is missing, or the components are not at right angles.
-    """
+    """Return a motion with x fault-normal (strike + 90 degrees) and y fault-parallel."""
     strike, x, y = (angle_of(name, known, key) for key in ("strike", "azimuth_x", "azimuth_y"))
     apart = (y - x) % 360.0
     if min(abs(apart - 90.0), abs(apart - 270.0)) > 1.0:

@@ -31,13 +31,7 @@ class MotionCollection(Mapping[str, GroundMotion]):
     scaling: Scaling | None = None
 
     def __post_init__(self) -> None:
-        """Check and copy.
-
-        Raises
-        ------
-        MotionError
-            If the set is empty, or a name cannot be used.
-        """
+        """Check and copy."""
         given = self.motions
         pairs = (
             list(given.items())

@@ -38,25 +38,7 @@ _AZIMUTHS = {"N": 0.0, "NS": 0.0, "E": 90.0, "EW": 90.0}
 
 
 def table_rows(folder: PathLike, table: str) -> list[dict[str, str]]:
-    """Return the rows of a table of motions, cells by their heads, empty ones left out.
-
-    Parameters
-    ----------
-    folder : str or path
-        The folder of the motions.
-    table : str
-        The table in it; columns as in `MotionSet.from_folder`.
-
-    Returns
-    -------
-    list of dict
-        Texts as they stand in the table.
-
-    Raises
-    ------
-    MotionError
-        If the table cannot be read, or lacks columns.
-    """
+    """Return the rows of a table of motions, cells by their heads, empty ones left out."""
     path = Path(folder) / table
     if not path.is_file():
         msg = f"{path} is no file: give the folder of the motions, and table= as it is named there"

@@ -32,19 +32,7 @@ def significant_duration(
 ) -> float:
     """Return the time between two parts of the Arias intensity.
 
-    Parameters
-    ----------
-    acceleration : ndarray, shape (n,)
-        Samples [m/s2].
-    dt : float
-        Time step [s].
-    start, end : float
-        Parts of the intensity [-].
-
-    Returns
-    -------
-    float
-        Duration [s]; 0 of a motion that is zero.
+    Shapes: acceleration (n,).
     """
     intensity = build_up(acceleration, dt)
     if not intensity[-1] > 0.0:

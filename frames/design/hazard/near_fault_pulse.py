@@ -35,21 +35,6 @@ PERIOD_OF_MAGNITUDE = (-2.9, 0.5)
 def pulse_period(magnitude: float) -> float:
     """Return the period of the pulse [s] that belongs to a moment magnitude.
 
-    Parameters
-    ----------
-    magnitude : float
-        Moment magnitude, 5 to below 8.5.
-
-    Returns
-    -------
-    float
-        ``10**(-2.9 + 0.5 magnitude)`` (`PERIOD_OF_MAGNITUDE`).
-
-    Raises
-    ------
-    MotionError
-        If the magnitude is out of its bounds.
-
     Examples
     --------
     >>> round(pulse_period(7.0), 2)
@@ -98,13 +83,7 @@ class NearFaultPulse:
     time: float | None = None
 
     def __post_init__(self) -> None:
-        """Check.
-
-        Raises
-        ------
-        MotionError
-            If a value is out of its bounds.
-        """
+        """Check."""
         require_positive("velocity", self.velocity, "m/s", error=MotionError)
         require_positive("period", self.period, "s", error=MotionError)
         require_finite("phase", self.phase, "rad", error=MotionError)

@@ -36,19 +36,7 @@ CONVERSIONS = {
 
 
 def twins(motions: Mapping[str, GroundMotion]) -> tuple[str, ...]:
-    """Return which motions are one record under several names.
-
-    Parameters
-    ----------
-    motions : mapping of str to GroundMotion
-        The set.
-
-    Returns
-    -------
-    tuple of str
-        A sentence that names all pairs, also where one is the other times a factor, turned by 90
-        degrees, later by some seconds or followed by zeros; empty without any.
-    """
+    """Return which motions are one record under several names."""
     flat = {
         name: [a / np.linalg.norm(a) for a in (motion.x, motion.y) if a is not None and a.any()]
         for name, motion in motions.items()
@@ -79,20 +67,7 @@ def _same(a: ComplexArray, b: ComplexArray, size: int) -> bool:
 
 
 def factor_doubts(factor: float, motions: Mapping[str, GroundMotion]) -> tuple[str, ...]:
-    """Return whether a factor on motions changes a unit, or makes them stronger than any ground.
-
-    Parameters
-    ----------
-    factor : float
-        The factor given [-].
-    motions : mapping of str to GroundMotion
-        The set, scaled [m/s2].
-
-    Returns
-    -------
-    tuple of str
-        At most one sentence.
-    """
+    """Return whether a factor on motions changes a unit, or makes them stronger than any ground."""
     peaks = {
         name: float(np.hypot(*m.components[:, :2].T).max()) / STANDARD_GRAVITY
         for name, m in motions.items()

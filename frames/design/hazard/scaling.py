@@ -80,27 +80,7 @@ def scaled_so(
     limits: tuple[float, float],
     least: int | None,
 ) -> Scaling:
-    """Find how motions are to be scaled.
-
-    Parameters
-    ----------
-    motions : mapping of str to GroundMotion
-        The motions.
-    before : mapping of str to float
-        Factors that are on the motions already; the new ones include them.
-    spectrum, rule, periods, how, measure, part, damping, limits, least
-        As in `MotionSet.scaled_to`.
-
-    Returns
-    -------
-    Scaling
-        Factors, and what they were found for.
-
-    Raises
-    ------
-    MotionError
-        If an argument is out of its bounds, or a component is missing or zero.
-    """
+    """Find how motions are to be scaled."""
     require_type("spectrum", spectrum, Spectrum, "a Spectrum")
     code = scaling_named(rule)
     require_choice("how", how, ("amplitude", "common"), error=MotionError)

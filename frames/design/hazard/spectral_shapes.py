@@ -172,24 +172,7 @@ SHAPES = {
 def smooth_parameters(
     points: Points, largest: float, *, low: float = 0.2, high: float = 5.0, part: float = 0.9
 ) -> tuple[float, float]:
-    """Return S_MS and S_M1 of a multi-period spectrum (ASCE/SEI 7-22, 21.4; to be confirmed).
-
-    Parameters
-    ----------
-    points : tuple of (float, float)
-        Periods [s] and accelerations [g].
-    largest : float
-        Longest period whose product with its acceleration counts for S_M1 [s].
-    low, high : float
-        Periods between which the largest acceleration is sought for S_MS [s].
-    part : float
-        Part of the largest acceleration, and of the largest product, that is taken [-].
-
-    Returns
-    -------
-    (float, float)
-        S_MS [g] and S_M1 [g]; the latter at least the acceleration at 1 s.
-    """
+    """Return S_MS and S_M1 of a multi-period spectrum (ASCE/SEI 7-22, 21.4; to be confirmed)."""
     period, level = np.array(points).T
     plateau = level[(period >= low) & (period <= high)]
     moving = (period >= 1.0) & (period <= largest)

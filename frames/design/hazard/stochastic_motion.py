@@ -108,13 +108,7 @@ class PointSource:
     saturation: tuple[float, float] = (-0.405, 0.235)
 
     def __post_init__(self) -> None:
-        """Check.
-
-        Raises
-        ------
-        MotionError
-            If a value is out of its bounds.
-        """
+        """Check."""
         require_between("magnitude", self.magnitude, 4.0, 9.0, "-", error=MotionError)
         require_non_negative(
             "distance",
@@ -183,29 +177,6 @@ def envelope(
 ) -> FloatArray:
     """Return the envelope of Saragoni and Hart, 1 at its peak.
 
-    Parameters
-    ----------
-    times : array_like
-        Times [s].
-    duration : float
-        Duration that it is for [s]; it goes on for about twice as long.
-    peak : float
-        Time of its peak over twice the duration [-].
-    rest : float
-        What is left of it after twice the duration [-].
-
-    Returns
-    -------
-    ndarray
-        Values in the shape of `times`.
-
-    Raises
-    ------
-    MotionError
-        If an argument is out of its bounds.
-
-    Notes
-    -----
     Source: Boore (2003), eq. 13 to 16, with f_Tgm = 2; to be confirmed against the paper.
     """
     length = 2.0 * require_positive("duration", duration, "s", error=MotionError)
@@ -222,28 +193,7 @@ def stochastic_acceleration(
 ) -> FloatArray:
     """Return one sample of the acceleration of a point source.
 
-    Parameters
-    ----------
-    source : PointSource
-        The earthquake and the site.
-    dt : float
-        Time step [s].
-    steps : int
-        Number of samples.
-    rng : numpy.random.Generator
-        What draws: one of the same seed gives the same bits.
-
-    Returns
-    -------
-    ndarray, shape (steps,)
-        Accelerations [m/s2]: the mean square of their Fourier amplitudes is that of the source.
-
-    Raises
-    ------
-    TypeError
-        If `rng` is no Generator.
-    MotionError
-        If the samples do not hold twice the duration of the source.
+    Shapes: result (steps,).
     """
     require_type("rng", rng, np.random.Generator, "a numpy Generator: numpy.random.default_rng(1)")
     step = require_positive("dt", dt, "s", error=MotionError)

@@ -77,13 +77,7 @@ class PulseScatter:
     phase: tuple[float, float] = (0.0, 2.0 * math.pi)
 
     def __post_init__(self) -> None:
-        """Check.
-
-        Raises
-        ------
-        MotionError
-            If a value is out of its bounds.
-        """
+        """Check."""
         require_positive("velocity", self.velocity, "m/s", error=MotionError)
         if self.period is not None:
             require_positive("period", self.period, "s", error=MotionError)
@@ -111,18 +105,7 @@ class PulseScatter:
 def with_pulse(background: FloatArray, pulse: FloatArray, dt: float) -> FloatArray:
     """Put a pulse into a background, so that the pulse rules at its own frequencies.
 
-    Parameters
-    ----------
-    background, pulse : ndarray, shape (n,)
-        Accelerations [m/s2].
-    dt : float
-        Time step [s].
-
-    Returns
-    -------
-    ndarray, shape (n,)
-        The pulse, and the background with the pulse's Fourier amplitudes taken off its own (zero
-        where these are smaller) and its phases kept [m/s2].
+    Shapes: background, pulse (n,), result (n,).
     """
     size = 2 * len(background)  # the end does not run into the beginning
     spectra = np.fft.rfft([background, pulse], size)

@@ -67,25 +67,7 @@ Fill = Callable[[int], Calculation]
 
 
 def devices_of(data: xr.Dataset, frame: Frame) -> dict[str, LIRBearing]:
-    """Return the bearings of a frame by name.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Its runs.
-    frame : Frame
-        The frame.
-
-    Returns
-    -------
-    dict of str to LIRBearing
-        The bearings.
-
-    Raises
-    ------
-    CheckError
-        If the runs have others.
-    """
+    """Return the bearings of a frame by name."""
     devices = {name: link.bearing for name, link in frame.bearings.items()}
     odd = sorted(set(names_of(data, "displacement")) ^ set(devices))
     if odd:
@@ -125,22 +107,7 @@ class BearingDemands:
     factor: float = 1.0
 
     def displacement(self, clause: str, standing: Standing, least: float = 0.0) -> list[Check]:
-        """Return the check of the displacement against what rims and overlap allow.
-
-        Parameters
-        ----------
-        clause : str
-            Clause.
-        standing : Standing
-            Of the check.
-        least : float
-            Displacement that is taken at least [m].
-
-        Returns
-        -------
-        list of Check
-            That of the worst bearing; none without rims.
-        """
+        """Return the check of the displacement against what rims and overlap allow."""
         values = peaks_of_runs(self.data, "displacement")
 
         def fill(k: int) -> Calculation:

@@ -89,18 +89,7 @@ class BoundChecks:
     moved: xr.Dataset | None = None
 
     def checks(self) -> list[Check]:
-        """Return all of them.
-
-        Returns
-        -------
-        list of Check
-            Motions and failed runs, bearings, structure.
-
-        Raises
-        ------
-        CheckError
-            If runs and frame do not belong together, or there are no minima.
-        """
+        """Return all of them."""
         doubts = list(map(str, self.data["doubts"].to_numpy()))
         found = [self._motions(), self._failed(), *self._moved_failed()]
         found += left_out_checks(self.data, doubts, self.bound, stopped_runs(self.data))

@@ -66,22 +66,7 @@ def demand_table(
     rules: HistoryRules,
     moved: Mapping[Bound, xr.Dataset] | None = None,
 ) -> pd.DataFrame:
-    """Return what time histories give for design at each bound: see `history_demands`.
-
-    Parameters
-    ----------
-    runs : mapping of str to xarray.Dataset
-        Runs by bound.
-    rules : HistoryRules
-        The code's.
-    moved : mapping of str to xarray.Dataset, optional
-        Runs with moved masses by bound.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a quantity; `attrs` has the statistic of each bound.
-    """
+    """Return what time histories give for design at each bound: see `history_demands`."""
     import pandas as pd
 
     beside = moved or {}
@@ -143,21 +128,7 @@ def largest_of_bounds(
 ) -> FloatArray:
     """Return the largest of all bounds of `values_for_design`, of each bearing.
 
-    Parameters
-    ----------
-    runs : mapping of str to xarray.Dataset
-        Runs by bound.
-    rules : HistoryRules
-        The code's.
-    name : str
-        A quantity of bearings, such as "slip".
-    moved : mapping of str to xarray.Dataset, optional
-        Runs with moved masses by bound.
-
-    Returns
-    -------
-    ndarray, (n_bearings,)
-        In the order of the frame's bearings; NaN of what is not known.
+    Shapes: result (n_bearings,).
     """
     rows = []
     for bound, data in runs.items():
@@ -169,19 +140,7 @@ def largest_of_bounds(
 def values_for_design(data: xr.Dataset, suite: Suite, name: str) -> FloatArray:
     """Return what the runs of a bound give for design of a quantity at each of its places.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs.
-    suite : Suite
-        How they are taken together.
-    name : str
-        A quantity, such as "slip" or "drift".
-
-    Returns
-    -------
-    ndarray, (m,)
-        Of bearings, storeys or levels; NaN of what runs that stopped did not leave.
+    Shapes: result (m,).
     """
     columns = reached_by(data, name)
     if suite.void and name.endswith("_left") and np.isnan(columns).any():
@@ -197,17 +156,7 @@ def worst_place(each: FloatArray) -> int:
 def reached_by(data: xr.Dataset, name: str) -> FloatArray:
     """Return what runs reached at each place of a quantity.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs.
-    name : str
-        A quantity.
-
-    Returns
-    -------
-    ndarray, (n_runs, m)
-        What is left is NaN of runs that stopped before their end.
+    Shapes: result (n_runs, m).
     """
     values = peaks_of_runs(data, name)
     values = values.reshape(len(values), -1).copy()
@@ -236,18 +185,7 @@ def said(suite: Suite) -> str:
 
 
 def at_levels(tables: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
-    """Return tables of demands of several levels of the seismic action, one under the other.
-
-    Parameters
-    ----------
-    tables : mapping of str to pandas.DataFrame
-        Of `demand_table`, by level.
-
-    Returns
-    -------
-    pandas.DataFrame
-        The last column is the level; statistics that differ between levels name them.
-    """
+    """Return tables of demands of several levels of the seismic action, one under the other."""
     import pandas as pd
 
     several = len(tables) > 1
@@ -275,19 +213,7 @@ def at_levels(tables: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
 def tables_of_levels(
     demands: pd.DataFrame,
 ) -> list[tuple[str, list[tuple[str, str]], pd.DataFrame]]:
-    """Return a table of demands level by level, for people.
-
-    Parameters
-    ----------
-    demands : pandas.DataFrame
-        Of `at_levels`.
-
-    Returns
-    -------
-    list of (str, list of (str, str), pandas.DataFrame)
-        Level; its bounds with their statistic in words, one without a bound if all are the same;
-        the table without empty columns, in SI units.
-    """
+    """Return a table of demands level by level, for people."""
     heads = {"envelope": "envelope of these", "worst": "largest of all runs", "run": "in run"}
     found = []
     for level, table in demands.groupby("level", sort=False):
@@ -306,18 +232,7 @@ def void_said(table: pd.DataFrame) -> str:
 
 
 def headed(table: pd.DataFrame) -> pd.DataFrame:
-    """Return a table of demands with the statistic in the head of each column.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        Of `demand_table`.
-
-    Returns
-    -------
-    pandas.DataFrame
-        The same, reasons of failed runs aside.
-    """
+    """Return a table of demands with the statistic in the head of each column."""
     statistics: dict[str, str] = table.attrs["statistics"]
     heads = {bound: f"{bound}, {words}" for bound, words in statistics.items()}
     heads |= {

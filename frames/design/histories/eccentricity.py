@@ -66,25 +66,7 @@ is said."""
 def raises_of(
     data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules
 ) -> tuple[dict[str, Amplification], str]:
-    """Return by what moved masses raise each quantity, the worst way each.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Runs of one bound with the masses where they are.
-    moved : xarray.Dataset
-        Runs with the masses moved: coordinate ``masses_moved`` names the way, motions and scales
-        are among those of `data`.
-    rules : HistoryRules
-        How the code counts runs.
-
-    Returns
-    -------
-    dict of str to Amplification
-        By quantity.
-    str
-        Which of the moved runs failed, and why; empty if none did.
-    """
+    """Return by what moved masses raise each quantity, the worst way each."""
     table, failed = _each_way(data, moved, rules)
     found: dict[str, Amplification] = {}
     for (name, way), (centred, reached, motions) in table.items():
@@ -100,23 +82,7 @@ def eccentricity_table(
     moved: Mapping[str, Mapping[Bound, xr.Dataset]],
     rules: HistoryRules,
 ) -> pd.DataFrame:
-    """Return what moving the masses each way does to each quantity.
-
-    Parameters
-    ----------
-    runs, moved : mapping of str to mapping of str to xarray.Dataset
-        By level of the seismic action, then by bound: runs with the masses where they are, and
-        runs with the masses moved.
-    rules : HistoryRules
-        How the code counts runs.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a level, bound, way and quantity (SI): the largest with the masses where they are and
-        moved, the factor or the difference that counts, and of which motions; void: which of these
-        runs failed, so that nothing counts. Empty without moved runs.
-    """
+    """Return what moving the masses each way does to each quantity."""
     import pandas as pd
 
     rows: list[dict[str, Any]] = []
@@ -146,19 +112,7 @@ def eccentricity_table(
 
 
 def with_moved(data: xr.Dataset, moved: xr.Dataset | None) -> xr.Dataset:
-    """Return runs and those with moved masses one after the other: what single runs reached.
-
-    Parameters
-    ----------
-    data, moved : xarray.Dataset
-        Runs of one bound; None where there are none with moved masses.
-
-    Returns
-    -------
-    xarray.Dataset
-        What each run reached, its motion, scale, status and doubts; motions of moved runs name
-        the way.
-    """
+    """Return runs and those with moved masses one after the other: what single runs reached."""
     import xarray as xr
 
     if moved is None:
@@ -173,22 +127,7 @@ def with_moved(data: xr.Dataset, moved: xr.Dataset | None) -> xr.Dataset:
 
 
 def raised_suite(data: xr.Dataset, moved: xr.Dataset | None, rules: HistoryRules) -> Suite:
-    """Return how the runs of one bound are taken together, accidental eccentricity with them.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Runs with the masses where they are.
-    moved : xarray.Dataset, optional
-        Runs with the masses moved.
-    rules : HistoryRules
-        How the code counts runs.
-
-    Returns
-    -------
-    Suite
-        Its `raised` has the worst way of each quantity.
-    """
+    """Return how the runs of one bound are taken together, accidental eccentricity with them."""
     suite = suite_of(data, rules)
     if moved is None:
         return suite
@@ -197,18 +136,7 @@ def raised_suite(data: xr.Dataset, moved: xr.Dataset | None, rules: HistoryRules
 
 
 def named_by_way(moved: xr.Dataset) -> xr.Dataset:
-    """Return runs with moved masses whose motions name the way as well.
-
-    Parameters
-    ----------
-    moved : xarray.Dataset
-        The runs.
-
-    Returns
-    -------
-    xarray.Dataset
-        The same, "pulse, masses +x" for "pulse".
-    """
+    """Return runs with moved masses whose motions name the way as well."""
     named = [
         f"{motion}, masses {way}"
         for motion, way in zip(moved["motion"].to_numpy(), moved[WAY].to_numpy(), strict=True)
@@ -255,25 +183,7 @@ def added_by_moved(
     rules: HistoryRules,
     values_of: Callable[[xr.Dataset], FloatArray],
 ) -> tuple[FloatArray, NDArray[np.object_]]:
-    """Return what moved masses add to many values, each by the way that adds most to it.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Runs of one bound.
-    moved : xarray.Dataset, optional
-        Runs with the masses moved.
-    rules : HistoryRules
-        How the code counts runs.
-    values_of : callable
-        Of runs, what each of them reached, (n_runs, ...).
-
-    Returns
-    -------
-    tuple of ndarray, (...)
-        The values of the moved runs less those of the same motions where the masses are, 0 at
-        least; and the way, "+x", "" where none adds anything.
-    """
+    """Return what moved masses add to many values, each by the way that adds most to it."""
     shape = values_of(data.isel(run=[0])).shape[1:]
     most, way_of = np.zeros(shape), np.full(shape, "", dtype=object)
     for way, here, there in () if moved is None else pairs_by_way(data, moved):
@@ -343,20 +253,7 @@ def _raise(way: str, centred: float, moved: float, motions: str, kind: str) -> A
 
 
 def refuse_unlike(data: xr.Dataset, moved: xr.Dataset, bound: str) -> None:
-    """Refuse runs with moved masses that do not belong to others.
-
-    Parameters
-    ----------
-    data, moved : xarray.Dataset
-        Runs of one bound.
-    bound : str
-        Which, for the message.
-
-    Raises
-    ------
-    CheckError
-        If `moved` has no runs, does not say which way, or is of other bearings.
-    """
+    """Refuse runs with moved masses that do not belong to others."""
     what = f"moved at the bound {bound!r}" if bound else "moved"
     if "run" not in moved.dims or WAY not in moved.coords:
         msg = f"{what}: no coordinate {WAY!r} along 'run': name the way of each run, '+x'"

@@ -55,22 +55,7 @@ def failed_runs(
     rules: HistoryRules,
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
 ) -> list[FailedRuns]:
-    """Return the runs that failed, by level, bound and cause.
-
-    Parameters
-    ----------
-    runs : mapping of str to mapping of str to xarray.Dataset
-        Runs by level of the seismic action, then by bound.
-    rules : HistoryRules
-        The code's.
-    moved : mapping of str to mapping of str to xarray.Dataset, optional
-        Runs with moved masses in the same way.
-
-    Returns
-    -------
-    list of FailedRuns
-        Empty if no run failed.
-    """
+    """Return the runs that failed, by level, bound and cause."""
     found = []
     for level, each in runs.items():
         for bound, data in each.items():

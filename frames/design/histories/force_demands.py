@@ -53,46 +53,7 @@ def force_demands(
     raises: Mapping[tuple[str, str], Raise] | None = None,
     moved: Runs | None = None,
 ) -> dict[str, pd.DataFrame]:
-    """Return what time histories ask of members, storeys and what bearings stand on and carry.
-
-    Parameters
-    ----------
-    runs : mapping of str to mapping of str to xarray.Dataset
-        Time histories by level of the seismic action, then by bound, that kept forces
-        (`Recording`); a row a motion.
-    rules : HistoryRules
-        How the code counts them.
-    raises : mapping, optional
-        By level and bound what the code's least shears raise (`raises_by_case`): the earthquake's
-        part of forces of members, storeys and drifts, and that of reactions and of the whole
-        structure's foot. Forces of members are taken as above the isolation.
-    moved : mapping of str to mapping of str to xarray.Dataset, optional
-        Runs of motions among those with the floors' masses moved, in the same way
-        (`history_checks`), which kept forces.
-
-    Returns
-    -------
-    dict of str to pandas.DataFrame
-        "members", "storeys" and "reactions", as far as the structure has them: a row for each
-        level, bound, section, force and extreme [N, N m], with the permanent loads of the model:
-
-        - value: the mean or the largest of the runs' extremes, as "statistic" says, and what moved
-          masses add, with its rest times "raised by"; permanent: its part of the permanent loads,
-          the rest being the earthquake's; moved masses add: the extreme of moved runs beyond that
-          of the same motions where the masses are, of the way "masses" that adds most, 0 where
-          none does;
-        - motion: whose extreme is farthest out of all runs, single: that extreme, time [s]: when,
-          and all six forces of the section at that instant, not raised;
-        - governs: whether no other bound of that level is farther out;
-        - void: that "value" is no value for design, for so many runs failed; empty where it is one.
-
-        Of storeys drifts besides [-], which are no forces and have nothing at once.
-
-    Raises
-    ------
-    CheckError
-        If the moved runs kept no forces, or are of other motions.
-    """
+    """Return what time histories ask of members, storeys and what bearings stand on and carry."""
     import pandas as pd
 
     found: dict[str, pd.DataFrame] = {}

@@ -45,20 +45,7 @@ class Governing:
     void: str = ""
 
     def __call__(self, clause: str, title: str, each: Mapping[str, Calculation]) -> list[Check]:
-        """Return the check of the largest ratio.
-
-        Parameters
-        ----------
-        clause, title : str
-            Of the check.
-        each : mapping of str to Calculation
-            By name of what it is of; the demand must not exceed the limit.
-
-        Returns
-        -------
-        list of Check
-            One; none of nothing.
-        """
+        """Return the check of the largest ratio."""
         # where no value is finite none is the worst
         known = any(math.isfinite(c.trace.value(c.demand)) for c in each.values())
         found = [

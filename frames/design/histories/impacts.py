@@ -295,19 +295,7 @@ def repeated_motion(
 def near(met: BoolArray, time: FloatArray, after: float) -> BoolArray:
     """Return where steps lie at a contact or less than some time after one.
 
-    Parameters
-    ----------
-    met : ndarray of bool, (n,)
-        Steps of contact.
-    time : ndarray, (n,)
-        Times [s].
-    after : float
-        Time after a contact [s].
-
-    Returns
-    -------
-    ndarray of bool, (n,)
-        The steps.
+    Shapes: met (n,), time (n,), result (n,).
     """
     last = np.maximum.accumulate(np.where(met, time, -math.inf))
     return np.asarray(time - last <= after)

@@ -53,31 +53,6 @@ def shear_checks(
     """Return the shears of runs against their least values, at the base and over it.
 
     Less is no failure: it is the shear to design for, and the ratio the factor on the forces.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Runs at one bound.
-    suite : Suite
-        How they are taken together; accidental eccentricity does not enter.
-    known : BoundResult
-        Equivalent-linear analysis at that bound, with least values.
-    rules : HistoryRules
-        The code's.
-    storey : str
-        Name of the storey over the lowest level; empty where there is none.
-    note : str
-        Goes with each check.
-
-    Returns
-    -------
-    list of Check
-        Of the scope "minimum": at the base, and of the storey if there is one.
-
-    Raises
-    ------
-    CheckError
-        If the runs kept no storey shears.
     """
     clause = f"{rules.cited} {rules.force_clause}".strip()
 
@@ -112,18 +87,7 @@ def shear_checks(
 
 
 def raise_of(checks: list[Check]) -> Raise:
-    """Return by what the least shears raise forces.
-
-    Parameters
-    ----------
-    checks : list of Check
-        Of `shear_checks`.
-
-    Returns
-    -------
-    Raise
-        Its factors; 1 where runs failed, which give no forces for design.
-    """
+    """Return by what the least shears raise forces."""
     factors = {BASE: 1.0, STOREY: 1.0}
     for check in checks:
         if not check.void and check.demand > 0.0:
@@ -132,18 +96,7 @@ def raise_of(checks: list[Check]) -> Raise:
 
 
 def raises_by_case(checks: Iterable[Check]) -> dict[tuple[str, str], Raise]:
-    """Return by what the least shears raise the forces of runs.
-
-    Parameters
-    ----------
-    checks : iterable of Check
-        Those of `history_checks`, at any levels of the seismic action and bounds.
-
-    Returns
-    -------
-    dict
-        By level and bound, where runs were held against least shears.
-    """
+    """Return by what the least shears raise the forces of runs."""
     cases: dict[tuple[str, str], list[Check]] = {}
     for check in checks:
         if check.scope == "minimum" and check.title in {BASE, STOREY}:

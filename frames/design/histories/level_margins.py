@@ -32,20 +32,6 @@ def doubted(checks: list[Check], errors: Mapping[str, float], quantity: str) -> 
     Errors :math:`e` are over the right value, so that a demand :math:`x` may stand for
     :math:`x / (1 - e)`, and from :math:`e = 1` on for any value. A demand that a least value
     governs is taken in the same way, on the safe side.
-
-    Parameters
-    ----------
-    checks : list of Check
-        Each of a bearing, by its subject.
-    errors : mapping of str to float
-        By bearing: what may be wrong, over the right value [-].
-    quantity : str
-        What may be wrong, in words.
-
-    Returns
-    -------
-    list of Check
-        In the same order.
     """
     found = []
     for check in checks:
@@ -64,19 +50,7 @@ def doubted(checks: list[Check], errors: Mapping[str, float], quantity: str) -> 
 def level_errors(data: xr.Dataset, bearings: Sequence[LIRBearing], quantity: str) -> FloatArray:
     """Return what the level 'pendulum' may have wrong of each bearing, of all runs the most.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs.
-    bearings : sequence of LIRBearing
-        In their order.
-    quantity : str
-        One of `DOUBTED`.
-
-    Returns
-    -------
-    ndarray, (n_bearings,)
-        Over the right value [-]; 0 of bearings at another level.
+    Shapes: result (n_bearings,).
     """
     rims, lifted, share, moved = (
         np.nan_to_num(peaks_of_runs(data, name))

@@ -30,25 +30,7 @@ _COLUMNS = {"deformation [m]": "link_deformation", "force [N]": "link_force"}
 
 
 def link_demands(runs: Runs, rules: HistoryRules, moved: Runs | None = None) -> pd.DataFrame:
-    """Return how far links are deformed and which forces they exert, for design.
-
-    Parameters
-    ----------
-    runs : mapping of str to mapping of str to xarray.Dataset
-        Time histories by level of the seismic action, then by bound; a row a motion.
-    rules : HistoryRules
-        How the code counts them.
-    moved : mapping, optional
-        Runs with the floors' masses moved, in the same way; what they add is in the values.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a level, bound and link, with the statistic: sizes of deformation [m] and force [N],
-        of walls the way to either side and the force of the impact; the motion whose force is
-        largest of all runs, and that force; void: why the values are none for design. Empty
-        without links.
-    """
+    """Return how far links are deformed and which forces they exert, for design."""
     import pandas as pd
 
     tables = []

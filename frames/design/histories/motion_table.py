@@ -42,28 +42,7 @@ def demands_by_motion(
     rules: HistoryRules,
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
 ) -> pd.DataFrame:
-    """Return what each motion gave of each quantity that means or largest values are taken of.
-
-    Parameters
-    ----------
-    runs : mapping of str to mapping of str to xarray.Dataset
-        Runs by level of the seismic action, then by bound.
-    rules : HistoryRules
-        The code's.
-    moved : mapping of str to mapping of str to xarray.Dataset, optional
-        Runs with moved masses in the same way.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a run, none of means: level, bound, which way the masses were moved, motion, scale,
-        status, whether it failed by the code. Of each quantity (SI, the unit in the head) three
-        columns: the value at the bearing, storey or level where the value for design of the bound
-        is the largest, so that the mean of a column is the mean of the demands; "at", which that
-        is; and "farthest", the largest of all places in the run, of minimum axial forces the least.
-        A quantity without places has the first alone. Empty: not known, as what runs that stopped
-        would have left.
-    """
+    """Return what each motion gave of each quantity that means or largest values are taken of."""
     import pandas as pd
 
     parts = []

@@ -105,18 +105,7 @@ class Suite:
     def value(self, values: FloatArray, of: str = "") -> float:
         """Return the value for design of those of the runs.
 
-        Parameters
-        ----------
-        values : ndarray, (n_runs,)
-            Largest value of each run.
-        of : str
-            Quantity, as `raised` names it; without a name accidental eccentricity is left out.
-
-        Returns
-        -------
-        float
-            The value. Without one (`void`): the same statistic of what all runs reached, failed
-            ones included, until they stopped; NaN where nothing is known.
+        Shapes: values (n_runs,).
         """
         if not self.is_usable:
             known = values[np.isfinite(values)]
@@ -137,15 +126,7 @@ class Suite:
     def values(self, values: FloatArray) -> FloatArray:
         """Return the values for design of many quantities at once: `value` of each.
 
-        Parameters
-        ----------
-        values : ndarray, (n_runs, ...)
-            Largest value of each run; of a smallest one its opposite.
-
-        Returns
-        -------
-        ndarray, (...)
-            As `value` gives them one by one.
+        Shapes: values (n_runs, ...).
         """
         if not self.is_usable:
             gone = ~np.isfinite(values).any(axis=0)
@@ -176,24 +157,7 @@ class Suite:
     ) -> float:
         """Enter the values of the runs and what follows for design.
 
-        Parameters
-        ----------
-        t : Trace
-            The calculation.
-        symbol : str
-            Symbol of the value for design; those of the runs get an ``_i``.
-        values : ndarray, (n_runs,)
-            Largest value of each run.
-        unit, shown : str
-            Unit, and the unit to show.
-        of : str
-            Quantity, as for `value`.
-
-        Returns
-        -------
-        float
-            The value; where runs failed that must not, what was reached, infinite if nothing is
-            known of it.
+        Shapes: values (n_runs,).
         """
         if not self.is_usable:
             value = self.value(values)
@@ -252,25 +216,7 @@ class Suite:
 
 
 def peaks_of_runs(data: xr.Dataset, name: str) -> FloatArray:
-    """Return what runs reached of a quantity, (n_runs, ...).
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of `time_histories`, or of one `time_history`.
-    name : str
-        A quantity of `frames.results.quantities`, also one that was left ("slip_left").
-
-    Returns
-    -------
-    ndarray
-        With a row for each run.
-
-    Raises
-    ------
-    CheckError
-        If runs of an earlier version do not keep it.
-    """
+    """Return what runs reached of a quantity, (n_runs, ...)."""
     if "run" in data.dims:
         if REACHED + name not in data.variables:
             msg = f"the runs keep no {name!r}, an earlier version made them: run them again"
@@ -330,17 +276,7 @@ class Failure(NamedTuple):
 def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
     """Return the failure of each run; None of those that count.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs.
-    rules : HistoryRules
-        The code's.
-
-    Returns
-    -------
-    list of Failure or None, (n_runs,)
-        A run fails if it stopped, or if a bearing lifted off and the code does not allow that.
+    Shapes: result (n_runs,).
     """
     status = [str(value) for value in data["status"].to_numpy()]
     torn = [False] * len(status)
@@ -350,20 +286,7 @@ def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
 
 
 def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
-    """Return how the runs of one bound are taken together.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs.
-    rules : HistoryRules
-        The code's.
-
-    Returns
-    -------
-    Suite
-        Mean or largest, and which runs failed.
-    """
+    """Return how the runs of one bound are taken together."""
     stopped = failures_of(data, rules)
     status = data["status"].to_numpy()
     reason = _said_of([one for one in stopped if one is not None], data)
@@ -391,18 +314,7 @@ def end_of(data: xr.Dataset, k: int) -> str:
 
 
 def stopped_runs(data: xr.Dataset) -> str:
-    """Return which runs failed by their status and when, in words; empty where none did.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs.
-
-    Returns
-    -------
-    str
-        As `Suite.reason`, of runs that stopped or went on without a bearing alone.
-    """
+    """Return which runs failed by their status and when, in words; empty where none did."""
     return _said_of([_failure(data, int(k)) for k in np.flatnonzero(stopped_in(data))], data)
 
 
@@ -420,17 +332,7 @@ def _failure(data: xr.Dataset, k: int) -> Failure:
 def parted(data: xr.Dataset, least: float) -> BoolArray:
     """Return which bearings parted by more than a gap in each run.
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs, or one.
-    least : float
-        The gap [m].
-
-    Returns
-    -------
-    ndarray of bool, (n_runs, n_bearings)
-        Those; where a gap is not known, those that lifted off.
+    Shapes: result (n_runs, n_bearings).
     """
     time, gap = peaks_of_runs(data, "time_lifted"), peaks_of_runs(data, "gap")
     return np.asarray(np.where(np.isnan(gap), time > 0.0, gap > least))

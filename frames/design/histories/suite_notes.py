@@ -42,24 +42,7 @@ def audit_notes(data: xr.Dataset) -> str:
 def left_out_checks(
     data: xr.Dataset, doubts: list[str], bound: Bound, void: str = ""
 ) -> list[Check]:
-    """Return the check that nothing that runs left out mattered; none where they left out nothing.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs, or one.
-    doubts : list of str
-        What the assumption check of each marks.
-    bound : {"lower", "nominal", "upper", ""}
-        Properties of the bearings.
-    void : str
-        Which runs failed: nothing is known of them from then on.
-
-    Returns
-    -------
-    list of Check
-        One at most.
-    """
+    """Return the check that nothing that runs left out mattered; none where they left out nothing."""
     features = str(data.attrs.get("features_left_out", "none"))
     if features == "none":
         return []

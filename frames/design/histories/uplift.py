@@ -68,14 +68,7 @@ class Uplift:
     reason: str = ""
 
     def checks(self) -> list[Check]:
-        """Return the checks of gap and landing.
-
-        Returns
-        -------
-        list of Check
-            The gap over the height of the rims and over `uplift_gap`; where a bearing lifted off,
-            its maximum axial force in such a run over `axial_force`, or its pressure.
-        """
+        """Return the checks of gap and landing."""
         return [*self.rims(), *self.gaps(), *self.landings()]
 
     def rims(self) -> list[Check]:

@@ -33,19 +33,6 @@ def motion_files(target: Spectrum, *, vertical: bool = False) -> Mapping[str, st
 
     They are filtered noise with a pulse of velocity in it, weaker across, whose amplitudes are
     brought to the spectrum: there to try a project with, not to design by.
-
-    Parameters
-    ----------
-    target : Spectrum
-        Design spectrum.
-    vertical : bool
-        Whether they have a vertical component, too: two thirds of the spectrum at a third of its
-        periods.
-
-    Returns
-    -------
-    mapping of str to str
-        Content by name of the file, ``motions.csv`` among them.
     """
     z = ",z" if vertical else ""
     table = [f"name,x,y{z},dt,unit,near_fault,strike,azimuth_x,azimuth_y"]  # x across the fault

@@ -23,28 +23,7 @@ _NAMED = 6  # columns that a message lists
 
 
 def types_by_column(given: Mapping[str, BearingType], frame: Frame) -> dict[str, str]:
-    """Return the type of each bearing of a frame.
-
-    Parameters
-    ----------
-    given : mapping of str to BearingType
-        ``[bearings.<type>]`` of the file.
-    frame : Frame
-        The structure on standard bearings under the average combination: the loads that ``above``
-        goes by are theirs.
-
-    Returns
-    -------
-    dict of str to str
-        By bearing: a type that names its column, else the one whose load it exceeds by the least,
-        else "standard".
-
-    Raises
-    ------
-    ProjectError
-        If a type has neither columns nor a load, none of its columns exists, two types name the
-        same, or a type is under no column.
-    """
+    """Return the type of each bearing of a frame."""
     found: dict[str, str] = dict.fromkeys(frame.bearings, STANDARD)
     by_load = {}
     for name, kind in given.items():
@@ -83,39 +62,13 @@ def types_by_column(given: Mapping[str, BearingType], frame: Frame) -> dict[str,
 
 
 def on_types(frame: Frame, chosen: Mapping[str, str], devices: Mapping[str, LIRBearing]) -> Frame:
-    """Return a frame on bearings of several types.
-
-    Parameters
-    ----------
-    frame : Frame
-        On standard bearings.
-    chosen : mapping of str to str
-        Type of each bearing.
-    devices : mapping of str to LIRBearing
-        Device of each type.
-
-    Returns
-    -------
-    Frame
-        The same structure; the frame itself where all are standard.
-    """
+    """Return a frame on bearings of several types."""
     others = {name: devices[kind] for name, kind in chosen.items() if kind != STANDARD}
     return frame.with_bearings(others) if others else frame
 
 
 def columns_by_type(chosen: Mapping[str, str]) -> dict[str, list[str]]:
-    """Return the bearings of each type, where there are several types; nothing where there is one.
-
-    Parameters
-    ----------
-    chosen : mapping of str to str
-        Type of each bearing.
-
-    Returns
-    -------
-    dict of str to list of str
-        Names of bearings by type.
-    """
+    """Return the bearings of each type, where there are several types; nothing where there is one."""
     found: dict[str, list[str]] = {}
     for name, kind in chosen.items():
         found.setdefault(kind, []).append(name)
@@ -141,25 +94,7 @@ def _named(column: str, kind: str, frame: Frame) -> list[str]:
 
 
 def bearing_under(column: str, frame: Frame) -> str:
-    """Return the bearing of a column that is named as its bearing, or without that word.
-
-    Parameters
-    ----------
-    column : str
-        As a file names it: "0-0", "bearing-0-0".
-    frame : Frame
-        The structure on its bearings.
-
-    Returns
-    -------
-    str
-        Name of the bearing.
-
-    Raises
-    ------
-    ProjectError
-        If there is none.
-    """
+    """Return the bearing of a column that is named as its bearing, or without that word."""
     for name in (column, f"bearing-{column}"):
         if name in frame.bearings:
             return name

@@ -187,23 +187,7 @@ def unregister_check(make: MakeChecks) -> None:
 
 
 def checks_of(run: RunToCheck) -> list[Check]:
-    """Return the checks of all that are registered, in that order.
-
-    Parameters
-    ----------
-    run : RunToCheck
-        The run.
-
-    Returns
-    -------
-    list of Check
-        The checks.
-
-    Raises
-    ------
-    CheckError
-        If a function returns something else than checks: the message names it.
-    """
+    """Return the checks of all that are registered, in that order."""
     found: list[Check] = []
     for name, make in tuple(_REGISTERED.items()):
         made: object = make(run)

@@ -85,14 +85,7 @@ class Comparison:
     moved: Mapping[str, LevelRuns] = field(default_factory=dict)
 
     def table(self) -> pd.DataFrame:
-        """Return the envelopes over the bounds side by side, in SI units.
-
-        Returns
-        -------
-        pandas.DataFrame
-            A row a quantity and level: unit, a column for each device, whose head names the
-            statistic and runs that failed, and the level.
-        """
+        """Return the envelopes over the bounds side by side, in SI units."""
         columns = {
             f"{device}, {envelope_said(table)}": table["envelope"]
             for device, table in self.demands.items()
@@ -101,15 +94,7 @@ class Comparison:
         return ours[["unit"]].assign(**columns, level=ours["level"])
 
     def by_motion(self) -> pd.DataFrame:
-        """Return what each motion reached with each device, the largest over the bounds.
-
-        Returns
-        -------
-        pandas.DataFrame
-            A row a level, motion and device: quantities in SI units, largest of all bearings,
-            storeys or floors; "failed": the runs that stopped, by bound, with the status. What
-            those had reached until they stopped counts.
-        """
+        """Return what each motion reached with each device, the largest over the bounds."""
         rows = []
         for device, levels in self.runs.items():
             for level, bounds in levels.items():
@@ -161,29 +146,7 @@ class Comparison:
 def compare_project(
     parts: ProjectInputs, *, progress: Callable[[BatchProgress], None] | bool | None = None
 ) -> Comparison:
-    """Run a project with its bearings, and with the same ones whose sliders are rigid.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    progress : callable or bool, optional
-        As for `frames.time_histories`.
-
-    Returns
-    -------
-    Comparison
-        Runs of both devices under the same motions.
-
-    Raises
-    ------
-    ProjectError
-        If a section cannot be used, or the bearings have rigid sliders already.
-    CheckError, ModelError, MotionError
-        If the project cannot be run.
-    AnalysisInterrupted
-        After Ctrl-C, with the runs of one device that were complete.
-    """
+    """Run a project with its bearings, and with the same ones whose sliders are rigid."""
     known = preliminary(parts)
     parts.sources.require_unchanged()
     runs = {
@@ -204,20 +167,7 @@ def compare_project(
 def compared_histories(
     parts: ProjectInputs, found: Comparison
 ) -> tuple[dict[str, xr.Dataset], str, str]:
-    """Return the histories of both devices in the run that displaces an LIR-DCFP most.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    found : Comparison
-        Its runs.
-
-    Returns
-    -------
-    tuple of (dict of str to xarray.Dataset, str, str)
-        Histories by device, which run it is, and the bearing that is displaced most.
-    """
+    """Return the histories of both devices in the run that displaces an LIR-DCFP most."""
     level, bound, run = most_displaced(found.runs[OURS])
     reached = _peaks(found.runs[OURS][level][bound], "displacement")[run]
     name, given = list(found.known.motions)[run], parts.file.analysis

@@ -77,25 +77,7 @@ class CsvRow:
 
 
 def csv_rows(path: Path, needed: Sequence[str], other: Sequence[str] = ()) -> list[CsvRow]:
-    """Return the rows of a table.
-
-    Parameters
-    ----------
-    path : Path
-        A CSV file with a head; columns of lengths may have their unit in it, "x [m]".
-    needed, other : sequence of str
-        Columns that it must have, and that it may have.
-
-    Returns
-    -------
-    list of CsvRow
-        In the order of the file; empty lines are left out.
-
-    Raises
-    ------
-    ProjectError
-        If it cannot be read, lacks a column, has an unknown one, or no row.
-    """
+    """Return the rows of a table."""
     try:
         lines = csv_lines(path)
     except OSError as cause:

@@ -100,18 +100,7 @@ class DerivedTable(Table):
     """Keys that are no argument of the dataclass."""
 
     def made(self) -> Any:
-        """Return the dataclass that the table describes; keys that are left out have its defaults.
-
-        Returns
-        -------
-        object
-            Of the class that the table was derived from.
-
-        Raises
-        ------
-        ValueError, TypeError
-            As the class does.
-        """
+        """Return the dataclass that the table describes; keys that are left out have its defaults."""
         given = {name: getattr(self, name) for name in self.model_fields_set - {LAW} - self.beside}
         return self.made_of(**{name: _made(value) for name, value in given.items()})
 
@@ -120,16 +109,6 @@ def table_of(kind: type) -> type[DerivedTable]:
     """Return the table of a dataclass: a key a field, numbers with the units of its fields.
 
     A friction law may be any that is known now (`known_laws`): ``law = "..."`` names its class.
-
-    Parameters
-    ----------
-    kind : type
-        A dataclass of numbers, choices, pairs of them, and other such dataclasses.
-
-    Returns
-    -------
-    type
-        Its table; `DerivedTable.made` returns the dataclass.
     """
     return _table_of(kind, tuple(law for law in known_laws() if _fits_a_file(law)))
 

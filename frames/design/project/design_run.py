@@ -153,30 +153,7 @@ def run_project(
     progress: Callable[[BatchProgress], None] | bool | None = None,
     resume: Path | None = None,
 ) -> ProjectRun:
-    """Run a project: equivalent-linear analysis, time histories at each level and bound, checks.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    progress : callable or bool, optional
-        As for `frames.time_histories`.
-    resume : Path, optional
-        Folder that keeps time histories as they complete: after an interruption the next run takes
-        them from there.
-
-    Returns
-    -------
-    ProjectRun
-        Results and checks.
-
-    Raises
-    ------
-    ProjectError, CheckError, ModelError, MotionError
-        If the project cannot be run.
-    AnalysisInterrupted
-        After Ctrl-C, with the runs that were complete.
-    """
+    """Run a project: equivalent-linear analysis, time histories at each level and bound, checks."""
     known = preliminary(parts)
     parts.sources.require_unchanged()
     runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
@@ -196,27 +173,7 @@ def run_project(
 
 
 def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories) -> ProjectRun:
-    """Return a project's run from its time histories: demands and checks.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    known : Preliminary
-        What needs no time history.
-    histories : Histories
-        Those of this project.
-
-    Returns
-    -------
-    ProjectRun
-        Results and checks.
-
-    Raises
-    ------
-    CheckError
-        If a check cannot be made.
-    """
+    """Return a project's run from its time histories: demands and checks."""
     frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
     moved = histories.moved
     demands = demands_at_levels(runs, rules, moved)

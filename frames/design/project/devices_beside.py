@@ -24,27 +24,7 @@ _NEAR = 1e-3  # m, within which nodes lie on one line
 
 
 def with_devices(frame: Frame, moat: MoatTable | None, dampers: Mapping[str, DamperTable]) -> Frame:
-    """Return a structure with the moat walls and dampers of a file.
-
-    Parameters
-    ----------
-    frame : Frame
-        The structure on its bearings.
-    moat : MoatTable or None
-        ``[moat]``.
-    dampers : mapping of str to DamperTable
-        ``[dampers.<name>]``.
-
-    Returns
-    -------
-    Frame
-        A copy with links; the frame itself where there are none.
-
-    Raises
-    ------
-    ProjectError
-        If one cannot stand where the file says.
-    """
+    """Return a structure with the moat walls and dampers of a file."""
     if moat is None and not dampers:
         return frame
     found = frame.copy()
@@ -100,18 +80,7 @@ class Walls(NamedTuple):
 
 
 def walls_of(frame: Frame) -> Walls | None:
-    """Return the moat walls that `with_devices` put into a structure; None without.
-
-    Parameters
-    ----------
-    frame : Frame
-        The structure.
-
-    Returns
-    -------
-    Walls or None
-        The walls.
-    """
+    """Return the moat walls that `with_devices` put into a structure; None without."""
     found = {
         name: link.law
         for name, link in frame.links.items()

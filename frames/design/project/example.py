@@ -37,28 +37,6 @@ def write_example(folder: Path, code: str | None = None, building: str | None = 
 
     The motions are filtered noise with a pulse of velocity in it, weaker across, whose amplitudes
     are brought to the design spectrum: there to try the project with, not to design by.
-
-    Parameters
-    ----------
-    folder : Path
-        Made if it is not there; what is in it stays.
-    code : str, optional
-        The plain project's code, "ASCE 7-22" (if left out), "EN 1998" or "NCh2745": spectrum,
-        bearing and motions go by it.
-    building : str, optional
-        One of `BUILDINGS`, in place of the plain project; its code is its own.
-
-    Returns
-    -------
-    list of Path
-        The files written, that of the project first.
-
-    Raises
-    ------
-    FileExistsError
-        If a file is there already.
-    ProjectError
-        If the code or the building is not known, or the building is of another code.
     """
     texts = _plain(code) if building is None else _building(building, code)
     for name in (*texts, "motions/motions.csv"):  # before the motions are made

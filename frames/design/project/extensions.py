@@ -79,23 +79,7 @@ class RunningScript:
 
 
 def load_extensions(data: Mapping[str, Any], folder: Path, section: str = "project") -> None:
-    """Run the Python files that a file names: their codes, checks and friction laws are known then.
-
-    Parameters
-    ----------
-    data : mapping
-        Content of the project's file, or of a campaign's; what is wrong with it is left to its
-        reading.
-    folder : Path
-        Folder of the file.
-    section : str
-        The one that names them.
-
-    Raises
-    ------
-    ProjectError
-        If a file is not there, is outside of the folder, or fails.
-    """
+    """Run the Python files that a file names: their codes, checks and friction laws are known then."""
     about = data.get(section)
     named = about.get("extensions", ()) if isinstance(about, dict) else ()
     for name in named if isinstance(named, list) else ():

@@ -39,30 +39,7 @@ _ATTRIBUTE = "noise_"  # begins the attributes that keep the differences
 def governing_run(
     parts: ProjectInputs, frame: Frame, motions: MotionSet, runs: LevelRuns
 ) -> tuple[xr.Dataset, str]:
-    """Return the histories of the run that displaces a bearing most, run once more to keep them.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    frame : Frame
-        The structure, friction nominal.
-    motions : MotionSet
-        As they were run.
-    runs : mapping
-        Peaks of all runs by level and bound.
-
-    Returns
-    -------
-    tuple of (xarray.Dataset, str)
-        The histories, as they will be kept, and which run it is. Attributes ``noise_...`` tell how
-        far a billionth of the ground motion changes peaks (see `sensitivity_warnings`).
-
-    Raises
-    ------
-    AnalysisInterrupted
-        After Ctrl-C.
-    """
+    """Return the histories of the run that displaces a bearing most, run once more to keep them."""
     level, bound, run = most_displaced(runs)
     name, given = str(runs[level][bound]["motion"].to_numpy()[run]), parts.file.analysis
     motion = motions[name].scaled(parts.rules().level(level).factor)
@@ -84,19 +61,7 @@ def governing_run(
 
 
 def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
-    """Return what noise says of the peaks of the governing run.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of `governing_run`, also loaded from its file.
-
-    Returns
-    -------
-    tuple of str
-        A sentence where a billionth of the ground motion changes a peak by more than 1 %; else
-        nothing, as for results of a version that did not try.
-    """
+    """Return what noise says of the peaks of the governing run."""
     found = {
         name: float(data.attrs.get(f"{_ATTRIBUTE}{key}", 0.0)) for key, name in _WATCHED.items()
     }

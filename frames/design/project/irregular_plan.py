@@ -64,25 +64,7 @@ class SectionsByName:
 
 
 def irregular_plan(given: IrregularFrame, folder: Path) -> BuildingPlan:
-    """Return the plan of an irregular frame.
-
-    Parameters
-    ----------
-    given : IrregularFrame
-        The section of the file.
-    folder : Path
-        Its folder: the tables are found from there.
-
-    Returns
-    -------
-    BuildingPlan
-        Its lines are named as the columns are.
-
-    Raises
-    ------
-    ProjectError
-        If a table cannot be, with its line.
-    """
+    """Return the plan of an irregular frame."""
     sections = SectionsByName(given.sections)
     lines, columns = _columns(given, folder, sections)
     beams = _beams(given, folder, sections, lines)

@@ -44,31 +44,7 @@ def histories_at_levels(
     progress: Callable[[BatchProgress], None] | bool | None,
     resume: Path | None = None,
 ) -> LevelRuns:
-    """Run a project's time histories at each level and bound, all on all processors.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    frame : Frame
-        Its structure, friction nominal.
-    motions : MotionSet
-        Scaled to the design spectrum.
-    progress : callable or bool, optional
-        As for `frames.time_histories`.
-    resume : Path, optional
-        Folder that keeps runs as they complete, and from which they are taken.
-
-    Returns
-    -------
-    dict of str to dict of str to xarray.Dataset
-        By level, then by bound: a row a motion.
-
-    Raises
-    ------
-    AnalysisInterrupted
-        After Ctrl-C, with the runs that were complete.
-    """
+    """Run a project's time histories at each level and bound, all on all processors."""
     given, levels = parts.file.analysis, parts.rules().levels
     models: dict[str, Frame] = {
         bound: with_property_bounds(frame, bound, parts.bounds()) for bound in given.bounds
@@ -91,33 +67,7 @@ def moved_at_levels(
     progress: Callable[[BatchProgress], None] | bool | None,
     resume: Path | None = None,
 ) -> LevelRuns:
-    """Run a project with the floors' masses moved each way, at each level and bound.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    moved : mapping of str to Frame
-        Its structure by the way its masses are moved, friction nominal.
-    motions : MotionSet
-        As the other runs had them.
-    runs : mapping of str to mapping of str to xarray.Dataset
-        Those, with the masses where they are: at each level and bound the motion that displaces a
-        bearing most is run, or all are, as ``accidental_eccentricity_motions`` says.
-    progress, resume
-        As for `histories_at_levels`.
-
-    Returns
-    -------
-    dict of str to dict of str to xarray.Dataset
-        By level, then by bound: a row a way and motion, the coordinate ``masses_moved`` along
-        `run`. Empty where no masses are moved.
-
-    Raises
-    ------
-    AnalysisInterrupted
-        After Ctrl-C, with the runs that were complete.
-    """
+    """Run a project with the floors' masses moved each way, at each level and bound."""
     if not moved:
         return {}
     given, rules = parts.file.analysis, parts.rules()
@@ -178,20 +128,7 @@ def _of_all(
 
 
 def governing_motion(data: xr.Dataset, rules: HistoryRules) -> str:
-    """Return the motion that displaces a bearing most, of the runs that count if any do.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Runs of one bound.
-    rules : HistoryRules
-        How they count.
-
-    Returns
-    -------
-    str
-        Its name.
-    """
+    """Return the motion that displaces a bearing most, of the runs that count if any do."""
     reached = data["reached_displacement"].max("bearing").to_numpy()
     failed = np.array(suite_of(data, rules).failed)
     counted = reached if failed.all() else np.where(failed, -np.inf, reached)
@@ -203,22 +140,7 @@ def demands_at_levels(
     rules: HistoryRules,
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
 ) -> pd.DataFrame:
-    """Return what time histories give for design at each level.
-
-    Parameters
-    ----------
-    runs : mapping of str to mapping of str to xarray.Dataset
-        By level, then by bound.
-    rules : HistoryRules
-        The code's.
-    moved : mapping of str to mapping of str to xarray.Dataset, optional
-        Runs with moved masses.
-
-    Returns
-    -------
-    pandas.DataFrame
-        The tables of `frames.history_demands` one under the other; the last column is the level.
-    """
+    """Return what time histories give for design at each level."""
     beside = moved or {}
     return at_levels(
         {name: history_demands(own, rules, moved=beside.get(name)) for name, own in runs.items()}

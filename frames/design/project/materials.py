@@ -50,24 +50,7 @@ class Material(NamedTuple):
 
 
 def material_of(given: str | MaterialTable | None) -> Material:
-    """Return a material by its name or its numbers.
-
-    Parameters
-    ----------
-    given : str, MaterialTable or None
-        None is `DEFAULT_STEEL`.
-
-    Returns
-    -------
-    Material
-        Its constants. Steels have 7850 kg/m3, concrete 2500 kg/m3 with its reinforcement and
-        Poisson's ratio 0.2 (EN 1992-1-1:2004, 3.1.3: uncracked).
-
-    Raises
-    ------
-    ProjectError
-        If the name is not known.
-    """
+    """Return a material by its name or its numbers."""
     if given is None:
         given = DEFAULT_STEEL
     if not isinstance(given, str):

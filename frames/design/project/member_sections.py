@@ -36,26 +36,7 @@ class NamedSection(NamedTuple):
 
 
 def named_section(given: SectionTable, *, column: bool) -> NamedSection:
-    """Return the section that a table describes.
-
-    Parameters
-    ----------
-    given : SectionTable
-        The table.
-    column : bool
-        Whether sides of a rectangle or a box are those along x and along y; of beams they are
-        width and depth.
-
-    Returns
-    -------
-    NamedSection
-        The section.
-
-    Raises
-    ------
-    ProjectError, ModelError
-        If it cannot be.
-    """
+    """Return the section that a table describes."""
     material = material_of(given.material)
     keys = {
         "elastic_modulus": material.elastic_modulus,
@@ -91,27 +72,7 @@ def named_section(given: SectionTable, *, column: bool) -> NamedSection:
 
 
 def cracked_said(section: Section, cracked: float | CrackedTable | None) -> tuple[Section, str]:
-    """Return a section with the stiffness of cracked concrete, and what is said of it.
-
-    Parameters
-    ----------
-    section : Section
-        The uncracked one.
-    cracked : float, CrackedTable or None
-        One factor, one for each kind of stiffness, or none.
-
-    Returns
-    -------
-    section : Section
-        With the factors.
-    said : str
-        Of the factor on bending; empty without one.
-
-    Raises
-    ------
-    ModelError
-        If a factor is out of bounds.
-    """
+    """Return a section with the stiffness of cracked concrete, and what is said of it."""
     if cracked is None:
         return section, ""
     bending, torsion, shear = (
@@ -122,25 +83,7 @@ def cracked_said(section: Section, cracked: float | CrackedTable | None) -> tupl
 
 
 def storeys_of(given: tuple[int, int] | None, count: int) -> range:
-    """Return a range of storeys, all if none is given.
-
-    Parameters
-    ----------
-    given : (int, int) or None
-        First and last.
-    count : int
-        Number of storeys of the building.
-
-    Returns
-    -------
-    range
-        The storeys.
-
-    Raises
-    ------
-    ProjectError
-        If it is none of this building.
-    """
+    """Return a range of storeys, all if none is given."""
     first, last = given or (1, count)
     if not 1 <= first <= last <= count:
         msg = (
@@ -173,27 +116,7 @@ _SHEAR_AREAS = ("shear_area_y", "shear_area_z")
 
 
 def by_storey(given: Sequence[T], storeys: int, direction: str | None = None) -> list[T]:
-    """Return the table of each storey, 1 first.
-
-    Parameters
-    ----------
-    given : sequence of ColumnsTable or BeamsTable
-        The tables, each for a range of storeys, or for all.
-    storeys : int
-        Number of storeys.
-    direction : {"x", "y"}, optional
-        Of beams: tables of the other direction are left out.
-
-    Returns
-    -------
-    list
-        One table a storey.
-
-    Raises
-    ------
-    ProjectError
-        If a storey has none or several, or a range is none of this building.
-    """
+    """Return the table of each storey, 1 first."""
     found: list[T | None] = [None] * storeys
     which = "" if direction is None else f", beams along {direction},"
     for one in given:

@@ -34,16 +34,6 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
     The displacement that bearings must allow by the equivalent-linear analysis, that which the
     histories ask for with the code's factor, and the largest of all single runs. Notes say whether
     the runs have the wall, and in how many of them it is met.
-
-    Parameters
-    ----------
-    run : RunToCheck
-        The run.
-
-    Returns
-    -------
-    list of Check
-        None where no distance is given.
     """
     gap = run.limits.moat_gap
     if gap is None:
@@ -57,22 +47,7 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
 
 
 def clearance_checks(code: DesignCode, equivalent: EquivalentLinear, gap: float) -> list[Check]:
-    """Make the checks of the clear distance by the equivalent-linear analysis alone.
-
-    Parameters
-    ----------
-    code : DesignCode
-        The code.
-    equivalent : EquivalentLinear
-        Its analysis.
-    gap : float
-        Clear distance to the moat wall or a neighbour [m].
-
-    Returns
-    -------
-    list of Check
-        One a bound.
-    """
+    """Make the checks of the clear distance by the equivalent-linear analysis alone."""
     found, room = [], code.values.get("separation")
     for each in equivalent.bounds.values():
         t = _with_gap(gap)

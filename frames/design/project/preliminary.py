@@ -79,31 +79,7 @@ class Preliminary:
 
 
 def preliminary(parts: ProjectInputs) -> Preliminary:
-    """Return structure, spectrum, equivalent-linear analysis and scaled motions of a project.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-
-    Returns
-    -------
-    Preliminary
-        All that needs no time history.
-
-    Raises
-    ------
-    ProjectError
-        If a section cannot be.
-    CheckError, ModelError, MotionError
-        If the analysis or the scaling fails.
-
-    Warns
-    -----
-    ModelWarning
-        On values that are probably in another unit, a record that is there twice, and wind that
-        slides the bearings.
-    """
+    """Return structure, spectrum, equivalent-linear analysis and scaled motions of a project."""
     told: list[warnings.WarningMessage] = []
     try:
         with warnings.catch_warnings(record=True) as told:
@@ -185,30 +161,7 @@ def _refuse_other_devices(frame: Frame) -> None:
 
 
 def moved_frames(parts: ProjectInputs, frame: Frame) -> dict[str, Frame]:
-    """Return a project's structure with its floors' masses moved each way.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    frame : Frame
-        Its structure.
-
-    Returns
-    -------
-    dict of str to Frame
-        By the way, "+x"; none where ``accidental_eccentricity`` leaves it out.
-
-    Raises
-    ------
-    ProjectError
-        If masses cannot be moved and the file asks for it.
-
-    Warns
-    -----
-    ModelWarning
-        If they cannot be moved, and only the code asks for it.
-    """
+    """Return a project's structure with its floors' masses moved each way."""
     share = parts.rules().accidental_eccentricity
     if not share:
         return {}
@@ -231,23 +184,7 @@ def moved_frames(parts: ProjectInputs, frame: Frame) -> dict[str, Frame]:
 def scaled_motions(
     parts: ProjectInputs, spectrum: Spectrum, equivalent: EquivalentLinear
 ) -> MotionSet:
-    """Return a project's motions scaled to the spectrum or by a number, as its file asks.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    spectrum : Spectrum
-        The target.
-    equivalent : EquivalentLinear
-        Its periods make the range: ASCE 7-22 from 0.75 T_M at the upper bound to 1.25 T_M at the
-        lower one, EN 1998 0.2 to 2 T_eff, NCh2745 0.5 T_D to 1.25 T_M; to be confirmed.
-
-    Returns
-    -------
-    MotionSet
-        The motions as they are run.
-    """
+    """Return a project's motions scaled to the spectrum or by a number, as its file asks."""
     motions, scale = parts.motions(), parts.file.motions.scale
     if scale != "spectrum":
         scaled = type(motions)({n: m.scaled(scale) for n, m in motions.items()}, motions.facts)
@@ -263,21 +200,7 @@ def _warn(doubts: tuple[str, ...]) -> None:
 
 
 def inputs_of(parts: ProjectInputs, known: Preliminary) -> dict[str, str]:
-    """Return a digest of each section that the time histories of a project depend on.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    known : Preliminary
-        Its motions as they are run.
-
-    Returns
-    -------
-    dict of str to str
-        By section, "motions" being the accelerations, "levels" those of the seismic action where
-        there are several; what only judges, such as limits, has none.
-    """
+    """Return a digest of each section that the time histories of a project depend on."""
     file = parts.file
     analysis = file.analysis.model_dump(mode="json", include={"level", "dt", "bounds"})
     if known.moved:

@@ -83,25 +83,6 @@ def _units() -> pint.UnitRegistry[float]:
 def si(value: object, unit: str, example: str) -> float:
     """Return a number with its unit in SI.
 
-    Parameters
-    ----------
-    value : str
-        Such as "175 mm"; of a pure number also the number itself.
-    unit : str
-        The SI unit; "" for a pure number.
-    example : str
-        How it may be written, for messages.
-
-    Returns
-    -------
-    float
-        In the SI unit.
-
-    Raises
-    ------
-    ValueError
-        If it has no unit, an unknown one, or one of another kind.
-
     Examples
     --------
     >>> si("175 mm", "m", "175 mm"), si("5 %", "", "0.05")
@@ -185,18 +166,7 @@ def _kind(unit: str, example: str) -> tuple[BeforeValidator, WithJsonSchema]:
 
 
 def number_or_infinity(unit: str) -> Any:
-    """Return the type of a number with a unit that may be ``inf``, as of a bearing without rims.
-
-    Parameters
-    ----------
-    unit : str
-        The SI unit, C of temperatures; "" for a pure number.
-
-    Returns
-    -------
-    type
-        For a field of a table.
-    """
+    """Return the type of a number with a unit that may be ``inf``, as of a bearing without rims."""
     example = EXAMPLES.get(unit, f"1 {unit}")
 
     def read(value: object) -> float:

@@ -37,23 +37,7 @@ _KINDS = {
 
 
 def read_project(path: str | Path) -> ProjectFile:
-    """Return a project's file, checked.
-
-    Parameters
-    ----------
-    path : path
-        A TOML file, as ``lir new`` writes one.
-
-    Returns
-    -------
-    ProjectFile
-        Sections with SI numbers; paths are those of the file's folder.
-
-    Raises
-    ------
-    ProjectError
-        If it cannot be read, with a line for each thing that is wrong.
-    """
+    """Return a project's file, checked."""
     folder = Path(path).parent
 
     def kind(data: dict[str, Any]) -> type[ProjectFile]:
@@ -68,27 +52,7 @@ def read_file(
     kind_of: Callable[[dict[str, Any]], type[F]],
     hint: str = "`lir new` shows how",
 ) -> F:
-    """Return a TOML file of a kind, checked as `read_project` does.
-
-    Parameters
-    ----------
-    path : path
-        The file, which is read once.
-    kind_of : callable
-        Returns the class of the file by its content.
-    hint : str
-        Where to see how such a file is written.
-
-    Returns
-    -------
-    WholeFile
-        Of that class, with the bytes that were read.
-
-    Raises
-    ------
-    ProjectError
-        If it cannot be read, with a line for each thing that is wrong.
-    """
+    """Return a TOML file of a kind, checked as `read_project` does."""
     file = Path(path)
     try:
         content = file.read_bytes()

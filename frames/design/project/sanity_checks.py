@@ -35,20 +35,7 @@ HEAVY_FLOOR, HEAVY_FACADE = 25e3, 60e3
 
 
 def file_doubts(file: ProjectFile) -> tuple[str, ...]:
-    """Return what is strange about a project's file, a sentence for each thing.
-
-    Parameters
-    ----------
-    file : ProjectFile
-        The file.
-
-    Returns
-    -------
-    tuple of str
-        About sections that are not given, masses of storeys by area, heights, loads, bays that
-        bearings do not fit into, storeys that are far too soft, an importance that is in one
-        section alone, and moat walls that stand farther off than is checked.
-    """
+    """Return what is strange about a project's file, a sentence for each thing."""
     return (
         *_of_sections(file),
         *_of_masses(file),
@@ -64,22 +51,7 @@ def file_doubts(file: ProjectFile) -> tuple[str, ...]:
 def wind_doubts(
     file: ProjectFile, system: IsolationSystem, bounds: PropertyBounds
 ) -> tuple[str, ...]:
-    """Return whether the wind of a project slides its bearings.
-
-    Parameters
-    ----------
-    file : ProjectFile
-        The file, its wind shear in ``[superstructure]``.
-    system : IsolationSystem
-        The bearings with their average loads, friction nominal.
-    bounds : PropertyBounds
-        Factors on friction; the lower one counts.
-
-    Returns
-    -------
-    tuple of str
-        At most one sentence.
-    """
+    """Return whether the wind of a project slides its bearings."""
     wind = 0.0 if file.superstructure is None else file.superstructure.wind_shear
     holds = least_strength(system, bounds).value("Q_min")
     if wind <= holds:

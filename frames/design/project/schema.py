@@ -108,13 +108,7 @@ class ProjectFile(WholeFile):
 
 
 def project_file() -> type[ProjectFile]:
-    """Return the class of a whole file: the keys of ``[spectrum]`` are those of its code.
-
-    Returns
-    -------
-    type
-        A `ProjectFile` that knows the codes that are registered.
-    """
+    """Return the class of a whole file: the keys of ``[spectrum]`` are those of its code."""
     bearing: Any = bearing_table()
     return _file_of(known_codes(), bearing)
 

@@ -31,18 +31,7 @@ TO_RIMS = ("capacity", "rims")
 
 
 def completed(data: dict[str, Any]) -> dict[str, Any]:
-    """Return a file's data with what types of bearings leave out, taken from ``[bearing]``.
-
-    Parameters
-    ----------
-    data : dict
-        As the file has it.
-
-    Returns
-    -------
-    dict
-        With whole tables ``[bearings.<type>]``.
-    """
+    """Return a file's data with what types of bearings leave out, taken from ``[bearing]``."""
     own, types = data.get("bearing"), data.get("bearings")
     if not isinstance(types, dict) or not isinstance(own, dict):
         return data

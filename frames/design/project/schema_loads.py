@@ -51,20 +51,7 @@ class LoadsTable(Table):
         return self
 
     def of_field(self, *, base: bool, roof: bool) -> dict[str, float]:
-        """Return the loads of a field by load case: "D", "L", "S" [N/m2].
-
-        Parameters
-        ----------
-        base : bool
-            Whether it lies above the bearings.
-        roof : bool
-            Whether no floor lies over it.
-
-        Returns
-        -------
-        dict of str to float
-            Snow on the roof alone.
-        """
+        """Return the loads of a field by load case: "D", "L", "S" [N/m2]."""
         own = self.base if base else self.roof if roof else LevelLoads()
         return {
             "D": self.dead if own.dead is None else own.dead,

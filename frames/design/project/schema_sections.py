@@ -26,19 +26,7 @@ SHAPES = ("section", "box", "rectangle", "circle", "i_shape", "properties")
 
 
 def one_or_more(name: str) -> Callable[[object], str]:
-    """Return what tells a table from a list of them, by the tag of each.
-
-    Parameters
-    ----------
-    name : str
-        Name of the table's class.
-
-    Returns
-    -------
-    callable
-        For `pydantic.Discriminator`: the tags are ``[name]`` and ``[[name]]``, which places of
-        errors leave out.
-    """
+    """Return what tells a table from a list of them, by the tag of each."""
     return lambda given: f"[[{name}]]" if isinstance(given, (list, tuple)) else f"[{name}]"
 
 

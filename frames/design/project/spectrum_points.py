@@ -27,24 +27,7 @@ _HEAD = "period [s],acceleration [g]"
 
 
 def read_points(path: Path) -> Points:
-    """Return the points of a spectrum from a table of two columns.
-
-    Parameters
-    ----------
-    path : Path
-        A CSV file (`frames._csv`): a head "period [s],acceleration [g]" (or m/s2, cm/s2, gal), then
-        a point a line; lines that begin with # are left out.
-
-    Returns
-    -------
-    tuple of (float, float)
-        Periods [s] and pseudo-accelerations [m/s2].
-
-    Raises
-    ------
-    ProjectError
-        If there is no such file, or it is no such table: the message names file and line.
-    """
+    """Return the points of a spectrum from a table of two columns."""
     try:
         lines = csv_lines(path)
     except OSError as cause:

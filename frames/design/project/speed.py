@@ -66,35 +66,7 @@ def ways_to_run(
     levels: Sequence[Literal["pendulum", "contact"]] = ("pendulum",),
     repeats: int = REPEATS,
 ) -> Iterator[Way]:
-    """Run a model with several steps, the finest first, with which the others are compared.
-
-    Parameters
-    ----------
-    model : Frame
-        The structure on its bearings.
-    motion : GroundMotion
-        Acceleration of the ground.
-    steps : sequence of float
-        Steps [s], besides the control of the error by the program and half the smallest of them,
-        the finest.
-    levels : sequence of {"pendulum", "contact"}
-        Levels of the bearings. Differences of another level than the first are those of the
-        model as well.
-    repeats : int
-        Runs of each, but the finest.
-
-    Yields
-    ------
-    Way
-        The finest, then level by level the control of the error and each step.
-
-    Raises
-    ------
-    ValueError
-        If a step is out of bounds.
-    lir_element.AnalysisError
-        If there is no equilibrium under gravity.
-    """
+    """Run a model with several steps, the finest first, with which the others are compared."""
     finest = min(steps) / 2.0
     time_history(model, motion, min(motion.duration, 4.0 * finest), dt=finest)  # loads the kernels
     reference = _peaks(_run(model, motion, finest, levels[0]))
@@ -106,20 +78,7 @@ def ways_to_run(
 
 
 def recommended(ways: Sequence[Way], error: float) -> Way | None:
-    """Return the cheapest way whose differences are within an error.
-
-    Parameters
-    ----------
-    ways : sequence of Way
-        From `ways_to_run`.
-    error : float
-        In peak displacement, base shear and acceleration [-].
-
-    Returns
-    -------
-    Way or None
-        None where no way keeps it.
-    """
+    """Return the cheapest way whose differences are within an error."""
     good = [
         way
         for way in ways

@@ -31,20 +31,7 @@ class BuildingLoads(NamedTuple):
 
 
 def loads_of(table: LoadsTable | None, rule: LoadRule) -> BuildingLoads | None:
-    """Return the loads of a project, its masses by the code where the file does not say them.
-
-    Parameters
-    ----------
-    table : LoadsTable or None
-        The section of the file.
-    rule : LoadRule
-        The code's.
-
-    Returns
-    -------
-    BuildingLoads or None
-        None without the section.
-    """
+    """Return the loads of a project, its masses by the code where the file does not say them."""
     if table is None:
         return None
     given = table.mass
@@ -55,25 +42,7 @@ def loads_of(table: LoadsTable | None, rule: LoadRule) -> BuildingLoads | None:
 def apply_loads(
     frame: Frame, plan: BuildingPlan, loads: BuildingLoads, eccentricity: tuple[float, float]
 ) -> None:
-    """Put the loads of a project on its building, and make masses of them.
-
-    Parameters
-    ----------
-    frame : Frame
-        The building of the plan; it is changed.
-    plan : BuildingPlan
-        The plan.
-    loads : BuildingLoads
-        Pressures on all floors, the base among them; the facade on the outer edges of each floor
-        above it.
-    eccentricity : (float, float)
-        Of the loads of each level, over the sides of its plan [-].
-
-    Raises
-    ------
-    ModelError
-        If they cannot be.
-    """
+    """Put the loads of a project on its building, and make masses of them."""
     table = loads.table
     pressures = Pressures(
         floors=table.of_field(base=False, roof=False),

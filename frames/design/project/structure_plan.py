@@ -67,23 +67,7 @@ class MemberSections(NamedTuple):
 
 
 def sections_of(given: MomentFrame) -> MemberSections:
-    """Return the sections of a regular frame, those that the file leaves out assumed.
-
-    Parameters
-    ----------
-    given : MomentFrame
-        The section of the file.
-
-    Returns
-    -------
-    MemberSections
-        One for each storey and direction.
-
-    Raises
-    ------
-    ProjectError, ModelError
-        If one cannot be, or a storey has none or several.
-    """
+    """Return the sections of a regular frame, those that the file leaves out assumed."""
     tables = {key: _tables(getattr(given, key)) for key in _DEFAULTS}
     columns = _sections("columns", tables["columns"], given.storeys, None)
     beams = {d: _sections("beams", tables["beams"], given.storeys, d) for d in DIRECTIONS}
@@ -116,29 +100,7 @@ def _sections(
 def regular_frame(
     given: MomentFrame, bearing: LIRBearing, name: str, loads: BuildingLoads | None = None
 ) -> Frame:
-    """Return a regular frame on its bearings.
-
-    Parameters
-    ----------
-    given : MomentFrame
-        The section of the file.
-    bearing : LIRBearing
-        Under each column.
-    name : str
-        Name of the model.
-    loads : BuildingLoads, optional
-        Loads of its floors in place of ``floor_load``.
-
-    Returns
-    -------
-    Frame
-        The parts have the names of `frames.moment_frame`.
-
-    Raises
-    ------
-    ProjectError, ModelError
-        If it cannot be.
-    """
+    """Return a regular frame on its bearings."""
     _require_one_load(given, loads)
     plan = with_walls_and_braces(regular_plan(given), given)
     frame = build(plan, bearing, name=name, damping=_damping(given))
@@ -163,31 +125,7 @@ def irregular_frame(
     folder: Path,
     loads: BuildingLoads | None = None,
 ) -> Frame:
-    """Return an irregular frame on its bearings.
-
-    Parameters
-    ----------
-    given : IrregularFrame
-        The section of the file.
-    bearing : LIRBearing
-        Under each column of the first storey.
-    name : str
-        Name of the model.
-    folder : Path
-        Folder of its tables.
-    loads : BuildingLoads, optional
-        Loads of its floors; ``floor_load`` stands for dead load that is mass.
-
-    Returns
-    -------
-    Frame
-        The parts have the names of `frames.library.building.build`.
-
-    Raises
-    ------
-    ProjectError, ModelError
-        If it cannot be.
-    """
+    """Return an irregular frame on its bearings."""
     _require_one_load(given, loads)
     plan = with_walls_and_braces(irregular_plan(given, folder), given)
     frame = build(plan, bearing, name=name, damping=_damping(given))
@@ -216,23 +154,7 @@ def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads 
 
 
 def regular_plan(given: MomentFrame) -> BuildingPlan:
-    """Return the plan of a regular frame.
-
-    Parameters
-    ----------
-    given : MomentFrame
-        The section of the file.
-
-    Returns
-    -------
-    BuildingPlan
-        Its lines are named "<ix>-<iy>".
-
-    Raises
-    ------
-    ProjectError, ModelError
-        If a section cannot be.
-    """
+    """Return the plan of a regular frame."""
     sections = sections_of(given)
     (n_x, n_y), (b_x, b_y) = given.bays, given.bay_width
     places = list(product(range(n_x + 1), range(n_y + 1)))

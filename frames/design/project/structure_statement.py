@@ -37,22 +37,7 @@ Rows = list[tuple[str, str]]
 
 
 def structure_rows(file: ProjectFile, frame: Frame, spectrum: Spectrum | None = None) -> Rows:
-    """Return what the structure is, a row for each thing.
-
-    Parameters
-    ----------
-    file : ProjectFile
-        The project's file.
-    frame : Frame
-        The structure that was made of it.
-    spectrum : Spectrum, optional
-        The design spectrum, whose S_MS the combinations of ASCE 7 hold; needed with load cases.
-
-    Returns
-    -------
-    list of (str, str)
-        What, and how it is; sections by storey, storeys of one section together.
-    """
+    """Return what the structure is, a row for each thing."""
     given = file.structure
     levels = frame.levels
     rows = [

@@ -19,24 +19,7 @@ if TYPE_CHECKING:
 def provisions_of(
     parts: ProjectInputs, known: Preliminary, checks: Iterable[Check], *, is_run: bool = True
 ) -> tuple[ProvisionState, ...]:
-    """Return whether each provision of the code is checked in a project, and why not.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project.
-    known : Preliminary
-        What needs no time history.
-    checks : iterable of Check
-        Those that were made; the ones of `known` are added.
-    is_run : bool
-        Whether the time histories were run.
-
-    Returns
-    -------
-    tuple of ProvisionState
-        Of the code, then of the bearings under every code.
-    """
+    """Return whether each provision of the code is checked in a project, and why not."""
     asked = (*parts.code().provisions, *OF_BEARINGS)
     return states_of(asked, facts_of(parts, known), (*checks, *known.checks), is_run=is_run)
 
@@ -68,18 +51,6 @@ def facts_of(parts: ProjectInputs, known: Preliminary) -> frozenset[str]:
 
 
 def from_memory(code: DesignCode) -> tuple[str, ...]:
-    """Return which values of a code are from memory alone.
-
-    Parameters
-    ----------
-    code : DesignCode
-        The code.
-
-    Returns
-    -------
-    tuple of str
-        One sentence, with clause and value of each; none where all were read, or agree with a
-        public text.
-    """
+    """Return which values of a code are from memory alone."""
     said = [f"{v.clause} ({v.what})" for v in code.values.values() if v.standing.starred]
     return (f"from memory, not read in the standard: {'; '.join(said)}",) if said else ()

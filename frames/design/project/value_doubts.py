@@ -37,24 +37,7 @@ def value_doubts(
     devices: Mapping[str, LIRBearing],
     types: Mapping[str, str],
 ) -> tuple[str, ...]:
-    """Return which values of a file do not fit its building, and which have no effect.
-
-    Parameters
-    ----------
-    file : ProjectFile
-        The file.
-    system : IsolationSystem
-        Its bearings and their loads.
-    equivalent : EquivalentLinear
-        Its equivalent-linear analysis.
-    devices, types : mapping of str
-        Bearing of each type, and type of each bearing.
-
-    Returns
-    -------
-    tuple of str
-        A sentence for each, with value, bound and remedy.
-    """
+    """Return which values of a file do not fit its building, and which have no effect."""
     rows = [
         *_of_bearings(devices, equivalent),
         *_of_limits(file, system, devices),

@@ -57,15 +57,7 @@ class Verified(NamedTuple):
         return self.run is not None and self.run.checks.passed
 
     def row(self) -> dict[str, object]:
-        """Return its main numbers and what fails.
-
-        Returns
-        -------
-        dict
-            Numbers in SI units, demands as envelopes over the bounds; where a code has several
-            levels of the seismic action those of the level that it judges the bearings at. "fails"
-            names each kind of check that fails with its largest ratio.
-        """
+        """Return its main numbers and what fails."""
         t = self.candidate.trace
         found: dict[str, object] = {
             "radius [m]": self.candidate.radius,
@@ -131,31 +123,7 @@ def verified(
     *,
     progress: Callable[[BatchProgress], None] | bool | None = None,
 ) -> Iterator[Verified]:
-    """Put candidates to the time histories of a project, each when it is asked for.
-
-    Parameters
-    ----------
-    parts : ProjectInputs
-        The project: its structure, motions, bounds, limits and options. Its own bearing is left
-        aside.
-    candidates : sequence of Candidate
-        Of `frames.design.design` with one size of slider, such as ``Design.ranked[:3]``.
-    progress : callable or bool, optional
-        As for `frames.time_histories`.
-
-    Yields
-    ------
-    Verified
-        Each when its runs are done. The bearing is that of `section_of`: what is verified is what
-        the file will say.
-
-    Raises
-    ------
-    CheckError
-        If a candidate has several sizes of slider: a file's section has one bearing.
-    AnalysisInterrupted
-        After Ctrl-C.
-    """
+    """Put candidates to the time histories of a project, each when it is asked for."""
     for candidate in candidates:
         if len(candidate.bearings) != 1:
             msg = (

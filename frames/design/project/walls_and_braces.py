@@ -23,25 +23,7 @@ T = TypeVar("T")
 
 
 def with_walls_and_braces(plan: BuildingPlan, given: BuildingTable) -> BuildingPlan:
-    """Return a plan with the walls, braces and diaphragms of the file.
-
-    Parameters
-    ----------
-    plan : BuildingPlan
-        Columns and beams.
-    given : BuildingTable
-        The section of the file.
-
-    Returns
-    -------
-    BuildingPlan
-        The whole building.
-
-    Raises
-    ------
-    ProjectError
-        If one cannot be.
-    """
+    """Return a plan with the walls, braces and diaphragms of the file."""
     braces: list[BracePart] = []
     for k, rod in enumerate(given.braces):
         braces += _told(f"braces[{k}]", lambda rod=rod: _rods(plan, rod))  # type: ignore[misc]

@@ -16,19 +16,7 @@ BY_MOTION = "demands-by-motion"
 
 
 def motion_tables(table: pd.DataFrame) -> list[Table]:
-    """Return the columns that means are taken of, a row a run, in parts that fit a page.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        Of `demands_by_motion`.
-
-    Returns
-    -------
-    list of Table
-        Each part begins with motion, bound and, where there are several, level and way of the
-        masses; the status stands where a run did not end well, the scale where it is not 1.
-    """
+    """Return the columns that means are taken of, a row a run, in parts that fit a page."""
     keys = ["motion", "bound"]
     for key, usual in (("level", None), ("masses moved", ""), ("scale", 1.0), ("failed", "no")):
         values = table[key]

@@ -15,22 +15,7 @@ _WRAPPED = 26  # letters: words that are longer are broken into lines
 
 
 def in_parts(table: Table, width: int = PAGE, *, keep: int = 1) -> list[Table]:
-    """Return a table in parts that fit a page, each with the first columns.
-
-    Parameters
-    ----------
-    table : Table
-        The table.
-    width : int
-        Letters that a line holds.
-    keep : int
-        How many columns, the first ones, each part has.
-
-    Returns
-    -------
-    list of Table
-        The table itself where it fits; else parts of about the same width.
-    """
+    """Return a table in parts that fit a page, each with the first columns."""
     sizes = [_size(table, k) for k in range(len(table.head))]
     keep = min(keep, len(table.head))
     kept, count = tuple(range(keep)), 1

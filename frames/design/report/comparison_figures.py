@@ -27,19 +27,7 @@ _SHOWN = {"m": ("mm", 1e3), "-": ("%", 1e2), "N": ("kN", 1e-3), "m/s2": ("m/s²"
 
 
 def by_motion(table: pd.DataFrame) -> Figure:
-    """Draw what each motion reached with each device, the largest over the bounds.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        Of `Comparison.by_motion`, of one level of the seismic action.
-
-    Returns
-    -------
-    Figure
-        A panel a quantity over the number of the motion. Crosses with an arrow are of motions in
-        which a run stopped before its end: it had reached that much, and would have gone on.
-    """
+    """Draw what each motion reached with each device, the largest over the bounds."""
     titles = [title for title in BY_MOTION if table[title].notna().any()]
     figure, panels = ps.panels_of(len(titles), 2, 2.1, share=False)
     for panel, title in zip(panels, titles, strict=True):
@@ -84,22 +72,7 @@ def _panel(panel: Axes, table: pd.DataFrame, title: str) -> None:
 def comparison_pictures(
     table: pd.DataFrame, histories: Mapping[str, xr.Dataset], case: str, bearing: str
 ) -> dict[str, list[Picture]]:
-    """Return the figures of a comparison by the section that they stand in.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        Of `Comparison.by_motion`.
-    histories : mapping of str to xarray.Dataset
-        Of `compared_histories`.
-    case, bearing : str
-        Which run, and which bearing of it.
-
-    Returns
-    -------
-    dict of str to list of Picture
-        "motions" and "loops".
-    """
+    """Return the figures of a comparison by the section that they stand in."""
     several = table["level"].nunique() > 1
     motions = [
         picture(

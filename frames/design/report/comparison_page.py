@@ -31,25 +31,7 @@ def write_comparison(
     source: str,
     histories: tuple[Mapping[str, xr.Dataset], str, str] | None,
 ) -> list[Path]:
-    """Write what a comparison of two devices gave.
-
-    Parameters
-    ----------
-    found : Comparison
-        Runs of both.
-    folder : Path
-        Made if it is not there.
-    source : str
-        Text of the project's file.
-    histories : tuple, optional
-        Of `compared_histories`, for the figures; without them the page has none.
-
-    Returns
-    -------
-    list of Path
-        ``compare.csv``, the envelopes over the bounds; ``compare-motions.csv``, what each motion
-        reached; both in SI units; ``compare.html``, the page, which computes nothing.
-    """
+    """Write what a comparison of two devices gave."""
     make_folder(folder)
     texts = {
         "compare.csv": csv_of(found.table()),

@@ -58,18 +58,7 @@ class Verdict(NamedTuple):
 
 
 def verdicts(found: Comparison) -> list[Verdict]:
-    """Return what the numbers say at each level of the seismic action.
-
-    Parameters
-    ----------
-    found : Comparison
-        Runs of both devices.
-
-    Returns
-    -------
-    list of Verdict
-        One a level, in order.
-    """
+    """Return what the numbers say at each level of the seismic action."""
     return [_verdict(found, level) for level in found.runs[OURS]]
 
 

@@ -62,20 +62,7 @@ class Cover(NamedTuple):
 
 
 def cover_of(run: ProjectRun, source: str) -> Cover:
-    """Return the cover of a run's report.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-    source : str
-        Text of the project's file.
-
-    Returns
-    -------
-    Cover
-        What it says.
-    """
+    """Return the cover of a run's report."""
     about = run.about
     code = code_named(run.equivalent.code)
     return Cover(
@@ -129,18 +116,7 @@ class Verdict(NamedTuple):
 
 
 def verdict_of(run: ProjectRun) -> Verdict:
-    """Return the verdict of a run's checks.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    Verdict
-        Its lists are empty if nothing fails.
-    """
+    """Return the verdict of a run's checks."""
     void = run.checks.without_value
     by_value = [c for c in run.checks.failed if not c.void and c.symbol != "n_failed"]
     beyond = _titles(check for check in void if check.compared > 1.0)
@@ -182,18 +158,7 @@ def _worst(checks: Iterable[Check]) -> list[tuple[Judged, str]]:
 
 
 def css_string(text: str) -> Markup:
-    """Return a text as a string of a style sheet inside a page, quotes included.
-
-    Parameters
-    ----------
-    text : str
-        Any text.
-
-    Returns
-    -------
-    Markup
-        Letters with a meaning in HTML or CSS are escaped by their number.
-    """
+    """Return a text as a string of a style sheet inside a page, quotes included."""
     plain = " ".join(text.split())
     safe = "".join(c if c.isalnum() or c in " .,:;/-_()" else f"\\{ord(c):x} " for c in plain)
     return Markup(f'"{safe}"')  # noqa: S704  (nothing is left that ends a string or a tag)

@@ -40,21 +40,7 @@ if TYPE_CHECKING:
 
 
 def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:
-    """Return the figures of a run, by the section that they stand in.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-    words : Words
-        The language.
-
-    Returns
-    -------
-    dict of str to list of Picture
-        "structure", "bearings", "motions", "suite" of all runs, "histories" of the run that
-        displaces a bearing most.
-    """
+    """Return the figures of a run, by the section that they stand in."""
     plans: dict[str, list[Plan]] = {
         "structure": [("The model", lambda: model_view(run.frame))],
         "bearings": [

@@ -39,38 +39,7 @@ _ENDS = 2  # steps of a run that keeps its first and its last one alone
 def write_run(
     run: ProjectRun, folder: Path, source: str, *, figures: bool = True, language: str = ""
 ) -> list[Path]:
-    """Write what a run gave.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-    folder : Path
-        Made if it is not there; files of an earlier run are written over, its histories and the
-        page of `lir view` removed.
-    source : str
-        Text of the project's file, which is kept beside the results.
-    figures : bool
-        Whether the report has figures.
-    language : str
-        Of the report, in place of that of the project's file.
-
-    Returns
-    -------
-    list of Path
-        ``project.toml`` and the tables of members that it names; ``runs-<bound>.nc``, the time
-        histories, ``runs-<level>-<bound>.nc`` where a code has several levels of the seismic
-        action, and ``moved-...nc`` in the same way, those with the masses moved, whose table is
-        ``eccentricity.csv``; ``equivalent-linear.csv``, ``demands.csv``, ``checks.csv``,
-        ``demands-by-motion.csv``, ``provisions.csv``,
-        ``bearings.csv``, ``friction.csv``, ``modes.csv``, ``programme.csv``, ``storeys.csv``,
-        ``reactions.csv`` in SI units, and ``members.csv``, ``member-groups.csv`` of a structure
-        with members, ``members-without-forces.csv`` of one with shells or springs,
-        ``links.csv`` of one with moat walls or dampers;
-        ``checks.txt`` with each calculation; ``governing.nc``, the histories of one run;
-        ``report.html``; ``run.json``: version, date, outcome. What an interrupted run left is
-        removed.
-    """
+    """Write what a run gave."""
     make_folder(folder)
     old = (*folder.glob("runs-*.nc"), *folder.glob("moved-*.nc"))
     cut = folder.glob(".*.part")  # of a process that was killed
@@ -135,25 +104,7 @@ def write_judgement(
 
 
 def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
-    """Read the time histories that a project's run left.
-
-    Parameters
-    ----------
-    folder : Path
-        Where `write_run` wrote them.
-    inputs : mapping of str to str
-        Digests of what the project's time histories depend on, now.
-
-    Returns
-    -------
-    Histories
-        As they were.
-
-    Raises
-    ------
-    ProjectError
-        If the folder does not hold a complete run, or that of another input: it says of which.
-    """
+    """Read the time histories that a project's run left."""
     facts = folder / "run.json"
     if not facts.is_file():
         partly = (folder / "interrupted.nc").is_file()

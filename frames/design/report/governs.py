@@ -58,19 +58,7 @@ class Governing(NamedTuple):
 
 
 def what_governs(checks: Iterable[Check]) -> Governing:
-    """Return the checks of the highest ratios, of each title at each level its highest one.
-
-    Parameters
-    ----------
-    checks : iterable of Check
-        All checks of a run.
-
-    Returns
-    -------
-    Governing
-        The first `MOST`; checks without a valid value by their largest value before the failure.
-        Counts, the scaling of motions while it passes, and least values are left out.
-    """
+    """Return the checks of the highest ratios, of each title at each level its highest one."""
     highest: dict[tuple[str, str], Check] = {}
     for check in checks:
         if (check.passed and check.symbol in COUNTS) or check.verdict == "raised":
@@ -92,19 +80,7 @@ def _ratio_of(check: Check) -> str:
 
 
 def statistic_of(check: Check) -> str:
-    """Return of which runs the demand of a check is.
-
-    Parameters
-    ----------
-    check : Check
-        The check with its calculation.
-
-    Returns
-    -------
-    str
-        "mean of 7 runs", "largest of 3 runs", "largest of all runs", "1 run", or "" where no
-        statistic of runs enters.
-    """
+    """Return of which runs the demand of a check is."""
     found: list[str] = []
     for step in check.trace:
         for pattern, word in ((_MEAN, "mean"), (_LARGEST, "largest")):

@@ -60,18 +60,7 @@ class Judged(NamedTuple):
 
 
 def judged(check: Check) -> Judged:
-    """Return a check as the report shows it.
-
-    Parameters
-    ----------
-    check : Check
-        The check.
-
-    Returns
-    -------
-    Judged
-        Where nothing is allowed, and nothing is there, words in place of numbers.
-    """
+    """Return a check as the report shows it."""
     demand, limit, ratio = check.said
     sign = "" if check.void else "≤" if check.relation == "<=" else "≥"
     if check.limit in _ZERO and check.relation == "<=":  # nothing may be there: no ratio
@@ -94,19 +83,7 @@ def judged(check: Check) -> Judged:
 
 
 def factor_steps(bounds: PropertyBounds) -> list[tuple[str, list[Line]]]:
-    """Return the calculations of factors on friction that are given by source.
-
-    Parameters
-    ----------
-    bounds : PropertyBounds
-        Bounds of the bearings' properties.
-
-    Returns
-    -------
-    list of (str, list)
-        What the factors are on, and the steps as those of a check; nothing of factors that are
-        given as they are.
-    """
+    """Return the calculations of factors on friction that are given by source."""
     both = {
         "Factors on the friction of the surfaces": bounds.friction,
         "Factors on the friction of the interface": bounds.interface,

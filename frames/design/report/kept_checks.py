@@ -31,23 +31,7 @@ _SHOWN = {"m": "mm"}
 
 
 def read_checks(folder: Path) -> Checks:
-    """Return the checks that ``checks.csv`` holds, without their calculations.
-
-    Parameters
-    ----------
-    folder : Path
-        Results of `write_run`.
-
-    Returns
-    -------
-    Checks
-        With the numbers and verdicts of the table; lengths are shown in mm.
-
-    Raises
-    ------
-    ProjectError
-        If there is no such table, or it is not one that `lir run` wrote.
-    """
+    """Return the checks that ``checks.csv`` holds, without their calculations."""
     path = folder / "checks.csv"
     if not path.is_file():
         msg = f"{path} is missing: `lir report` writes it from the histories of the run"

@@ -22,21 +22,6 @@ def member_groups(run: ProjectRun, forces: pd.DataFrame | None) -> pd.DataFrame:
     """Return the extremes of the members' forces by group, over bounds and stations.
 
     Members of the same kind of name at the same heights are a group.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-    forces : pandas.DataFrame or None
-        "members" of `force_demands`; None for a structure without members.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a group and force, in local axes: number of members, unit, smallest and largest value
-        for design, each with its member, station and bound, at the level at which the structure is
-        judged. Empty without members. What is below a millionth of the largest of its unit is left
-        out: round-off. Where runs failed a column "void" says so: values are what they reached.
     """
     if forces is None:
         return pd.DataFrame()
@@ -66,18 +51,7 @@ def member_groups(run: ProjectRun, forces: pd.DataFrame | None) -> pd.DataFrame:
 
 
 def without_forces(frame: Frame) -> pd.DataFrame:
-    """Return the elements of superelements that the tables of member forces leave out.
-
-    Parameters
-    ----------
-    frame : Frame
-        The structure.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a kind and reason: how many, which, why. Empty where all are told.
-    """
+    """Return the elements of superelements that the tables of member forces leave out."""
     rows = [
         {"kind": one.kind, "elements": one.number, "which": one.which, "why": one.why}
         for part in frame.superelements.values()

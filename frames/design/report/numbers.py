@@ -54,20 +54,7 @@ TABLES_OF_FORCES = ("member-groups", "members", WITHOUT_FORCES, LINKS, "storeys"
 
 
 def bearing_table(run: ProjectRun) -> pd.DataFrame:
-    """Return where each bearing stands, what it carries, and the largest that runs asked of it.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a bearing; places and displacements [m], forces [N], in the names of the columns.
-        Largest of all runs, those with moved masses among them, whatever the code makes of them;
-        where runs failed a column "void" says how many: those count until they stopped.
-    """
+    """Return where each bearing stands, what it carries, and the largest that runs asked of it."""
     links = run.frame.bearings
     places = [run.frame.nodes[link.j] for link in links.values()]
     table = pd.DataFrame(
@@ -92,19 +79,7 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
 
 
 def friction_table(run: ProjectRun) -> pd.DataFrame:
-    """Return the friction coefficients of the bearings at each bound.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    pandas.DataFrame
-        Rows: both surfaces at high and at low speed, and the interface (infinite: rigid slider);
-        columns: bounds [-].
-    """
+    """Return the friction coefficients of the bearings at each bound."""
     tables = []
     for kind, nominal in devices_by_type(run).items():
         columns: dict[str, list[float]] = {}
@@ -122,18 +97,7 @@ def friction_table(run: ProjectRun) -> pd.DataFrame:
 
 
 def devices_by_type(run: ProjectRun) -> dict[str, LIRBearing]:
-    """Return a bearing of each type, the type's name "" where there is one alone.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    dict of str to LIRBearing
-        Friction nominal.
-    """
+    """Return a bearing of each type, the type's name "" where there is one alone."""
     found: dict[str, LIRBearing] = {}
     for name, link in run.frame.bearings.items():
         found.setdefault(run.types.get(name, ""), link.bearing)
@@ -141,18 +105,7 @@ def devices_by_type(run: ProjectRun) -> dict[str, LIRBearing]:
 
 
 def mode_table(run: ProjectRun) -> pd.DataFrame:
-    """Return the first periods of the structure on sliding bearings, and held at its base.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    pandas.DataFrame
-        Periods [s] and participating masses along x and y [-], four decimals, of both.
-    """
+    """Return the first periods of the structure on sliding bearings, and held at its base."""
     columns = {}
     for title, bearings in (("sliding", "sliding"), ("held", "fixed")):
         found = modes(run.frame, _COUNT, bearings=bearings)  # type: ignore[arg-type]  # its words
@@ -165,20 +118,7 @@ def mode_table(run: ProjectRun) -> pd.DataFrame:
 
 
 def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
-    """Return all tables of this module, by name.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    dict of str to pandas.DataFrame
-        "bearings", "friction", "modes", "motions" with their factors, "programme" of tests,
-        "eccentricity" of masses, "demands-by-motion", "member-groups", "members-without-forces";
-        "members", "storeys" and "reactions" as far as the structure has them (`force_demands`).
-    """
+    """Return all tables of this module, by name."""
     raises = raises_by_case(run.checks)
     forces = force_demands(run.runs, run.rules, raises, run.moved)
     return {

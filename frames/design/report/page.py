@@ -38,22 +38,7 @@ class Picture(NamedTuple):
 def page_template(
     name: str, package: str = "frames.design.report", words: Words | None = None
 ) -> jinja2.Template:
-    """Return the template of a page.
-
-    Parameters
-    ----------
-    name : str
-        Its file. ``page.css`` and ``macros.html.j2`` of this room are found beside it.
-    package : str
-        Where it is.
-    words : Words, optional
-        The language; its filters say what other parts of the program made.
-
-    Returns
-    -------
-    jinja2.Template
-        What it is given is escaped; a name that it lacks is an error.
-    """
+    """Return the template of a page."""
     rooms = dict.fromkeys((package, "frames.design.report"))
     room = jinja2.Environment(
         loader=jinja2.ChoiceLoader([jinja2.PackageLoader(room, ".") for room in rooms]),

@@ -29,24 +29,6 @@ def print_report(page: Path, paper: Path) -> Path:
     """Print a report.
 
     Contents are filled with the numbers of pages that the print before gave, until they agree.
-
-    Parameters
-    ----------
-    page : Path
-        The report, HTML.
-    paper : Path
-        The PDF file that is written, with bookmarks.
-
-    Returns
-    -------
-    Path
-        The same file.
-
-    Raises
-    ------
-    ProjectError
-        If no browser is found, the package `pypdf` is missing, the browser does not print, or no
-        print agrees with its contents.
     """
     browser = _browser()
     try:
@@ -75,36 +57,12 @@ def print_report(page: Path, paper: Path) -> Path:
 
 
 def with_pages(text: str, numbers: dict[str, int]) -> str:
-    """Return a report whose contents name pages.
-
-    Parameters
-    ----------
-    text : str
-        The report, HTML.
-    numbers : dict of str to int
-        Pages by anchor; what is not among them stays empty.
-
-    Returns
-    -------
-    str
-        The report.
-    """
+    """Return a report whose contents name pages."""
     return _PLACE.sub(lambda found: f"{found[1]}{numbers.get(found[2], '')}{found[3]}", text)
 
 
 def pages_of(reader: PdfReader) -> dict[str, int]:
-    """Return the pages of a PDF's named places, from 1 on.
-
-    Parameters
-    ----------
-    reader : PdfReader
-        The file.
-
-    Returns
-    -------
-    dict of str to int
-        By name.
-    """
+    """Return the pages of a PDF's named places, from 1 on."""
     places = {
         name.removeprefix("/"): reader.get_destination_page_number(place)
         for name, place in reader.named_destinations.items()

@@ -73,24 +73,7 @@ class Reached(NamedTuple):
 
 
 def reached(run: ProjectRun, name: str, *, of_bearings: bool) -> list[Reached]:
-    """Return what all motions reached of a quantity at each bound.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-    name : str
-        The quantity.
-    of_bearings : bool
-        Whether it is judged with the bearings, or with what stands on them: that decides the level
-        of the seismic action.
-
-    Returns
-    -------
-    list of Reached
-        By bound; of the bearing or storey whose value for design is largest. Empty where the runs
-        do not have the quantity.
-    """
+    """Return what all motions reached of a quantity at each bound."""
     level = next(
         level.name
         for level in run.rules.levels
@@ -122,20 +105,7 @@ def reached(run: ProjectRun, name: str, *, of_bearings: bool) -> list[Reached]:
 
 
 def motions_figure(run: ProjectRun) -> Figure:
-    """Draw displacement, slip and drift of every motion at every bound, and what counts of them.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    Figure
-        A panel for each quantity; marks are motions, crosses those whose run failed, lines the mean
-        or the largest, whichever the code counts, as in the table of demands. Where there are no
-        values for design the title says so.
-    """
+    """Draw displacement, slip and drift of every motion at every bound, and what counts of them."""
     quantities = (
         ("isolator displacement", "displacement", "mm", 1e3, True),
         ("interface slip", "slip", "mm", 1e3, True),
@@ -202,19 +172,7 @@ def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
 
 
 def profiles_figure(run: ProjectRun) -> Figure | None:
-    """Draw the drift of every storey in every motion, and what counts of it.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    Figure or None
-        A panel for each bound: thin lines are motions, dotted ones those whose run failed, the
-        thick one their mean or largest; None where there are fewer than two storeys.
-    """
+    """Draw the drift of every storey in every motion, and what counts of it."""
     level = next(level.name for level in run.rules.levels if level.judges_structure)
     runs = {bound: data for bound, data in run.runs[level].items() if "reached_drift" in data}
     if not runs or peaks_of_runs(next(iter(runs.values())), "drift").shape[1:] < (2,):
@@ -245,18 +203,7 @@ def _profile(panel: Axes, data: xr.Dataset, suite: Suite, colour: str) -> None:
 
 
 def typical_bearing(data: xr.Dataset) -> str:
-    """Return the bearing whose largest displacement in a run is the median of all.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history.
-
-    Returns
-    -------
-    str
-        Its name; of an even number the lower one of the two in the middle.
-    """
+    """Return the bearing whose largest displacement in a run is the median of all."""
     values = largest(data, "displacement").values
     order = np.argsort(values, kind="stable")
     return str(data["bearing"].to_numpy()[order[(len(order) - 1) // 2]])
@@ -265,17 +212,7 @@ def typical_bearing(data: xr.Dataset) -> str:
 def utilisation(run: ProjectRun) -> tuple[Check, FloatArray] | None:
     """Return how far each bearing is used by the check of bearings that governs.
 
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    (Check, ndarray (n_bearings,)) or None
-        The check of the highest ratio of those whose demand is of one bearing, and the value of
-        each bearing over its limit. None where there is no such check, runs failed, or bearings
-        are not alike, so that they have other limits.
+    Shapes: result (n_bearings,).
     """
     alike = len({link.bearing for link in run.frame.bearings.values()}) == 1
     of_one = [c for c in run.checks if c.title in _OF_BEARINGS and c.subject and not c.void]
@@ -294,18 +231,7 @@ def utilisation(run: ProjectRun) -> tuple[Check, FloatArray] | None:
 
 
 def plan_figure(run: ProjectRun) -> Figure | None:
-    """Draw the bearings in plan by how far the check that governs uses them.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-
-    Returns
-    -------
-    Figure or None
-        A circle for each bearing, coloured by `utilisation`; None where there is none.
-    """
+    """Draw the bearings in plan by how far the check that governs uses them."""
     found = utilisation(run)
     if found is None:
         return None

@@ -30,20 +30,7 @@ class Table(NamedTuple):
 
 
 def rows_of(frame: pd.DataFrame, text: Callable[[object], str] = str) -> list[tuple[str, ...]]:
-    """Return the rows of a table as text, each after its name.
-
-    Parameters
-    ----------
-    frame : pandas.DataFrame
-        Numbers in SI units; a column "unit" says which where a row has one.
-    text : callable
-        Writes what is no float.
-
-    Returns
-    -------
-    list of tuple of str
-        Name and cells.
-    """
+    """Return the rows of a table as text, each after its name."""
     rows = []
     for name, cells in zip(frame.index, frame.itertuples(index=False), strict=True):
         row = dict(zip(frame.columns, cells, strict=True))
@@ -63,18 +50,7 @@ def _number(value: float) -> str:
 
 
 def in_mm_and_kn(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return a table whose columns name their unit with those in N as kN, in m as mm.
-
-    Parameters
-    ----------
-    frame : pandas.DataFrame
-        Columns such as "slip [m]"; places, "x [m]" and "y [m]", stay as they are.
-
-    Returns
-    -------
-    pandas.DataFrame
-        The table.
-    """
+    """Return a table whose columns name their unit with those in N as kN, in m as mm."""
     columns = {}
     for title, values in frame.items():
         name, _, unit = str(title).partition(" [")

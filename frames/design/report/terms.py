@@ -79,18 +79,7 @@ def _applies(name: str, bearing: LIRBearing) -> bool:
 
 
 def device_table(bearing: LIRBearing) -> Table:
-    """Return what a bearing is: what was given, defaults, and what follows.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The bearing, friction nominal.
-
-    Returns
-    -------
-    Table
-        A row a property: its name, value, unit, and whether it was given, is a default or derived.
-    """
+    """Return what a bearing is: what was given, defaults, and what follows."""
     derived = [
         ("effective radius", bearing.effective_radius, "m"),
         ("pendulum period", bearing.period, "s"),
@@ -118,18 +107,7 @@ def device_table(bearing: LIRBearing) -> Table:
 
 
 def model_table(model: ModelCheck) -> Table:
-    """Return the totals of a model under its permanent loads.
-
-    Parameters
-    ----------
-    model : ModelCheck
-        Of `Frame.check`.
-
-    Returns
-    -------
-    Table
-        A row a quantity.
-    """
+    """Return the totals of a model under its permanent loads."""
     across = [abs(force) for force in model.loads[:2]]
     taken = sum(force for _, force in model.supports)
     periods = ", ".join(f"{value:.3g}" for value in model.periods)
@@ -153,18 +131,7 @@ def model_table(model: ModelCheck) -> Table:
 
 
 def loads_table(model: ModelCheck) -> Table:
-    """Return what permanent loads make of each bearing.
-
-    Parameters
-    ----------
-    model : ModelCheck
-        Of `Frame.check`.
-
-    Returns
-    -------
-    Table
-        A row a bearing: axial force, pressure, settlement, period, stable limit of the slip.
-    """
+    """Return what permanent loads make of each bearing."""
     rows = [
         (
             load.name,

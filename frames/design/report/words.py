@@ -92,18 +92,7 @@ class Words:
         return self.gettext(one if count == 1 else several)
 
     def say(self, text: str) -> str:
-        """Return a text that another part of the program made.
-
-        Parameters
-        ----------
-        text : str
-            A message as it is, one with values in it, or several by "; ", ", ".
-
-        Returns
-        -------
-        str
-            In the language; as it is where the language does not have it.
-        """
+        """Return a text that another part of the program made."""
         return self.number(self._said(text)) if text else text
 
     def number(self, text: str) -> str:
@@ -121,20 +110,7 @@ class Words:
         return self._said(clause) if clause.startswith("no code") else clause
 
     def table(self, table: Table, *, plain: Sequence[str] = ("clause",)) -> Table:
-        """Return a table in the language.
-
-        Parameters
-        ----------
-        table : Table
-            The table.
-        plain : sequence of str
-            Heads of columns whose cells are clauses.
-
-        Returns
-        -------
-        Table
-            Heads and cells.
-        """
+        """Return a table in the language."""
         kept = {k for k, title in enumerate(table.head) if title in plain}
         rows = [
             [
@@ -247,24 +223,7 @@ class _Said(Formatter):
 def catalogue(
     language: str,
 ) -> tuple[dict[str, str], tuple[tuple[re.Pattern[str], str], ...]]:
-    """Return the messages of a language.
-
-    Parameters
-    ----------
-    language : str
-        One of `LANGUAGES` but English.
-
-    Returns
-    -------
-    (dict of str to str, tuple of (pattern, str))
-        Translations of messages as they are; patterns of messages with places such as ``{motion}``
-        and what is formatted in their stead: those that begin with words first, long ones first.
-
-    Raises
-    ------
-    ProjectError
-        If babel, which reads them, is not installed.
-    """
+    """Return the messages of a language."""
     try:
         from babel.messages.pofile import read_po
     except ImportError as cause:

@@ -54,26 +54,7 @@ def report_html(
     figures: bool = True,
     language: str = "",
 ) -> str:
-    """Return a run as a self-contained HTML page.
-
-    Parameters
-    ----------
-    run : ProjectRun
-        The run.
-    source : str
-        Text of the project's file.
-    tables : mapping of str to pandas.DataFrame
-        Of `run_tables`.
-    figures : bool
-        Whether with figures, which take half of the time of a small project.
-    language : str
-        One of `words.LANGUAGES` in place of that of the project's file.
-
-    Returns
-    -------
-    str
-        The page: styles and pictures are in it, nothing is fetched.
-    """
+    """Return a run as a self-contained HTML page."""
     return report_in(_words(run, language), run, source, tables, figures=figures)
 
 

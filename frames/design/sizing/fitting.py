@@ -66,37 +66,6 @@ def fitted(
 
     The sliders begin with the radius that the pressures ask for and grow until they also bear the
     slip: by its overlap, and by the offset of the resultant, which the interface's friction causes.
-
-    Parameters
-    ----------
-    radius : float
-        Of both concave surfaces [m].
-    friction : FrictionLaw
-        Nominal friction.
-    system : IsolationSystem
-        Places and loads of the bearings.
-    sizes : sequence of Size
-        Loads of the bearings of each size of slider.
-    target : DesignTarget
-        What is asked for.
-    bounds : PropertyBounds or None
-        Lower and upper bound friction properties.
-    analyse : callable
-        Equivalent-linear analysis of the system on one bearing.
-    asked : Asked
-        Demands of time histories.
-
-    Returns
-    -------
-    Candidate
-        With what it lacks.
-
-    Raises
-    ------
-    CheckError
-        If there is no equivalent-linear displacement.
-    ValueError
-        If no bearing can be made of radius and friction.
     """
     radii, height = [_by_pressure(size, target) for size in sizes], 0.0
     while True:

@@ -106,37 +106,13 @@ class Place(NamedTuple):
 
 
 def ranked(found: Sequence[Candidate], least: str) -> tuple[Candidate, ...]:
-    """Return the candidates that keep what is asked, best first.
-
-    Parameters
-    ----------
-    found : sequence of Candidate
-        All that were tried.
-    least : str
-        Of `OBJECTIVES`: what is made least.
-
-    Returns
-    -------
-    tuple of Candidate
-        Those without warnings before those with, each by the objective.
-    """
+    """Return the candidates that keep what is asked, best first."""
     good = [one for one in found if not one.lacks]
     return tuple(sorted(good, key=lambda one: (bool(one.warnings), OBJECTIVES[least](one))))
 
 
 def pareto(found: Sequence[Candidate]) -> tuple[Candidate, ...]:
-    """Return those that none beats in displacement, base shear and plan diameter at once.
-
-    Parameters
-    ----------
-    found : sequence of Candidate
-        All that were tried; only those that keep what is asked are compared.
-
-    Returns
-    -------
-    tuple of Candidate
-        In their order.
-    """
+    """Return those that none beats in displacement, base shear and plan diameter at once."""
     good = [one for one in found if not one.lacks]
     values = {id(one): tuple(OBJECTIVES[name](one) for name in _WEIGHED) for one in good}
 
@@ -173,13 +149,7 @@ def table_of(
     chosen: Candidate | None = None,
     impossible: Sequence[Impossible] = (),
 ) -> pd.DataFrame:
-    """Return all candidates, numbers in SI units, with their outcome.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row for each; then pairs of which no bearing can be made, with the reason.
-    """
+    """Return all candidates, numbers in SI units, with their outcome."""
     import pandas as pd
 
     best = {id(one) for one in pareto(found)}

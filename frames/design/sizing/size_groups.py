@@ -38,24 +38,7 @@ def grouped(system: IsolationSystem, sizes: int) -> tuple[tuple[int, ...], tuple
 
     The largest loads are parted so that the sliders' areas, all together, are least.
 
-    Parameters
-    ----------
-    system : IsolationSystem
-        The bearings' loads.
-    sizes : int
-        Number of sizes, at least 1; fewer where there are fewer unlike loads.
-
-    Returns
-    -------
-    tuple of int, (n_bearings,)
-        Size of each bearing.
-    tuple of Size
-        Loads of each size.
-
-    Raises
-    ------
-    CheckError
-        If the number is out of bounds.
+    Shapes: result (n_bearings,).
     """
     if sizes < 1:
         msg = f"sizes = {sizes}: give a number of sliders, at least 1"

@@ -201,27 +201,6 @@ def tried_on_one_mass(found: Design, candidate: Candidate, how: OneMass) -> Tria
     The mass is the mean load of the bearings, its bearing the one with the smallest slider, at the
     level "pendulum". Runs without rims give the displacement to size for. Runs with rims give the
     slip, and none of them may fail, also under the motions times `MARGIN`.
-
-    Parameters
-    ----------
-    found : Design
-        The proposal.
-    candidate : Candidate
-        Of those that keep what is asked.
-    how : OneMass
-        Motions, levels and bounds.
-
-    Returns
-    -------
-    Trial
-        The candidate as it was sized, with its runs.
-
-    Raises
-    ------
-    CheckError
-        If a bearing cannot be at a bound.
-    MotionError
-        If the motions cannot be scaled.
     """
     mass = found.system.seismic_weight / len(found.sizes) / found.system.gravity
     motions = how.motions(candidate.analysis)

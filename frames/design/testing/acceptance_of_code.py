@@ -33,27 +33,7 @@ class _Compared(NamedTuple):
 def checks_of_code(
     code: DesignCode, name: str, tests: Sequence[PrototypeTest], capacity: float
 ) -> list[Check]:
-    """Return what a code asks of the loops of one set beside the limits that all have.
-
-    Parameters
-    ----------
-    code : DesignCode
-        The code.
-    name : str
-        Of the set.
-    tests : sequence of PrototypeTest
-        Tests of the whole bearing, of one specimen or several.
-    capacity : float
-        Displacement at which the rims are met [m]; beyond it there is no post-elastic stiffness.
-
-    Returns
-    -------
-    list of Check
-        ASCE 7-22: post-elastic stiffness of each specimen within 15 % of their mean, cycle by
-        cycle. NCh2745: mean effective stiffness of specimens within 10 % of one another; of as many
-        cycles as all specimens have, both. EN 1998,
-        by NTC 2018 11.9.8: friction of each cycle within 25 % of that of the third of its test.
-    """
+    """Return what a code asks of the loops of one set beside the limits that all have."""
     found, by_specimen = [], _by_specimen(tests)
     below = all(max(c.highest, -c.lowest) <= capacity for c in chain(*by_specimen.values()))
     specimens, cycles = code.values.get("specimens"), code.values.get("accepted cycles")

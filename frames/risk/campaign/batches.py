@@ -104,18 +104,7 @@ class Work:
         return frame
 
     def reference(self) -> Reference:
-        """Return of each model the first that can be set up, and what runs of these give.
-
-        Returns
-        -------
-        Reference
-            Models that cannot be set up have none.
-
-        Raises
-        ------
-        CampaignError
-            If there is none.
-        """
+        """Return of each model the first that can be set up, and what runs of these give."""
         motion = next(iter(self.motions.values()))
         brief = dict(self.options)
         brief["duration"] = min(motion.duration, _PROBE_STEPS * (brief["dt"] or motion.dt))
@@ -151,28 +140,7 @@ def compute(
     told: Told | None = None,
     known: Known | None = None,
 ) -> Batch:
-    """Compute a batch.
-
-    Parameters
-    ----------
-    work : Work
-        The campaign's.
-    layout : xarray.Dataset
-        Variables and labels of the results database, `Reference.layout`.
-    batch : int
-        Which.
-    workers : int or None
-        Runs at a time.
-    told : callable, optional
-        Hears of each run that is done.
-    known : callable, optional
-        Gives those of some rows whose runs are taken over, and their results.
-
-    Returns
-    -------
-    Batch
-        Its runs, failed ones with their reason.
-    """
+    """Compute a batch."""
     rows = work.plan.rows(batch)
     arrays = {str(name): _empty(layout[name], len(rows)) for name in layout.data_vars}
     histories = []

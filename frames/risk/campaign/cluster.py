@@ -30,31 +30,7 @@ _ONE_AT_A_TIME = threading.Lock()  # a worker computes a batch with all of its t
 def over_cluster(
     client: Any, work: Work, layout: xr.Dataset, batches: Sequence[int], workers: int | None
 ) -> Iterator[tuple[int, Batch]]:
-    """Compute batches on a Dask cluster, in whichever order they are done.
-
-    Parameters
-    ----------
-    client : distributed.Client
-        Of the cluster.
-    work : Work
-        The campaign's.
-    layout : xarray.Dataset
-        Of the results database.
-    batches : sequence of int
-        Which.
-    workers : int or None
-        Runs at a time in each worker; None: its number of threads.
-
-    Yields
-    ------
-    tuple of int and Batch
-        Number of a batch and what it gave.
-
-    Raises
-    ------
-    CampaignError
-        If a batch ended its workers again and again, or the connection is lost.
-    """
+    """Compute batches on a Dask cluster, in whichever order they are done."""
     from distributed import as_completed
     from distributed.protocol.pickle import dumps
 

@@ -45,23 +45,7 @@ class ComparedDevices:
     larger: float | None = None
 
     def frames(self, frame: Frame) -> dict[str, Frame]:
-        """Return the structure on each device.
-
-        Parameters
-        ----------
-        frame : Frame
-            The structure on LIR-DCFPs.
-
-        Returns
-        -------
-        dict of str to Frame
-            By device and rims, the LIR-DCFP first.
-
-        Raises
-        ------
-        CampaignError
-            If a bearing has a rigid slider, no rims, or a device is none.
-        """
+        """Return the structure on each device."""
         for name, link in frame.bearings.items():
             if link.bearing.is_dcfp or math.isinf(link.bearing.lateral_capacity):
                 msg = (
@@ -156,20 +140,7 @@ def _named(name: str, strength: Strength | None) -> str:
 
 
 def dish_diameter(bearing: LIRBearing, displacement: float | None = None) -> float:
-    """Return the diameter of the larger dish of a bearing, its plan [m].
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The bearing.
-    displacement : float, optional
-        Displacement that it must have room for [m]; its capacity if None.
-
-    Returns
-    -------
-    float
-        ``2 (D R / L + a)``: the sliding on the surface, and the slider's radius.
-    """
+    """Return the diameter of the larger dish of a bearing, its plan [m]."""
     reached = bearing.lateral_capacity if displacement is None else displacement
     slides = [reached * radius / bearing.effective_radius for radius in bearing.radii]
     if displacement is None:

@@ -41,18 +41,6 @@ def filling_intensity(bearing: LIRBearing, period: float) -> float:
 
     Its displacement by ASCE 7-22, equation 17.5-1, on the nominal bearing is the capacity: the
     one-second spectrum ``S_M1 / T`` that this needs, at a period.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The bearing, with rims.
-    period : float
-        Period of Sa [s].
-
-    Returns
-    -------
-    float
-        Of 5 % damping.
     """
     displacement = bearing.lateral_capacity
     friction, length = bearing.effective_friction, bearing.effective_radius
@@ -91,22 +79,7 @@ class DeviceComparison:
     def ratios(
         self, curves: Mapping[str, Mapping[str, Fragility]], confidence: float
     ) -> pd.DataFrame:
-        """Return the median of the LIR-DCFP over that of each other device, limit by limit.
-
-        Parameters
-        ----------
-        curves : mapping
-            By limit state and device, fitted with one seed: resampled records are paired.
-        confidence : float
-            Confidence of the intervals [-].
-
-        Returns
-        -------
-        pandas.DataFrame
-            A row a limit state, rims and other device: "ratio [-]", "low [-]", "high [-]",
-            "LIR-DCFP better [-]", the share of resamples in which it is, and "verdict": "better" or
-            "worse" where the interval excludes 1. Where there is no ratio, the verdict says why.
-        """
+        """Return the median of the LIR-DCFP over that of each other device, limit by limit."""
         rows = []
         for limit, own in curves.items():
             for rims, (first, *others) in self.groups.items():
@@ -123,27 +96,7 @@ class DeviceComparison:
         reasons: Mapping[str, str],
         confidence: float,
     ) -> pd.DataFrame:
-        """Return median, dispersion and margin against collapse of each device.
-
-        Parameters
-        ----------
-        runs : mapping of str to IntensityRuns
-            By device.
-        curves : mapping of str to Fragility
-            Of collapse, by device.
-        reasons : mapping of str to str
-            Why a device has no curve.
-        confidence : float
-            Confidence of the intervals [-].
-
-        Returns
-        -------
-        pandas.DataFrame
-            A row a device: runs that collapsed, and of them bearings that failed, runs whose
-            analysis failed; median with its interval in the unit of the intensity, dispersion, and
-            with a maximum considered earthquake the margin, `collapse_margin_ratio` without a
-            factor for the spectral shape; "no curve" says why there is none.
-        """
+        """Return median, dispersion and margin against collapse of each device."""
         rows: dict[str, dict[str, object]] = {}
         for name, each in runs.items():
             exceeded = each.exceeded(self.collapse)
@@ -175,21 +128,7 @@ class DeviceComparison:
         return row
 
     def sizes(self, runs: Mapping[str, IntensityRuns]) -> pd.DataFrame:
-        """Return the devices: of each the bearing with the largest dish.
-
-        Parameters
-        ----------
-        runs : mapping of str to IntensityRuns
-            By device.
-
-        Returns
-        -------
-        pandas.DataFrame
-            A row a device: radius of the slider, friction of the interface, capacity, force at
-            which a rim yields and at which it breaks (elastic rims: where they break), largest
-            displacement of all runs that went to their end, and the diameter of the dish; of a
-            device without rims that which the largest displacement needs.
-        """
+        """Return the devices: of each the bearing with the largest dish."""
         rows = {}
         for name, frame in self.frames.items():
             bearing = max(

@@ -37,29 +37,7 @@ FIELDS = (
 
 
 def with_parameters(frame: Frame, parameters: Mapping[str, float]) -> Frame:
-    """Return a structure whose bearings all have the given parameters.
-
-    Parameters
-    ----------
-    frame : Frame
-        The structure.
-    parameters : mapping of str to float
-        `FIELDS` of its bearings; "friction", Coulomb's coefficient; fields of the friction law
-        that both surfaces have, as f_max, f_min and rate of `VelocityFriction`. Rigid sliders (a
-        plain DCFP) stay rigid.
-
-    Returns
-    -------
-    Frame
-        A copy.
-
-    Raises
-    ------
-    CampaignError
-        If a name is not known, or belongs to another law of friction.
-    ModelError, ValueError
-        If such a bearing cannot be, or does not fit.
-    """
+    """Return a structure whose bearings all have the given parameters."""
     devices = {name: _device(link.bearing, parameters) for name, link in frame.bearings.items()}
     return frame.with_bearings(devices)
 

@@ -42,23 +42,7 @@ STORE = "results"
 
 
 def campaign_file(path: str | Path) -> CampaignFile:
-    """Return a campaign's file, checked; the law of its bearings says what is a parameter.
-
-    Parameters
-    ----------
-    path : str or path
-        TOML (docs/campaigns.md), which is read once.
-
-    Returns
-    -------
-    CampaignFile
-        For `read_campaign` and what follows.
-
-    Raises
-    ------
-    ProjectError
-        If it cannot be read: a line for each thing.
-    """
+    """Return a campaign's file, checked; the law of its bearings says what is a parameter."""
     folder = Path(path).parent
 
     def kind(data: dict[str, Any]) -> type[CampaignFile]:
@@ -94,25 +78,7 @@ def _law_of(data: dict[str, Any], table: type[Bearing]) -> type[FrictionLaw]:
 
 
 def read_campaign(given: CampaignFile | str | Path, *, store: str | Path | None = None) -> Campaign:
-    """Return the campaign of a file.
-
-    Parameters
-    ----------
-    given : CampaignFile, str or path
-        TOML (docs/campaigns.md), or what `campaign_file` read.
-    store : str or path, optional
-        Folder of the results. None: beside the file, its name and "-results".
-
-    Returns
-    -------
-    Campaign
-        Ready to run.
-
-    Raises
-    ------
-    ProjectError
-        If the file, or something that it names, cannot be used: a line for each thing.
-    """
+    """Return the campaign of a file."""
     file = _read(given)
     whole = _path_of(file)
     folder = whole.resolve().parent

@@ -159,18 +159,7 @@ class CampaignFile(WholeFile):
 
 
 def parameters_of(law: type[FrictionLaw]) -> type[Parameters]:
-    """Return the keys of ``[parameters]`` for bearings with a friction law.
-
-    Parameters
-    ----------
-    law : type
-        The class of the law; its fields that are numbers are keys, with their units.
-
-    Returns
-    -------
-    type
-        `Parameters` and these keys.
-    """
+    """Return the keys of ``[parameters]`` for bearings with a friction law."""
     hints = get_type_hints(law)
     keys: dict[str, Any] = {
         name: (Range[quantity(unit_of(law, name))] | None, None)  # type: ignore[misc]

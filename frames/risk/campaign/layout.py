@@ -45,22 +45,7 @@ def _bytes(values: Any) -> bytes:
 
 
 def lay_out(where: Path, plan: Plan, layout: xr.Dataset) -> None:
-    """Make empty arrays for the results of all runs, a chunk a batch; labels and plan are there.
-
-    Parameters
-    ----------
-    where : Path
-        The group that is made.
-    plan : Plan
-        The rows.
-    layout : xarray.Dataset
-        Variables and labels.
-
-    Raises
-    ------
-    CampaignError
-        If a parameter has the name of a result.
-    """
+    """Make empty arrays for the results of all runs, a chunk a batch; labels and plan are there."""
     import zarr
 
     labels = {str(name): layout[name] for name in layout.coords if "run" not in layout[name].dims}

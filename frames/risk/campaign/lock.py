@@ -23,21 +23,6 @@ def locked(path: Path) -> Generator[None, None, None]:
 
     The system lets go of it when its process ends. Who holds it stands in a file beside it, which
     others can read on every system.
-
-    Parameters
-    ----------
-    path : Path
-        The file, which stays.
-
-    Yields
-    ------
-    None
-        While it is held.
-
-    Raises
-    ------
-    CampaignError
-        If another process, or another part of this one, holds it.
     """
     from filelock import FileLock, Timeout
 

@@ -53,13 +53,7 @@ class Measure:
     unit: str
 
     def __post_init__(self) -> None:
-        """Check.
-
-        Raises
-        ------
-        TypeError, CampaignError
-            If it cannot be used.
-        """
+        """Check."""
         require_type("function", self.function, FunctionType, "a function or a lambda")
         require_type("unit", self.unit, str, 'a string such as "m", or "1"')
         self.digest()
@@ -126,23 +120,7 @@ def _value(key: str, value: Any) -> str:
 
 
 def checked_measures(measures: object) -> dict[str, Measure]:
-    """Return own measures by name.
-
-    Parameters
-    ----------
-    measures : mapping of str to Measure, or None
-        As the user gives them.
-
-    Returns
-    -------
-    dict of str to Measure
-        Empty without any.
-
-    Raises
-    ------
-    TypeError
-        If one is no Measure.
-    """
+    """Return own measures by name."""
     given: Mapping[str, Measure] = measures or {}  # type: ignore[assignment]
     require_type("measures", given, dict, "a dict of Measure by name")
     for name, each in given.items():
@@ -152,25 +130,7 @@ def checked_measures(measures: object) -> dict[str, Measure]:
 
 
 def with_room(data: xr.Dataset, measures: Mapping[str, Measure]) -> xr.Dataset:
-    """Return results with own measures among their quantities, not a number yet.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of `time_histories`.
-    measures : mapping of str to Measure
-        The measures.
-
-    Returns
-    -------
-    xarray.Dataset
-        With their names and units along `quantity`.
-
-    Raises
-    ------
-    CampaignError
-        If a measure has the name of a quantity.
-    """
+    """Return results with own measures among their quantities, not a number yet."""
     if not measures:
         return data
     names = [str(name) for name in data["quantity"].to_numpy()]
@@ -198,27 +158,7 @@ def with_room(data: xr.Dataset, measures: Mapping[str, Measure]) -> xr.Dataset:
 def evaluate(
     data: xr.Dataset, measures: Mapping[str, Measure], places: Sequence[int]
 ) -> xr.Dataset:
-    """Return results with own measures of the runs that went to their end.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of `time_histories` with histories, and with room.
-    measures : mapping of str to Measure
-        The measures.
-    places : sequence of int
-        Rows of the runs in the campaign, for messages.
-
-    Returns
-    -------
-    xarray.Dataset
-        The same; NaN remains where a run stopped.
-
-    Raises
-    ------
-    CampaignError
-        If a function raises, or returns no number: with measure and run.
-    """
+    """Return results with own measures of the runs that went to their end."""
     if not measures:
         return data
     peak = data["peak"].copy()

@@ -30,18 +30,7 @@ def damaged(where: Path, number: int, cause: Exception | None = None) -> str:
 
 @contextmanager
 def readable(where: Path) -> Generator[None, None, None]:
-    """Turn errors of a group's description into a CampaignError.
-
-    Yields
-    ------
-    None
-        While the group is opened.
-
-    Raises
-    ------
-    CampaignError
-        With what is damaged.
-    """
+    """Turn errors of a group's description into a CampaignError."""
     try:
         yield
     except (ValueError, LookupError, TypeError, RuntimeError, FileNotFoundError) as cause:
@@ -66,19 +55,7 @@ def opened(where: Path) -> xr.Dataset:
 def results_of(where: Path, plan: Mapping[str, Any], done: BoolArray) -> xr.Dataset:
     """Return what the runs of a results database reached.
 
-    Parameters
-    ----------
-    where : Path
-        Group of the results.
-    plan : mapping
-        Of the results database.
-    done : ndarray of bool, shape (runs,)
-        Runs whose batch is complete: whatever stands in the rows of others is not shown.
-
-    Returns
-    -------
-    xarray.Dataset
-        Read where it is used; NaN and "" where a run is not done.
+    Shapes: done (runs,).
     """
     with readable(where):
         data = opened(where)

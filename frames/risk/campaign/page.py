@@ -46,33 +46,7 @@ def write_page(
     comparison: DeviceComparison | None = None,
     figures: bool = True,
 ) -> list[Path]:
-    """Write what a campaign gave, as a page and tables beside it.
-
-    Parameters
-    ----------
-    campaign : Campaign
-        It has been run.
-    path : Path
-        The page; tables have its name and "-response.csv", "-failures.csv", "-fragility.csv", and
-        of a comparison "-devices.csv", "-ratios.csv", "-margins.csv".
-    source : str
-        Text of the campaign's file.
-    limits : sequence of LimitState
-        Fragility curves are fitted to these.
-    intensity : Intensity, optional
-        What they are over; the factor on the motions if None.
-    scaled : Intensity, optional
-        What the motions are scaled to, an intensity of 1, so that factors are intensities.
-    comparison : DeviceComparison, optional
-        Which devices are compared.
-    figures : bool
-        Whether the page has figures.
-
-    Returns
-    -------
-    list of Path
-        The files.
-    """
+    """Write what a campaign gave, as a page and tables beside it."""
     data = campaign.results()
     models = runs_by_model(data, campaign.motions)
     responses, failures = response_table(models), failure_table(models)

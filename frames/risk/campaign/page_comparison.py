@@ -74,26 +74,7 @@ class Fitted(NamedTuple):
 def compared(
     comparison: DeviceComparison, fitted: Fitted, confidence: float, axis: str, *, figures: bool
 ) -> Compared:
-    """Return what a campaign says of devices.
-
-    Parameters
-    ----------
-    comparison : DeviceComparison
-        Which devices.
-    fitted : Fitted
-        The curves, collapse among them.
-    confidence : float
-        Of all intervals [-].
-    axis : str
-        What the factor on the motions is.
-    figures : bool
-        Whether figures are drawn.
-
-    Returns
-    -------
-    Compared
-        Tables and figures.
-    """
+    """Return what a campaign says of devices."""
     name = comparison.collapse.name
     why = {device: str(fitted.table.loc[f"{device}, {name}", "no curve"]) for device in fitted.runs}
     sizes = comparison.sizes(fitted.runs)

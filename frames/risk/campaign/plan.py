@@ -82,18 +82,7 @@ class Plan:
 
 
 def differences(stored: Mapping[str, Any], own: Mapping[str, Any]) -> list[str]:
-    """Return in words how what a results database was planned with differs from what is given now.
-
-    Parameters
-    ----------
-    stored, own : mapping of str to value or mapping
-        Both plans.
-
-    Returns
-    -------
-    list of str
-        A line each.
-    """
+    """Return in words how what a results database was planned with differs from what is given now."""
     found = []
     for key in {**stored, **own}:
         old, new = stored.get(key), own.get(key)

@@ -32,21 +32,7 @@ _NOT_COMPARED = {*SOURCES, "provenance", TAKEN_OVER}
 
 
 def described(work: Work, reference: Reference) -> dict[str, Any]:
-    """Return what a campaign is planned with, as plan.json holds it.
-
-    Parameters
-    ----------
-    work : Work
-        The campaign's.
-    reference : Reference
-        Of each model the first that can be set up, which stands for all of them.
-
-    Returns
-    -------
-    dict
-        Digests of models, motions, parameters and sources; properties of the bearings with their
-        defaults filled in; options; and, not compared, date and versions.
-    """
+    """Return what a campaign is planned with, as plan.json holds it."""
     plan = work.plan
     options = {name: value for name, value in work.options.items() if name != "features"}
     features = work.options["features"] or Features.all()
@@ -80,19 +66,7 @@ def described(work: Work, reference: Reference) -> dict[str, Any]:
 
 
 def unlike(stored: Mapping[str, Any], given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
-    """Return in words what differs of two plans.
-
-    Parameters
-    ----------
-    stored, given : mapping
-        That of a results database, and what is given now.
-
-    Returns
-    -------
-    tuple of list of str
-        Differences of what is computed, and of the sources that compute it: of the results
-        database's plan those that were accepted last.
-    """
+    """Return in words what differs of two plans."""
     latest = dict(stored)
     for taken in stored.get(TAKEN_OVER, []):
         latest |= taken
@@ -102,21 +76,7 @@ def unlike(stored: Mapping[str, Any], given: Mapping[str, Any]) -> tuple[list[st
 
 
 def bearing_properties(model: str, frame: Frame) -> dict[str, Any]:
-    """Return the properties that the bearings of a model are computed with.
-
-    Parameters
-    ----------
-    model : str
-        Its name.
-    frame : Frame
-        The model.
-
-    Returns
-    -------
-    dict
-        Numbers, or lists of them, SI, by "model: property"; where bearings differ, by "model, name
-        of the first such bearing: property".
-    """
+    """Return the properties that the bearings of a model are computed with."""
     kinds: dict[str, tuple[str, dict[str, Any]]] = {}
     for name, link in frame.bearings.items():
         own = _properties(link.bearing)

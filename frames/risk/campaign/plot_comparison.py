@@ -32,27 +32,7 @@ def device_curves(
     confidence: float,
     considered: float | None = None,
 ) -> Figure:
-    """Draw the fragility of devices, a panel a limit state.
-
-    Parameters
-    ----------
-    runs : mapping of str to IntensityRuns
-        Of up to four devices.
-    curves : mapping
-        By limit state and device, where there is one.
-    limits : sequence of LimitState
-        The panels.
-    confidence : float
-        Confidence of the bands [-].
-    considered : float, optional
-        Intensity of the maximum considered earthquake, drawn as a dotted line.
-
-    Returns
-    -------
-    Figure
-        Curves with their bands, and as points the share of the runs at each intensity that exceed
-        the limit state; failed bearings do, runs whose analysis failed count as neither.
-    """
+    """Draw the fragility of devices, a panel a limit state."""
     measure = next(iter(runs.values())).intensity
     factor, label = shown_intensity(measure.unit, measure.label)
     top = 1.05 * max(float(each.table["im"].max()) for each in runs.values())
@@ -83,21 +63,7 @@ def device_curves(
 
 
 def shares_exceeded(runs: IntensityRuns, limit: LimitState) -> tuple[np.ndarray, np.ndarray]:
-    """Return the intensities of runs, and the share at each that exceeds a limit state.
-
-    Parameters
-    ----------
-    runs : IntensityRuns
-        The runs.
-    limit : LimitState
-        The limit state.
-
-    Returns
-    -------
-    tuple of ndarray
-        Intensities in order, and shares [-] of the runs there whose analysis went on: NaN where
-        none did.
-    """
+    """Return the intensities of runs, and the share at each that exceeds a limit state."""
     exceeded, im = runs.exceeded(limit), runs.table["im"].to_numpy()
     found = np.unique(im)
     known = [exceeded[(im == one) & ~np.isnan(exceeded)] for one in found]

@@ -28,23 +28,7 @@ _LINE = 0.42  # share of the place of a factor that bars take
 def response_by_factor(
     models: Mapping[str, IntensityRuns], *, axis: str = "factor on the motions"
 ) -> Figure:
-    """Draw what structures reached over the factor on the motions, and how many runs failed.
-
-    Parameters
-    ----------
-    models : mapping of str to IntensityRuns
-        Of `runs_by_model`; six at most are drawn.
-    axis : str
-        What the factor on the motions is.
-
-    Returns
-    -------
-    Figure
-        A panel a quantity: the median, and as a band the fractiles 16 and 84 %, of all motions and
-        parameters. A failed bearing counts as an infinite demand: a line ends, at an arrow, where
-        half of the runs have failed. Below, the shares of runs in which a bearing failed (full) and
-        in which the analysis failed (light).
-    """
+    """Draw what structures reached over the factor on the motions, and how many runs failed."""
     shown = dict(list(models.items())[: len(ps.PALETTE)])
     units = {q: runs.units[q] for runs in shown.values() for q in QUANTITIES if q in runs.units}
     titles = [q for q in QUANTITIES if q in units][:_PANELS]

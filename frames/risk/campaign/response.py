@@ -35,22 +35,7 @@ FRACTILES = (0.16, 0.5, 0.84)
 def runs_by_model(
     data: xr.Dataset, motions: Mapping[str, GroundMotion], intensity: Intensity | None = None
 ) -> dict[str, IntensityRuns]:
-    """Return the runs of each structure, all sets of parameters together.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a campaign.
-    motions : mapping of str to GroundMotion
-        Its motions, not scaled.
-    intensity : Intensity, optional
-        The measure; the factor on the motions if None.
-
-    Returns
-    -------
-    dict of str to IntensityRuns
-        By structure, in the order of the campaign.
-    """
+    """Return the runs of each structure, all sets of parameters together."""
     measure = intensity or Intensity(kind="scale")
     names = dict.fromkeys(str(name) for name in data["model"].to_numpy())
     return {
@@ -62,19 +47,7 @@ def runs_by_model(
 def fractiles(runs: IntensityRuns, quantity: str) -> dict[float, FloatArray]:
     """Return fractiles of a demand at each factor on the motions.
 
-    Parameters
-    ----------
-    runs : IntensityRuns
-        Runs of one structure.
-    quantity : str
-        The demand.
-
-    Returns
-    -------
-    dict of float to ndarray, (3,)
-        By factor: the fractiles 16, 50 and 84 %. Failure of a bearing counts as an infinite demand;
-        runs whose analysis failed count as none. NaN where there is no run. A fractile of n runs is
-        the smallest demand that at least that part of them does not exceed.
+    Shapes: result (3,).
     """
     demand, scale = runs.demand(quantity), runs.table["scale"].to_numpy()
     found = {}
@@ -86,20 +59,7 @@ def fractiles(runs: IntensityRuns, quantity: str) -> dict[float, FloatArray]:
 
 
 def response_table(models: Mapping[str, IntensityRuns]) -> pd.DataFrame:
-    """Return what each structure reached at each factor on the motions.
-
-    Parameters
-    ----------
-    models : mapping of str to IntensityRuns
-        Of `runs_by_model`.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a structure and factor: runs, shares in which a bearing failed, in which the analysis
-        failed and, where there are any, for which nothing could be built [-], median and 84 %
-        fractile of each quantity in SI units, as `fractiles` has them.
-    """
+    """Return what each structure reached at each factor on the motions."""
     rows = []
     unbuilt = any((runs.table["outcome"] == UNBUILT).any() for runs in models.values())
     for name, runs in models.items():
@@ -125,20 +85,7 @@ def response_table(models: Mapping[str, IntensityRuns]) -> pd.DataFrame:
 
 
 def failure_table(models: Mapping[str, IntensityRuns]) -> pd.DataFrame:
-    """Return the runs that did not go to their end, by structure and cause.
-
-    Parameters
-    ----------
-    models : mapping of str to IntensityRuns
-        Of `runs_by_model`.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a structure and status: what it means, number and share of runs, the smallest factor
-        on the motions at which it happened, and the message of the first such run. Empty if there
-        is none.
-    """
+    """Return the runs that did not go to their end, by structure and cause."""
     rows = []
     for name, runs in models.items():
         table = runs.table

@@ -23,20 +23,7 @@ ENDS = ("status", "message", "doubts", "seconds_loop")
 
 
 def run_table(data: xr.Dataset, parameters: Sequence[str]) -> pd.DataFrame:
-    """Return the runs that are done as a table.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a campaign.
-    parameters : sequence of str
-        Names of its parameters.
-
-    Returns
-    -------
-    pandas.DataFrame
-        As `CampaignStore.to_dataframe` has it.
-    """
+    """Return the runs that are done as a table."""
     done = np.flatnonzero(data["done"].to_numpy())
     own = data.isel(run=done)
     names = [name for name in (*ROWS, *parameters) if name in own.coords]

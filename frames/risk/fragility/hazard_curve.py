@@ -54,13 +54,7 @@ class HazardCurve(Shown):
     intensity: Intensity | None = None
 
     def __post_init__(self) -> None:
-        """Check and copy.
-
-        Raises
-        ------
-        FragilityError
-            If the points make no curve.
-        """
+        """Check and copy."""
         object.__setattr__(self, "unit", unit_of(self.unit or None, self.intensity))
         im, rate = np.array(self.im, dtype=np.float64), np.array(self.rate, dtype=np.float64)
         if im.ndim != 1 or im.shape != rate.shape or len(im) < 2:

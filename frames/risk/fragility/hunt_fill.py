@@ -72,13 +72,7 @@ class HuntFill:
     highest: float = math.inf
 
     def __post_init__(self) -> None:
-        """Check.
-
-        Raises
-        ------
-        FragilityError
-            If a value is out of its bounds.
-        """
+        """Check."""
         require_positive("first", self.first, error=FragilityError)
         if self.step is not None:
             require_positive("step", self.step, error=FragilityError)

@@ -197,25 +197,7 @@ class IDA(Shown):
 
 
 def capacities_of(runs: IntensityRuns, limit: LimitState) -> pd.DataFrame:
-    """Return the intensity at which each motion first reaches a limit state: `IDA.capacities`.
-
-    Parameters
-    ----------
-    runs : IntensityRuns
-        Runs of each motion up to the limit.
-    limit : LimitState
-        The limit state.
-
-    Returns
-    -------
-    pandas.DataFrame
-        A row a motion.
-
-    Raises
-    ------
-    FragilityError
-        If the structure does not have the limit's quantity, or no run of a motion succeeded.
-    """
+    """Return the intensity at which each motion first reaches a limit state: `IDA.capacities`."""
     over, table = runs.exceeded(limit), runs.table
     demand = None if limit.quantity is None else runs.demand(limit.quantity)
     rows = []

@@ -84,13 +84,7 @@ class Intensity:
     periods: Sequence[float] = ()
 
     def __post_init__(self) -> None:
-        """Check.
-
-        Raises
-        ------
-        FragilityError
-            If an argument is out of its bounds.
-        """
+        """Check."""
         require_choice("kind", self.kind, tuple(UNITS), error=FragilityError)
         require_choice("measure", self.measure, tuple(MEASURES), error=FragilityError)
         require_between("damping", self.damping, 0.0, 1.0, "-", error=FragilityError)
@@ -179,25 +173,7 @@ class Intensity:
 
 
 def unit_of(unit: str | None, intensity: Intensity | None) -> str:
-    """Return the unit of intensities, where it is told by their measure, too.
-
-    Parameters
-    ----------
-    unit : str or None
-        Unit that is stated.
-    intensity : Intensity or None
-        Their measure.
-
-    Returns
-    -------
-    str
-        The one of both; "m/s2" if neither is stated.
-
-    Raises
-    ------
-    FragilityError
-        If both are stated and differ.
-    """
+    """Return the unit of intensities, where it is told by their measure, too."""
     if intensity is not None:
         require_type("intensity", intensity, Intensity, "an Intensity")
         if unit not in {None, intensity.unit}:
@@ -210,21 +186,7 @@ def unit_of(unit: str | None, intensity: Intensity | None) -> str:
 def require_one_measure(
     first: Measured, second: Measured, names: tuple[str, str] = ("the first", "the second")
 ) -> None:
-    """Refuse two things that are of unlike intensities.
-
-    Parameters
-    ----------
-    first, second : Measured
-        Curves, hazards, rates: what has a `unit` and an `intensity`, which is None where it was
-        not stated and is then not compared.
-    names : tuple of str
-        What they are called.
-
-    Raises
-    ------
-    FragilityError
-        If units or measures differ; the message names both.
-    """
+    """Refuse two things that are of unlike intensities."""
     told = [
         each.unit if each.intensity is None else f"{each.intensity.label} [{each.unit}]"
         for each in (first, second)

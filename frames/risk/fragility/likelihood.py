@@ -40,26 +40,7 @@ def binomial(
 ) -> Likely | None:
     """Fit ``link(P) = b0 + b1 ln im`` to counts.
 
-    Parameters
-    ----------
-    im, count, total : ndarray, shape (n,)
-        Intensities, and `count` out of `total` runs that exceed.
-    link : {"probit", "logit"}
-        The link.
-    clusters : ndarray of int, shape (n,), optional
-        What rows belong together, for a robust covariance; without it that of the model.
-    start : ndarray, shape (2,), optional
-        Where to begin; then no covariance is formed (NaN).
-
-    Returns
-    -------
-    Likely or None
-        b0 and b1; None where the outcomes do not overlap, or the probability does not rise.
-
-    Raises
-    ------
-    ImportError
-        If the package is not installed.
+    Shapes: im, count, total (n,), clusters (n,), start (2,).
     """
     package = _package()
     some, others = im[count > 0.0], im[count < total]
@@ -78,22 +59,7 @@ def binomial(
 def censored_lognormal(capacity: FloatArray, censored: BoolArray) -> Likely | None:
     """Fit a lognormal distribution to capacities of which some are only known to be larger.
 
-    Parameters
-    ----------
-    capacity : ndarray, shape (n,)
-        Capacities, or what they are larger than.
-    censored : ndarray of bool, shape (n,)
-        Which ones.
-
-    Returns
-    -------
-    Likely or None
-        Median and dispersion; None where fewer than two differ.
-
-    Raises
-    ------
-    ImportError
-        If the package is not installed.
+    Shapes: capacity (n,), censored (n,).
     """
     package = _package()
     if len(np.unique(capacity[~censored])) < 2:

@@ -48,13 +48,7 @@ class LimitState:
     limit: float | None = None
 
     def __post_init__(self) -> None:
-        """Check.
-
-        Raises
-        ------
-        FragilityError
-            If quantity and limit do not belong together.
-        """
+        """Check."""
         require_type("name", self.name, str, "a string")
         if (self.quantity is None) != (self.limit is None):
             msg = f"{self.name}: give a quantity of frames.peaks and its limit, or neither"

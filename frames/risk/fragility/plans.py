@@ -18,23 +18,7 @@ PLAN = "plan"
 
 
 def plans_of(table: pd.DataFrame) -> list[str]:
-    """Return the plan of each run of a table, "given" where the table does not tell.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        Runs.
-
-    Returns
-    -------
-    list of str
-        Of `STRIPES`, `CLOUD`, `HUNT`, `GIVEN`.
-
-    Raises
-    ------
-    FragilityError
-        If there is another one.
-    """
+    """Return the plan of each run of a table, "given" where the table does not tell."""
     if PLAN not in table.columns:
         return [GIVEN] * len(table)
     found = [str(each) for each in table[PLAN].fillna(GIVEN)]
@@ -46,20 +30,7 @@ def plans_of(table: pd.DataFrame) -> list[str]:
 
 
 def require_beforehand(table: pd.DataFrame, method: str) -> None:
-    """Refuse runs whose intensities were chosen by their outcome.
-
-    Parameters
-    ----------
-    table : pandas.DataFrame
-        Runs.
-    method : str
-        What is to be fitted to them.
-
-    Raises
-    ------
-    FragilityError
-        If some of them are of an incremental analysis.
-    """
+    """Refuse runs whose intensities were chosen by their outcome."""
     hunted = plans_of(table).count(HUNT)
     if hunted:
         msg = (

@@ -29,32 +29,7 @@ _SHOWN = 3
 
 
 def rows_of(data: xr.Dataset, model: str | None, parameters: Sets) -> xr.Dataset:
-    """Return the runs of one structure and one set of parameters that are done.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of `time_histories` or of a campaign.
-    model : str or None
-        Which structure; needed where there are several.
-    parameters : int, mapping or "all", or None
-        Which set of parameters; needed where there are several.
-
-    Returns
-    -------
-    xarray.Dataset
-        Its rows.
-
-    Raises
-    ------
-    FragilityError
-        If there are several structures or sets, such a one is not there, or no run is done.
-
-    Warns
-    -----
-    AnalysisWarning
-        If runs are not done.
-    """
+    """Return the runs of one structure and one set of parameters that are done."""
     names = sorted({str(name) for name in data["model"].to_numpy()})
     if model is None and len(names) > 1:
         msg = f"{len(names)} structures ({', '.join(names)}): name one as model="
@@ -129,25 +104,7 @@ def _of_values(own: xr.Dataset, parameters: Mapping[str, float]) -> BoolArray:
 
 
 def motions_of(own: xr.Dataset, motions: object) -> dict[str, GroundMotion]:
-    """Return the motions of runs by name, if they are those that were run.
-
-    Parameters
-    ----------
-    own : xarray.Dataset
-        The runs.
-    motions : GroundMotion, or a sequence or mapping of them
-        The motions, unscaled.
-
-    Returns
-    -------
-    dict of str to GroundMotion
-        In the order of their first runs.
-
-    Raises
-    ------
-    FragilityError
-        If a motion is missing, or another one than that of the runs.
-    """
+    """Return the motions of runs by name, if they are those that were run."""
     grounds = named_motions(motions)
     used = list(dict.fromkeys(str(name) for name in own["motion"].to_numpy()))
     for name in used:

@@ -31,22 +31,7 @@ def checked_runs(
 ) -> tuple[FloatArray, FloatArray]:
     """Return intensities and values of runs as arrays (n,), or raise.
 
-    Parameters
-    ----------
-    im, values : array_like, shape (n,)
-        Intensities, positive, and what belongs to them.
-    records : sequence of str
-        Record of each run.
-
-    Returns
-    -------
-    tuple of ndarray, shape (n,)
-        Both.
-
-    Raises
-    ------
-    FragilityError
-        If lengths differ, or an intensity is not positive and finite.
+    Shapes: im, values (n,), result (n,).
     """
     at, found = np.asarray(im, dtype=np.float64), np.asarray(values, dtype=np.float64)
     if at.ndim != 1 or at.shape != found.shape or len(records) != len(at):
@@ -61,26 +46,7 @@ def checked_runs(
 def resampled(count: int, fit: Fit, size: int, resamples: int, seed: int) -> FloatArray:
     """Return the parameters of fits to records that are drawn with replacement.
 
-    Parameters
-    ----------
-    count : int
-        Number of records.
-    fit : callable
-        Of how often each record was drawn (count,) to its parameters (size,), None without a fit.
-    size : int
-        Number of parameters.
-    resamples, seed : int
-        Number of draws, and their seed: the same draws for the same count and seed.
-
-    Returns
-    -------
-    ndarray, shape (resamples, size)
-        Parameters, NaN where there was no fit.
-
-    Raises
-    ------
-    FragilityError
-        If fewer than half of the draws allow a fit.
+    Shapes: result (resamples, size).
     """
     require_type("seed", seed, int, "a whole number")
     require_type("resamples", resamples, int, "a whole number")

@@ -43,26 +43,7 @@ FIXED = ("motion", "scale", "im", "outcome", "status", "message")
 
 
 def outcome_of(status: str) -> str:
-    """Return what a status of `time_histories` means for a limit state.
-
-    Parameters
-    ----------
-    status : str
-        Such as "ok", "inaccurate" or "slip_exceeded".
-
-    Returns
-    -------
-    str
-        `COMPLETE` for "ok", "inaccurate" and "bearing_lost" (which went to their ends), `FAILURE`
-        where the bearing failed and the run with it, `UNBUILT` for "not_built" of a campaign,
-        otherwise `UNKNOWN`. A structure that is beyond what it carries ends in Newton's failure, as
-        other things do: state a drift or a rotation as the limit.
-
-    Raises
-    ------
-    FragilityError
-        If it is no status.
-    """
+    """Return what a status of `time_histories` means for a limit state."""
     if status == NOT_BUILT:
         return UNBUILT
     require_choice("status", status, [s.name.lower() for s in RunStatus], error=FragilityError)
@@ -112,13 +93,7 @@ class IntensityRuns(Shown):
     units: Mapping[str, str]
 
     def __post_init__(self) -> None:
-        """Check.
-
-        Raises
-        ------
-        FragilityError
-            If the table cannot be used.
-        """
+        """Check."""
         require_type("table", self.table, pd.DataFrame, "a pandas DataFrame")
         require_type("intensity", self.intensity, Intensity, "an Intensity")
         missing = [name for name in FIXED if name not in self.table.columns]
@@ -318,38 +293,7 @@ def run_at(
     options: Mapping[str, Any],
     plan: str,
 ) -> IntensityRuns:
-    """Run a structure under motions at intensities, all at once.
-
-    Parameters
-    ----------
-    model : Frame
-        The structure.
-    motions : mapping of str to GroundMotion
-        Motions, unscaled.
-    cases : sequence of (str, float)
-        Motion and intensity of each run.
-    intensity : Intensity
-        The measure.
-    options : mapping
-        Options of `time_histories`.
-    plan : str
-        How the intensities were chosen.
-
-    Returns
-    -------
-    IntensityRuns
-        The runs. Failures of bearings are outcomes, not warnings.
-
-    Raises
-    ------
-    FragilityError
-        If an option is one that the cases decide.
-
-    Warns
-    -----
-    AnalysisWarning
-        If runs failed numerically.
-    """
+    """Run a structure under motions at intensities, all at once."""
     fixed = {"scales", "cases", "record"} & set(options)
     if fixed:
         msg = f"{sorted(fixed)[0]} is decided here: leave it out"

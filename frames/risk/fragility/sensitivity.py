@@ -232,27 +232,7 @@ def sobol_indices(
 def saltelli_sets(
     distributions: Mapping[str, Any], samples: int, seed: int
 ) -> list[dict[str, float]]:
-    """Return the sets of parameters of which Sobol' indices are made.
-
-    Parameters
-    ----------
-    distributions : mapping of str to distribution
-        As for `sobol_indices`.
-    samples : int
-        Samples n, a power of 2.
-    seed : int
-        Seed.
-
-    Returns
-    -------
-    list of dict, n (parameters + 2)
-        A sample A, a sample B, and for each parameter A with this one of B.
-
-    Raises
-    ------
-    FragilityError
-        If an argument is out of its bounds.
-    """
+    """Return the sets of parameters of which Sobol' indices are made."""
     require_type("samples", samples, int, "a whole number")
     if samples < 2 or samples & (samples - 1):
         msg = f"samples = {samples} must be a power of 2, such as 256"
@@ -280,15 +260,7 @@ def saltelli_sets(
 def indices_of(table: FloatArray) -> FloatArray:
     """Return first and total indices of the results of `saltelli_sets`.
 
-    Parameters
-    ----------
-    table : ndarray, shape (d + 2, n)
-        Results of A, of B, and of A with one parameter of B after the other.
-
-    Returns
-    -------
-    ndarray, shape (2, d)
-        First and total indices [-].
+    Shapes: result (2, d).
     """
     from scipy import stats
 

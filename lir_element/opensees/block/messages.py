@@ -24,22 +24,7 @@ HINTED = np.zeros(1, dtype=np.int64)
 
 
 def bearing_messages(tag: int, design_load: float, placement: Placement) -> dict[int, str]:
-    """Return the messages of a bearing.
-
-    Parameters
-    ----------
-    tag : int
-        Of its element.
-    design_load : float
-        Of the device [N].
-    placement : Placement
-        Where it stands.
-
-    Returns
-    -------
-    dict of int to str
-        By their numbers.
-    """
+    """Return the messages of a bearing."""
     who = f"bearing element {tag}"
     load = f"its design load, {design_load:g} N ({design_load / placement.force_unit:g} of the"
     units = (

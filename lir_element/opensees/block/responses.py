@@ -46,18 +46,7 @@ class HostResponse(NamedTuple):
 
 
 def host_responses(placement: Placement) -> dict[str, HostResponse]:
-    """Return the responses that OpenSees' own bearings have.
-
-    Parameters
-    ----------
-    placement : Placement
-        Where the bearing stands.
-
-    Returns
-    -------
-    dict of str to HostResponse
-        By every name that OpenSees has for them.
-    """
+    """Return the responses that OpenSees' own bearings have."""
     turn = local_axes(placement)
     half = len(turn) // 2
     relative = turn[half:] - turn[:half]

@@ -153,23 +153,7 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
 
 
 def laws_of_opensees(bearing: LIRBearing) -> list[CoulombFriction | VelocityFriction]:
-    """Return the friction of both surfaces, of laws that OpenSees' friction models follow.
-
-    Parameters
-    ----------
-    bearing : LIRBearing
-        The device.
-
-    Returns
-    -------
-    list of CoulombFriction or VelocityFriction
-        Of the bottom and the top surface.
-
-    Raises
-    ------
-    ValueError
-        If one is of another law.
-    """
+    """Return the friction of both surfaces, of laws that OpenSees' friction models follow."""
     known = (CoulombFriction, VelocityFriction)
     for law in bearing.frictions:
         if not isinstance(law, known):

@@ -100,13 +100,7 @@ def _run_child() -> tuple[str, bool]:
 
 
 def main() -> None:
-    """Compare the bearing with a linear spring, twice.
-
-    Raises
-    ------
-    NotPossibleError
-        If they differ.
-    """
+    """Compare the bearing with a linear spring, twice."""
     bearing = LIRBearing(
         radius=1.0,
         slider_height=0.1,

@@ -66,34 +66,12 @@ class NotPossibleError(RuntimeError):
 
 @functools.cache
 def library() -> ctypes.CDLL:
-    """Return the OpenSees library that openseespy has loaded.
-
-    Returns
-    -------
-    CDLL
-        The library.
-
-    Raises
-    ------
-    NotPossibleError
-        If this build's functions cannot be reached by their names.
-    """
+    """Return the OpenSees library that openseespy has loaded."""
     return ctypes.CDLL(str(library_path()))
 
 
 def library_path() -> Path:
-    """Return the file of the OpenSees library that openseespy has loaded.
-
-    Returns
-    -------
-    Path
-        The file.
-
-    Raises
-    ------
-    NotPossibleError
-        If it is none of the builds that are known to export its functions.
-    """
+    """Return the file of the OpenSees library that openseespy has loaded."""
     for name in _LIBRARIES:
         origin = getattr(sys.modules.get(name), "__file__", None)
         if origin is not None:
@@ -104,18 +82,7 @@ def library_path() -> Path:
 
 @functools.cache
 def addresses() -> dict[str, int]:
-    """Return the addresses of all that is named above; of `REPLACED_AGAIN` as "again_...".
-
-    Returns
-    -------
-    dict of str to int
-        Addresses by the names there.
-
-    Raises
-    ------
-    NotPossibleError
-        If the library lacks one of them.
-    """
+    """Return the addresses of all that is named above; of `REPLACED_AGAIN` as "again_..."."""
     found = {}
     again = {f"again_{name}": symbol for name, symbol in REPLACED_AGAIN.items()}
     for name, symbol in {**REPLACED, **OPTIONAL, **again, **CALLED}.items():

@@ -111,13 +111,7 @@ class Graft:
         return bool(self.block["alive"][0])
 
     def replace(self, functions: dict[str, int]) -> None:
-        """Put functions in the place of the element's own: from here on it is a bearing.
-
-        Parameters
-        ----------
-        functions : dict of str to int
-            Addresses by the names in `REPLACED`.
-        """
+        """Put functions in the place of the element's own: from here on it is a bearing."""
         where = addresses()
         old = np.array((ctypes.c_int64 * (_WORDS + 2)).from_address(where["table"]))
         first, second = self._tables
@@ -138,15 +132,7 @@ class Graft:
     def set_responses(
         self, given: dict[str, HostResponse], words: Iterable[tuple[str, int, int, bool]] = ()
     ) -> None:
-        """Set what recorders can ask for.
-
-        Parameters
-        ----------
-        given : dict of str to HostResponse
-            What follows from forces and displacements.
-        words : iterable of (str, int, int, bool)
-            Name, first word of the committed state, number of words, whether they are integers.
-        """
+        """Set what recorders can ask for."""
         table = self.keep(np.zeros(len(given) + len(list(words)), dtype=RESPONSE))
         rows: list[tuple[str, int, int, bool, Any]] = [
             (name, each.source, len(each.matrix), False, each.matrix)

@@ -182,20 +182,7 @@ class Remote:
             self._sock = None
 
     def abandon(self, own: dict[tuple[Any, Any], int], guard: Guard) -> socket.socket | None:
-        """Cut the element of a forked process off from the connection of its parent.
-
-        Parameters
-        ----------
-        own : dict
-            Descriptors of this process's connections by both their addresses.
-        guard : Guard
-            Answers the element from now on.
-
-        Returns
-        -------
-        socket or None
-            What the guard answers through, to be kept open.
-        """
+        """Cut the element of a forked process off from the connection of its parent."""
         self._undo()
         if self._sock is None:
             return None
@@ -315,29 +302,7 @@ class Server:
         return self._keys
 
     def ask(self, what: str, key: int, *arguments: Any, sock: socket.socket | None = None) -> Any:
-        """Send a request and return the answer.
-
-        Parameters
-        ----------
-        what : str
-            The request.
-        key : int
-            The bearing's number.
-        *arguments
-            What belongs to it.
-        sock : socket, optional
-            A connection to hand over.
-
-        Returns
-        -------
-        object
-            The answer.
-
-        Raises
-        ------
-        ServerError
-            If the server is gone.
-        """
+        """Send a request and return the answer."""
         message = reduction.ForkingPickler.dumps((what, key, *arguments))
         with signals_held(), self._lock:
             try:
