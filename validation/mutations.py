@@ -85,7 +85,9 @@ def first_failure(
     path.write_bytes(wrong)
     try:
         for test in tests:
-            call = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", test]
+            call = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider"]
+            call += ["-m", ""] if test.startswith("tests/golden") else []  # nightly ones, too
+            call.append(test)
             try:
                 ran = subprocess.run(  # noqa: S603
                     call,

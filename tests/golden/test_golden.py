@@ -4,7 +4,7 @@ import ast
 import json
 import re
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import pytest
@@ -26,11 +26,12 @@ RUN = {
     "13-asce-types": ("upper",),
     "14-asce-etabs": ("lower",),
 }
+DAILY = {"11-en-types", "14-asce-etabs"}
 """A frame of members, a stick, frames with loads by area, types of bearings and moved masses, and a
 model of ETABS;
 three codes, means and largest, with the bounds that are run here, the frames at the level that is
-soonest done; `make nightly` runs these as they are, with all bounds, and one of EN 1998 with seven
-motions, `validation.golden_review` all projects."""
+soonest done. The suite runs two of them; `make nightly` runs all, three as they are, with all
+bounds, and `validation.golden_review` all projects."""
 LEAST = {
     "peaks of all runs, from histories": 2000,
     "demands: statistics over motions": 80,
@@ -197,6 +198,14 @@ CHANGED = {  # file, what is changed, to what, in which category it is seen, and
     ],
 }
 Reviewed = Callable[[str], tuple[Path, Review]]
+
+
+def run_daily(names: Iterable[str]) -> list[object]:
+    """Return projects as parameters: but for two, in `make nightly`."""
+    marks = {name: [] if name in DAILY else [pytest.mark.nightly] for name in names}
+    return [pytest.param(name, marks=marks[name]) for name in marks]
+
+
 OWN = {
     "building",
     "checks",
@@ -284,14 +293,14 @@ def test_there_are_projects_of_three_codes_and_kinds():
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("default")  # the command prints warnings
-@pytest.mark.parametrize("name", list(RUN))
+@pytest.mark.parametrize("name", run_daily(RUN))
 def test_every_reported_number_is_found_again(name, reviewed):
     agrees(reviewed(name)[1], SHARE[name])
 
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("default")
-@pytest.mark.parametrize("name", [name for name in RUN if name.endswith("types")])
+@pytest.mark.parametrize("name", run_daily(name for name in RUN if name.endswith("types")))
 def test_moved_masses_types_and_loads_are_recomputed(name, reviewed):
     counts = reviewed(name)[1].counts
     few = {name: counts.get(name, 0) for name in OF_TYPES}
@@ -313,7 +322,7 @@ def agrees(found: Review, share: float = 1.0):
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("default")
-@pytest.mark.parametrize("name", list(CHANGED))
+@pytest.mark.parametrize("name", run_daily(CHANGED))
 def test_numbers_that_are_changed_are_seen(name, reviewed, tmp_path):
     """Otherwise the comparison would be one that cannot fail. Each is seen where it is read."""
     own = Path(shutil.copytree(reviewed(name)[0], tmp_path / "changed"))

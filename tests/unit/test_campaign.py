@@ -2,6 +2,7 @@
 
 import subprocess  # this interpreter  # noqa: S404
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -61,6 +62,13 @@ def structure(bearing: LIRBearing = BEARING) -> Frame:
 def small(store: Path, batch: int | None = 3, **other: object) -> Campaign:
     given = {"sample": SETS, "scales": [0.5, 1.0]} | other
     return Campaign(structure(), PULSES, store=store, batch=batch, **given)  # type: ignore[arg-type]
+
+
+@pytest.fixture
+def store(tmp_path: Path, made_once: Callable[..., Path]) -> Path:
+    """The results database of a campaign that is run once for all tests, which may damage it."""
+    made_once("campaign", lambda part: small(part / "store").run(workers=1), tmp_path)
+    return tmp_path / "store"
 
 
 def test_a_grid_holds_all_combinations() -> None:
@@ -141,8 +149,8 @@ def test_parameters_of_velocity_friction() -> None:
         with_parameters(structure(rubbed), {"f_max": 0.09, "friction": 0.05})
 
 
-def test_rows_hold_what_time_histories_gives(tmp_path: Path) -> None:
-    data = small(tmp_path / "store").run(workers=2)
+def test_rows_hold_what_time_histories_gives(store: Path) -> None:
+    data = small(store).run()
     assert data.sizes["run"] == 16
     assert data["done"].all()
     for k in (0, 5, 15):
@@ -166,34 +174,34 @@ def test_rows_hold_what_time_histories_gives(tmp_path: Path) -> None:
         assert own["reached_displacement"].attrs == row["reached_displacement"].attrs
 
 
-def test_the_digest_is_that_of_the_runs_alone(tmp_path: Path) -> None:
+def test_the_digest_is_that_of_the_runs_alone(store: Path) -> None:
     """Neither the number of workers nor the size of batches is in it; the motions are."""
-    campaigns = [small(tmp_path / "1", 3), small(tmp_path / "2", 5)]
-    for workers, campaign in enumerate(campaigns, 1):
-        campaign.run(workers=workers)
-    assert campaigns[0].digest() == campaigns[1].digest()
-    other = small(tmp_path / "3", scales=[0.5, 1.0 + 1e-12])
-    other.run()
-    assert other.digest() != campaigns[0].digest()
+    batches = small(store / "5", 5)
+    batches.run(workers=2)
+    whole = small(store).digest()
+    assert batches.digest() == whole
+    other = small(store / "3", 16, scales=[0.5, 1.0 + 1e-12])
+    other.run(workers=1)
+    assert other.digest() != whole
 
 
-def test_a_batch_that_was_damaged_is_found(tmp_path: Path) -> None:
-    campaign = small(tmp_path / "store")
+def test_a_batch_that_was_damaged_is_found(store: Path) -> None:
+    campaign = small(store)
     campaign.run()
-    chunk = tmp_path / "store/runs.zarr/reached_displacement/c.2.0"
+    chunk = store / "runs.zarr/reached_displacement/c.2.0"
     assert chunk.is_file()
     chunk.unlink()
     with pytest.raises(CampaignError, match=r"batch 2 is not as it was written: remove .*000002"):
         campaign.digest()
 
 
-def test_a_store_of_another_version_is_refused(tmp_path: Path) -> None:
-    small(tmp_path / "store").run()
-    group = zarr.open_group(tmp_path / "store/runs.zarr", mode="r+")
+def test_a_store_of_another_version_is_refused(store: Path) -> None:
+    small(store).run()
+    group = zarr.open_group(store / "runs.zarr", mode="r+")
     group.attrs["results"] = [n for n in group.attrs["results"] if n != "reached_slip"]
-    next((tmp_path / "store").rglob("000002.json")).unlink()
+    next(store.rglob("000002.json")).unlink()
     with pytest.raises(CampaignError, match="no room for reached_slip: another version"):
-        small(tmp_path / "store").run()
+        small(store).run()
 
 
 def test_failed_runs_are_rows_with_their_reason(tmp_path: Path) -> None:
@@ -310,8 +318,8 @@ def test_histories_are_kept_on_request(tmp_path: Path) -> None:
         campaign.store.histories(99)
 
 
-def test_another_plan_is_refused_by_name(tmp_path: Path) -> None:
-    small(tmp_path / "store").run()
+def test_another_plan_is_refused_by_name(store: Path) -> None:
+    small(store).run()
     words = {
         "scales": ({"scales": [0.5, 1.1]}, r"scales was \[0.5, 1.0\], is \[0.5, 1.1\]"),
         "options": ({"dt": 0.005}, r'options: "dt" was None, is 0.005'),
@@ -323,14 +331,12 @@ def test_another_plan_is_refused_by_name(tmp_path: Path) -> None:
     }
     for change, line in words.values():
         with pytest.raises(CampaignError, match=f"was planned otherwise(.|\n)*{line}"):
-            small(tmp_path / "store", **change).run()  # type: ignore[arg-type]
+            small(store, **change).run()  # type: ignore[arg-type]
     motions = {"small": PULSES["small"], "large": PULSES["large"].scaled(1.01)}
-    other = Campaign(
-        structure(), motions, store=tmp_path / "store", sample=SETS, scales=[0.5, 1.0], batch=3
-    )
+    other = Campaign(structure(), motions, store=store, sample=SETS, scales=[0.5, 1.0], batch=3)
     with pytest.raises(CampaignError, match='motions: "large" was'):
         other.run()
-    small(tmp_path / "store", batch=None).run()  # the same, its batch as it is
+    small(store, batch=None).run()  # the same, its batch as it is
 
 
 def test_differences_are_told() -> None:
@@ -352,11 +358,11 @@ def test_a_model_has_the_fingerprint_of_its_content() -> None:
     assert fingerprint([1.0]) != fingerprint([1])
 
 
-def test_two_campaigns_at_once_are_refused(tmp_path: Path) -> None:
-    campaign = small(tmp_path / "store")
+def test_two_campaigns_at_once_are_refused(store: Path) -> None:
+    campaign = small(store)
     campaign.run()
     with (
-        locked(tmp_path / "store/lock"),
+        locked(store / "lock"),
         pytest.raises(CampaignError, match=r"is in use by process \d+ on .+ since"),
     ):
         campaign.run()
@@ -431,13 +437,13 @@ def test_a_batch_is_an_eighth_within_bounds(tmp_path: Path) -> None:
     assert usual_batch(1_000_000) == 1954  # 512 batches
 
 
-def test_chunks_are_files_without_folders_and_older_ones_are_read(tmp_path: Path) -> None:
-    campaign = small(tmp_path / "store")
+def test_chunks_are_files_without_folders_and_older_ones_are_read(store: Path) -> None:
+    campaign = small(store)
     campaign.run(workers=1)
-    folders = [p for p in (tmp_path / "store/runs.zarr").rglob("*") if p.is_dir()]
-    assert len(folders) == len(list((tmp_path / "store/runs.zarr").glob("*/zarr.json")))
+    folders = [p for p in (store / "runs.zarr").rglob("*") if p.is_dir()]
+    assert len(folders) == len(list((store / "runs.zarr").glob("*/zarr.json")))
     before, digest = campaign.results().load(), campaign.digest()
-    for array in (tmp_path / "store/runs.zarr").glob("*/zarr.json"):
+    for array in (store / "runs.zarr").glob("*/zarr.json"):
         text = array.read_text()
         assert '"separator": "."' in text
         array.write_text(text.replace('"separator": "."', '"separator": "/"'))
@@ -445,9 +451,9 @@ def test_chunks_are_files_without_folders_and_older_ones_are_read(tmp_path: Path
             older = array.parent / chunk.name.replace(".", "/")
             older.parent.mkdir(parents=True, exist_ok=True)
             chunk.rename(older)
-    plan = tmp_path / "store/plan.json"  # older formats wrote no empty chunks
+    plan = store / "plan.json"  # older formats wrote no empty chunks
     plan.write_text(plan.read_text().replace('"format": 3', '"format": 2'))
-    opened = open_campaign(tmp_path / "store")
+    opened = open_campaign(store)
     assert opened.results().identical(before)
     assert opened.digest() == digest
 
@@ -464,40 +470,40 @@ def test_progress_counts_the_runs_of_this_call(tmp_path: Path) -> None:
 
 
 def test_a_store_of_other_sources_is_refused_or_taken_over(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    store: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from frames._provenance import numerical_sources
 
-    first = small(tmp_path / "store")
+    first = small(store)
     first.run()
     whole = first.digest()
-    next((tmp_path / "store").rglob("000002.json")).unlink()
+    next(store.rglob("000002.json")).unlink()
     other = numerical_sources() | {"lir_element/device/specification.py": "0" * 8}
     monkeypatch.setattr(plan_description, "numerical_sources", lambda: other)
     with pytest.raises(CampaignError, match=r"other sources(.|\n)*specification.py.* is 00000000"):
-        small(tmp_path / "store").run()
-    data = small(tmp_path / "store").run(accept_other_sources=True)
+        small(store).run()
+    data = small(store).run(accept_other_sources=True)
     assert data.attrs["sources_accepted"].startswith("after 13 runs: lir-dcfp")
-    small(tmp_path / "store").run()  # they are the results database's now
-    assert small(tmp_path / "store").digest() == whole
+    small(store).run()  # they are the results database's now
+    assert small(store).digest() == whole
 
 
 def test_another_default_of_a_bearing_is_refused_whatever_is_accepted(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    store: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    small(tmp_path / "store").run()
+    small(store).run()
     usual = LIRBearing.resolved
     monkeypatch.setattr(
         LIRBearing, "resolved", lambda own: usual(own) | {"rim_overrun": 0.02 * own.slider_radius}
     )
     with pytest.raises(CampaignError, match=r"bearings: .*rim_overrun\" was 0.008, is 0.0016"):
-        small(tmp_path / "store").run(accept_other_sources=True)
+        small(store).run(accept_other_sources=True)
 
 
-def test_rows_without_a_mark_are_empty(tmp_path: Path) -> None:
-    small(tmp_path / "store").run()
-    next((tmp_path / "store").rglob("000002.json")).unlink()
-    data = open_campaign(tmp_path / "store").results()
+def test_rows_without_a_mark_are_empty(store: Path) -> None:
+    small(store).run()
+    next(store.rglob("000002.json")).unlink()
+    data = open_campaign(store).results()
     gone = ~data["done"].to_numpy()
     assert gone.tolist() == [k // 3 == 2 for k in range(16)]
     assert set(data["status"].to_numpy()[gone]) == {""}
@@ -509,9 +515,9 @@ def test_rows_without_a_mark_are_empty(tmp_path: Path) -> None:
     assert data["status"].to_numpy().astype(str)[0] == "ok"
 
 
-def test_one_table_has_every_run_with_its_units(tmp_path: Path) -> None:
+def test_one_table_has_every_run_with_its_units(store: Path) -> None:
     """Of the campaign and of what is opened; batches without a mark are not in it."""
-    campaign = small(tmp_path / "store")
+    campaign = small(store)
     data = campaign.run()
     table = campaign.to_dataframe()
     assert list(table.columns[:6]) == [
@@ -532,8 +538,8 @@ def test_one_table_has_every_run_with_its_units(tmp_path: Path) -> None:
     assert table["radius"].tolist() == data["radius"].to_numpy().tolist()
     assert set(table.columns[11:]) <= table.attrs["units"].keys()
     assert table.attrs["source"] == data.attrs["source"]
-    next((tmp_path / "store").rglob("000002.json")).unlink()
-    part = open_campaign(tmp_path / "store").to_dataframe()
+    next(store.rglob("000002.json")).unlink()
+    part = open_campaign(store).to_dataframe()
     assert part.equals(table[table.index // 3 != 2])
 
 
@@ -547,10 +553,10 @@ def test_a_parameter_has_no_name_of_a_column(tmp_path: Path, name: str) -> None:
         Campaign(made, PULSES, store=tmp_path / "store", sample=sample).run()
 
 
-def test_fragility_takes_the_motions_that_were_run_and_one_design(tmp_path: Path) -> None:
+def test_fragility_takes_the_motions_that_were_run_and_one_design(store: Path) -> None:
     measure = Intensity(kind="PGA", measure="x")
-    small(tmp_path / "store").run()
-    data = open_campaign(tmp_path / "store").results()
+    small(store).run()
+    data = open_campaign(store).results()
     with pytest.raises(FragilityError, match=r"4 sets of parameters \(friction, radius\)|4 sets"):
         IntensityRuns.from_dataset(data, PULSES, measure)
     one = IntensityRuns.from_dataset(data, PULSES, measure, parameters=1)
@@ -565,8 +571,8 @@ def test_fragility_takes_the_motions_that_were_run_and_one_design(tmp_path: Path
     alone = time_histories(structure(), PULSES)
     with pytest.raises(FragilityError, match="'large'"):
         IntensityRuns.from_dataset(alone, other, measure)
-    next((tmp_path / "store").rglob("000002.json")).unlink()
-    data = open_campaign(tmp_path / "store").results()
+    next(store.rglob("000002.json")).unlink()
+    data = open_campaign(store).results()
     with pytest.warns(AnalysisWarning, match="2 of 4 runs are not done and left out"):
         part = IntensityRuns.from_dataset(data, PULSES, measure, parameters=1)
     assert len(part.table) == 2

@@ -28,18 +28,26 @@ pytestmark = [
 
 
 @pytest.fixture(scope="module")
-def cluster() -> Iterator[Any]:
-    """Two workers, processes of one thread, over loopback."""
+def client() -> Iterator[Any]:
+    """Of two workers, processes of one thread, over loopback."""
     with (
         distributed.LocalCluster(
             n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
         ) as made,
-        distributed.Client(made) as client,
+        distributed.Client(made, timeout=patience()) as found,
     ):
-        yield client
+        yield found
 
 
-def small(store: Path, sets: int = 12) -> Campaign:
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """Digest of the campaign, run here."""
+    campaign = small(tmp_path_factory.mktemp("near") / "store")
+    campaign.run(workers=1)
+    return campaign.digest()
+
+
+def small(store: Path, sets: int = 16) -> Campaign:
     bearing = LIRBearing(
         radius=0.75,
         slider_height=0.085,
@@ -55,10 +63,12 @@ def small(store: Path, sets: int = 12) -> Campaign:
     return Campaign(frame, pulse, store=store, batch=2, sample=sample, measures=end)
 
 
-def test_workers_that_are_slow_or_killed_change_nothing(tmp_path: Path, cluster: Any) -> None:
+def test_workers_that_are_slow_or_killed_change_nothing(
+    tmp_path: Path, client: Any, whole: str
+) -> None:
     """One worker stands still for two seconds, the other is killed; a new one takes its place."""
     killed: list[int] = []
-    slow, lost = cluster.run(os.getpid).values()
+    slow, lost = client.run(os.getpid).values()
 
     def disturb(progress: BatchProgress) -> None:
         if progress.done >= 4 and not killed:
@@ -67,28 +77,25 @@ def test_workers_that_are_slow_or_killed_change_nothing(tmp_path: Path, cluster:
             killed.append(lost)
             os.kill(lost, signal.SIGKILL)
 
-    far, near = small(tmp_path / "far", 24), small(tmp_path / "near", 24)
-    far.run(client=cluster, progress=disturb)
-    near.run(workers=2)
+    far = small(tmp_path / "far")
+    far.run(client=client, progress=disturb)
     assert killed
-    assert far.status().statuses == {"ok": 24}
-    assert far.digest() == near.digest()
+    assert far.status().statuses == {"ok": 16}
+    assert far.digest() == whole
 
 
-def test_a_scheduler_that_is_lost_is_told_and_the_rest_is_run_here(tmp_path: Path) -> None:
-    campaign, whole = small(tmp_path / "store"), small(tmp_path / "whole")
-    with distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, host="127.0.0.1", dashboard_address=None
-    ) as made:
-        client = distributed.Client(made, timeout=patience())
+def test_a_scheduler_that_is_lost_is_told_and_the_rest_is_run_here(
+    tmp_path: Path, client: Any, whole: str
+) -> None:
+    """The last test of the cluster, which is closed by it."""
+    campaign = small(tmp_path / "store")
 
-        def lose(progress: BatchProgress) -> None:
-            if progress.done == 4:
-                made.close(timeout=patience())
+    def lose(progress: BatchProgress) -> None:
+        if progress.done == 4:
+            client.cluster.close(timeout=patience())
 
-        with pytest.raises(CampaignError, match="lost: the batches before are kept"):
-            campaign.run(client=client, progress=lose)
-    assert 2 <= campaign.status().done < 12
-    campaign.run()
-    whole.run()
-    assert campaign.digest() == whole.digest()
+    with pytest.raises(CampaignError, match="lost: the batches before are kept"):
+        campaign.run(client=client, progress=lose)
+    assert 2 <= campaign.status().done < 16
+    campaign.run(workers=1)
+    assert campaign.digest() == whole

@@ -53,7 +53,7 @@ def marks(store):
 
 assert os.waitpid(in_child("whole"), 0)[1] == 0
 chance, kills, kept = random.Random(7), 0, {}
-while kills < 12:
+while kills < 6:
     child = in_child("killed")
     time.sleep(chance.uniform(0.0, 0.8))
     os.kill(child, signal.SIGKILL)
@@ -196,7 +196,7 @@ def test_damaged_databases_say_where(
     if name.startswith("runs"):
         with pytest.raises(CampaignError, match=words if junk[:1] not in b"[{" else None):
             opened.results().load()
-    if "remove" in words:
+    if "remove" in words and not junk:
         (store / "done" / f"{words.split()[1]:0>6}.json").unlink()
         small(store).run()
         small(store).digest()
