@@ -438,7 +438,7 @@ def compare(project, tally):
         missing = row["title"].endswith(": not evaluated")
         own = math.inf if missing and row["relation"] == "<=" else own
         of = spectra if "spectrum" in title else name
-        of = loads if title.startswith("interface holds until") else of
+        of = loads if found.suite is None and title in OF_BEARING else of
         tally.same(of, f"{label} demand", demand, own, demands.floor_of(row["symbol"]))
         if not (missing and hidden and title.startswith("interface holds")):
             tally.same(of, f"{label} limit", limit, allowed)

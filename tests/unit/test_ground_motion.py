@@ -265,6 +265,11 @@ class TestColumns:
             (BBP.replace("5.000000e-03", "nan"), {"x": 1, "time": 0, "unit": "g"}, "evenly"),
             ("a b\n1 2\n", {"x": 1, "time": 0, "unit": "g"}, r"line 1: 'a' is text.*skip=1"),
             ("# only this\n", {"x": 1, "time": 0, "unit": "g"}, "holds no values after 0 skipped"),
+            (
+                "1 2\n",
+                {"x": 1, "time": 0, "unit": "g", "decimal": ";"},
+                "decimal = ';'.*choose one",
+            ),
         ],
     )
     def test_refusals(

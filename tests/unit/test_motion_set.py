@@ -368,7 +368,8 @@ def test_a_motion_is_a_ground_motion() -> None:
         ("name,x\n,a.txt\n", "name"),
         ("name,x\na,missing.txt\n", "is no file"),
         ("name,x\na,a.txt\n", "unit"),
-        ("name,x,unit,dt\na,a.txt,g,fast\n", "dt = fast"),
+        ("name,x,unit,dt\na,a.txt,g,fast\n", "dt = fast is no number: give the time step in s"),
+        ("name,x,unit,skip\na,a.txt,g,few\n", "skip = few is no number: give a whole number"),
     ],
 )
 def test_tables_that_make_no_sense(tmp_path: Path, lines: str, words: str) -> None:
