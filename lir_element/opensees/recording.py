@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import numpy as np
 import xarray as xr
 
+from lir_element._version import package_version
 from lir_element.element import limit_detail
 from lir_element.errors import RunStatus, failure_message
 from lir_element.opensees.library import opensees
@@ -17,7 +18,6 @@ from lir_element.results.dataset import (
     bearing_variables,
     device_variables,
     labelled,
-    package_version,
     some_bodies,
 )
 from lir_element.results.eccentricity import interface_eccentricity
