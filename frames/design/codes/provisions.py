@@ -132,7 +132,7 @@ OF_BEARINGS = (
     Provision(
         NO_CODE,
         "forces at 3 times the default axial stiffness, where rims are met with a slip",
-        why="since no run has it: give axial_stiffness, and run again",
+        why="since no run has it: give the axial stiffness, and run again",
     ),
     Provision(
         NO_CODE,
