@@ -53,7 +53,7 @@ clean:  ## remove caches, builds and the virtual environment
 	@if [ -f "$(VENV)/pyvenv.cfg" ]; then echo "rm -rf $(VENV)"; rm -rf "$(VENV)"; fi
 
 $(READY): pyproject.toml
-	@PYTHON="$(PYTHON)" sh .ci/venv "$(VENV)" dev,demo
+	@PYTHON="$(PYTHON)" sh .ci/venv "$(VENV)"
 	@touch "$@"
 
 $(DEMO): pyproject.toml

@@ -31,6 +31,7 @@ SPRINGS = ("ZeroLength", "TwoNodeLink", "CoupledZeroLength")
 
 _COUPLED = "CoupledZeroLength"
 _ALONG = "has a viscous force along the displacement between its nodes, not along the velocity"
+_CURVED = "has a force that is not proportional to speed, or a spring and a dashpot in series"
 
 BARS = ("Truss", "Truss2", "CorotTruss", "CorotTruss2")
 """Classes of elements whose uniaxial material sees a strain."""
@@ -159,8 +160,7 @@ def refuse_one_sided(found: list[Nature], *, accept: bool) -> list[str]:
         what = law.one_sided
         instead = "Gap(gap=..., stiffness=...), or Tie(stiffness=...) for what pulls only"
     else:
-        what = "has a force that is not proportional to speed, or a spring and a dashpot in series"
-        what = _ALONG if element.kind == _COUPLED else what
+        what = _ALONG if element.kind == _COUPLED else _CURVED
         instead = "ViscousDamper(coefficient=..., exponent=...)"
     text = f"element {element.tag} ({element.kind}) is of {law.kind}, which {what}"
     if accept:

@@ -6,7 +6,7 @@ import abc
 import inspect
 import math
 from dataclasses import dataclass, field, fields, is_dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from math import exp
 from typing import TYPE_CHECKING, Any, final
 
@@ -316,10 +316,13 @@ class MeasuredFriction(FrictionLaw):
         for speed, coefficient in zip(self.speeds, self.coefficients, strict=True):
             require_non_negative("speeds", speed, "m/s")
             require_between("coefficients", coefficient, 0.0, 1.0, remedy=per_cent(coefficient))
+        self.kernel_values()  # which refuses a law that cannot be
+
+    @cached_property
+    def _values(self) -> FrictionValues:
         curve = never_falling(self.speeds, self.coefficients)
         end = float(curve.x[-1])
-        values = sampled("MeasuredFriction", lambda speed: float(curve(min(speed, end))), math.inf)
-        object.__setattr__(self, "_values", values)
+        return sampled("MeasuredFriction", lambda speed: float(curve(min(speed, end))), math.inf)
 
     @property
     def misfit(self) -> float:
@@ -333,8 +336,7 @@ class MeasuredFriction(FrictionLaw):
 
     def kernel_values(self) -> FrictionValues:
         """Return what kernels know of the law: the table that is the law."""
-        values: FrictionValues = vars(self)["_values"]
-        return values
+        return self._values
 
 
 @dataclass(frozen=True, repr=False)

@@ -100,7 +100,7 @@ def refuse_forces(bearing: Specification) -> None:
     options = bearing.resolved()
     load, stiffness = options["design_load"], options["axial_stiffness"]
     area = _area(bearing)  # of the smallest numbers 0
-    pressure, usual = load / area if area > 0.0 else math.inf, USUAL_PRESSURE[1] * _area(bearing)
+    pressure, usual = load / area if area > 0.0 else math.inf, USUAL_PRESSURE[1] * area
     if pressure > LARGEST_PRESSURE:
         msg = (
             f"design_load = {load:g} N presses {1e-6 * pressure:.3g} MPa on the slider, more than "

@@ -27,6 +27,12 @@ def build_up(acceleration: FloatArray, dt: float) -> FloatArray:
     return np.concatenate([[0.0], np.pi / (2.0 * STANDARD_GRAVITY) * np.cumsum(steps)])
 
 
+def cumulative_velocity(acceleration: FloatArray, dt: float) -> float:
+    """Return the cumulative absolute velocity [m/s], the integral of abs(a)."""
+    size = np.abs(acceleration)
+    return float(0.5 * dt * (size[:-1] + size[1:]).sum())
+
+
 def significant_duration(
     acceleration: FloatArray, dt: float, start: float = 0.05, end: float = 0.95
 ) -> float:
@@ -91,7 +97,7 @@ def motion_measures(acceleration: FloatArray, dt: float) -> dict[str, float]:
         "PGV [m/s]": float(np.abs(velocity).max()),
         "PGD [m]": float(np.abs(displacement).max()),
         "Arias [m/s]": float(build_up(acceleration, dt)[-1]),
-        "CAV [m/s]": float(0.5 * dt * (size[:-1] + size[1:]).sum()),
+        "CAV [m/s]": cumulative_velocity(acceleration, dt),
         "D5-75 [s]": significant_duration(acceleration, dt, 0.05, 0.75),
         "D5-95 [s]": significant_duration(acceleration, dt),
         "Tp [s]": float(SPECTRUM_PERIODS[level.argmax()]),

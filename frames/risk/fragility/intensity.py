@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
-from frames.design.hazard.motion_measures import build_up
+from frames.design.hazard.motion_measures import build_up, cumulative_velocity
 from frames.design.hazard.pair_spectra import ANGLES, MEASURES, pair_spectrum
 from frames.motion.baseline import integrated
 from frames.risk._errors import FragilityError
@@ -255,7 +255,7 @@ class Intensity:
 
 
 _INTEGRALS: dict[str, Callable[[FloatArray, float], float]] = {
-    "CAV": lambda a, dt: float(np.trapezoid(np.abs(a), dx=dt)),
+    "CAV": cumulative_velocity,
     "Arias": lambda a, dt: float(build_up(a, dt)[-1]),
 }
 

@@ -170,11 +170,14 @@ class IntensityRuns(Shown):
         used = [str(name) for name in own["motion"].to_numpy()]
         scale = own["scale"].to_numpy()
         runs = list(zip(used, np.abs(scale).tolist(), strict=True))
-        im: dict[tuple[str, float], float] = {}
-        for name, motion in grounds.items():
-            factors = sorted({factor for of, factor in runs if of == name})
-            keys = [(name, factor) for factor in factors]
-            im |= zip(keys, values_of(intensity, motion, factors), strict=True)
+        factors: dict[str, list[float]] = {}
+        for name, factor in dict.fromkeys(runs):
+            factors.setdefault(name, []).append(factor)
+        im = {
+            (name, factor): value
+            for name, each in factors.items()
+            for factor, value in zip(each, values_of(intensity, grounds[name], each), strict=True)
+        }
         status = [str(s) for s in own["status"].to_numpy()]
         quantities = [str(q) for q in own["quantity"].to_numpy()]
         table = pd.DataFrame(
