@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames.batch.batch_dataset import NUMBERS, Layout, RunResult, reached_row
-from frames.batch.workspace import PeakRecorder, Structure, Workspace, set_up
+from frames.batch.batch_dataset import NUMBERS, Layout, RunResult, layout_of, reached_row
 from frames.kernel_data import ENERGY_TERMS
-from frames.recording.recorder import Recorder
-from frames.recording.recording import Recording
-from frames.recording.reduction import judgeable_of
-from frames.recording.size import require_rows
+from frames.recording.force_tracking import ForceTracker
+from frames.recording.recording import Recording, require_known
+from frames.recording.reduction import reduced
+from frames.recording.size import bytes_over_time, require_rows
 from frames.results.assumption_checks import doubts_of
 from frames.results.peaks import peaks_of
 from frames.results.recorded import REACHED
-from frames.solve.outcome import concluded, ended
-from frames.solve.time_history import begin, estimated_error, ground_of, integrate, settings_of
+from frames.solve.analysis import Analysis
+from frames.solve.recorder import PeakRecorder, Recorder
+from frames.solve.run import run_one
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.results.dataset import note_end
 
@@ -28,9 +28,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from frames._types import FloatArray
     from frames.batch.cases import Case
-    from frames.kernel_data import IntegratorSettings
     from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.solve.options import Options
@@ -52,12 +50,11 @@ class Kept(NamedTuple):
     histories: bool
 
 
-class _Ended(NamedTuple):
-    # A run: how it ended, what the assumption check reads, energy at the end, what is recorded
-    # besides.
-    data: xr.Dataset
-    energy: FloatArray
-    histories: xr.Dataset | None
+class Structure(NamedTuple):
+    """An analysis that many runs share, and where its numbers stand in their rows."""
+
+    analysis: Analysis
+    layout: Layout
 
 
 class Runner:
@@ -119,36 +116,41 @@ class Runner:
     def _set_up(self, name: str) -> Structure | AnalysisError:
         recording = self.kept.recording if self.kept.histories else None
         try:
-            found = set_up(self._models[name], self.features, self._level, recording)
+            found = Analysis(self._models[name], self.features, self._level)
         except AnalysisError as failure:
             return failure
+        layout = _layout_of(found, recording)
         own = [case for case in self.cases if case.model == name]
         self._rows += len(own)
-        self._bytes += len(own) * (_ROW + 8.0 * float(found.layout.starts[-1]))
+        self._bytes += len(own) * (_ROW + 8.0 * float(layout.starts[-1]))
         if recording is not None:
             steps = (self.options[case.motion].steps for case in own)
             every = recording.every
             kept = sum(count // every + 1 if every else 2 for count in steps)
-            self._bytes += kept * found.step_bytes
+            self._bytes += kept * bytes_over_time(reduced(found.at_rest, recording))
         require_rows(_COPIES * self._bytes, self._rows, len(self.cases))
-        return found
+        return Structure(found, layout)
+
+
+def _layout_of(analysis: Analysis, recording: Recording | None) -> Layout:
+    # Of what is reached by each run; refuses what a recording names and its results lack.
+    template = analysis.template
+    if recording is not None:
+        require_known(recording, analysis.at_rest)
+    elif analysis.can_track:
+        _ = analysis.shape  # formed once, not by each thread
+    if recording is not None and recording.forces:
+        variables, coordinates = ForceTracker(analysis.force_maps).variables()
+        template = template.assign_coords(coordinates).assign(variables)
+    return layout_of(template)
 
 
 class Worker:
-    """One thread's runs.
-
-    Parameters
-    ----------
-    runner : Runner
-        What is run.
-    is_stopped : callable
-        Whether to leave off.
-    """
+    """One thread's runs; `is_stopped` says whether to leave off."""
 
     def __init__(self, runner: Runner, is_stopped: Callable[[], bool]) -> None:
         self._runner, self._is_stopped = runner, is_stopped
-        self._workspace: Workspace | None = None
-        self._recorder: PeakRecorder | None = None
+        self._own: tuple[Structure, GravityState, PeakRecorder | None] | None = None
 
     def row(self, place: int) -> RunResult | None:
         """Run a case; None where it was stopped."""
@@ -157,87 +159,63 @@ class Worker:
         if isinstance(structure, AnalysisError):
             row: RunResult | None = _without_rest(place, structure)
         else:
-            run = self._run(case, self._own(structure))
-            row = None if run is None else _row_of(place, run, structure.layout)
+            row = self._run(place, case, structure)
         self._runner.done(case.model)
         return row
 
-    def _own(self, structure: Structure) -> Workspace:
-        if self._workspace is None or self._workspace.structure is not structure:
-            self._workspace, self._recorder = Workspace(structure), None
-        return self._workspace
-
-    def _run(self, case: Case, workspace: Workspace) -> _Ended | None:
-        runner, state, structure = self._runner, workspace.reset(), workspace.structure
+    def _run(self, place: int, case: Case, structure: Structure) -> RunResult | None:
+        runner, analysis = self._runner, structure.analysis
         options = runner.options[case.motion]
+        state, recorder = self._arrays(structure, options)
         motion = runner.motions[case.motion].scaled(case.scale)
-        settings = settings_of(state, options)
-        ground = ground_of(motion, runner.features, settings)
-        recorder: PeakRecorder | _Recorder
-        if structure.gauges is None or runner.kept.histories:
-            recorder = _Recorder(
-                structure.model,
-                motion,
-                state,
-                ground,
-                options.steps,
-                options.recording,
-                structure.maps,
-            )
-            recorder.is_stopped = self._is_stopped
-        else:
-            recorder = self._recorder or PeakRecorder(workspace, self._is_stopped)
-            recorder.renew(motion, ground)
-            self._recorder = recorder
-        begin(state, ground, settings)
-        code, seconds = integrate(state, settings, ground, recorder, options)
-        if code is RunStatus.INTERRUPTED:
+        run = run_one(analysis, state, motion, options, recorder)
+        if run.outcome.status is RunStatus.INTERRUPTED:
             return None
-        end = ended(state, code)
-        return self._judged(recorder, state, end, structure, options, settings, seconds)
-
-    def _judged(
-        self,
-        recorder: PeakRecorder | _Recorder,
-        state: GravityState,
-        end: tuple[RunStatus, str],
-        structure: Structure,
-        options: Options,
-        settings: IntegratorSettings,
-        seconds: float,
-    ) -> _Ended:
-        # What became of a run, as `time_history` judges it.
-        counts, done = state.run.counts[0], int(state.run.clock["done"][0])
-        data = recorder.data(done).assign_attrs(
-            structure.template.attrs,
-            integrator=options.integrator,
-            dt=float(options.base),
-            seconds_loop=seconds,
-            step_control="error" if math.isfinite(settings.error_tolerance) else "fixed",
-            estimated_error=estimated_error(state, settings),
-            **recorder.strains.attrs(),
-        )
-        energy = recorder.out.energy[done - recorder.first].copy()
-        whole, data = data, judgeable_of(data) if "time" in data.dims else data
-        outcome = concluded(data, state, end)
-        note_end(data, *outcome)
-        data.attrs |= {name: int(counts[name]) for name in ("steps", "halvings")}
+        data = run.judged
+        note_end(data, *run.outcome)
         histories = None
-        if self._runner.kept.histories and isinstance(recorder, _Recorder):
-            recorded = whole if "time" in whole.dims else recorder.recorded(data)
-            histories = _histories(recorded, structure.template)
-        return _Ended(data, energy, histories)
+        if runner.kept.histories and isinstance(recorder, Recorder):
+            recorded = run.data if "time" in run.data.dims else recorder.recorded(data)
+            histories = _histories(recorded, analysis.template)
+        attrs = data.attrs
+        done = int(state.run.clock["done"][0])
+        return RunResult(
+            place=place,
+            status=attrs["status"],
+            message=attrs["message"],
+            failed_at=float(attrs.get("failed_at", math.nan)),
+            failed_where=str(attrs.get("failed_where", "")),
+            audit=attrs["audit"],
+            doubts="; ".join(doubts_of(data)),
+            peaks=tuple(peaks_of(data)),
+            numbers={name: float(attrs.get(name, math.nan)) for name in NUMBERS},
+            energy=recorder.out.energy[done - recorder.first].copy(),
+            reached=reached_row(data, structure.layout),
+            layout=structure.layout,
+            histories=histories,
+        )
 
-
-class _Recorder(Recorder):
-    # One that leaves off when it is told to.
-
-    is_stopped: Callable[[], bool]
-
-    def room(self, done: int) -> int:
-        if self.is_stopped():
-            raise KeyboardInterrupt
-        return super().room(done)
+    def _arrays(
+        self, structure: Structure, options: Options
+    ) -> tuple[GravityState, PeakRecorder | Recorder]:
+        # The state of this thread, at rest, and where its run writes.
+        analysis, kept = structure.analysis, self._runner.kept
+        if self._own is None or self._own[0] is not structure:
+            state, peaks = analysis.fresh(), None
+            if analysis.can_track and not kept.histories:
+                peaks = PeakRecorder(analysis, state, self._is_stopped)
+            self._own = structure, state, peaks
+        else:
+            analysis.restart(self._own[1])
+        _, state, peaks = self._own
+        return state, peaks or Recorder(
+            analysis,
+            state,
+            options.steps,
+            options.recording,
+            is_stopped=self._is_stopped,
+            every_peak=True,
+        )
 
 
 def _histories(recorded: xr.Dataset, template: xr.Dataset) -> xr.Dataset:
@@ -249,26 +227,6 @@ def _histories(recorded: xr.Dataset, template: xr.Dataset) -> xr.Dataset:
         if name not in known and not str(name).startswith(REACHED)
     ]
     return recorded[names].drop_attrs(deep=False)
-
-
-def _row_of(place: int, run: _Ended, layout: Layout) -> RunResult:
-    # A run as numbers.
-    attrs = run.data.attrs
-    return RunResult(
-        place=place,
-        status=attrs["status"],
-        message=attrs["message"],
-        failed_at=float(attrs.get("failed_at", math.nan)),
-        failed_where=str(attrs.get("failed_where", "")),
-        audit=attrs["audit"],
-        doubts="; ".join(doubts_of(run.data)),
-        peaks=tuple(peaks_of(run.data)),
-        numbers={name: float(attrs.get(name, math.nan)) for name in NUMBERS},
-        energy=run.energy,
-        reached=reached_row(run.data, layout),
-        layout=layout,
-        histories=run.histories,
-    )
 
 
 def _without_rest(place: int, failure: AnalysisError) -> RunResult:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -11,9 +11,8 @@ from frames.assembly.assemble import node_geometric_stiffness
 from frames.assembly.basis import bearing_rows
 from frames.kernel_data import ENERGY_TERMS, device_records
 from frames.model.components import DOFS
-from frames.recording.nonlinear_results import part_variables
+from frames.recording.nonlinear_results import part_coordinates, part_variables
 from frames.recording.section_cuts import storey_rows
-from frames.statics.fresh_runs import once
 from frames.statics.gravity import expand
 from frames.statics.resultants import moving_mass
 from lir_element.results.dataset import (
@@ -28,7 +27,7 @@ from lir_element.results.eccentricity import interface_eccentricity
 from lir_element.results.optional_variables import optional_variables
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     from frames._types import FloatArray
     from frames.assembly.assemble import System
@@ -39,8 +38,42 @@ if TYPE_CHECKING:
     from lir_element.layout import Records
 
 
+class Common(NamedTuple):
+    """What all results of a structure hold of it."""
+
+    frame: FrameData
+    variables: dict[str, xr.Variable]
+    coordinates: xr.Coordinates  # all but the time
+    heights: list[float]  # of the levels [m]
+
+    def of_structure(self) -> xr.Dataset:
+        """Return it as a Dataset."""
+        return xr.Dataset(self.variables, self.coordinates)
+
+
+def common_of(frame: FrameData, state: GravityState) -> Common:
+    """Return what all results of a structure hold of it."""
+    system, levels = state.system, frame.levels
+    names = part_coordinates(system.parts, frame)
+    if levels[1:]:
+        names["storey"] = [level.name for level in levels[1:]]
+    coordinates = xr.Dataset(
+        coords={
+            "node": list(system.node_names),
+            "dof": list(DOFS),
+            "term": list(ENERGY_TERMS),
+            "resultant": list(state.resultants.names),
+            "level": [level.name for level in levels],
+            **names,
+            **bearing_coordinates([placed.name for placed in system.bearings]),
+        }
+    ).coords
+    variables = _device_variables(system) | _permanent(frame, state)
+    return Common(frame, variables, coordinates, [level.z for level in levels])
+
+
 def build_dataset(
-    frame: FrameData,
+    common: Common,
     state: GravityState,
     shaking: Ground,
     peak: FloatArray,
@@ -68,9 +101,11 @@ def build_dataset(
         variables |= some_bodies("time", state.contacts.row, states[:count], bodies[:count])
     variables |= optional_variables("time", states[:count], state.model.props)
     node = ("time", "node", "dof")
-    variables |= _own(once(state, "devices", lambda: _device_variables(system)))
-    more, names = part_variables(system.parts, frame, out, count)
-    variables |= more
+    variables |= part_variables(system.parts, common.frame, out, count)
+    variables |= {  # with arrays and attributes of their own
+        name: xr.Variable(each.dims, each.values.copy(), dict(each.attrs))
+        for name, each in common.variables.items()
+    }
     variables |= {
         "interface_eccentricity": labelled(
             ("time", "bearing"),
@@ -115,50 +150,18 @@ def build_dataset(
             "energy since gravity",
         ),
     }
-    variables |= _own(once(state, "permanent", lambda: _permanent(frame, state)))
-    storeys = [lv.name for lv in frame.levels[1:]]
-    if storeys:
-        names["storey"] = storeys
+    storeys = len(common.heights) - 1
+    if storeys > 0:
         variables["storey_shear"] = labelled(
             ("time", "storey", "axis"),
-            of(lambda: motion.storey_shear([lv.z for lv in frame.levels]), len(storeys), 3),
+            of(lambda: motion.storey_shear(common.heights), storeys, 3),
             "N",
             "resisting force of what is below a storey: its members, and bearings through it",
         )
 
     variables["time"] = labelled(("time",), out.time[:count].copy(), "s", "time")
-    return xr.Dataset(variables, _coordinates(frame, state, names))
-
-
-def _coordinates(
-    frame: FrameData, state: GravityState, names: Mapping[str, list[str]]
-) -> xr.Coordinates:
-    # All but the time, `names` among them.
-    return once(
-        state,
-        "coordinates",
-        lambda: (
-            xr.Dataset(
-                coords={
-                    "node": list(state.system.node_names),
-                    "dof": list(DOFS),
-                    "term": list(ENERGY_TERMS),
-                    "resultant": list(state.resultants.names),
-                    "level": [lv.name for lv in frame.levels],
-                    **names,
-                    **bearing_coordinates([placed.name for placed in state.system.bearings]),
-                }
-            ).coords
-        ),
-    )
-
-
-def _own(variables: Mapping[str, xr.Variable]) -> dict[str, xr.Variable]:
-    # With arrays and attributes of their own.
-    return {
-        name: xr.Variable(each.dims, each.values.copy(), dict(each.attrs))
-        for name, each in variables.items()
-    }
+    left_out = ", ".join(system.features.left_out) or "none"
+    return xr.Dataset(variables, common.coordinates, {"features_left_out": left_out})
 
 
 def _permanent(frame: FrameData, state: GravityState) -> dict[str, xr.Variable]:

@@ -26,21 +26,25 @@ HINGE_FORCES = ("N", "My", "Mz")
 """Forces on a hinge, in local axes of its member."""
 
 
-def part_variables(
-    found: NonlinearParts, frame: FrameData, out: Output, count: int
-) -> tuple[dict[str, xr.Variable], dict[str, list[str]]]:
-    """Return the variables of links and hinges over the first `count` records; coordinates too."""
-    variables: dict[str, xr.Variable] = {}
+def part_coordinates(found: NonlinearParts, frame: FrameData) -> dict[str, list[str]]:
+    """Return the names of links and hinges."""
     coordinates: dict[str, list[str]] = {}
     if found.links:
         coordinates["link"] = [link.name for link in found.links]
-        variables |= _link_variables(found, out, count)
     if found.hinged:
-        hinges = hinged_ends(frame.hinges)
-        coordinates["hinge"] = [hinge.name for hinge in hinges]
+        coordinates["hinge"] = [hinge.name for hinge in hinged_ends(frame.hinges)]
         coordinates["hinge_force_component"] = list(HINGE_FORCES)
-        variables |= _hinge_variables(found, hinges, out, count)
-    return variables, coordinates
+    return coordinates
+
+
+def part_variables(
+    found: NonlinearParts, frame: FrameData, out: Output, count: int
+) -> dict[str, xr.Variable]:
+    """Return the variables of links and hinges over the first `count` records."""
+    variables = _link_variables(found, out, count) if found.links else {}
+    if found.hinged:
+        variables |= _hinge_variables(found, hinged_ends(frame.hinges), out, count)
+    return variables
 
 
 def _link_variables(found: NonlinearParts, out: Output, count: int) -> dict[str, xr.Variable]:

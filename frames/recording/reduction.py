@@ -46,7 +46,7 @@ class _State(NamedTuple):
     tail: xr.Dataset | None  # the last piece's last step and all that has no time
 
 
-class Findings(NamedTuple):
+class PeakState(NamedTuple):
     """What a run reached, by quantity."""
 
     reached: dict[str, Extreme]
@@ -57,7 +57,7 @@ class Findings(NamedTuple):
     """Time of that step [s]."""
 
 
-def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
+def with_peak_state(data: xr.Dataset, found: PeakState) -> xr.Dataset:
     """Return a result without histories with what its run reached, as the check reads it."""
     variables: dict[str, xr.Variable] = {}
     for name, most in found.reached.items():
@@ -80,8 +80,8 @@ def with_findings(data: xr.Dataset, found: Findings) -> xr.Dataset:
     return data.assign_coords(coordinates).assign(variables)
 
 
-def with_other_findings(data: xr.Dataset, found: Findings, peak: FloatArray) -> xr.Dataset:
-    """Return what `with_findings` gave of one run with the numbers of another one.
+def with_other_peak_state(data: xr.Dataset, found: PeakState, peak: FloatArray) -> xr.Dataset:
+    """Return what `with_peak_state` gave of one run with the numbers of another one.
 
     Shapes: peak (3,).
     """
@@ -137,8 +137,8 @@ class Reduction:
         tail = _tail(state)
         at_end = {name: QUANTITIES[name].of(tail)[-1] for name in LEFT if name in state.reached}
         end = float(tail["time"][-1])
-        found = Findings(state.reached, state.totals, at_end, end)
-        return with_findings(_without_time(tail), found)
+        found = PeakState(state.reached, state.totals, at_end, end)
+        return with_peak_state(_without_time(tail), found)
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
         """Return the result: what `judgeable` gave, judged, with what is recorded besides."""

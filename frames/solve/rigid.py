@@ -10,7 +10,7 @@ import numpy as np
 from frames._errors import ModelError
 from frames.assembly.basis import bearing_rows
 from frames.kernel_data import ENERGY_TERMS, Ground, Output, output_arrays
-from frames.recording.dataset import build_dataset, ground_at, peak_velocity
+from frames.recording.dataset import build_dataset, common_of, ground_at, peak_velocity
 from frames.recording.recording import Recording, require_known
 from frames.recording.reduction import reduced
 from frames.recording.size import number_of_steps, require_memory
@@ -119,7 +119,6 @@ def rigid_time_history(
         "degrees_of_freedom": 12 + int(run.free[12:].sum()),
         "seconds_gravity": state.seconds,
         "seconds_loop": seconds,
-        "features_left_out": "none",
         "plane_coupling": 0.0,
         "recording": str(Recording(every=record_every)),
     }
@@ -147,7 +146,7 @@ def _dataset(
     out = _output(state, ground, given.times[:count], recorded)
     peak = peak_velocity(motion, float(out.time[-1]))
     states, bodies = recorded.states[:, None], recorded.bodies[:, None]
-    return build_dataset(model, state, ground, peak, out, states, bodies, count)
+    return build_dataset(common_of(model, state), state, ground, peak, out, states, bodies, count)
 
 
 def _march(

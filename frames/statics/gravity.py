@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -108,11 +108,6 @@ class GravityState:
     def has_light_nodes(self) -> bool:
         """Whether nodes have so little mass that no step follows it."""
         return has_light_nodes(self)
-
-    @cached_property
-    def formed(self) -> dict[str, Any]:
-        """What results form of the structure alone, by name (`once`): all of its runs share it."""
-        return {}
 
     @cached_property
     def resultants(self) -> Resultants:

@@ -23,7 +23,7 @@ from frames import (
     time_histories,
 )
 from frames.results.assumption_checks import doubts_of
-from frames.solve import time_history as time_history_module
+from frames.solve import run as run_module
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.units import STANDARD_GRAVITY
 
@@ -239,9 +239,9 @@ def test_similar_scenes_move_alike(run, scene, steps, monkeypatch):
     Chosen steps know one time without a scale, beside the largest step.
     """
     capacity, found = (0.08 if scene == "impacts" else 0.15), []
-    impulse = time_history_module._ERROR_EVENT
+    impulse = run_module._ERROR_EVENT
     for s in (1.0, 4.0):
-        monkeypatch.setattr(time_history_module, "_ERROR_EVENT", impulse * s**0.5)
+        monkeypatch.setattr(run_module, "_ERROR_EVENT", impulse * s**0.5)
         c = 1.2 * MOTION.components
         motion = GroundMotion(x=c[:, 0], y=c[:, 1], dt=0.01 * s**0.5)
         motion = motion.resampled(0.0025 * s**0.5)  # below the largest step

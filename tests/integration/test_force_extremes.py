@@ -19,8 +19,8 @@ from frames import (
     time_history,
 )
 from frames.laws import Bilinear, PlasticHinge
-from frames.recording import recorder
 from frames.recording.force_rows import force_maps
+from frames.solve import recorder
 from lir_element import CoulombFriction, LIRBearing
 
 DT = 0.005

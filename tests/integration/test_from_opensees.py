@@ -17,7 +17,7 @@ from frames import (
     storey_drift,
 )
 from frames.results.summary import table_of
-from frames.solve import time_history as transient
+from frames.solve import run as transient
 from frames.statics import gravity as static
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.device.bearing import STANDARD_GRAVITY as G

@@ -48,8 +48,8 @@ from frames.plots import (
     orbits,
     worst_bearing,
 )
-from frames.recording import recorder
 from frames.recording.reduction import Reduction, reduced
+from frames.solve import recorder
 from lir_element import (
     AnalysisError,
     AnalysisInterrupted,

@@ -7,8 +7,7 @@ from dataclasses import asdict
 
 import pytest
 
-from frames.recording import recorder
-from frames.solve import time_history
+from frames.solve import recorder, run
 from validation.measurements import benchmark
 from validation.measurements.benchmark_batch import DIRECTIONS, HISTORIES, SCALES, motions
 from validation.measurements.benchmark_figure import draw
@@ -184,9 +183,9 @@ def test_motions(monkeypatch):
 
 def test_analyses_tell_cpu_time_inside_alone():
     with cpu_clock():
-        for one in (time_history, recorder):  # what one counts the other takes off
+        for one in (run, recorder):  # what one counts the other takes off
             assert one.perf_counter is time.process_time
-    assert time_history.perf_counter is recorder.perf_counter is time.perf_counter
+    assert run.perf_counter is recorder.perf_counter is time.perf_counter
 
 
 def test_both_programs_run_one_bearing_alike(monkeypatch):

@@ -18,7 +18,7 @@ from frames.kernels.shared_tangent import (
     substitute_blocks,
     with_secants,
 )
-from frames.statics import kept_equilibria
+from frames.solve import analysis
 from frames.statics.gravity import gravity
 from lir_element.kernels.linear import factorise, substitute, substitute_rows, subtract_squares
 
@@ -157,7 +157,7 @@ def test_what_the_structure_makes_of_a_correction(
 ) -> None:
     """The tangent's product less the bearings', which the kernel takes element by element."""
     monkeypatch.setattr(frames.shared_data, "MANY", 10)
-    kept_equilibria._KEPT.clear()
+    analysis._KEPT.clear()
     model = gravity(frame).model
     n_b, n_v = len(model.load_b), len(model.load_b) - len(model.shared)
     assert len(model.shared) == 3  # of the diaphragm: in plan
@@ -210,9 +210,9 @@ def test_histories_are_the_same(case: str, frame: Frame, monkeypatch: pytest.Mon
     found = []
     for many in (10, 10**6):
         monkeypatch.setattr(frames.shared_data, "MANY", many)
-        kept_equilibria._KEPT.clear()
+        analysis._KEPT.clear()
         found.append(time_history(frame, motion, **options))
-    kept_equilibria._KEPT.clear()
+    analysis._KEPT.clear()
     apart, whole = found
     assert apart.attrs["status"] == whole.attrs["status"] == "ok"
     assert apart.attrs["steps"] == whole.attrs["steps"]

@@ -1,4 +1,4 @@
-"""Equilibria kept from run to run: the same bits, forgotten with every change of the frame."""
+"""Analyses kept from run to run: the same bits, forgotten with every change of the frame."""
 
 import copy
 import gc
@@ -22,8 +22,7 @@ from frames import (
     time_history,
 )
 from frames.demo import bearing_for
-from frames.statics import kept_equilibria
-from frames.statics.kept_equilibria import kept_gravity
+from frames.solve import analysis
 from lir_element import Features
 
 MOTION = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.0, 41)), y=np.ones(41), dt=0.01)
@@ -33,15 +32,15 @@ STRUCTURE = ("node_displacement", "bearing_force", "storey_shear", "energy", "st
 @pytest.fixture(autouse=True)
 def nothing_kept(monkeypatch) -> list[int]:
     """Begin with nothing kept; return how often an equilibrium is found, an entry each."""
-    monkeypatch.setattr(kept_equilibria, "_KEPT", [])
+    monkeypatch.setattr(analysis, "_KEPT", [])
     found: list[int] = []
 
     def counted(*given: Any) -> Any:
         found.append(1)
         return original(*given)
 
-    original = kept_equilibria.gravity
-    monkeypatch.setattr(kept_equilibria, "gravity", counted)
+    original = analysis.gravity
+    monkeypatch.setattr(analysis, "gravity", counted)
     return found
 
 
@@ -154,7 +153,7 @@ def test_doubts_are_told_each_time() -> None:
     for _ in range(3):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            kept_gravity(frame, Features.all(), "pendulum")
+            analysis.analysis_of(frame, Features.all(), "pendulum")
         told.append([str(one.message) for one in caught if one.category is ModelWarning])
     assert "not the Earth" in told[0][0]
     assert told[0] == told[1] == told[2]
@@ -163,16 +162,15 @@ def test_doubts_are_told_each_time() -> None:
 def test_memory_is_bounded(monkeypatch, nothing_kept: list[int]) -> None:
     frames = [building() for _ in range(3)]
     run(frames[0])
-    kept_equilibria._KEPT[0].weigh()
-    size = kept_equilibria._KEPT[0].bytes
-    monkeypatch.setattr(kept_equilibria, "MOST_BYTES", 2.2 * size)
+    size = analysis._KEPT[0].bytes
+    monkeypatch.setattr(analysis, "MOST_BYTES", 2.2 * size)
     for frame in (*frames[1:], frames[2], frames[1], frames[0]):
         run(frame)
     assert len(nothing_kept) == 4  # the first had to make room for the last
-    assert len(kept_equilibria._KEPT) == 2
-    monkeypatch.setattr(kept_equilibria, "MOST_BYTES", 0.3 * size)  # its arrays alone are larger
+    assert len(analysis._KEPT) == 2
+    monkeypatch.setattr(analysis, "MOST_BYTES", 0.3 * size)  # its arrays alone are larger
     run(building())
-    assert len(kept_equilibria._KEPT) == 2  # larger than all room: not kept, nothing given up
+    assert len(analysis._KEPT) == 2  # larger than all room: not kept, nothing given up
 
 
 def test_threads_run_the_same_frame(nothing_kept: list[int]) -> None:
@@ -194,10 +192,10 @@ def test_threads_run_the_same_frame(nothing_kept: list[int]) -> None:
 def test_memory_stays_within_its_bound(monkeypatch) -> None:
     """All that is held counts, not arrays alone: of a mass on one bearing these are a seventh."""
     most = 8e5
-    monkeypatch.setattr(kept_equilibria, "MOST_BYTES", most)
+    monkeypatch.setattr(analysis, "MOST_BYTES", most)
     frames = [lumped_mass(bearing_for(2e6), 2e5 + 1e3 * k) for k in range(16)]
     run(frames[0])
-    kept_equilibria._KEPT.clear()
+    analysis._KEPT.clear()
     gc.collect()
     tracemalloc.start()
     try:
@@ -208,5 +206,5 @@ def test_memory_stays_within_its_bound(monkeypatch) -> None:
         held = tracemalloc.get_traced_memory()[0] - before
     finally:
         tracemalloc.stop()
-    assert 2 <= len(kept_equilibria._KEPT) < len(frames)
+    assert 2 <= len(analysis._KEPT) < len(frames)
     assert held < 1.5 * most  # what the last run formed is weighed when another one is kept

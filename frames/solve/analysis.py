@@ -1,0 +1,240 @@
+"""A frame made ready for time histories: what its runs share, and the arrays that each changes.
+
+A time history of a small building takes as long to set up as to integrate. What was set up is kept
+by the very parts that the frame holds: they are frozen, so a frame that was changed holds others.
+"""
+
+from __future__ import annotations
+
+import copy
+import gc
+import sys
+import threading
+import types
+import warnings
+from functools import cached_property
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from frames._errors import ModelWarning
+from frames._fingerprint import fingerprint
+from frames.kernel_data import Ground, output_arrays, run_arrays
+from frames.kernels.integration import record
+from frames.model import sanity_checks
+from frames.model.superelement import Superelement
+from frames.nonlinear_data import NonlinearElements, part_sizes
+from frames.recording.dataset import build_dataset, common_of
+from frames.recording.force_rows import force_maps
+from frames.recording.peak_tracking import can_track, devices_of, places_of, shape_of
+from frames.recording.reduction import judgeable_of, with_peak_state
+from frames.statics.gravity import gravity
+from frames.statics.model_traits import plane_coupling
+from lir_element.bundles.contact_data import detached
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    import xarray as xr
+
+    from frames.model.frame_data import FrameData
+    from frames.peak_data import Devices, Shape
+    from frames.recording.dataset import Common
+    from frames.recording.force_rows import ForceMaps
+    from frames.recording.reduction import PeakState
+    from frames.statics.gravity import GravityState
+    from lir_element import Features
+
+MOST_BYTES = 64e6
+"""Memory that a process keeps analyses in [bytes]; one that is larger is set up each time."""
+
+_REMADE = frozenset({"reduced", "inverse_e", "follow_e", "lead_e", "follow", "pool"})
+# of step sizes: the loop makes them again, as `has_reduced` says
+
+_TAKEN = threading.Lock()
+_CODE = (type, types.ModuleType, types.FunctionType, types.BuiltinFunctionType, types.MethodType)
+
+
+class Analysis:
+    """A frame in equilibrium under gravity, and what its results form of it alone.
+
+    No run changes it: runs work in arrays of their own (`fresh`, `restart`). The equilibrium is
+    found here if none is given. What two threads form at once is formed twice, the same.
+    """
+
+    def __init__(
+        self,
+        model: FrameData,
+        features: Features,
+        level: str | Mapping[str, str],
+        state: GravityState | None = None,
+    ) -> None:
+        self.model = copy.copy(model)  # as it is now
+        self.features, self.level = features, level
+        self.state = gravity(model, features, level) if state is None else state
+        self.parts: list[object] = []  # of the model, by which it is found again
+        self._judged: xr.Dataset | None = None
+
+    def fresh(self, seconds: float | None = None) -> GravityState:
+        """Return the state at rest for one run to change; what was formed of it is shared."""
+        shared = self.state
+        _ = shared.accelerating, shared.has_light_nodes, shared.resultants
+        if shared.parts is not None:
+            _ = shared.part_shift
+        mine = copy.copy(shared)
+        own: dict[str, Any] = {"run": run_arrays(shared.model)}
+        if seconds is not None:
+            own["seconds"] = seconds
+        if shared.contacts is not None:
+            own["contacts"] = detached(shared.contacts)
+        if shared.parts is not None:
+            own["parts"] = NonlinearElements(*(array.copy() for array in shared.parts))
+        vars(mine).update(own)
+        self.restart(mine)
+        return mine
+
+    def restart(self, mine: GravityState) -> None:
+        """Put a state that `fresh` gave back to rest."""
+        shared = self.state
+        spared = frozenset() if shared.run.has_reduced.any() else _REMADE
+        for name in ("run", "contacts", "parts"):
+            own, rest = getattr(mine, name), getattr(shared, name)
+            for field in () if own is None else own._fields:
+                if field not in spared:
+                    getattr(own, field)[...] = getattr(rest, field)
+
+    @cached_property
+    def attrs(self) -> dict[str, object]:
+        """Attributes of all results."""
+        level, features = self.level, self.features
+        return {
+            "title": f"time history of {self.model.name}",
+            "level": level if isinstance(level, str) else str(dict(level)),
+            "features_left_out": ", ".join(features.left_out) or "none",
+            "plane_coupling": 0.0 if features.second_direction else plane_coupling(self.model),
+        }
+
+    @cached_property
+    def common(self) -> Common:
+        """What all results hold of the structure."""
+        return common_of(self.model, self.state)
+
+    @cached_property
+    def can_track(self) -> bool:
+        """Whether what a run reaches can be taken up without Datasets."""
+        return can_track(self.state)
+
+    @cached_property
+    def devices(self) -> Devices:
+        """What peaks of the bearings are formed with."""
+        return devices_of(self.state)
+
+    @cached_property
+    def shape(self) -> Shape:
+        """What peaks of the structure are formed with."""
+        return shape_of(self.state, places_of(self.common.of_structure()))
+
+    @cached_property
+    def force_maps(self) -> ForceMaps:
+        """How forces follow from what is recorded."""
+        return force_maps(self.model, self.state)
+
+    @cached_property
+    def at_rest(self) -> xr.Dataset:
+        """The result of the state at rest alone."""
+        state, still = self.state, Ground(np.zeros((2, 3)), 1.0)
+        out, states, bodies = output_arrays(state.model, state.contacts, 1, part_sizes(state.parts))
+        record(state.model, state.run, state.contacts, state.parts, still, out, 0)
+        return build_dataset(self.common, state, still, np.zeros(3), out, states, bodies, 1)
+
+    @cached_property
+    def template(self) -> xr.Dataset:
+        """What the assumption check and the tables of peaks read of it."""
+        return judgeable_of(self.at_rest)
+
+    def judged(self, data: xr.Dataset, found: PeakState) -> xr.Dataset:
+        """Return what the check reads of a run with all histories that reached `found`."""
+        if self._judged is None:
+            self._judged = with_peak_state(data.drop_dims("time"), found)
+        return self._judged
+
+    @cached_property
+    def doubts(self) -> tuple[str, ...]:
+        """What is strange about the model, as `gravity` warns of it."""
+        return (*sanity_checks.sanity_warnings(self.model), *self.state.doubts)
+
+    @cached_property
+    def bytes(self) -> float:
+        """Memory of all that it refers to, but for code: with what its runs formed until now."""
+        seen: dict[int, object] = {}
+        todo: list[object] = [self]
+        while todo:
+            fresh = {id(o): o for o in todo if id(o) not in seen and not isinstance(o, _CODE)}
+            seen |= fresh
+            todo = gc.get_referents(*fresh.values())
+            todo += [one.base for one in fresh.values() if isinstance(one, np.ndarray)]
+        return float(sum(map(sys.getsizeof, seen.values())))
+
+    def is_of(self, parts: list[object], features: Features, level: object) -> bool:
+        """Return whether these are its parts: by identity, since what it holds is not replaced."""
+        alike = len(self.parts) == len(parts) and (self.features, self.level) == (features, level)
+        return alike and all(a is b for a, b in zip(self.parts, parts, strict=True))
+
+
+_KEPT: list[Analysis] = []  # the one asked for last at the end
+
+
+def analysis_of(
+    frame: FrameData, features: Features, level: str | Mapping[str, str]
+) -> tuple[Analysis, GravityState]:
+    """Return the analysis of a frame, kept from before if nothing changed, and a fresh state."""
+    began = perf_counter()
+    parts = list(_parts(vars(frame)))
+    with _TAKEN:
+        known = (kept for kept in reversed(_KEPT) if kept.is_of(parts, features, level))
+        found = next(known, None)
+        if found is not None:
+            _KEPT.remove(found)
+            _KEPT.append(found)
+    if found is None:
+        found = Analysis(frame, features, level if isinstance(level, str) else dict(level))
+        found.parts = parts
+        state = found.fresh()
+        _keep(found)
+        return found, state
+    for doubt in found.doubts:
+        warnings.warn(doubt, ModelWarning, stacklevel=3)
+    return found, found.fresh(perf_counter() - began)
+
+
+def _keep(new: Analysis) -> None:
+    room = MOST_BYTES - _arrays(new.state)
+    if room < 0.0:
+        return
+    with _TAKEN:
+        sizes = [kept.bytes for kept in _KEPT]
+        while sum(sizes) > room:
+            del _KEPT[0], sizes[0]
+        _KEPT.append(new)
+
+
+def _arrays(state: GravityState) -> float:
+    # Bytes of the largest arrays, before any run formed more.
+    arrays = [*state.run, *state.model, state.accelerating, *(state.parts or ())]
+    arrays += [value for value in vars(state.basis).values() if isinstance(value, np.ndarray)]
+    return float(sum(array.nbytes for array in arrays))
+
+
+def _parts(value: object) -> Iterator[object]:
+    # What a frame holds, down to what is frozen; matrices of superelements, which are not, as text.
+    if isinstance(value, dict):
+        yield dict
+        for key, each in value.items():
+            yield key
+            yield from _parts(each)
+        yield None
+    elif isinstance(value, Superelement):
+        yield sys.intern(fingerprint(value))
+    else:
+        yield value

@@ -1,0 +1,286 @@
+"""Where a run writes its steps: room for all of them, or a buffer that is emptied as it fills."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.kernel_data import output_arrays
+from frames.kernels.integration import record
+from frames.nonlinear_data import part_sizes
+from frames.recording.dataset import build_dataset, ground_at, peak_velocity
+from frames.recording.force_tracking import ForceTracker
+from frames.recording.nonlinear_tracking import PartGauge
+from frames.recording.peak_tracking import PeakTracker
+from frames.recording.recording import require_known
+from frames.recording.reduction import (
+    PeakState,
+    Reduction,
+    judgeable_of,
+    present_quantities,
+    with_other_peak_state,
+)
+from frames.recording.size import (
+    bytes_of_step,
+    bytes_over_time,
+    memory,
+    require_memory,
+    require_room,
+)
+from frames.recording.strain_tracking import StrainGauge
+from frames.results.peak_response import largest, with_exceeded
+from frames.statics.resultants import Plausibility
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
+
+    from frames.kernel_data import Ground, Output
+    from frames.motion.ground_motion import GroundMotion
+    from frames.recording.recording import Recording
+    from frames.results.peak_response import Extreme
+    from frames.solve.analysis import Analysis
+    from frames.statics.gravity import GravityState
+    from lir_element.layout import Records
+
+BUFFER = 64e6
+"""Memory of the steps between two emptyings, their Dataset included [bytes]."""
+
+LEAST_ROWS = 16
+"""Steps that a buffer holds at least."""
+
+PEAK_BYTES, MOST_ROWS = 6e6, 1024
+"""Memory [bytes] and steps where peaks alone are kept: they shall be in the processor's own."""
+
+
+class Gauges:
+    """What a run reached, taken up from what its loop records, without any Dataset.
+
+    Without `whole`, what stands on the bearings is left aside.
+    """
+
+    def __init__(self, analysis: Analysis, *, whole: bool) -> None:
+        state = analysis.state
+        self._bearings = PeakTracker(analysis.devices, analysis.shape if whole else None)
+        self._parts = PartGauge(state, analysis.model)
+        self._sums = Plausibility(state, state.resultants)
+
+    def take(self, out: Output, states: Records, ground: Ground, first: int, last: int) -> None:
+        """Take up rows first <= k < last of what was recorded, which follow those before."""
+        self._bearings.take(states, out, ground, first, last)
+        self._parts.take(out, first, last)
+        shaking = ground_at(ground, out.time[first:last])
+        self._sums.take(out, states, shaking, first, last)
+
+    def reached(self) -> dict[str, Extreme]:
+        """Return the largest values, by quantity."""
+        return self._bearings.reached() | self._parts.reached() | self._sums.reached()
+
+    def peak_state(self, out: Output, states: Records, last: int) -> PeakState:
+        """Return all that was reached up to a row of what was recorded, and what is left there."""
+        row = states[last]
+        moved = row["displacement"][:, 6:8] - row["displacement"][:, :2]
+        left = {
+            "displacement": np.linalg.norm(moved, axis=-1),
+            "slip": np.linalg.norm(row["slip_total"], axis=-1),
+        }
+        left |= self._parts.left(out, last)
+        return PeakState(self.reached(), self._bearings.totals(), left, float(out.time[last]))
+
+
+class _Buffer:
+    # The arrays that the loop writes into; the last `overlap` of full ones stay.
+
+    overlap = 1
+
+    def __init__(
+        self,
+        analysis: Analysis,
+        state: GravityState,
+        rows: int,
+        is_stopped: Callable[[], bool] | None,
+    ) -> None:
+        self._analysis, self._state, self._rows = analysis, state, rows
+        self._is_stopped = is_stopped
+        self.out, self._states, self._bodies = output_arrays(
+            state.model, state.contacts, rows, part_sizes(state.parts)
+        )
+        self.strains = StrainGauge(analysis.model, state)
+        """Of imported members that may yield."""
+
+    def renew(self, motion: GroundMotion, ground: Ground) -> None:
+        """Make ready for a run under `motion`, which the loop integrates as `ground`."""
+        self._motion, self._ground = motion, ground
+        self.first = 0
+        """Base step in the first row of `out`."""
+        self.seconds = 0.0
+        """Time taken by emptying [s]."""
+        self.strains.reset()
+
+    def begin(self) -> None:
+        """Record the state at rest."""
+        state = self._state
+        record(state.model, state.run, state.contacts, state.parts, self._ground, self.out, 0)
+
+    def room(self, done: int) -> int:
+        """Return the last base step that there is room for; a full buffer is emptied first."""
+        if self._is_stopped is not None and self._is_stopped():
+            raise KeyboardInterrupt
+        last = self.first + self._rows - 1
+        if done < last:
+            return last
+        began, rows, kept = perf_counter(), done - self.first + 1, self.overlap
+        self._empty(rows)
+        for array in self.out:
+            array[:kept] = array[rows - kept : rows]
+        self.first = done + 1 - kept  # last: an interruption before leaves all to be taken up
+        self.seconds += perf_counter() - began
+        return self.first + self._rows - 1
+
+    def _empty(self, rows: int) -> None:
+        # Take up the first rows, as far as they are new.
+        raise NotImplementedError
+
+
+class Recorder(_Buffer):
+    """What a run records into, and the result made of it.
+
+    It refuses what a recording names and the result lacks, and what would not fit into memory.
+    With `every_peak` a run that records everything is judged by all of its quantities.
+    """
+
+    overlap = 2  # for what is formed over neighbours
+
+    def __init__(
+        self,
+        analysis: Analysis,
+        state: GravityState,
+        steps: int,
+        recording: Recording,
+        *,
+        is_stopped: Callable[[], bool] | None = None,
+        every_peak: bool = False,
+    ) -> None:
+        self._recording, self._steps, self._every_peak = recording, steps, every_peak
+        self._is_whole = recording.is_everything
+        rows = steps + 1
+        if self._is_whole:
+            require_memory(state, rows)
+        else:
+            rows = min(rows, max(LEAST_ROWS, int(BUFFER / bytes_of_step(state))))
+        super().__init__(analysis, state, rows, is_stopped)
+        self._reduction = Reduction(recording)
+        self._forces = ForceTracker(analysis.force_maps) if recording.forces else None
+
+    def begin(self) -> None:
+        """Record the state at rest, and refuse what cannot be recorded."""
+        super().begin()
+        recording = self._recording
+        if self._is_whole:
+            return
+        count = self._steps // recording.every + 1 if recording.every else 2
+        if not recording.names and BUFFER + count * bytes_of_step(self._state) < memory():
+            return
+        start = self._dataset(1)
+        require_known(recording, start)
+        reduction = Reduction(recording)
+        reduction.take(start, 0, final=True)
+        row = reduction.recorded(reduction.judgeable())
+        require_room(bytes_over_time(row), count, BUFFER)
+
+    def data(self, done: int) -> xr.Dataset:
+        """Return the result of `done` base steps, or what the assumption check reads of it."""
+        rows = done - self.first + 1
+        self.strains.take(self.out, 0, rows)
+        data = self._dataset(rows, kept=self._is_whole)
+        if self._is_whole:
+            return data
+        self._reduction.take(data, self.first, final=True)
+        judged = self._reduction.judgeable()
+        if self._forces is None:
+            return judged
+        self._forces.take(self._states, self.out, self.first, rows)
+        variables, coordinates = self._forces.variables()
+        return judged.assign_coords(coordinates).assign(variables)
+
+    def judgeable(self, data: xr.Dataset) -> xr.Dataset:
+        """Return what the assumption check reads of a result that `data` gave."""
+        if self._is_whole and self._every_peak:
+            return judgeable_of(data)
+        if not self._is_whole or not self._analysis.can_track:
+            return data
+        count = data.sizes["time"]
+        found = self._gauged(count, whole=False).peak_state(self.out, self._states, count - 1)
+        judged = self._analysis.judged(data, found)
+        return with_other_peak_state(judged, found, data.variables["peak_ground_velocity"].values)
+
+    def reached(self, data: xr.Dataset) -> dict[str, Extreme]:
+        """Return the largest values of all quantities of a result that `data` gave, by name."""
+        if not self._is_whole or not self._analysis.can_track:
+            return {name: largest(data, name) for name in present_quantities(data)}
+        return self._gauged(data.sizes["time"], whole=True).reached()
+
+    def recorded(self, judged: xr.Dataset) -> xr.Dataset:
+        """Return the result, once: `data` with what the run records and the attributes given."""
+        return judged if self._is_whole else with_exceeded(self._reduction.recorded(judged))
+
+    def _gauged(self, count: int, *, whole: bool) -> Gauges:
+        gauges = Gauges(self._analysis, whole=whole)
+        gauges.take(self.out, self._states, self._ground, 0, count)
+        return gauges
+
+    def _empty(self, rows: int) -> None:
+        if self._forces is not None:
+            self._forces.take(self._states, self.out, self.first, rows)
+        self.strains.take(self.out, 0, rows)
+        self._reduction.take(self._dataset(rows), self.first, final=False)
+
+    def _dataset(self, count: int, *, kept: bool = False) -> xr.Dataset:
+        return build_dataset(
+            self._analysis.common,
+            self._state,
+            self._ground,
+            peak_velocity(self._motion, float(self.out.time[count - 1])),
+            self.out,
+            self._states,
+            self._bodies,
+            count,
+            kept=kept,
+        )
+
+
+class PeakRecorder(_Buffer):
+    """Takes up what runs reach one after the other, and keeps no step of them."""
+
+    def __init__(
+        self, analysis: Analysis, state: GravityState, is_stopped: Callable[[], bool]
+    ) -> None:
+        size = int(PEAK_BYTES / bytes_of_step(state))
+        super().__init__(analysis, state, min(max(size, LEAST_ROWS), MOST_ROWS), is_stopped)
+
+    def renew(self, motion: GroundMotion, ground: Ground) -> None:
+        """Make ready for a run under `motion`, which the loop integrates as `ground`."""
+        super().renew(motion, ground)
+        self._taken = 0
+        self._gauges = Gauges(self._analysis, whole=True)
+
+    def data(self, done: int) -> xr.Dataset:
+        """Return what the assumption check reads of the run."""
+        rows = done - self.first + 1
+        self._empty(rows)
+        found = self._gauges.peak_state(self.out, self._states, rows - 1)
+        peak = peak_velocity(self._motion, found.until)
+        return with_other_peak_state(self._analysis.template, found, peak)
+
+    def judgeable(self, data: xr.Dataset) -> xr.Dataset:
+        """Return what the assumption check reads of a result that `data` gave."""
+        return data
+
+    def _empty(self, rows: int) -> None:
+        first = self._taken - self.first
+        self._gauges.take(self.out, self._states, self._ground, first, rows)
+        self.strains.take(self.out, first, rows)
+        self._taken = self.first + rows
