@@ -81,6 +81,7 @@ ATTRIBUTES = {
     "numerical_share": "largest work that the time integration leaves over, over the largest input "
     "[-]",
     "audit": 'lines of the assumption check; "!" begins those that ask to be looked at',
+    "findings": "the same as JSON: fields of `Finding`",
     "auto_runs": 'a line for each run of `level="auto"`; only of those',
     "recording": 'what is recorded, in words; "every step" where it is everything',
     "method": "method of the analysis",

@@ -23,13 +23,13 @@ if TYPE_CHECKING:
     from frames.recording.recovery import member_forces as member_forces
     from frames.recording.recovery import storey_forces as storey_forces
     from frames.recording.recovery import support_reactions as support_reactions
-    from frames.results.assumption_checks import Finding as Finding
     from frames.results.assumption_checks import audit as audit
     from frames.results.assumption_checks import audit_report as audit_report
     from frames.results.ductility import ductility as ductility
     from frames.results.ductility import storey_ductility as storey_ductility
     from frames.results.envelopes import envelope as envelope
     from frames.results.envelopes import write_tables as write_tables
+    from frames.results.findings import Finding as Finding
     from frames.results.measures import drift_by_line as drift_by_line
     from frames.results.measures import energy_error as energy_error
     from frames.results.measures import floor_acceleration as floor_acceleration

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray, IntArray
     from frames.batch.cases import Case
+    from frames.results.findings import Findings
     from frames.results.peaks import Peak
 
 NUMBERS = {
@@ -51,8 +52,7 @@ class RunResult(NamedTuple):
     message: str
     failed_at: float  # s, NaN of a run that is complete
     failed_where: str
-    audit: str
-    doubts: str
+    findings: Findings
     peaks: tuple[Peak, ...]
     numbers: dict[str, float]
     energy: FloatArray  # (n_terms,) at the last step
@@ -150,13 +150,13 @@ def _of_runs(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
         ),
         "audit": labelled(
             ("run",),
-            _texts(row.audit for row in rows),
+            _texts(repr(row.findings) for row in rows),
             "",
             "assumption check of the run, a line a finding",
         ),
         "doubts": labelled(
             ("run",),
-            _texts(row.doubts for row in rows),
+            _texts("; ".join(row.findings.doubts()) for row in rows),
             "",
             'lines that the assumption check marks with "!"',
         ),

@@ -14,7 +14,7 @@ from frames.recording.force_tracking import ForceTracker
 from frames.recording.recording import Recording, require_known
 from frames.recording.reduction import reduced
 from frames.recording.size import bytes_over_time, require_rows
-from frames.results.assumption_checks import doubts_of
+from frames.results.findings import Findings
 from frames.results.peaks import peaks_of
 from frames.results.recorded import REACHED
 from frames.solve.analysis import Analysis
@@ -185,8 +185,7 @@ class Worker:
             message=attrs["message"],
             failed_at=float(attrs.get("failed_at", math.nan)),
             failed_where=str(attrs.get("failed_where", "")),
-            audit=attrs["audit"],
-            doubts="; ".join(doubts_of(data)),
+            findings=run.findings,
             peaks=tuple(peaks_of(data)),
             numbers={name: float(attrs.get(name, math.nan)) for name in NUMBERS},
             energy=recorder.out.energy[done - recorder.first].copy(),
@@ -237,8 +236,7 @@ def _without_rest(place: int, failure: AnalysisError) -> RunResult:
         message=str(failure),
         failed_at=0.0,
         failed_where=failure.where,
-        audit="",
-        doubts="",
+        findings=Findings(),
         peaks=(),
         numbers={},
         energy=np.full(len(ENERGY_TERMS), np.nan),

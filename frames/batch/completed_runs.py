@@ -18,6 +18,7 @@ from frames._errors import ModelWarning
 from frames._fingerprint import fingerprint, motion_digest
 from frames._provenance import sources_hash
 from frames.batch.batch_dataset import Layout, RunResult
+from frames.results.findings import findings_from
 from frames.results.peaks import Peak
 from frames.results.storage import make_folder, write_whole
 from lir_element._version import package_version
@@ -85,7 +86,7 @@ class KeptRuns:
         """Write a run; not one of a structure without equilibrium, which takes no time."""
         if row.layout is None:
             return
-        own = row._asdict()
+        own = row._asdict() | {"findings": row.findings.plain()}
         layout, histories = own.pop("layout"), own.pop("histories")
         arrays = {name: own.pop(name) for name in ("energy", "reached")}
         path = self._path(case)
@@ -123,6 +124,7 @@ class KeptRuns:
             msg = f"{path} is a copy of {head['of']}"
             raise ValueError(msg)
         own = head["row"] | {"place": place}
+        own["findings"] = findings_from(own["findings"])
         own["peaks"] = tuple(Peak(*peak) for peak in own["peaks"])
         return RunResult(
             **own,

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
 
 _ATTENTIVE = 0.02  # s between two looks whether a run is done
-_GRAVE = ("equilibrium: ", "accelerations: ")  # doubts that are named before all others
+_GRAVE = ("equilibrium", "accelerations")  # doubts that are named before all others
 
 
 def time_histories(
@@ -326,17 +326,22 @@ def _warn_of_runs(rows: Sequence[RunResult]) -> None:
             AnalysisWarning,
             stacklevel=3,
         )
-    marked = [row for row in rows if row.doubts and math.isnan(row.failed_at)]
+    marked = [row for row in rows if row.findings.doubts() and math.isnan(row.failed_at)]
     if marked:
-        grave = [row for row in marked if any(kind in row.doubts for kind in _GRAVE)]
+        grave = [row for row in marked if _is_grave(row)]
         first = min(grave or marked, key=_place)
         which = f"{len(grave)} with forces or accelerations beyond reason, the" if grave else "the"
         warnings.warn(
             f"{len(marked)} of {len(rows)} runs completed with a warning; {which} "
-            f"first, run {first.place}: {first.doubts.rstrip('.')}. See the variable doubts",
+            f"first, run {first.place}: {'; '.join(first.findings.doubts()).rstrip('.')}. "
+            "See the variable doubts",
             AuditWarning,
             stacklevel=3,
         )
+
+
+def _is_grave(row: RunResult) -> bool:
+    return any(found.is_marked and found.feature in _GRAVE for found in row.findings)
 
 
 def _place(row: RunResult) -> int:

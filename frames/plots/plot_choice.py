@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 
 from frames.model.names import likely
 from frames.plots.plot_style import PALETTE, line_of
-from frames.results.assumption_checks import doubts_of
+from frames.results.findings import doubts_of
 from frames.results.recorded import largest_kept, require_steps
 from lir_element.errors import RunStatus
 

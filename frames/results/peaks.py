@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from frames.results.assumption_checks import doubts_of
+from frames.results.findings import doubts_of
 from frames.results.hinge_extremes import can_yield
 from frames.results.measures import energy_error, lateral_capacity
 from frames.results.peak_response import (

@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from frames.results.assumption_checks import doubts_of
+from frames.results.findings import doubts_of
 from frames.results.peaks import peaks_of
 from frames.results.storage import as_text, save_groups, write_whole
 from lir_element.units import STANDARD_GRAVITY

@@ -5,7 +5,8 @@ from __future__ import annotations
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from frames.results.assumption_checks import asking_for_contact, audit, is_missing
+from frames.results.assumption_checks import asking_for_contact
+from frames.results.findings import Findings, findings_of, remark
 from lir_element.errors import RunStatus
 
 if TYPE_CHECKING:
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from frames.results.assumption_checks import Finding
+    from frames.results.findings import Finding
     from lir_element import Features
 
     Level = str | Mapping[str, str]
@@ -33,7 +34,7 @@ def escalate_level(
         began = perf_counter()
         data = analyse(features, level)
         seconds = perf_counter() - began
-        findings = audit(data)
+        findings = findings_of(data)
         names = tuple(str(name) for name in data.variables["bearing"].to_numpy())
         wider, higher, reason = _next(findings, features, level, names)
         is_last = count == MOST_RUNS or (wider, higher) == (features, level)
@@ -62,7 +63,8 @@ def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) ->
         f"ends: run {others[-1] + 1} {_ended(first, earlier)}, run {len(ends)} "
         f"{_ended(last, time)} (auto_runs): a little more or less decides whether a bearing fails"
     )
-    data.attrs["audit"] = f"! {line}\n{data.attrs['audit']}"
+    noted = remark("ends", float(others[-1] + 1), line, doubtful=True)
+    data.attrs |= Findings((noted, *findings_of(data))).attrs()
     data.attrs["auto_runs"] += f"\n{line}"
 
 
@@ -76,7 +78,7 @@ def _next(
 ) -> tuple[Features, Level, str]:
     # Features and level of the next run (the same: settled), and why.
     out = features.left_out
-    missing = [f for f in findings if is_missing(f) and f.feature in out]
+    missing = [f for f in findings if f.is_missing and f.feature in out]
     if missing:
         wider = features.including(*(f.feature for f in missing))
         if wider.rims and not features.rims:  # a rigid slider would break the rims that are met

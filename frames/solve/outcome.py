@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames.results.assumption_checks import audit_report
+from frames.results.assumption_checks import audit
+from frames.results.findings import Finding, Findings, remark
 from frames.results.peak_response import largest
 from lir_element.argument_checks import listed
 from lir_element.element import about_to_snap, limit_detail, opening_of
@@ -46,7 +47,7 @@ class Outcome(NamedTuple):
     detail: str
 
 
-def evaluated(data: xr.Dataset) -> tuple[RunStatus, str]:
+def evaluated(data: xr.Dataset) -> tuple[RunStatus, str, tuple[Finding, ...]]:
     """Judge a completed run by its energy balance, and by its sliders where they are bodies."""
     gap, numerical, given = (
         float(largest(data, name).values)
@@ -58,26 +59,28 @@ def evaluated(data: xr.Dataset) -> tuple[RunStatus, str]:
     data.attrs |= {"energy_error": gap, "numerical_share": numerical}
     doubt = _tumbled(data)
     if doubt:
-        data.attrs["audit"] += f"\n  inaccurate: {doubt}"
-        return RunStatus.INACCURATE, doubt
+        return RunStatus.INACCURATE, doubt, _noted("inaccurate", gap, doubt)
     allowed = ASKED_FOR if data.attrs["integrator"] == "generalised-alpha" else PROMISE
     if gap <= PROMISE and numerical <= allowed:
         if numerical <= PROMISE:
-            return RunStatus.OK, ""
+            return RunStatus.OK, "", ()
         doubt = (
             f"the generalised-alpha method took out {100.0 * numerical:.3g} % of the energy put in "
             f"(more than {100.0 * PROMISE:g} %): take a spectral_radius nearer to 1 or a smaller "
             "dt where that matters"
         )
-        data.attrs["audit"] += f"\n  numerical damping: {doubt}"
-        return RunStatus.OK, doubt
+        return RunStatus.OK, doubt, _noted("numerical damping", numerical, doubt)
     detail = (
         f"the terms of the energy differ from the input by {100.0 * gap:.3g} % of it (at most "
         f"{100.0 * PROMISE:g} % is sound), and {100.0 * numerical:.3g} % are the time "
         f"integration's own (at most {100.0 * allowed:g} %)"
     )
-    data.attrs["audit"] += f"\n  inaccurate: {detail}"
-    return RunStatus.INACCURATE, detail
+    return RunStatus.INACCURATE, detail, _noted("inaccurate", gap, detail)
+
+
+def _noted(name: str, number: float, text: str) -> tuple[Finding, ...]:
+    # Not marked: the status says so, or a warning.
+    return (remark(name.replace(" ", "_"), number, f"{name}: {text}", doubtful=False),)
 
 
 def _tumbled(data: xr.Dataset) -> str:
@@ -99,23 +102,26 @@ def _tumbled(data: xr.Dataset) -> str:
     )
 
 
-def concluded(data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str]) -> Outcome:
+def concluded(
+    data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str]
+) -> tuple[Outcome, Findings]:
     """Check the assumptions of a run and judge it."""
     status, detail = end
     data.attrs |= _exceeded(state, status)
-    data.attrs["audit"] = audit_report(data)
+    findings = audit(data)
     name = state.system.bearings[int(state.run.counts["bearing"][0])].name
     where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
-        status, detail = evaluated(data)
+        status, detail, noted = evaluated(data)
+        findings = Findings((*findings, *noted))
         lost = _lost(state, float(data.attrs["dt"]))
         if lost:
             k, told = lost
             status = RunStatus.BEARING_LOST
             detail = f"{told}; {detail}" if detail else told
             where = f'bearing "{state.system.bearings[k].name}"'
-            return Outcome(status, float(state.run.old["failed_at"][k]), where, detail)
-    return Outcome(status, float(state.run.clock["time"][0]), where, detail)
+            return Outcome(status, float(state.run.old["failed_at"][k]), where, detail), findings
+    return Outcome(status, float(state.run.clock["time"][0]), where, detail), findings
 
 
 def _lost(state: GravityState, dt: float) -> tuple[int, str] | None:

@@ -14,7 +14,8 @@ from frames.recording.dataset import build_dataset, common_of, ground_at, peak_v
 from frames.recording.recording import Recording, require_known
 from frames.recording.reduction import reduced
 from frames.recording.size import number_of_steps, require_memory
-from frames.results.assumption_checks import audit_report
+from frames.results.assumption_checks import audit
+from frames.results.findings import Findings
 from frames.solve.outcome import Outcome, evaluated
 from frames.statics.gravity import gravity
 from lir_element.bundles.rigid_data import (
@@ -122,11 +123,13 @@ def rigid_time_history(
         "plane_coupling": 0.0,
         "recording": str(Recording(every=record_every)),
     }
-    data.attrs["audit"] = audit_report(data)
+    findings = audit(data)
     where = f'bearing "{state.system.bearings[0].name}"'
     detail = limit_detail(run.props, run.states[2:], 0)
     if status is RunStatus.OK:
-        status, detail = evaluated(data)
+        status, detail, noted = evaluated(data)
+        findings = Findings((*findings, *noted))
+    data.attrs |= findings.attrs()
     if is_thinned:
         data = reduced(data.assign_attrs(recording=str(recording)), recording)
     return data, Outcome(status, float(clock["time"]), where, detail)

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from frames.kernel_data import Output, ReducedModel
     from frames.motion.ground_motion import GroundMotion
     from frames.recording.strain_tracking import StrainGauge
+    from frames.results.findings import Findings
     from frames.solve.analysis import Analysis
     from frames.solve.options import Options
     from frames.statics.gravity import GravityState
@@ -82,6 +83,7 @@ class Run(NamedTuple):
     judged: xr.Dataset
     """What the assumption check read of it; the same attributes."""
     outcome: Outcome
+    findings: Findings
 
 
 def run_one(
@@ -110,9 +112,9 @@ def run_one(
     }
     judged = recorder.judgeable(data)
     judged.attrs = dict(data.attrs)
-    outcome = concluded(judged, state, end)
+    outcome, findings = concluded(judged, state, end)
     data.attrs = judged.attrs
-    return Run(data, judged, outcome)
+    return Run(data, judged, outcome, findings)
 
 
 def _attrs(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from frames._errors import AuditWarning
 from frames.recording.recording import recording_of
-from frames.results.assumption_checks import doubts_of
+from frames.results.findings import Findings, doubts_of, remark
 from frames.solve.analysis import Analysis, analysis_of
 from frames.solve.level_escalation import escalate_level, mark_other_end
 from frames.solve.options import Options, check_options, check_reduction, options_of
@@ -178,7 +178,9 @@ def time_history(
         runs.clear()  # of an earlier run: its memory
         with blas_threads_for(model):
             runs.append(_run(model, motion, kept, at, options))
-        (data, _, outcome), recorder = runs[0]
+        run, recorder = runs[0]
+        data, outcome = run.data, run.outcome
+        data.attrs |= run.findings.attrs()
         ends.append((outcome.status, outcome.time))
         if outcome.status is RunStatus.INTERRUPTED:  # no further run of level="auto"
             report(recorder.recorded(data), *outcome, on_failure=on_failure)
@@ -226,8 +228,10 @@ def _run(
         return recorder.reached(found.data), found.outcome.status is RunStatus.INTERRUPTED
 
     found = refined(model, features, level, options.reduction, reached)
-    attrs = last[0][0].data.attrs
-    attrs |= found.attrs
+    last_run, recorder = last[0]
+    last_run.data.attrs |= found.attrs
     if found.doubt:
-        attrs["audit"] += f"\n! reduced: two runs differ by more than asked for: {found.doubt}"
-    return last[0]
+        text = f"reduced: two runs differ by more than asked for: {found.doubt}"
+        noted = remark("reduced", found.attrs["reduction_tolerance"], text, doubtful=True)
+        last_run = last_run._replace(findings=Findings((*last_run.findings, noted)))
+    return last_run, recorder

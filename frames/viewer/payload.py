@@ -9,7 +9,7 @@ import numpy as np
 from frames.assembly.assemble import assemble
 from frames.plots.plot_choice import choose_bearing, in_window
 from frames.recording.recovery import require_own
-from frames.results.assumption_checks import doubts_of
+from frames.results.findings import doubts_of
 from frames.results.recorded import EVERY_STEP
 from frames.viewer.bearings import SLIPS, Movements, devices, movements, peaks_of
 from frames.viewer.instants import kept_steps, line_error

@@ -21,6 +21,7 @@ from frames import (
 from frames.batch.time_histories import _warn_of_runs
 from frames.plots import histories
 from frames.results.assumption_checks import needed_level
+from frames.results.findings import Findings, remark
 from frames.results.summary import status_of, table_of, write_results
 from lir_element import Features
 from validation.cases import EXAMPLE_MASS, example_bearing
@@ -108,10 +109,20 @@ def test_auto_hands_sliders_that_spin_to_the_bodies(model):
 
 def test_of_many_runs_the_gravest_doubt_is_named():
     edge, thrown = "interface eccentricity reached 0.8", "accelerations: node top reached 79 g"
-    said = ["", edge, f"{edge}; {thrown}", thrown]
+    known = {
+        text: remark(text.split()[0].strip(":"), 1.0, text, doubtful=True)
+        for text in (edge, thrown)
+    }
+    said = [(), (edge,), (edge, thrown), (thrown,)]
     rows = [
-        SimpleNamespace(place=k, status="ok", message="", failed_at=math.nan, doubts=doubts)
-        for k, doubts in enumerate(said)
+        SimpleNamespace(
+            place=k,
+            status="ok",
+            message="",
+            failed_at=math.nan,
+            findings=Findings(known[text] for text in texts),
+        )
+        for k, texts in enumerate(said)
     ]
     with pytest.warns(AuditWarning, match=f"first, run 2: {edge}; {thrown}") as found:
         _warn_of_runs(rows)

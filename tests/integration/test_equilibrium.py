@@ -22,7 +22,7 @@ from frames import (
     step_sensitivity,
     time_histories,
 )
-from frames.results.assumption_checks import doubts_of
+from frames.results.findings import doubts_of
 from frames.solve import run as run_module
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.units import STANDARD_GRAVITY

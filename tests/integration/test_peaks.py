@@ -22,7 +22,7 @@ from frames import (
     uplift_gap,
 )
 from frames.motion.spectra import response_spectrum
-from frames.results.assumption_checks import doubts_of
+from frames.results.findings import doubts_of
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
 
 TIME = np.arange(0.0, 4.0, 0.005)

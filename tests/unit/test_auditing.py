@@ -22,7 +22,8 @@ from frames import (
 from frames.demo import bearing_for
 from frames.design import DesignLimits, impact_checks
 from frames.design.histories.bearing_demands import ON_AXIAL_STIFFNESS
-from frames.results.assumption_checks import doubts_of, is_missing, needed_level
+from frames.results.assumption_checks import needed_level
+from frames.results.findings import doubts_of, findings_of
 from frames.results.level_doubts import level_doubts, travels
 from frames.results.measures import centre_shift
 from frames.results.peak_response import largest, total
@@ -113,7 +114,7 @@ def test_rims_that_were_met():
     first = float(data["time"][int(np.argmax(touched))])
     assert finding.sentence == f"rims: met by 1 of 1 bearings, first at {first:.2f} s"
     assert finding.mattered
-    assert not is_missing(finding)
+    assert not finding.is_missing
     slip = found(data)["interface"]
     size = 1e3 * float(data["interface_slip_size"].max())
     assert f"slipped up to {size:.3g} mm, 1 of 1 bearings, first at " in slip.sentence
@@ -189,7 +190,7 @@ def test_velocity_dependence_at_a_constant_share():
     assert finding.mattered
     left = found(run(device(friction=friction), features=Features(velocity_dependence=False)))
     assert_allclose(left["velocity_dependence"].number, 0.5, rtol=1e-6)
-    assert is_missing(left["velocity_dependence"])
+    assert left["velocity_dependence"].is_missing
     assert found(run(device()))["velocity_dependence"].number == 0.0
 
 
@@ -322,7 +323,7 @@ def test_full_contact_levels():
         assert finding.bearings == ("bearing",)
         assert needed_level(audit(other)) == "contact"
         assert ("bearings: force up to 7 %" in finding.sentence) == (0.33 < factor < 0.75)
-        assert is_missing(finding) == (factor > 0.75)
+        assert finding.is_missing == (factor > 0.75)
         other["rim_force"] = 0.0 * other["rim_force"]
         assert needed_level(audit(other)) == "pendulum"  # nothing that counts is off
 
@@ -370,6 +371,9 @@ def test_audit_survives_a_file(tmp_path):
     again = load(tmp_path / "run.nc")
     assert again.attrs["audit"] == data.attrs["audit"] == audit_report(again)
     assert audit(again) == audit(data)
+    assert findings_of(again) == findings_of(data) == audit(data)
+    del again.attrs["findings"]  # as files were before
+    assert findings_of(again).lines() == data.attrs["audit"].splitlines()
     lines = data.attrs["audit"].splitlines()
     assert len(lines) == len(Features.names()) + 4
     assert sum("left out" in line for line in lines) == 3
@@ -432,7 +436,8 @@ def test_auto_takes_contact_for_bearings_that_ask():
 
     def analyse(features: Features, level: object) -> xr.Dataset:
         levels.append(level)
-        return both.assign_attrs(level=str(level))
+        data = both.assign_attrs(level=str(level))
+        return data.assign_attrs(audit(data).attrs())
 
     again = level_escalation.escalate_level(analyse, Features())
     assert levels == ["pendulum", {"a": "contact"}]

@@ -19,7 +19,6 @@ import numpy as np
 
 from frames import GroundMotion, audit, gravity, lumped_mass, moment_frame, time_history
 from frames.demo import design, pacoima
-from frames.results.assumption_checks import is_missing
 from frames.solve.level_escalation import escalate_level
 from lir_element import AnalysisWarning, Features
 from validation.cases import example_bearing
@@ -96,9 +95,7 @@ def feature_rows(scene: Scene) -> list[str]:
         cost = min(times)
         is_ok = data.attrs["status"] == "ok"
         verdict = "; ".join(
-            f.sentence
-            for f in audit(data)
-            if f.left_out and is_missing(f) and f.feature in features.left_out
+            f.sentence for f in audit(data) if f.is_missing and f.feature in features.left_out
         )
         if not features.left_out:
             verdict = "-"

@@ -19,7 +19,7 @@ from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.level_margins import doubted, level_errors
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.peak_data import LOADED, PRESSED
-from frames.results.assumption_checks import IMPACT
+from frames.results.bearing_findings import IMPACT
 from frames.results.level_doubts import DOUBTED
 from frames.results.recorded import REACHED
 from lir_element.units import STANDARD_GRAVITY

@@ -25,7 +25,7 @@ from frames.design.histories.impacts import (
 from frames.design.histories.suite import Suite
 from frames.design.histories.suite_notes import left_out_checks
 from frames.design.histories.uplift import Uplift
-from frames.results.assumption_checks import doubts_of
+from frames.results.findings import doubts_of
 from frames.statics.overturning import unknown_axial_forces
 from lir_element.argument_checks import require_positive
 

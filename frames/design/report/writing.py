@@ -24,6 +24,7 @@ from frames.design.report.tables import in_mm_and_kn
 from frames.design.report.terms import device_table, loads_table, model_table
 from frames.design.report.words import Words
 from frames.design.testing.programme import OWN_RULES
+from frames.results.findings import findings_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -125,7 +126,7 @@ def report_in(
         by_motion=[words.table(part) for part in motion_tables(tables[BY_MOTION])],
         levels=_levels(run),
         level=run.rules.levels[0].name,
-        audit=attrs["audit"].splitlines(),
+        audit=findings_of(run.governing).lines(),
         pictures=pictures(run, words) if figures else {},
         source=source,
         options=(attrs["level"], attrs["integrator"], attrs["step_control"]),

@@ -1,11 +1,12 @@
-"""What the check says of a run's equilibrium, of violent nodes, and of the steps it took."""
+"""What the assumption check finds on a run: equilibrium, violent nodes, steps, yielding."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.results.findings import Finding, finding, remark
 from frames.results.peak_response import largest
 from frames.results.quantities import VIOLENT
 from lir_element.units import STANDARD_GRAVITY
@@ -23,17 +24,12 @@ ROUGH = 0.05
 
 _LIGHT = 1e-2  # of the nodes' mean mass: a node that weighs next to nothing beside the others
 
-
-class Remark(NamedTuple):
-    """A line of the assumption check."""
-
-    feature: str
-    number: float
-    sentence: str
-    doubtful: bool
+TURNED = 0.05
+"""Plastic rotation from which on a hinge is doubtful [rad]: compact members of steel begin to lose
+strength at 4 to 11 yield rotations (ASCE/SEI 41-17, chapter 9), others before."""
 
 
-def equilibrium(data: xr.Dataset) -> tuple[Remark, ...]:
+def equilibrium(data: xr.Dataset) -> tuple[Finding, ...]:
     """Judge whether forces, weight and inertia agree, and whether nodes moved beyond reason."""
     if "imbalance" not in data and "reached_imbalance" not in data:
         return ()
@@ -51,10 +47,10 @@ def equilibrium(data: xr.Dataset) -> tuple[Remark, ...]:
                 f"{100.0 * most:.3g} % of {over} at t = {float(gaps.at[k]):.4g} s: forces and "
                 "accelerations of one instant do not belong together; take neither for a design"
             )
-    return (Remark("equilibrium", most, text, doubtful), *_violence(data))
+    return (remark("equilibrium", most, text, doubtful=doubtful), *_violence(data))
 
 
-def _violence(data: xr.Dataset) -> tuple[Remark, ...]:
+def _violence(data: xr.Dataset) -> tuple[Finding, ...]:
     found = largest(data, "violence")
     k = int(np.argmax(found.values))
     most = float(found.values[k]) / STANDARD_GRAVITY
@@ -76,10 +72,10 @@ def _violence(data: xr.Dataset) -> tuple[Remark, ...]:
         f"{float(found.at[k]):.4g} s (more than {VIOLENT / STANDARD_GRAVITY:.0f} g is beyond what "
         f"structures do): {cause}"
     )
-    return (Remark("accelerations", most, text, True),)
+    return (remark("accelerations", most, text, doubtful=True),)
 
 
-def time_step(data: xr.Dataset) -> tuple[Remark, ...]:
+def time_step(data: xr.Dataset) -> tuple[Finding, ...]:
     """Judge the step of a run whose step was given."""
     error = float(data.attrs.get("estimated_error", np.nan))
     if data.attrs.get("step_control") != "fixed" or not np.isfinite(error):
@@ -92,4 +88,37 @@ def time_step(data: xr.Dataset) -> tuple[Remark, ...]:
             f"{100.0 * error:.2g} % of the largest one: leave dt out, or compare a smaller one "
             "(step_sensitivity)"
         )
-    return (Remark("time_step", error, text, doubtful),)
+    return (remark("time_step", error, text, doubtful=doubtful),)
+
+
+def yielding(data: xr.Dataset) -> tuple[Finding, ...]:
+    """Judge how far hinges turned."""
+    # They keep their strength here; those of steel lose it from about TURNED on.
+    if "hinge" not in data.dims:
+        return ()
+    turned = largest(data, "hinge_rotation")
+    k = int(np.argmax(turned.values))
+    most = float(turned.values[k])
+    text = f"plastic rotation of hinges up to {1e3 * most:.3g} mrad"
+    if most > TURNED:
+        text = (
+            f"plastic rotation of hinge {data['hinge'].to_numpy()[k]}: {1e3 * most:.3g} mrad at "
+            f"t = {float(turned.at[k]):.4g} s: members lose strength from about {1e3 * TURNED:.0f} "
+            "mrad on, which is not modelled; take it as the beginning of a failure"
+        )
+    return (finding("yielding", False, most > 0.0, most, text, doubtful=most > TURNED),)
+
+
+def strained(data: xr.Dataset) -> tuple[Finding, ...]:
+    """Judge whether imported members, which stay elastic, would have yielded."""
+    most = float(data.attrs.get("strain_over_limit", 0.0))
+    if most <= 1.0:
+        return ()
+    count = int(data.attrs["strain_over_limit_count"])
+    text = (
+        f"{data.attrs['strain_over_limit_in']} strains {most:.3g} times as far as its material "
+        f"keeps its stiffness, at t = {float(data.attrs['strain_over_limit_at']):.4g} s ({count} "
+        "imported members are beyond that): here they stay elastic, in OpenSees they yield, and "
+        "displacements differ; put the bearings under the model there by isolate, and compare"
+    )
+    return (finding("yielding", False, True, most, text, doubtful=True),)

@@ -1,0 +1,183 @@
+"""What the assumption check finds on bearings: full contact, slip that holds, impacts, friction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.results.findings import Finding, finding, percent
+from frames.results.level_doubts import level_doubts, levels_of_bearings
+from frames.results.peak_response import largest, left
+from lir_element.device.specification import STACK_RANGE, stack_stiffness
+from lir_element.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+KERN = 0.25
+"""Eccentricity over slider radius up to which a circular contact is closed all over."""
+
+HOLDS = 0.8
+"""Slip over its stable limit s* without rims, `slip_stability`, from which a run says so."""
+
+OVERLAPS = 0.9
+"""The same over the slip at which the sliders' overlap ends, `slip_capacity`."""
+
+SPUN = 0.5
+"""Spin of the sliders [rad] beyond which the level 'contact' is asked for: the residual slip
+depends on it (docs/validation/slip.md)."""
+
+EDGE = 0.5
+"""Eccentricity over slider radius beyond which one edge carries nearly all."""
+
+IMPACT = 0.2
+"""Rise of the axial force over that at rest, where a rim is met with a slip, that is told."""
+
+COMPLETE = ("ok", "bearing_lost")
+"""Ends of runs that went on to the end of their motion."""
+
+STUCK = 0.5
+"""Largest displacement over the one that friction holds, L Q/W, below which the yield displacement
+counts (docs/limits.md)."""
+
+SLID = 20.0
+"""Largest displacement over the yield displacement from which on a bearing has slid."""
+
+LEFT_OVER = 0.1
+"""Displacement at the end over the one that friction holds, L Q/W, from which it is told."""
+
+
+def full_contact(data: xr.Dataset) -> Finding:
+    """Judge what the level 'pendulum' takes for granted: full contact, sliders that do not spin."""
+    offsets = largest(data, "eccentricity").values
+    names = data.variables["bearing"].to_numpy()
+    share = float(offsets.max())
+    if share <= KERN:
+        verdict = "holds"
+    elif share <= EDGE:
+        verdict = "partial contact, no tipping"
+    else:
+        verdict = "edge contact" if share < 1.0 else "the slider tips"
+    text = f"full contact: e/a = {share:.2f} in {names[int(np.argmax(offsets))]}: {verdict}"
+    doubts = level_doubts(data)
+    if doubts.bearings:
+        text += f"; {doubts.sentence}"
+    has_spin = "slider_spin" in data or "reached_spin" in data
+    spins = largest(data, "spin").values if has_spin else np.zeros(len(names))
+    spun = (spins > SPUN) & (np.array(levels_of_bearings(data)) == "pendulum")
+    if spun.any():
+        text += f"; the sliders spun by {float(spins.max()):.2g} rad, on which the slip depends"
+    asking = {*doubts.bearings, *(str(name) for name in names[spun])}
+    is_marked = doubts.marked or bool(spun.any())
+    return Finding(
+        feature="full_contact",
+        left_out=is_marked,
+        mattered=bool(asking),
+        number=share,
+        sentence=f'{text}; rerun with level="contact"' if is_marked else text,
+        bearings=tuple(str(name) for name in names if str(name) in asking),
+    )
+
+
+def slip_stability(data: xr.Dataset) -> Finding:
+    """Judge whether the slip that is left holds."""
+    # docs/theory.md (2.7), with the friction of high speed; a rigid slider holds without end
+    friction = data.variables["interface_friction"].to_numpy()
+    rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
+    held = data.variables["length"].to_numpy() * friction
+    held -= (rubbed[0].to_numpy() * rubbed[1].to_numpy()).sum(axis=1)
+    slip = largest(data, "slip").values
+    shares = slip / np.maximum(held, 1e-12)
+    overlaps = (
+        slip / data.variables["slip_capacity"].to_numpy() if "slip_capacity" in data else 0 * shares
+    )
+    worst, last = int(np.argmax(shares)), int(np.argmax(overlaps))
+    share = float(shares[worst])
+    names, parts = data.variables["bearing"].to_numpy(), []
+    if share > HOLDS:
+        limit = 1e3 * max(float(held[worst]), 0.0)
+        parts.append(
+            f"{names[worst]} slipped {1e3 * slip[worst]:.3g} mm, without rims the interface "
+            f"holds {limit:.3g} mm: where the motion turns again in that direction, the sliders "
+            "slip on; raise mu_h"
+        )
+    if overlaps[last] > OVERLAPS:
+        limit = 1e3 * float(data["slip_capacity"][last])
+        parts.append(
+            f"{names[last]} slipped {1e3 * slip[last]:.4g} mm of the {limit:.4g} mm at which "
+            "the sliders' overlap ends: a few per cent decide whether it fails; raise mu_h or "
+            "the capacity"
+        )
+    text = "; ".join(parts) or f"the slip reached {percent(share)} of what holds without rims"
+    if np.isinf(friction).all():
+        text = "the slider is rigid"
+    at_pendulum = np.array(levels_of_bearings(data)) == "pendulum"
+    close = ((shares > HOLDS) | (overlaps > OVERLAPS)) & at_pendulum
+    found = "slip_stability", False, bool(parts), share, text
+    return finding(*found, doubtful=bool(parts), bearings=names[close])
+
+
+def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
+    """Judge whether rims were met with a slip."""
+    # docs/theory.md (2.9): what the axial stiffness makes of the closing speed; of the first
+    # contact, whose slip is none, and of files from before there is nothing to say.
+    if "axial_stiffness" not in data.variables:
+        return ()
+    closing = largest(data, "closing")
+    static = data.variables["static_axial_force"].to_numpy()
+    stiffness = data.variables["axial_stiffness"].to_numpy()
+    rises = closing.values * np.sqrt(stiffness / (static * STANDARD_GRAVITY))
+    k = int(np.argmax(rises))
+    if not rises[k] > IMPACT:
+        return ()
+    height = data.variables["radius"].to_numpy().sum(axis=1) - data.variables["length"].to_numpy()
+    area = np.pi * data.variables["slider_radius"].to_numpy() ** 2
+    assumed = bool(np.isclose(stiffness[k], stack_stiffness(area[k], height[k]), rtol=1e-6))
+    low, high = STACK_RANGE
+    text = (
+        f"{data['bearing'].to_numpy()[k]} met a rim with a slip at {closing.at[k]:.2f} s: the "
+        f"axial stiffness stops {1e3 * closing.values[k]:.3g} mm/s along the slider, by which the "
+        f"axial force rises by up to {percent(float(rises[k]))} of that at rest, and the bearing's "
+        "force with it"
+    )
+    if assumed:
+        text += (
+            f"; this stiffness of {stiffness[k]:.3g} N/m is the default, an estimate: run with "
+            f"{low:g} and {high:g} times that, or give the maker's"
+        )
+    return (finding("impacts", False, True, float(rises[k]), text, doubtful=assumed),)
+
+
+def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
+    """Judge whether elastic sliding before slip counts."""
+    # Up to L Q/W friction holds a bearing wherever it stops: what is reached there goes by all
+    # that the motion did before (docs/limits.md).
+    if "yield_displacement" not in data.variables:
+        return ()
+    rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
+    held = (rubbed[0].to_numpy() * rubbed[1].to_numpy()).sum(axis=1)
+    yields = data.variables["yield_displacement"].to_numpy().max(axis=-1)
+    moved = largest(data, "displacement").values
+    slid = (held > 0.0) & (moved > SLID * yields)
+    shares = np.where(slid, moved / np.maximum(held, 1e-12), np.inf)
+    ended = "exceeded" not in data.attrs and data.attrs.get("status", "ok") in COMPLETE
+    rest = np.where(slid, left(data, "displacement"), 0.0) * ended
+    least, most = int(np.argmin(shares)), int(np.argmax(rest / np.maximum(held, 1e-12)))
+    names, parts = data.variables["bearing"].to_numpy(), []
+    if shares[least] < STUCK:
+        parts.append(
+            f"{names[least]} moved {percent(float(shares[least]))} of what its friction holds "
+            f"(L Q/W = {1e3 * held[least]:.3g} mm): a yield_displacement of "
+            f"{1e3 * yields[least]:.2g} mm moves such a peak by some 10 %, far smaller ones by more"
+        )
+    if LEFT_OVER * held[most] < rest[most] <= held[most]:  # beyond it it still swings
+        parts.append(
+            f"{names[most]} is left {1e3 * rest[most]:.3g} mm aside, friction holds up to "
+            f"{1e3 * held[most]:.3g} mm: the residual displacement of one run means little, take "
+            "the median of many"
+        )
+    if not parts:
+        return ()
+    least_share, text = float(shares[least]), "; ".join(parts)
+    return (finding("yield_displacement", False, True, least_share, text),)

@@ -1,0 +1,193 @@
+"""What the assumption check finds, as objects from the run to the page; text where it is shown."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING
+
+from lir_element.tables import html_table
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from typing import Any
+
+    import xarray as xr
+
+    from frames.results.peak_response import Extreme
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """What the assumption check found on one feature.
+
+    Attributes
+    ----------
+    feature : str
+        Of `Features.names()`; or "full_contact": what the level 'pendulum' takes for granted; or
+        "slip_stability": whether the residual slip holds; or "impacts": whether rims were met with
+        a slip; or "yield_displacement": whether elastic sliding before slip counts; or "yielding":
+        whether hinges turned further than they keep their strength; or "equilibrium",
+        "accelerations" and "time_step": whether the numbers of the run belong together.
+    left_out : bool
+        Whether the run left it out.
+    mattered : bool
+        Left out: whether that spoils the run. Modelled: whether it came into play.
+    number : float
+        What the judgement rests on; the sentence says what it is.
+    sentence : str
+        For people.
+    doubtful : bool
+        Whether what came into play asks to be looked at.
+    bearings : tuple of str
+        At the level "pendulum", for which it asks for the level "contact".
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, audit, lumped_mass, time_history
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> found = audit(data)[1]
+    >>> found.feature, found.left_out, found.mattered
+    ('interface', False, False)
+    """
+
+    feature: str
+    left_out: bool
+    mattered: bool
+    number: float
+    sentence: str
+    doubtful: bool = False
+    bearings: tuple[str, ...] = ()
+
+    @property
+    def is_missing(self) -> bool:
+        """Whether the run should be repeated with what it left out."""
+        return self.left_out and self.mattered
+
+    @property
+    def is_marked(self) -> bool:
+        """Whether it asks to be looked at."""
+        return self.is_missing or self.doubtful
+
+    @property
+    def line(self) -> str:
+        """It as text; "!" begins what is marked."""
+        return f"{'! ' if self.is_marked else '  '}{self.sentence}"
+
+
+class Findings(tuple[Finding, ...]):
+    """Findings of a run, which print as text and as a table in a notebook."""
+
+    __slots__ = ()
+
+    def lines(self) -> list[str]:
+        """Return a line a finding: what was left out first, then what was modelled."""
+        return [found.line for found in sorted(self, key=lambda found: not found.left_out)]
+
+    def doubts(self) -> tuple[str, ...]:
+        """Return the sentences of those that are marked, in the same order."""
+        return tuple(line[2:] for line in self.lines() if line.startswith("! "))
+
+    def attrs(self) -> dict[str, str]:
+        """Return them as attributes of a Dataset: as text for people, and to be read again."""
+        return {"audit": repr(self), "findings": json.dumps(self.plain())}
+
+    def plain(self) -> list[dict[str, Any]]:
+        """Return them as JSON takes them, without what is not so: `findings_from` reads it."""
+        return [{name: value for name, value in asdict(one).items() if value} for one in self]
+
+    def __repr__(self) -> str:
+        """Return a line a finding; "!" begins warnings."""
+        return "\n".join(self.lines())
+
+    def _repr_html_(self) -> str:
+        rows = [tuple(line.split(": ", 1)) for line in self.lines()]
+        return html_table("check of modelling assumptions", rows)
+
+
+def findings_of(data: xr.Dataset) -> Findings:
+    """Return what the assumption check of a result found when it was run."""
+    found = data.attrs.get("findings")
+    if found is not None:
+        return findings_from(json.loads(found))
+    return Findings(map(_of_line, str(data.attrs.get("audit", "")).splitlines()))
+
+
+def findings_from(found: Iterable[dict[str, Any]]) -> Findings:
+    """Return findings from what `Findings.plain` gave, through JSON or not."""
+    nothing = {"left_out": False, "mattered": False, "number": 0.0, "bearings": ()}
+    whole = ({**nothing, **one} for one in found)
+    return Findings(Finding(**one | {"bearings": tuple(one["bearings"])}) for one in whole)
+
+
+def doubts_of(data: xr.Dataset) -> tuple[str, ...]:
+    """Return what the assumption check of a result marks, a sentence each."""
+    return findings_of(data).doubts()
+
+
+def _of_line(line: str) -> Finding:
+    # Of a file from before findings were kept beside their text.
+    sentence = line[2:]
+    name = sentence.partition(":")[0].removesuffix(" left out")
+    return Finding(
+        feature=name.replace(" ", "_"),
+        left_out=False,
+        mattered=False,
+        number=float("nan"),
+        sentence=sentence,
+        doubtful=line.startswith("! "),
+    )
+
+
+def finding(
+    feature: str,
+    out: bool,
+    mattered: bool,
+    number: float,
+    text: str,
+    *,
+    doubtful: object = False,
+    bearings: Iterable[object] = (),
+) -> Finding:
+    """Return what was found on a feature that was left out or not, in a sentence with its name."""
+    label = feature.replace("_", " ")
+    if out:
+        sentence = f"{label} left out: {text}"
+    else:
+        sentence = f"{label}: {text}" if mattered else f"{label}: not needed, {text}"
+    return Finding(
+        feature=feature,
+        left_out=out,
+        mattered=bool(mattered),
+        number=number,
+        sentence=sentence,
+        doubtful=bool(doubtful),
+        bearings=tuple(str(name) for name in bearings),
+    )
+
+
+def remark(feature: str, number: float, sentence: str, *, doubtful: bool) -> Finding:
+    """Return what was found on the numbers of a run, not on what it left out."""
+    return Finding(
+        feature=feature,
+        left_out=False,
+        mattered=doubtful,
+        number=number,
+        sentence=sentence,
+        doubtful=doubtful,
+    )
+
+
+def by_whom(happened: Extreme) -> str:
+    """Say of a quantity (bearing,), 1 once it happens: "3 of 9 bearings, first at 4.17 s"."""
+    those = happened.values > 0.0
+    first = float(happened.at[those].min())
+    return f"{int(those.sum())} of {len(those)} bearings, first at {first:.2f} s"
+
+
+def percent(value: float, digits: int = 0) -> str:
+    """Return a share in words."""
+    return f"{100.0 * value:.{digits}f} %" if value < 10.0 else "more than 1000 %"
