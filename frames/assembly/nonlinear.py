@@ -11,18 +11,7 @@ from scipy import sparse
 
 from frames.assembly.end_zones import at_ends
 from frames.assembly.members import local_geometric_stiffness, local_stiffness
-from frames.assembly.nonlinear_parts import NonlinearParts
-from frames.model.laws import (
-    Bilinear,
-    BoucWen,
-    Gap,
-    Law,
-    PlasticHinge,
-    Tie,
-    ViscousDamper,
-    elastic_stiffness,
-)
-from frames.nonlinear_layout import (
+from frames.assembly.nonlinear_parts import (
     BILINEAR,
     BOUC_WEN,
     CONSTANTS,
@@ -35,6 +24,17 @@ from frames.nonlinear_layout import (
     STRIDE,
     TIE,
     VISCOUS,
+    NonlinearParts,
+)
+from frames.model.laws import (
+    Bilinear,
+    BoucWen,
+    Gap,
+    Law,
+    PlasticHinge,
+    Tie,
+    ViscousDamper,
+    elastic_stiffness,
 )
 
 if TYPE_CHECKING:

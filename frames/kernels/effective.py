@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined
 
 if TYPE_CHECKING:
-    from frames.kernel_data import IntegratorSettings
+    from frames.bundles.run_data import IntegratorSettings
 
 
 @inlined

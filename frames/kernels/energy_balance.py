@@ -15,8 +15,9 @@ from lir_element.kernels.linear import dot, set_product
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Ground, IntegrationState, ReducedModel
-    from frames.nonlinear_data import NonlinearElements
+    from frames.bundles.model_data import ReducedModel
+    from frames.bundles.nonlinear_data import NonlinearElements
+    from frames.bundles.run_data import Ground, IntegrationState
     from lir_element.layout import Floats
 
 

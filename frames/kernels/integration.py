@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames._jit import expanded, inlined, kernel
-from frames.kernel_data import MOST_HALVINGS
+from frames.bundles.run_data import MOST_HALVINGS
 from frames.kernels.coupling import coupled_load, eliminate_modes
 from frames.kernels.effective import effective, rates_after
 from frames.kernels.energy_balance import add_bearing_energy, add_energy, add_part_energy
@@ -25,14 +25,9 @@ from lir_element.kernels.pendulum.trial import copy_words
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
-    from frames.kernel_data import (
-        Ground,
-        IntegrationState,
-        IntegratorSettings,
-        Output,
-        ReducedModel,
-    )
-    from frames.nonlinear_data import NonlinearElements
+    from frames.bundles.model_data import ReducedModel
+    from frames.bundles.nonlinear_data import NonlinearElements
+    from frames.bundles.run_data import Ground, IntegrationState, IntegratorSettings, Output
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
 
@@ -236,7 +231,7 @@ def try_step(
         run.step[a] = clock.dt * run.mean_v_b[a]
     foreseen = clock.kept == clock.halvings + 1 and clock.dt_before > 0.0
     if parts is not None:
-        foreseen = foreseen and parts.number[0] == 0
+        foreseen = foreseen and parts.counts[0].active == 0
         begin_parts(model, run, parts, settings)
     if foreseen:
         predict(model, run, run.reduced[clock.halvings], 1.0 - settings.alpha_f)

@@ -5,9 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
-from frames.kernels.effective import rates_after
-from frames.kernels.hinges import place, set_forces
-from frames.nonlinear_layout import (
+from frames.assembly.nonlinear_parts import (
     HERTZ,
     HINGES,
     MAXWELL,
@@ -16,9 +14,11 @@ from frames.nonlinear_layout import (
     VISCOUS,
     WORK_DONE,
 )
+from frames.kernels.effective import rates_after
+from frames.kernels.hinges import place, set_forces
 
 if TYPE_CHECKING:
-    from frames.nonlinear_data import NonlinearElements
+    from frames.bundles.nonlinear_data import NonlinearElements
     from lir_element.layout import Floats
 
 
@@ -65,7 +65,7 @@ def add_part_work(parts: NonlinearElements) -> None:
 def commit_parts(parts: NonlinearElements, beta: float, gamma: float, dt: float) -> None:
     """Accept the trial state of all parts, and their forces in frame coordinates."""
     add_part_work(parts)
-    for n in range(parts.number[0]):
+    for n in range(parts.counts[0].active):
         i = parts.active[n]
         change = parts.change[i]
         if change != 0.0:
@@ -94,7 +94,7 @@ def part_energy_on(load: Floats, parts: NonlinearElements, to: Floats, step: Flo
     total = 0.0
     for a in range(step.shape[0]):
         total += load[a] * step[a]
-    for n in range(parts.number[0]):
+    for n in range(parts.counts[0].active):
         i = parts.active[n]
         value = 0.5 * parts.change[i]
         if value != 0.0:

@@ -10,15 +10,16 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
+from frames.assembly.nonlinear_parts import BOUC_WEN, HINGES, WIDEST
 from frames.kernels.effective import effective
 from frames.kernels.hinges import turn_hinges
 from frames.kernels.laws import uniaxial
-from frames.nonlinear_layout import BOUC_WEN, HINGES, WIDEST
 from lir_element.kernels.linear import add_product, set_product
 
 if TYPE_CHECKING:
-    from frames.kernel_data import IntegrationState, IntegratorSettings, ReducedModel
-    from frames.nonlinear_data import NonlinearElements
+    from frames.bundles.model_data import ReducedModel
+    from frames.bundles.nonlinear_data import NonlinearElements
+    from frames.bundles.run_data import IntegrationState, IntegratorSettings
     from lir_element.layout import Floats, Words
 
 
@@ -76,7 +77,11 @@ def part_trial(
 @inlined
 def try_part(parts: NonlinearElements, k: int, dt: float) -> int:
     """Run part `k` at its deformations, with the speeds that the time integration implies."""
-    speed, known_v, known_a = parts.scheme[0], parts.scheme[1], parts.scheme[2]
+    speed, known_v, known_a = (
+        parts.scheme[0].speed,
+        parts.scheme[0].known_v,
+        parts.scheme[0].known_a,
+    )
     if parts.kind[k] != HINGES:  # those have no use for it
         i = parts.first[k]
         parts.v[i] = (
@@ -271,7 +276,7 @@ def row_of(model: ReducedModel, run: IntegrationState, parts: NonlinearElements,
     place = parts.slot[at, i]
     if place > 0:
         return int(place - 1)
-    place, share = parts.number[1], parts.scheme[3]
+    place, share = parts.counts[0].rows, parts.scheme[0].share
     flow_row(
         parts.push_e[i],
         parts.still[i],
@@ -282,5 +287,5 @@ def row_of(model: ReducedModel, run: IntegrationState, parts: NonlinearElements,
         parts.modes[1],
     )
     parts.slot[at, i] = place + 1
-    parts.number[1] = place + 1
+    parts.counts[0].rows = place + 1
     return int(place)

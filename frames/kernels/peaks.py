@@ -9,7 +9,8 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
-from frames.kernel_data import ENERGY_TERMS
+from frames.bundles.peak_data import LOOSE
+from frames.bundles.run_data import ENERGY_TERMS
 from frames.kernels.quantities import (
     balance_gap,
     closing_speed,
@@ -17,7 +18,6 @@ from frames.kernels.quantities import (
     size,
     sliding_power,
 )
-from frames.peak_data import LOOSE
 from lir_element.kernels.derived import in_plan
 from lir_element.kernels.friction_law import lowered
 from lir_element.kernels.sampling import ground_acceleration
@@ -25,8 +25,8 @@ from lir_element.kernels.sampling import ground_acceleration
 if TYPE_CHECKING:
     from typing import Any
 
-    from frames.kernel_data import Ground, Output
-    from frames.peak_data import Devices, Reached, Shape
+    from frames.bundles.peak_data import Devices, Reached, Shape
+    from frames.bundles.run_data import Ground, Output
     from lir_element.layout import Floats, Props, Records, State
 
 AT_ONCE = 4

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from numpy import absolute, maximum, sqrt
 
 from frames._jit import inlined
-from frames.peak_data import FULL_SLIP, LEAST_SHARE, LOADED, PRESSED
+from frames.bundles.peak_data import FULL_SLIP, LEAST_SHARE, LOADED, PRESSED
 from lir_element.kernels.derived import eccentricity, in_plan, in_space, resultant_offset
 
 if TYPE_CHECKING:

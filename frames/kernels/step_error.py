@@ -16,8 +16,9 @@ _MOST_LATE = 2.0  # of the friction force: it has turned round
 _APART = 8  # steps, of which a run with a fixed step looks at the last two: they cost it 1 to 2 %
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Ground, IntegrationState, IntegratorSettings, ReducedModel
-    from frames.nonlinear_data import NonlinearElements
+    from frames.bundles.model_data import ReducedModel
+    from frames.bundles.nonlinear_data import NonlinearElements
+    from frames.bundles.run_data import Ground, IntegrationState, IntegratorSettings
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
 

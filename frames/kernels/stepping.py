@@ -34,8 +34,9 @@ from lir_element.kernels.linear import (
 from lir_element.kernels.pendulum.trial import has_no_state
 
 if TYPE_CHECKING:
-    from frames.kernel_data import IntegrationState, ReducedModel
-    from frames.nonlinear_data import NonlinearElements
+    from frames.bundles.model_data import ReducedModel
+    from frames.bundles.nonlinear_data import NonlinearElements
+    from frames.bundles.run_data import IntegrationState
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Floats
 
@@ -48,6 +49,7 @@ _PATIENCE = 3  # tries: then a residual that rises a little does, past a corner 
 _RISE = 2.0  # of the residual that is little (a choice)
 _GUESS, _REST, _BACK, _CORRECTED = range(4)  # what Newton's method looks at
 _KEPT, _SHARED, _WHOLE = range(3)  # what of the tangent is renewed
+_TAKE, _SHORTEN, _LEAVE = range(3)  # what is done with a corrected step
 _GRAVITY_WORTH = 3.0  # iterations that save a tangent of all coordinates under permanent loads
 
 
@@ -278,6 +280,75 @@ def renew_tangent(
 
 
 @inlined
+def set_trial(run: IntegrationState, corrected: bool, factor: float) -> None:
+    """Set the step that is tried: `run.step`, or `run.g_b` with a share of the correction."""
+    if corrected:
+        for a in range(run.step.shape[0]):
+            run.g_b[a] = run.step[a] + factor * run.h_b[a]
+    for a in range(run.linear_step.shape[0]):
+        change = factor * run.linear_change[a] if corrected else 0.0
+        run.linear_trial[a] = run.linear_step[a] + change
+
+
+@kernel
+def judge_correction(new: float, size: float, need: int, tries: int) -> int:
+    """Return whether to take a corrected step of residual `new`, before it `size`.
+
+    A step of a new tangent that does not reduce the residual is shortened; one of a kept tangent is
+    left for one of a newer tangent.
+    """
+    good = new < size or (tries > _PATIENCE and new < _RISE * size)
+    if not good and need == _WHOLE and tries < _TRIES:
+        return _SHORTEN
+    return _LEAVE if need != _WHOLE and not new < size else _TAKE
+
+
+@kernel
+def needed_tangent(
+    new: float,
+    size: float,
+    need: int,
+    less: int,
+    tolerance: float,
+    worth: float,
+    shared_worth: float,
+) -> int:
+    """Return what of the tangent to renew after a residual fell from `size` to `new`.
+
+    It is kept while it serves: while it would take less than `worth` further iterations; first,
+    where bearings share coordinates, what belongs to these alone is renewed, from `shared_worth`
+    iterations on.
+    """
+    fall = new / size
+    if new * fall**shared_worth <= tolerance:
+        return _KEPT
+    return _WHOLE if need == _SHARED and not new * fall**worth <= tolerance else less
+
+
+@inlined
+def set_correction(model: ReducedModel, run: IntegrationState, share: float, secants: int) -> int:
+    """Set Newton's correction `run.h_b` with the present tangent.
+
+    Returns how many corrections of this step are remembered, given how many were.
+    """
+    copy(run.residual, run.h_b)
+    if model.shared.shape[0] == 0:
+        substitute(run.tangent, run.order, run.h_b)
+        return secants
+    copy(run.residual, run.linear_change)
+    solve_tangent(model, run, share, run.h_b)
+    return with_secants(
+        run.weights,
+        run.corrections,
+        run.corrections_linear,
+        run.corrections_size,
+        secants,
+        run.h_b,
+        run.linear_change,
+    )
+
+
+@inlined
 def newton(
     model: ReducedModel,
     run: IntegrationState,
@@ -293,56 +364,38 @@ def newton(
     """Find ``run.step`` with a residual below `tolerance`; returns a status code.
 
     `run.step` holds the first guess. The tangent is kept from step to step and from iteration to
-    iteration while it serves: it is renewed where the residual falls so slowly that it would take
-    more than `worth` further iterations; first, where bearings share coordinates, what belongs to
-    these alone, from `shared_worth` iterations on. A step of a new tangent that does not reduce the
-    residual is shortened.
+    iteration while it serves (`needed_tangent`).
     """
-    n_b = run.step.shape[0]
     clock = run.clock[0]
     need = _KEPT if clock.kept == clock.halvings + 1 else _WHOLE
     less = _SHARED if model.shared.shape[0] > 0 else _WHOLE
     size, factor = math.inf, 1.0
     at, tries, passes, secants = _GUESS, 0, 0, 0
     while True:  # one place where the bearings are run: they are its code
-        if at == _CORRECTED:
-            for a in range(n_b):
-                run.g_b[a] = run.step[a] + factor * run.h_b[a]
-        for a in range(run.linear_step.shape[0]):
-            change = factor * run.linear_change[a] if at == _CORRECTED else 0.0
-            run.linear_trial[a] = run.linear_step[a] + change
+        set_trial(run, at == _CORRECTED, factor)
         trial = run.g_b if at == _CORRECTED else run.step
         new = set_residual(model, run, contacts, parts, linear, trial, share)
         if at == _GUESS and new == math.inf:  # start from rest instead
             at = _REST
-            for a in range(n_b):
-                run.step[a] = 0.0
-            for a in range(run.linear_step.shape[0]):
-                run.linear_step[a] = 0.0
+            run.step[:] = 0.0
+            run.linear_step[:] = 0.0
             continue
         if at == _CORRECTED:
             tries += 1
-            good = new < size or (tries > _PATIENCE and new < _RISE * size)
-            if not good and need == _WHOLE and tries < _TRIES:
+            found = judge_correction(new, size, need, tries)
+            if found == _SHORTEN:
                 factor *= _SHORTER
                 continue
-            if need != _WHOLE and not new < size:  # back to where it was, with a newer tangent
+            if found == _LEAVE:  # back to where it was
                 need = less if need == _KEPT else _WHOLE
                 at = _BACK
                 continue
         if new == math.inf and at != _BACK:
             return run.counts[0].code if has_no_state(run.counts[0].code) else _NEWTON_FAILED
         if at == _CORRECTED:
-            for a in range(n_b):
-                run.step[a] = run.g_b[a]
+            copy(run.g_b, run.step)
             copy(run.linear_trial, run.linear_step)
-            fall = new / size
-            if new * fall**shared_worth <= tolerance:
-                need = _KEPT
-            elif need == _SHARED and not new * fall**worth <= tolerance:
-                need = _WHOLE
-            else:
-                need = less
+            need = needed_tangent(new, size, need, less, tolerance, worth, shared_worth)
         if at != _BACK:
             size = new
         if passes == max_iterations:
@@ -358,22 +411,7 @@ def newton(
             if not renew_tangent(model, run, contacts, parts, linear, share, need == _WHOLE):
                 return _SINGULAR
             clock.kept = clock.halvings + 1
-        for a in range(n_b):
-            run.h_b[a] = run.residual[a]
-        if model.shared.shape[0] > 0:
-            copy(run.residual, run.linear_change)
-            solve_tangent(model, run, share, run.h_b)
-            secants = with_secants(
-                run.weights,
-                run.corrections,
-                run.corrections_linear,
-                run.corrections_size,
-                secants,
-                run.h_b,
-                run.linear_change,
-            )
-        else:
-            substitute(run.tangent, run.order, run.h_b)
+        secants = set_correction(model, run, share, secants)
         at, tries, factor = _CORRECTED, 0, 1.0
 
 

@@ -25,8 +25,9 @@ from frames.kernels.part_states import (
 from lir_element.kernels.linear import add_product, factorise, substitute, substitute_many
 
 if TYPE_CHECKING:
-    from frames.kernel_data import IntegrationState, IntegratorSettings, ReducedModel
-    from frames.nonlinear_data import NonlinearElements
+    from frames.bundles.model_data import ReducedModel
+    from frames.bundles.nonlinear_data import NonlinearElements
+    from frames.bundles.run_data import IntegrationState, IntegratorSettings
     from lir_element.layout import Floats
 
 _MOST = 40  # iterations over the loose parts
@@ -53,19 +54,19 @@ def begin_parts(
     """
     dt, before = run.clock[0].dt, run.clock[0].dt_before
     c_m, c_c, c_k = effective(settings, dt)
-    parts.scheme[0] = settings.gamma / (settings.beta * dt)
-    parts.scheme[1] = 1.0 - settings.gamma / settings.beta
-    parts.scheme[2] = dt * (1.0 - 0.5 * settings.gamma / settings.beta)
-    parts.scheme[3] = c_k
-    parts.scheme[4] = _CLOSER * settings.force_tolerance
+    parts.scheme[0].speed = settings.gamma / (settings.beta * dt)
+    parts.scheme[0].known_v = 1.0 - settings.gamma / settings.beta
+    parts.scheme[0].known_a = dt * (1.0 - 0.5 * settings.gamma / settings.beta)
+    parts.scheme[0].share = c_k
+    parts.scheme[0].tolerance = _CLOSER * settings.force_tolerance
     set_mode_flexibility(model, parts, c_m, c_c, c_k)
     for i in range(parts.d.shape[0]):
         parts.known[i] = parts.d_old[i]
         parts.change[i] = 0.0
     add_product(parts.of_e, run.h_e, 1.0, parts.known)
-    parts.number[0] = 0
+    parts.counts[0].active = 0
     if run.clock[0].kept != run.clock[0].halvings + 1:
-        parts.number[3] = 0  # gains are those of a tangent
+        parts.counts[0].gains = 0  # gains are those of a tangent
     for a in range(parts.at.shape[0]):
         parts.at[a] = run.step[a]
     ratio = dt / before if before > 0.0 else 0.0
@@ -79,9 +80,9 @@ def begin_parts(
             for i in range(parts.first[k], parts.first[k + 1]):
                 parts.guess[i] = ratio * parts.flow_old[i]
     m = parts.d.shape[0]
-    if parts.number[1] + m > parts.pool.shape[0]:  # room for a row each
+    if parts.counts[0].rows + m > parts.pool.shape[0]:  # room for a row each
         parts.slot[:, :] = 0
-        parts.number[1] = 0
+        parts.counts[0].rows = 0
 
 
 @inlined
@@ -89,9 +90,9 @@ def activate(parts: NonlinearElements, k: int) -> None:
     """Add a part to the loose ones."""
     parts.loose[k] = 1
     for i in range(parts.first[k], parts.first[k + 1]):
-        parts.active[parts.number[0]] = i
+        parts.active[parts.counts[0].active] = i
         parts.guess[i] = 0.0
-        parts.number[0] += 1
+        parts.counts[0].active += 1
 
 
 @inlined
@@ -104,7 +105,7 @@ def add_flows(
 ) -> bool:
     """Add the deformations by `flow` (m,) of the loose parts; returns whether there is any."""
     count = 0
-    for n in range(parts.number[0]):
+    for n in range(parts.counts[0].active):
         i = parts.active[n]
         if flow[i] != 0.0:
             parts.place[count] = row_of(model, run, parts, i)
@@ -127,7 +128,7 @@ def try_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElemen
         parts.framed[i] = parts.linear[i]
     add_flows(model, run, parts, parts.flow, parts.framed)
     size = 0.0
-    for n in range(parts.number[0]):
+    for n in range(parts.counts[0].active):
         i = parts.active[n]
         gap = abs(parts.framed[i] - parts.d[i]) * parts.scale[i]
         if parts.stiff[i] > 0.0:
@@ -146,20 +147,20 @@ def list_live(model: ReducedModel, run: IntegrationState, parts: NonlinearElemen
 
     Returns whether they are those of the factors that are kept, at the present step size.
     """
-    count, same = 0, parts.number[5] == run.clock[0].halvings + 1
-    for n in range(parts.number[0]):
+    count, same = 0, parts.counts[0].at_halvings == run.clock[0].halvings + 1
+    for n in range(parts.counts[0].active):
         i = parts.active[n]
         k = parts.owner[i]
         changes = parts.flow[i] != parts.guess[i]
         for q in range(parts.first[k + 1] - parts.first[k]):
             changes = changes or parts.give[i, q] != 0.0
         if changes:
-            same = same and count < parts.number[4] and parts.factored[count] == i
+            same = same and count < parts.counts[0].factors and parts.factored[count] == i
             parts.live[count] = i
             parts.place[count] = row_of(model, run, parts, i)
             count += 1
-    parts.number[2] = count
-    return bool(same and count == parts.number[4])
+    parts.counts[0].live = count
+    return bool(same and count == parts.counts[0].factors)
 
 
 @inlined
@@ -169,7 +170,7 @@ def factorise_parts(run: IntegrationState, parts: NonlinearElements) -> bool:
     It is ``1 + give F``, F the deformations by flows: that of a step of Newton's method, its
     columns one after the other.
     """
-    count = parts.number[2]
+    count = parts.counts[0].live
     for p in range(count):
         column = parts.matrix[p * count : (p + 1) * count]
         weigh_row(
@@ -183,10 +184,10 @@ def factorise_parts(run: IntegrationState, parts: NonlinearElements) -> bool:
         )
         column[p] += 1.0
         parts.factored[p] = parts.live[p]
-    parts.number[4], parts.number[5] = count, run.clock[0].halvings + 1
+    parts.counts[0].factors, parts.counts[0].at_halvings = count, run.clock[0].halvings + 1
     if factorise(parts.matrix[: count * count].reshape((count, count)), parts.order):
         return True
-    parts.number[5] = 0
+    parts.counts[0].at_halvings = 0
     return False
 
 
@@ -202,7 +203,7 @@ def set_newton_step(
     kept = list_live(model, run, parts) and keep
     if not kept and not factorise_parts(run, parts):
         return -1
-    count = parts.number[2]
+    count = parts.counts[0].live
     for n in range(count):
         parts.vector[n] = parts.guess[parts.live[n]] - parts.flow[parts.live[n]]
     factors = parts.matrix[: count * count].reshape((count, count))
@@ -218,9 +219,9 @@ def set_newton_step(
 @inlined
 def go_along(parts: NonlinearElements, share: float) -> None:
     """Move the loose deformations and the guessed flows by a share of Newton's step."""
-    for n in range(parts.number[0]):
+    for n in range(parts.counts[0].active):
         parts.d[parts.active[n]] += share * parts.way[parts.active[n]]
-    for n in range(parts.number[2]):
+    for n in range(parts.counts[0].live):
         parts.guess[parts.live[n]] += share * parts.right[n, 0]
 
 
@@ -228,7 +229,7 @@ def go_along(parts: NonlinearElements, share: float) -> None:
 def ascent(parts: NonlinearElements) -> float:
     """Return the derivative of the potential along Newton's step; zero where it is smallest."""
     total = 0.0
-    for n in range(parts.number[0]):
+    for n in range(parts.counts[0].active):
         i = parts.active[n]
         over = parts.flow[i] - parts.guess[i]
         if over != 0.0:
@@ -268,9 +269,9 @@ def newton_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearEle
             good = good or found < _LESS * size or (up <= 0.0 and found < math.inf)
         if good or tries > _TRIES:
             if tries > 0:
-                keep = found * (found / size) ** _WORTH <= parts.scheme[4]
+                keep = found * (found / size) ** _WORTH <= parts.scheme[0].tolerance
             size = found
-            if size <= parts.scheme[4]:
+            if size <= parts.scheme[0].tolerance:
                 return True
             if size == math.inf or steps == _MOST:
                 return False
@@ -293,7 +294,7 @@ def newton_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearEle
 @inlined
 def follow_step(parts: NonlinearElements, step: Floats) -> None:
     """Guess how the loose parts flow at a step of b from how they did at the one tried before."""
-    for n in range(parts.number[3]):
+    for n in range(parts.counts[0].gains):
         i = parts.gained[n]
         if parts.loose[parts.owner[i]] == 1 and parts.flow[i] != 0.0:
             total = 0.0
@@ -315,8 +316,8 @@ def start_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElem
 @inlined
 def forget_guess(parts: NonlinearElements) -> None:
     """Guess that nothing flows, whatever b does."""
-    parts.number[3] = 0
-    for n in range(parts.number[0]):
+    parts.counts[0].gains = 0
+    for n in range(parts.counts[0].active):
         parts.guess[parts.active[n]] = 0.0
 
 
@@ -336,7 +337,7 @@ def settle_parts(
         if begin:
             guessed = start_loose(model, run, parts)
             begin = False
-        if parts.number[0] > 0 and not newton_loose(model, run, parts):
+        if parts.counts[0].active > 0 and not newton_loose(model, run, parts):
             forget_guess(parts)  # no guess for what is tried next
             if not guessed:
                 return False
@@ -354,7 +355,7 @@ def settle_parts(
                     activate(parts, k)
                     more = True
         if not more:
-            for n in range(parts.number[0]):  # what the frame has: so no errors add up
+            for n in range(parts.counts[0].active):  # what the frame has: so no errors add up
                 i = parts.active[n]
                 parts.d[i], parts.guess[i] = parts.framed[i], parts.flow[i]
             set_changes(parts)
@@ -367,9 +368,9 @@ def settle_parts(
 def add_part_forces(run: IntegrationState, parts: NonlinearElements, out: Floats) -> None:
     """Take the change of the forces g from a residual of b."""
     follow = parts.follow[run.clock[0].halvings]
-    for n in range(parts.number[0]):
+    for n in range(parts.counts[0].active):
         i = parts.active[n]
-        value = parts.scheme[3] * parts.change[i]
+        value = parts.scheme[0].share * parts.change[i]
         if value != 0.0:
             for a in range(out.shape[0]):
                 out[a] -= value * follow[i, a]
@@ -378,15 +379,15 @@ def add_part_forces(run: IntegrationState, parts: NonlinearElements, out: Floats
 @inlined
 def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Add what the loose parts do to ``run.tangent``; returns False where they are singular."""
-    parts.number[3] = 0
-    if parts.number[0] == 0:
+    parts.counts[0].gains = 0
+    if parts.counts[0].active == 0:
         return True
     n_b = run.step.shape[0]
     follow = parts.follow[run.clock[0].halvings]
     list_live(model, run, parts)
     if not factorise_parts(run, parts):
         return False
-    count = parts.number[2]
+    count = parts.counts[0].live
     for n in range(count):
         i = parts.live[n]
         at, end = parts.first[parts.owner[i]], parts.first[parts.owner[i] + 1]
@@ -403,11 +404,11 @@ def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: Nonlinea
         parts.gained[n] = parts.live[n]
         for a in range(n_b):
             parts.gain[n, a] = parts.right[n, a]
-    parts.number[3] = count
+    parts.counts[0].gains = count
     lead = parts.lead[run.clock[0].halvings]
     for n in range(count):
         for a in range(n_b):
-            value = parts.scheme[3] * pushed(parts, parts.live[n], lead[a])
+            value = parts.scheme[0].share * pushed(parts, parts.live[n], lead[a])
             for c in range(n_b):
                 run.tangent[a, c] += value * parts.right[n, c]
     return True
@@ -416,9 +417,9 @@ def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: Nonlinea
 @inlined
 def part_load_on_modes(parts: NonlinearElements, out: Floats) -> None:
     """Take the change of the forces g from loads on the modes."""
-    for n in range(parts.number[0]):
+    for n in range(parts.counts[0].active):
         i = parts.active[n]
-        value = parts.scheme[3] * parts.change[i]
+        value = parts.scheme[0].share * parts.change[i]
         if value != 0.0:
             for k in range(out.shape[0]):
                 out[k] -= value * parts.to_e[i, k]

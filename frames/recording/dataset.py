@@ -9,7 +9,8 @@ import xarray as xr
 
 from frames.assembly.assemble import node_geometric_stiffness
 from frames.assembly.basis import bearing_rows
-from frames.kernel_data import ENERGY_TERMS, device_records
+from frames.bundles.model_data import device_records
+from frames.bundles.run_data import ENERGY_TERMS
 from frames.model.components import DOFS
 from frames.recording.nonlinear_results import part_coordinates, part_variables
 from frames.recording.section_cuts import storey_rows
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.assembly.assemble import System
-    from frames.kernel_data import Ground, Output
+    from frames.bundles.run_data import Ground, Output
     from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.statics.gravity import GravityState

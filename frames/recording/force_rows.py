@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.assembly.system import MemberTable, System
-    from frames.kernel_data import Output
+    from frames.bundles.run_data import Output
     from frames.model.components import Level
     from frames.model.frame_data import FrameData
     from frames.statics.gravity import GravityState

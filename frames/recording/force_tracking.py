@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
-    from frames.kernel_data import Output
+    from frames.bundles.run_data import Output
     from frames.recording.force_rows import ForceKind, ForceMaps
     from lir_element.layout import Records
 

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.assembly.nonlinear_parts import N_PLASTIC, WORK_DONE
 from frames.kernels.hinges import place
 from frames.model.components import hinge_name, hinged_ends
-from frames.nonlinear_layout import N_PLASTIC, WORK_DONE
 from frames.results.recorded import require_recorded
 from lir_element.results.dataset import labelled
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.nonlinear_parts import NonlinearParts
     from frames.assembly.system import System
-    from frames.kernel_data import Output
+    from frames.bundles.run_data import Output
     from frames.model.components import HingedEnd
     from frames.model.frame_data import FrameData
 

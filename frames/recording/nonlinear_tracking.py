@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.assembly.nonlinear_parts import N_PLASTIC, WORK_DONE
 from frames.model.components import hinged_ends
-from frames.nonlinear_layout import N_PLASTIC, WORK_DONE
 from frames.results.peak_response import Extreme, extreme_of, later
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
-    from frames.kernel_data import Output
+    from frames.bundles.run_data import Output
     from frames.model.frame_data import FrameData
     from frames.statics.gravity import GravityState
 

@@ -12,14 +12,14 @@ import numpy as np
 from scipy import sparse
 
 from frames.assembly.assemble import node_geometric_stiffness
-from frames.kernel_data import device_records
+from frames.bundles.model_data import device_records
+from frames.bundles.peak_data import Devices, Reached, Shape
 from frames.kernels.peaks import (
     AT_ONCE,
     WHOLE_PLACES,
     peak_of_bearings,
     peak_of_structure,
 )
-from frames.peak_data import Devices, Reached, Shape
 from frames.recording.section_cuts import storey_rows
 from frames.results.measures import Lines, floor_shares, lines_of
 from frames.results.peak_response import Extreme
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray, IntArray, SparseMatrix
-    from frames.kernel_data import Ground, Output
+    from frames.bundles.run_data import Ground, Output
     from frames.statics.gravity import GravityState
     from lir_element.layout import Records
 

@@ -6,7 +6,7 @@ import math
 import os
 from typing import TYPE_CHECKING
 
-from frames.nonlinear_data import part_sizes
+from frames.bundles.nonlinear_data import part_sizes
 from lir_element.argument_checks import require_positive
 from lir_element.layout import BODIES, STATE
 from lir_element.units import TIMES, meant

@@ -9,7 +9,7 @@ import numpy as np
 from frames.recording.force_rows import element_sections
 
 if TYPE_CHECKING:
-    from frames.kernel_data import Output
+    from frames.bundles.run_data import Output
     from frames.model.frame_data import FrameData
     from frames.statics.gravity import GravityState
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from frames.peak_data import FULL_SLIP, LOOSE
+from frames.bundles.peak_data import FULL_SLIP, LOOSE
 from frames.results.bearing_findings import (
     full_contact,
     held_by_friction,

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames._jit import on_arrays
+from frames.bundles.peak_data import LOADED, PRESSED
 from frames.kernels.quantities import (
     balance_gap,
     closing_speed,
@@ -25,7 +26,6 @@ from frames.kernels.quantities import (
     slips,
     vertical_change,
 )
-from frames.peak_data import LOADED, PRESSED
 from frames.results.hinge_extremes import hinge_rotation, link_ductility, of_hinges, of_links
 from frames.results.measures import (
     ABSORBED,

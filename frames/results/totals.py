@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from frames.bundles.peak_data import LOOSE
 from frames.kernels.quantities import sliding_power
-from frames.peak_data import LOOSE
 from frames.results.quantities import formed, known, of_bearings
 from frames.results.recorded import standing
 from lir_element.kernels.friction_law import fill_left

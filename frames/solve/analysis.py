@@ -20,11 +20,11 @@ import numpy as np
 
 from frames._errors import ModelWarning
 from frames._fingerprint import fingerprint
-from frames.kernel_data import Ground, output_arrays, run_arrays
+from frames.bundles.nonlinear_data import NonlinearElements, part_sizes
+from frames.bundles.run_data import Ground, output_arrays, run_arrays
 from frames.kernels.integration import record
 from frames.model import sanity_checks
 from frames.model.superelement import Superelement
-from frames.nonlinear_data import NonlinearElements, part_sizes
 from frames.recording.dataset import build_dataset, common_of
 from frames.recording.force_rows import force_maps
 from frames.recording.peak_tracking import can_track, devices_of, places_of, shape_of
@@ -38,8 +38,8 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+    from frames.bundles.peak_data import Devices, Shape
     from frames.model.frame_data import FrameData
-    from frames.peak_data import Devices, Shape
     from frames.recording.dataset import Common
     from frames.recording.force_rows import ForceMaps
     from frames.recording.reduction import PeakState

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.kernel_data import output_arrays
+from frames.bundles.nonlinear_data import part_sizes
+from frames.bundles.run_data import output_arrays
 from frames.kernels.integration import record
-from frames.nonlinear_data import part_sizes
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.force_tracking import ForceTracker
 from frames.recording.nonlinear_tracking import PartGauge
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from frames.kernel_data import Ground, Output
+    from frames.bundles.run_data import Ground, Output
     from frames.motion.ground_motion import GroundMotion
     from frames.recording.recording import Recording
     from frames.results.peak_response import Extreme

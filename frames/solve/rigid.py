@@ -9,7 +9,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.assembly.basis import bearing_rows
-from frames.kernel_data import ENERGY_TERMS, Ground, Output, output_arrays
+from frames.bundles.run_data import ENERGY_TERMS, Ground, Output, output_arrays
 from frames.recording.dataset import build_dataset, common_of, ground_at, peak_velocity
 from frames.recording.recording import Recording, require_known
 from frames.recording.reduction import reduced

@@ -10,7 +10,7 @@ import numpy as np
 
 from frames._fingerprint import motion_digest
 from frames._provenance import provenance
-from frames.kernel_data import MOST_HALVINGS, Ground, IntegratorSettings
+from frames.bundles.run_data import MOST_HALVINGS, Ground, IntegratorSettings
 from frames.kernels.integration import integrate_chunk, record
 from frames.motion.resampling import seen_by_steps
 from frames.solve.outcome import Outcome, concluded, ended
@@ -22,7 +22,8 @@ from lir_element.interruptible import interruptible, ready
 if TYPE_CHECKING:
     import xarray as xr
 
-    from frames.kernel_data import Output, ReducedModel
+    from frames.bundles.model_data import ReducedModel
+    from frames.bundles.run_data import Output
     from frames.motion.ground_motion import GroundMotion
     from frames.recording.strain_tracking import StrainGauge
     from frames.results.findings import Findings

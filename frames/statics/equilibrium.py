@@ -8,7 +8,8 @@ import numpy as np
 
 from frames.assembly.assemble import node_geometric_stiffness
 from frames.assembly.supports import load_path
-from frames.kernel_data import IntegrationState, ReducedModel, contacts_of, model_arrays, run_arrays
+from frames.bundles.model_data import ReducedModel, contacts_of, model_arrays
+from frames.bundles.run_data import IntegrationState, run_arrays
 from frames.kernels.stepping import solve_gravity
 from frames.statics.springs import spring_forces
 from lir_element.device.friction import least_coefficients

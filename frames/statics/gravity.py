@@ -37,8 +37,9 @@ from lir_element.tables import html_table
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.assemble import System
-    from frames.kernel_data import IntegrationState, ReducedModel
-    from frames.nonlinear_data import NonlinearElements
+    from frames.bundles.model_data import ReducedModel
+    from frames.bundles.nonlinear_data import NonlinearElements
+    from frames.bundles.run_data import IntegrationState
     from lir_element import Features
     from lir_element.bundles.contact_data import Contacts
 

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
+from frames.assembly.nonlinear_parts import BOUC_WEN, HINGE, SCRATCH, STATE_SIZE, STRIDE
+from frames.bundles.nonlinear_data import parts_arrays
 from frames.kernels.hinges import is_outside, set_forces, set_stress
 from frames.model.laws import Bilinear, BoucWen
-from frames.nonlinear_data import parts_arrays
-from frames.nonlinear_layout import BOUC_WEN, HINGE, SCRATCH, STATE_SIZE, STRIDE
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.basis import Basis
     from frames.assembly.nonlinear_parts import NonlinearParts
     from frames.assembly.system import System
-    from frames.nonlinear_data import NonlinearElements
+    from frames.bundles.nonlinear_data import NonlinearElements
 
 
 def parts_at_rest(

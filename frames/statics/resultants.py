@@ -20,8 +20,8 @@ from frames.statics.accelerations import AtRest
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
-    from frames.kernel_data import Output
-    from frames.nonlinear_data import NonlinearElements
+    from frames.bundles.nonlinear_data import NonlinearElements
+    from frames.bundles.run_data import Output
     from lir_element.layout import Records
 
 RESULTANTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")

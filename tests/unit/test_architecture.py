@@ -80,6 +80,7 @@ FLOORS = (
     "frames.model",
     "frames.motion",
     "frames.assembly",
+    "frames.bundles",
     "frames.kernels",
     "frames.results",
     "frames.opensees",

@@ -16,7 +16,7 @@ import pytest
 from numba.core.dispatcher import Dispatcher
 
 import lir_element
-from frames.kernel_data import ENERGY_TERMS
+from frames.bundles.run_data import ENERGY_TERMS
 from lir_element._compile import cache
 from lir_element._compile.jit import kernels_of
 from lir_element._compile.sources import compiled_sources
@@ -353,7 +353,7 @@ def test_a_limit_on_files_ends_nothing(tmp_path: Path) -> None:
 PEAKS = """
 import numpy as np
 from frames.kernels.peaks import peak_energy
-from frames.peak_data import Reached
+from frames.bundles.peak_data import Reached
 flat = {"storey", "shear", "line", "total", "last", "axis", "whole"}
 names = [name.removesuffix("_at") for name in Reached._fields]
 sizes = [5 if name in flat else (1, 5) for name in names]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-import frames.shared_data
+import frames.bundles.model_data
 from frames import GroundMotion, moment_frame, time_history
 from frames.demo import bearing_for
 from frames.kernels.shared_tangent import (
@@ -156,7 +156,7 @@ def test_what_the_structure_makes_of_a_correction(
     frame: Frame, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The tangent's product less the bearings', which the kernel takes element by element."""
-    monkeypatch.setattr(frames.shared_data, "MANY", 10)
+    monkeypatch.setattr(frames.bundles.model_data, "MANY", 10)
     analysis._KEPT.clear()
     model = gravity(frame).model
     n_b, n_v = len(model.load_b), len(model.load_b) - len(model.shared)
@@ -209,7 +209,7 @@ def test_histories_are_the_same(case: str, frame: Frame, monkeypatch: pytest.Mon
     motion = GroundMotion(x=2.2 * scale * wave, y=1.0 * wave, z=1.5 * wave**2, dt=0.01)
     found = []
     for many in (10, 10**6):
-        monkeypatch.setattr(frames.shared_data, "MANY", many)
+        monkeypatch.setattr(frames.bundles.model_data, "MANY", many)
         analysis._KEPT.clear()
         found.append(time_history(frame, motion, **options))
     analysis._KEPT.clear()

@@ -12,9 +12,9 @@ from scipy.integrate import solve_ivp
 
 from frames import ModelError
 from frames.assembly.nonlinear import _law
+from frames.assembly.nonlinear_parts import STATE_SIZE
 from frames.kernels.laws import uniaxial
 from frames.laws import Bilinear, BoucWen, Gap, HertzGap, Pinching, Tie, ViscousDamper
-from frames.nonlinear_layout import STATE_SIZE
 
 LAWS = {
     "bilinear": Bilinear(stiffness=2e6, yield_force=1e4, hardening=0.05),

@@ -10,10 +10,10 @@ import numpy as np
 
 from frames import Frame
 from frames.assembly.assemble import assemble
+from frames.bundles.nonlinear_data import STATE_SIZE
 from frames.kernels.hinges import hinged_member
 from frames.laws import PlasticHinge
 from frames.library.moment_frames import DEFAULT_COLUMN
-from frames.nonlinear_data import STATE_SIZE
 from validation.opensees.model import advance, empty_model, lead, solver, static_steps
 from validation.opensees.nonlinear import hinged_member as hinged_in_opensees
 from validation.opensees.nonlinear import plastic_rotations

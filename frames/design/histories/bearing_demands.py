@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.bundles.peak_data import LOADED, PRESSED
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check
 from frames.design.calculation.standing import OWN, Standing
@@ -18,7 +19,6 @@ from frames.design.devices.overlap import liner_pressure, pressure
 from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.level_margins import doubted, level_errors
 from frames.design.histories.suite import names_of, peaks_of_runs
-from frames.peak_data import LOADED, PRESSED
 from frames.results.bearing_findings import IMPACT
 from frames.results.level_doubts import DOUBTED
 from frames.results.recorded import REACHED

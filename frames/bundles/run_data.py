@@ -1,4 +1,4 @@
-"""Bundles of arrays that the time loop works on, each built by one function that casts."""
+"""What the time loop changes: the state of a run, its clock and counts, and what it records."""
 
 from __future__ import annotations
 
@@ -6,20 +6,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.assembly.basis import bearing_rows
-from frames.shared_data import order_of, shared_coordinates, tangent_arrays
-from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
-from lir_element.device.features import apply
+from lir_element.bundles.contact_data import Contacts, as_rows
 from lir_element.element import heat_parts, initial_state
 from lir_element.layout import BODIES, STATE, WORK, Field, dtype_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import numpy.typing as npt
 
-    from frames.assembly.assemble import System
-    from frames.assembly.basis import Basis
+    from frames._types import FloatArray
+    from frames.bundles.model_data import ReducedModel
 
     Array = npt.NDArray[Any]
 
@@ -44,6 +39,8 @@ ENERGY_TERMS = (
     "stops",
     "numerical",
 )
+
+_SECANTS = 8  # corrections of Newton's method that are remembered within a step
 
 CLOCK_FIELDS = (
     Field("time", "s", "t", "time of the committed state"),
@@ -78,33 +75,6 @@ COUNT_FIELDS = (
 CLOCK = dtype_of(CLOCK_FIELDS)
 COUNTS = dtype_of(COUNT_FIELDS)
 LEDGER = dtype_of(tuple(Field(term, "J", "", "term of the energy") for term in ENERGY_TERMS))
-
-
-class ReducedModel(NamedTuple):
-    """The frame in bearing coordinates, and its bearings."""
-
-    mass_b: Array
-    mass_be: Array
-    mass_eb: Array
-    mass_e: Array
-    stiffness_b: Array
-    damping_b: Array  # of no size where there is none
-    omega2: Array
-    damping_e: Array
-    damping_be: Array  # full damping besides; of no size where the modes' is diagonal
-    damping_eb: Array
-    damping_ee: Array
-    load_b: Array
-    load_e: Array
-    inertia_b: Array
-    inertia_e: Array
-    props: Array
-    start: Array  # (n_bearings, 13): first entry of each row of the maps below
-    columns: Array
-    values: Array
-    place: Array  # (n_b,) of each coordinate in the tangent: those that many bearings share last
-    at: Array  # (n_b,) the coordinates by place
-    shared: Array  # (n_h,) those that many bearings share, if there are many coordinates
 
 
 class IntegrationState(NamedTuple):
@@ -219,52 +189,6 @@ class IntegratorSettings(NamedTuple):
     first: int  # base step that the first row of the output holds
 
 
-def model_arrays(system: System, basis: Basis, static_load: Array | None = None) -> ReducedModel:
-    """Return the frame as the time loop reads it; `static_load` as in `features.apply`."""
-    rows = bearing_rows(system)[:, basis.bearing_dofs].tocsr()
-    rows.sort_indices()
-    count = len(system.bearings)
-    pointers = rows.indptr.astype(np.int64)
-    start = np.zeros((count, 13), dtype=np.int64)
-    for k in range(count):
-        start[k] = pointers[12 * k : 12 * k + 13]
-
-    def plain(array: Array) -> Array:
-        return np.ascontiguousarray(array, dtype=np.float64)
-
-    shared = shared_coordinates(system, rows)
-    at = order_of(shared, rows.shape[1])
-    return ReducedModel(
-        mass_b=plain(basis.mass_b),
-        mass_be=plain(basis.mass_be),
-        mass_eb=plain(basis.mass_be.T),
-        mass_e=plain(basis.mass_e),
-        stiffness_b=plain(basis.stiffness_b),
-        damping_b=plain(basis.damping_b if basis.damping_b.any() else np.zeros((0, 0))),
-        omega2=plain(basis.omega2),
-        damping_e=plain(basis.damping_e),
-        damping_be=plain(basis.damping_be),
-        damping_eb=plain(basis.damping_be.T),
-        damping_ee=plain(basis.damping_ee),
-        load_b=plain(basis.load_b),
-        load_e=plain(basis.load_e),
-        inertia_b=plain(basis.inertia_b),
-        inertia_e=plain(basis.inertia_e),
-        props=apply(system.features, device_records(system), static_load),
-        start=start,
-        columns=rows.indices.astype(np.int64),
-        values=plain(rows.data),
-        place=np.argsort(at).astype(np.int64),
-        at=at,
-        shared=shared,
-    )
-
-
-def device_records(system: System) -> Array:
-    """Return the properties of all bearings with everything modelled."""
-    return np.concatenate([placed.bearing.to_record() for placed in system.bearings])
-
-
 def run_arrays(model: ReducedModel) -> IntegrationState:
     """Return a run at rest, bearings undeformed and unloaded."""
     n_b, n_e, count = len(model.load_b), len(model.load_e), len(model.props)
@@ -342,6 +266,36 @@ def run_arrays(model: ReducedModel) -> IntegrationState:
     )
 
 
+def tangent_arrays(n_b: int, n_h: int, bearings: int) -> dict[str, Any]:
+    """Return the arrays of an IntegrationState that hold the tangent."""
+    n_v = n_b - n_h
+    n_s = n_b if n_h else 0
+
+    def zeros(*shape: int) -> FloatArray:
+        return np.zeros(shape)
+
+    return {
+        "tangent": zeros(n_v, n_v),
+        "order": np.zeros(n_v, np.int64),
+        "across": zeros(n_h, n_v),
+        "below": zeros(n_h, n_v),
+        "corner": zeros(n_h, n_h),
+        "corner_order": np.zeros(n_h, np.int64),
+        "sorted_b": zeros(n_s),
+        "linear_step": zeros(n_s),
+        "linear_trial": zeros(n_s),
+        "linear_change": zeros(n_s),
+        "linear_before": zeros(2, n_s),
+        "flows": zeros(6, n_s),
+        "element_whole": zeros(bearings if n_h else 0, 12, 12),
+        "of_nodes": zeros(4, 12),
+        "weights": np.ones(n_s),
+        "corrections": zeros(_SECANTS, n_s),
+        "corrections_linear": zeros(_SECANTS, n_s),
+        "corrections_size": zeros(_SECANTS),
+    }
+
+
 class Output(NamedTuple):
     """What a run records, one entry an output step."""
 
@@ -388,11 +342,3 @@ def output_arrays(
         part_state=np.zeros((count, n_parts, n_state)),
     )
     return arrays, states, bodies
-
-
-def contacts_of(system: System, levels: Sequence[str]) -> Contacts | None:
-    """Return the contact points of those bearings whose level asks for them; None if none does."""
-    chosen = [level == "contact" for level in levels]
-    if not any(chosen):
-        return None
-    return contact_arrays([placed.bearing for placed in system.bearings], chosen, system.gravity)

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.kernel_data import MOST_HALVINGS
-from frames.nonlinear_layout import SCRATCH, STATE_SIZE, WIDEST
+from frames.assembly.nonlinear_parts import SCRATCH, STATE_SIZE, WIDEST
+from frames.bundles.run_data import MOST_HALVINGS
+from lir_element.layout import Field, dtype_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -19,6 +20,27 @@ if TYPE_CHECKING:
     Array = npt.NDArray[Any]
 
 _POOL = 256 * 2**20  # bytes of flexibilities kept between steps, at most
+
+
+PART_COUNTS = dtype_of(
+    (
+        Field("active", "-", "", "deformations of loose parts", (), "i8"),
+        Field("rows", "-", "", "rows that are taken of the pool", (), "i8"),
+        Field("live", "-", "", "active ones whose flow Newton's method changes", (), "i8"),
+        Field("gains", "-", "", "flows that have a gain", (), "i8"),
+        Field("factors", "-", "", "live ones of the factors in `matrix`", (), "i8"),
+        Field("at_halvings", "-", "", "1 + halvings of the step of these, 0: none", (), "i8"),
+    )
+)
+PART_SCHEME = dtype_of(
+    (
+        Field("speed", "1/s", "", "speed at the end of a step by its deformation"),
+        Field("known_v", "-", "", "of that speed, by the committed one"),
+        Field("known_a", "s", "", "and by the committed acceleration"),
+        Field("share", "-", "", "of the forces at the end of the step that count"),
+        Field("tolerance", "N", "", "what parts may lack of their equilibrium"),
+    )
+)
 
 
 class NonlinearElements(NamedTuple):
@@ -55,9 +77,7 @@ class NonlinearElements(NamedTuple):
     active: Array  # (m,) deformations of loose parts
     live: Array  # (m,) those of them that a step of Newton's method changes the flow of
     place: Array  # (m,) places in the pool
-    number: (
-        Array  # (6,) active, rows in the pool, live, gains; live ones of the factors, their step
-    )
+    counts: Array  # (1,) PART_COUNTS
     gain: Array  # (m, n_b) flows by a step of b, as the last tangent has them
     gained: Array  # (m,) flows that have a gain
     factored: Array  # (m,) live ones of the factors in `matrix`
@@ -83,7 +103,7 @@ class NonlinearElements(NamedTuple):
     small: Array  # SCRATCH, of a hinged member
     vector: Array  # (m,) scratch
     modes: Array  # (2, n_e) scratch
-    scheme: Array  # (5,) speed over deformation, what is known of it, share of the end, tolerance
+    scheme: Array  # (1,) PART_SCHEME
     work: Array  # (4,) of yielding, of dampers, of stops; all work on the linear structure [J]
 
 
@@ -132,7 +152,7 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Non
         active=np.zeros(m, np.int64),
         live=np.zeros(m, np.int64),
         place=np.zeros(m, np.int64),
-        number=np.zeros(6, np.int64),
+        counts=np.zeros(1, dtype=PART_COUNTS),
         gain=np.zeros((m, n_b)),
         gained=np.zeros(m, np.int64),
         factored=np.zeros(m, np.int64),
@@ -158,7 +178,7 @@ def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> Non
         small=np.zeros(SCRATCH),
         vector=each(),
         modes=np.zeros((2, n_e)),
-        scheme=np.zeros(5),
+        scheme=np.zeros(1, dtype=PART_SCHEME),
         work=np.zeros(4),
     )
 
