@@ -8,19 +8,18 @@ import numpy as np
 from scipy import sparse
 
 from frames.assembly.check import check_connections, check_mass, check_restraint
-from frames.assembly.constraints import free_dofs
-from frames.assembly.elimination import eliminate, separate_massless
-from frames.assembly.end_zones import at_ends, rigid_arms
+from frames.assembly.constraints import eliminate, free_dofs, separate_massless
+from frames.assembly.loads import lumped_masses, permanent_loads, span_end_forces
 from frames.assembly.members import (
+    at_ends,
     fixed_end_forces,
     local_stiffness,
     member_arrays,
     released,
+    rigid_arms,
     spring_stiffness,
 )
-from frames.assembly.node_loads import lumped_masses, permanent_loads
 from frames.assembly.nonlinear import nonlinear_parts
-from frames.assembly.span_loads import span_end_forces
 from frames.assembly.system import MemberTable as MemberTable
 from frames.assembly.system import PlacedBearing, element_dofs
 from frames.assembly.system import System as System

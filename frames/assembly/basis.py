@@ -18,9 +18,9 @@ from scipy import linalg, sparse
 
 from frames._errors import ModelError
 from frames.assembly.coordinates import Basis as Basis
-from frames.assembly.dense_solver import solve_positive
-from frames.assembly.matrix_damping import with_matrix_damping
+from frames.assembly.coordinates import with_matrix_damping
 from frames.assembly.natural_modes import UnstableError, natural_modes, symmetric, weakest
+from frames.assembly.solvers import solve_positive
 from frames.model.damping import ModalDamping, RayleighDamping
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from scipy.sparse import csgraph
 from scipy.sparse import linalg as sparse_linalg
 
 from frames._errors import ModelError
-from frames.assembly.sparse_solver import Factors
+from frames.assembly.solvers import Factors
 from frames.model.components import DOFS
 from frames.model.laws import elastic_stiffness
 

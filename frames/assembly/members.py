@@ -8,6 +8,9 @@ Local axes: see `frames.model.axes`; `inertia_y` governs bending in the local x-
 
 Sources: Przemieniecki, Theory of Matrix Structural Analysis (1968), sec. 5.6 and ch. 15 [Prz68];
 McGuire, Gallagher & Ziemian, Matrix Structural Analysis, 2nd ed. (2000), ch. 4 and 9 [MGZ00].
+
+End zones are rigid: a member's end lies at the vector d from its node, the rigid arm that turns
+with the node: its displacement is :math:`u + \theta \times d`, its rotation that of the node.
 """
 
 from __future__ import annotations
@@ -23,6 +26,58 @@ from frames.model.sections import Section
 if TYPE_CHECKING:
     from frames._types import FloatArray
 
+
+def rigid_arms(arms: FloatArray) -> FloatArray:
+    """Return how the displacements of members' ends follow those of their nodes.
+
+    Shapes: arms (n, 2, 3), result (n, 12, 12).
+    """
+    follow = np.tile(np.eye(12), (len(arms), 1, 1))
+    for end in (0, 1):
+        x, y, z = arms[:, end].T
+        u, turn = 6 * end, 6 * end + 3
+        follow[:, u, turn + 1], follow[:, u, turn + 2] = z, -y
+        follow[:, u + 1, turn], follow[:, u + 1, turn + 2] = -z, x
+        follow[:, u + 2, turn], follow[:, u + 2, turn + 1] = y, -x
+    return follow
+
+
+def at_ends(forces: FloatArray, arms: FloatArray) -> FloatArray:
+    """Return forces on the ends of members from the same forces taken on their nodes.
+
+    Shapes: forces (..., n, 12), arms (n, 2, 3), result (..., n, 12).
+    """
+    if not arms.any():
+        return forces
+    found = forces.copy()
+    for end in (0, 1):
+        force = slice(6 * end, 6 * end + 3)
+        moment = slice(6 * end + 3, 6 * end + 6)
+        found[..., moment] -= np.cross(arms[:, end], forces[..., force])
+    return found
+
+
+def arms_geometric_stiffness(arms: FloatArray, axial_force: FloatArray) -> FloatArray:
+    r"""Return the geometric stiffness of rigid arms under the axial forces of their members.
+
+    To second order an arm d that turns by :math:`\theta` moves its end by
+    :math:`\theta \times (\theta \times d) / 2`; what the axial force along e does on it makes the
+    stiffness :math:`\pm P (e d^T / 2 + d e^T / 2 - e \cdot d \, I)` on the node's rotation, plus at
+    end j. A rigid column that leans with its node is the simplest case: P d.
+
+    Shapes: arms (n, 2, 3), axial_force (n,), result (n, 12, 12).
+    """
+    found = np.zeros((len(arms), 12, 12))
+    for end, sign in ((0, -1.0), (1, 1.0)):
+        block = np.zeros((len(arms), 3, 3))
+        block[:, 0] += 0.5 * arms[:, end]
+        block[:, :, 0] += 0.5 * arms[:, end]
+        block -= arms[:, end, 0, None, None] * np.eye(3)
+        places = slice(6 * end + 3, 6 * end + 6)
+        found[:, places, places] = sign * axial_force[:, None, None] * block
+    return found
+
+
 # Places of (v_i, slope_i, v_j, slope_j) of each bending plane in the 12 local displacements, and
 # the sign that turns the rotation into the slope: dv/dx = +rz, dw/dx = -ry.
 _PLANE_XY = np.array([1, 5, 7, 11])
@@ -31,21 +86,7 @@ _SIGN_XZ = np.array([1.0, -1.0, 1.0, -1.0])
 
 
 class MemberArrays(NamedTuple):
-    """Constants of `n` members, each field (n,) except `axes`; units as in `Section`.
-
-    Attributes
-    ----------
-    area, inertia_y, inertia_z, torsion_constant, elastic_modulus, shear_modulus : ndarray, (n,)
-        Section constants [m2], [m4], [m4], [m4], [Pa], [Pa].
-    shear_area_y, shear_area_z : ndarray, (n,)
-        Shear areas [m2], infinity without shear deformation.
-    density : ndarray, (n,)
-        Mass density [kg/m3].
-    length : ndarray, (n,)
-        Length [m].
-    axes : ndarray, (n, 3, 3)
-        Rows are the unit vectors of local x, y, z in global components [-].
-    """
+    """Constants of `n` members, each field (n,) except `axes`; units as in `Section`."""
 
     area: FloatArray
     inertia_y: FloatArray
@@ -53,11 +94,12 @@ class MemberArrays(NamedTuple):
     torsion_constant: FloatArray
     elastic_modulus: FloatArray
     shear_modulus: FloatArray
-    shear_area_y: FloatArray
+    shear_area_y: FloatArray  # infinity without shear deformation
     shear_area_z: FloatArray
     density: FloatArray
     length: FloatArray
     axes: FloatArray
+    """(n, 3, 3) rows are the unit vectors of local x, y, z in global components [-]."""
 
 
 def member_arrays(

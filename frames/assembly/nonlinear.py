@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import sparse
 
-from frames.assembly.end_zones import at_ends
-from frames.assembly.members import local_geometric_stiffness, local_stiffness
+from frames.assembly.members import at_ends, local_geometric_stiffness, local_stiffness
 from frames.assembly.nonlinear_parts import (
     BILINEAR,
     BOUC_WEN,

@@ -1,4 +1,4 @@
-"""Nonlinear parts of an assembled frame: links and members with hinges."""
+"""Nonlinear parts of an assembled frame: links, members with hinges, and how their arrays lie."""
 
 from __future__ import annotations
 
@@ -43,37 +43,19 @@ HINGED = -1.0
 
 @dataclass(frozen=True, repr=False)
 class NonlinearParts:
-    """Links and hinged members of a frame; `n` parts with `m` deformations.
+    """Links and hinged members of a frame; `n` parts with `m` deformations."""
 
-    Attributes
-    ----------
-    links : tuple of Link
-        The links, first among the parts.
-    hinged : tuple of str
-        Members with hinges, after them.
-    kind : ndarray, (n,)
-        Law by number (frames/kernels/laws.py).
-    first : ndarray, (n + 1,)
-        First deformation of each part.
-    par : ndarray, (n, 50)
-        Constants of the laws.
-    elastic : ndarray, (m,)
-        Stiffness in the linear structure [N/m, N m/rad]; 0 of what is put in under permanent loads,
-        -1 of hinged members, whose stiffness is the member's.
-    scale : ndarray, (m,)
-        Factor that makes a force of a moment: 1 / length of the member [1, 1/m].
-    node_rows : csr_array, (m, 6 n_nodes)
-        Deformations from the nodes' displacements.
-    """
-
-    links: tuple[Link, ...]
-    hinged: tuple[str, ...]
-    kind: IntArray
-    first: IntArray
-    par: FloatArray
+    links: tuple[Link, ...]  # the links, first among the parts
+    hinged: tuple[str, ...]  # members with hinges, after them
+    kind: IntArray  # (n,) law by number (frames/kernels/laws.py)
+    first: IntArray  # (n + 1,) first deformation of each part
+    par: FloatArray  # (n, 50) constants of the laws
+    # (m,) stiffness in the linear structure [N/m, N m/rad]; 0 of what is put in under permanent
+    # loads, -1 of hinged members, whose stiffness is the member's
     elastic: FloatArray
     scale: FloatArray
-    node_rows: SparseMatrix
+    """(m,) factor that makes a force of a moment: 1 / length of the member [1, 1/m]"""
+    node_rows: SparseMatrix  # (m, 6 n_nodes) deformations from the nodes' displacements
 
     def own_stiffness(self) -> FloatArray:
         """Return the elastic stiffness of each deformation by itself, (m,) [N/m, N m/rad]."""

@@ -22,10 +22,9 @@ from frames.assembly.basis import (
     mode_damping,
     touched_dofs,
 )
-from frames.assembly.coordinates import Basis
-from frames.assembly.matrix_damping import couples_massless, with_matrix_damping
+from frames.assembly.coordinates import Basis, couples_massless, with_matrix_damping
 from frames.assembly.natural_modes import symmetric
-from frames.assembly.sparse_solver import Factors, positive_factors
+from frames.assembly.solvers import Factors, positive_factors
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix

@@ -22,21 +22,12 @@ NAMED = 4
 
 
 class LoadPath(NamedTuple):
-    """How the weight of what stands on bearings reaches the ground.
+    """How the weight of what stands on bearings reaches the ground."""
 
-    Attributes
-    ----------
-    weight : float
-        Permanent vertical load above the bearings [N].
-    bearings : float
-        What the bearings carry of it [N].
-    supports : tuple of (str, float)
-        Nodes above the bearings whose uz is held, and what each takes [N], largest first.
-    """
-
-    weight: float
-    bearings: float
+    weight: float  # permanent vertical load above the bearings [N]
+    bearings: float  # what the bearings carry of it [N]
     supports: tuple[tuple[str, float], ...]
+    """Nodes above the bearings whose uz is held, and what each takes [N], largest first."""
 
     @property
     def lost(self) -> float:

@@ -9,8 +9,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy import sparse
 
-from frames.assembly.end_zones import arms_geometric_stiffness
-from frames.assembly.members import MemberArrays, local_geometric_stiffness
+from frames.assembly.members import (
+    MemberArrays,
+    arms_geometric_stiffness,
+    local_geometric_stiffness,
+)
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
@@ -30,34 +33,20 @@ class PlacedBearing(NamedTuple):
 
 @dataclass(frozen=True)
 class MemberTable:
-    """What force recovery and the geometric stiffness need of the `n` members.
+    """What force recovery and the geometric stiffness need of the `n` members."""
 
-    Attributes
-    ----------
-    names : tuple of str, (n,)
-        Names, in the order of all member arrays.
-    arrays : MemberArrays
-        Section constants, lengths and local axes.
-    nodes : ndarray, (n, 2)
-        Node indices of the ends i and j.
-    offsets, arms : ndarray, (n, 2, 3)
-        Vectors from nodes i and j to the members' ends [m], in global and in local axes.
-    follow : ndarray, (n, 12, 12)
-        Local displacements of the members from those of their nodes: what releases and offsets do.
-    stiffness : ndarray, (n, 12, 12)
-        Elastic stiffness in local axes, over the displacements of the nodes.
-    fixed_end : ndarray, (n, 12)
-        Fixed-end forces of the members' loads in local axes, on their nodes [N, N m].
-    """
-
-    names: tuple[str, ...]
-    arrays: MemberArrays
-    nodes: IntArray
-    offsets: FloatArray
-    arms: FloatArray
+    names: tuple[str, ...]  # (n,) names, in the order of all member arrays
+    arrays: MemberArrays  # section constants, lengths and local axes
+    nodes: IntArray  # (n, 2) node indices of the ends i and j
+    offsets: FloatArray  # (n, 2, 3) from the nodes to the members' ends [m]
+    arms: FloatArray  # (n, 2, 3) the same in local axes
+    # (n, 12, 12) local displacements of the members from those of their nodes: what releases and
+    # offsets do
     follow: FloatArray
     stiffness: FloatArray
+    """(n, 12, 12) elastic stiffness in local axes, over the displacements of the nodes"""
     fixed_end: FloatArray
+    """(n, 12) fixed-end forces of the members' loads in local axes, on their nodes [N, N m]"""
 
     def geometric(self, axial_forces: FloatArray) -> FloatArray:
         """Return the geometric stiffness (n, 12, 12) in local axes, over the nodes' displacements.
@@ -76,68 +65,36 @@ class MemberTable:
 
 @dataclass(frozen=True, repr=False)
 class System:
-    """A frame as matrices over its free degrees of freedom q; SI units.
+    """A frame as matrices over its free degrees of freedom q; SI units."""
 
-    Attributes
-    ----------
-    node_names : tuple of str, (n_nodes,)
-        Names, in the order of all node arrays.
-    coordinates : ndarray, (n_nodes, 3)
-        Coordinates [m].
-    dof_labels : tuple of str, (n_free,)
-        Name of each free DOF: "base-1 ux"; of a diaphragm "floor-2 (diaphragm) rz".
-    transform : csr_array, (6 n_nodes, n_free)
-        Nodal displacements (ux, uy, uz, rx, ry, rz of each node) are `transform @ q`.
-    stiffness : csr_array, (n_free, n_free)
-        Elastic stiffness of members, springs and superelements, without bearings.
-    mass : csr_array, (n_free, n_free)
-        Mass; rows of a DOF without mass are zero.
-    damping : csr_array, (n_free, n_free)
-        Damping matrix of the superelements; empty without. `Frame.damping` is not in it.
-    node_mass : ndarray, (n_nodes, 6)
-        Masses by node: diagonal of the lumped ones, of superelements what a unit translation
-        moves [kg, kg m2].
-    load : ndarray, (n_free,)
-        Weights and permanent loads.
-    inertia_load : ndarray, (n_free, 3)
-        transform.T @ M @ unit translation along x, y, z [kg]: a ground acceleration a_g acts as
-        the load `-inertia_load @ a_g`.
-    bearings : tuple of PlacedBearing
-        Bearings with the indices of the nodes below and above.
-    gravity : float
-        Acceleration of gravity [m/s2].
-    node_stiffness : csr_array, (6 n_nodes, 6 n_nodes)
-        Elastic stiffness before elimination, for reactions: `node_stiffness @ u - node_load`.
-    node_load : ndarray, (6 n_nodes,)
-        Weights and permanent loads before elimination [N, N m].
-    members : MemberTable
-        The members.
-    elements : ElementTable
-        The line elements of superelements.
-    features : Features
-        What is modelled.
-    parts : NonlinearParts
-        Links and hinged members.
-    """
-
-    node_names: tuple[str, ...]
-    coordinates: FloatArray
+    node_names: tuple[str, ...]  # (n_nodes,) names, in the order of all node arrays
+    coordinates: FloatArray  # (n_nodes, 3) coordinates [m]
     dof_labels: tuple[str, ...]
+    """(n_free,) name of each free DOF: "base-1 ux"; of a diaphragm "floor-2 (diaphragm) rz"."""
+    # (6 n_nodes, n_free) displacements (ux, uy, uz, rx, ry, rz of each node) are `transform @ q`
     transform: SparseMatrix
     stiffness: SparseMatrix
-    mass: SparseMatrix
+    """(n_free, n_free) elastic stiffness of members, springs and superelements, without bearings"""
+    mass: SparseMatrix  # (n_free, n_free) mass; rows of a DOF without mass are zero
+    # (n_free, n_free) of the superelements; empty without. `Frame.damping` is not in it
     damping: SparseMatrix
+    # (n_nodes, 6) masses by node: diagonal of the lumped ones, of superelements what a unit
+    # translation moves [kg, kg m2]
     node_mass: FloatArray
-    load: FloatArray
+    load: FloatArray  # (n_free,) weights and permanent loads
+    # (n_free, 3) transform.T @ M @ unit translation along x, y, z [kg]: a ground acceleration a_g
+    # acts as the load `-inertia_load @ a_g`
     inertia_load: FloatArray
-    bearings: tuple[PlacedBearing, ...]
-    gravity: float
+    bearings: tuple[PlacedBearing, ...]  # bearings with the indices of the nodes below and above
+    gravity: float  # acceleration of gravity [m/s2]
+    # (6 n_nodes, 6 n_nodes) elastic stiffness before elimination, for reactions:
+    # `node_stiffness @ u - node_load`
     node_stiffness: SparseMatrix
-    node_load: FloatArray
-    members: MemberTable
-    elements: ElementTable
-    features: Features
-    parts: NonlinearParts
+    node_load: FloatArray  # (6 n_nodes,) weights and permanent loads before elimination [N, N m]
+    members: MemberTable  # the members
+    elements: ElementTable  # the line elements of superelements
+    features: Features  # what is modelled
+    parts: NonlinearParts  # links and hinged members
 
     @cached_property
     def part_rows(self) -> SparseMatrix:

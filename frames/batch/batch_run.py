@@ -58,21 +58,7 @@ class Structure(NamedTuple):
 
 
 class Runner:
-    """The runs of `time_histories`, and the structures that they share.
-
-    Parameters
-    ----------
-    models, motions, options : mapping
-        Structures, motions, and the options of the runs under each motion, by name.
-    cases : sequence of Case
-        The runs.
-    features : Features
-        What is modelled.
-    level : str or mapping
-        Levels of the bearings.
-    kept : Kept
-        What is kept of each run.
-    """
+    """The runs of `time_histories`, and the structures that they share."""
 
     def __init__(
         self,

@@ -38,16 +38,7 @@ _ENDING = ".run.npz"
 class KeptRuns:
     """A folder of runs, each under a digest of all that its numbers depend on.
 
-    Parameters
-    ----------
-    folder : Path
-        Made if it is not there.
-    models, motions, options : mapping
-        Structures, motions, and the options of the runs under each motion, by name.
-    asked : object
-        What else the numbers depend on: features, levels.
-    kept : Kept
-        What is kept of each run.
+    The folder is made if it is not there; `asked` are features and levels.
     """
 
     def __init__(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames.assembly.end_zones import at_ends
+from frames.assembly.members import at_ends
 from frames.model.part_elements import PartElements, WithoutForces, no_elements
 from frames.opensees.element_loads import element_loads, middle_of
 from frames.opensees.element_stiffness import apart_from_assembled, geometry, stiffnesses

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.assembly.end_zones import rigid_arms
+from frames.assembly.members import rigid_arms
 from frames.model.axes import default_up, local_axes
 from frames.opensees.structure import turning
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from frames.assembly.elimination import eliminate
+from frames.assembly.constraints import eliminate
 
 if TYPE_CHECKING:
     from collections.abc import Collection

@@ -15,7 +15,7 @@ from frames.model.components import DOFS
 from frames.recording.nonlinear_results import part_coordinates, part_variables
 from frames.recording.section_cuts import storey_rows
 from frames.statics.gravity import expand
-from frames.statics.resultants import moving_mass
+from frames.statics.resultants import Resultants, moving_mass
 from lir_element.results.dataset import (
     bearing_coordinates,
     bearing_variables,
@@ -46,6 +46,7 @@ class Common(NamedTuple):
     variables: dict[str, xr.Variable]
     coordinates: xr.Coordinates  # all but the time
     heights: list[float]  # of the levels [m]
+    resultants: Resultants
 
     def of_structure(self) -> xr.Dataset:
         """Return it as a Dataset."""
@@ -55,6 +56,7 @@ class Common(NamedTuple):
 def common_of(frame: FrameData, state: GravityState) -> Common:
     """Return what all results of a structure hold of it."""
     system, levels = state.system, frame.levels
+    resultants = Resultants(state)
     names = part_coordinates(system.parts, frame)
     if levels[1:]:
         names["storey"] = [level.name for level in levels[1:]]
@@ -63,14 +65,15 @@ def common_of(frame: FrameData, state: GravityState) -> Common:
             "node": list(system.node_names),
             "dof": list(DOFS),
             "term": list(ENERGY_TERMS),
-            "resultant": list(state.resultants.names),
+            "resultant": list(resultants.names),
             "level": [level.name for level in levels],
             **names,
             **bearing_coordinates([placed.name for placed in system.bearings]),
         }
     ).coords
     variables = _device_variables(system) | _permanent(frame, state)
-    return Common(frame, variables, coordinates, [level.z for level in levels])
+    heights = [level.z for level in levels]
+    return Common(frame, variables, coordinates, heights, resultants)
 
 
 def build_dataset(
@@ -90,7 +93,7 @@ def build_dataset(
     Shapes: peak (3,).
     """
     system = state.system
-    motion = _Motion(state, shaking, out, states, count)
+    motion = _Motion(state, common.resultants, shaking, out, states, count)
 
     def of(form: Callable[[], FloatArray], *shape: int) -> Any:
         return deferred((count, *shape), form) if kept else form()
@@ -119,7 +122,7 @@ def build_dataset(
         ),
         "imbalance": labelled(
             ("time", "resultant"),
-            of(motion.imbalance, len(state.resultants.names)),
+            of(motion.imbalance, len(common.resultants.names)),
             "1",
             "sum of all forces over the weight, of moments over that times half the extent",
         ),
@@ -197,8 +200,15 @@ class _Motion:
     """What the structure did, from what was recorded: formed where it is asked for."""
 
     def __init__(
-        self, state: GravityState, shaking: Ground, out: Output, states: Records, count: int
+        self,
+        state: GravityState,
+        resultants: Resultants,
+        shaking: Ground,
+        out: Output,
+        states: Records,
+        count: int,
     ) -> None:
+        self._resultants = resultants
         self._state, self._out, self._states, self._count = state, out, states, count
         self._shape = (count, len(state.system.node_names), 6)
         self.ground = ground_at(shaking, out.time[:count])
@@ -217,12 +227,12 @@ class _Motion:
     def acceleration(self) -> FloatArray:
         out, count = self._out, self._count
         rates = np.hstack([out.a_b[:count], out.a_e[:count]])
-        found = self._of_nodes(rates @ self._state.accelerating.T)
+        found = self._of_nodes(rates @ self._resultants.accelerating.T)
         found[..., :3] += self.ground[:, None, :]
         return found
 
     def imbalance(self) -> FloatArray:
-        return self._state.resultants.of(self._out, self._states, self.ground, 0, self._count)
+        return self._resultants.of(self._out, self._states, self.ground, 0, self._count)
 
     def bearing_velocity(self) -> FloatArray:
         return _bearing_velocity(self._state, self._out.v_b[: self._count])

@@ -1,4 +1,4 @@
-"""Largest and smallest forces of a run in members, storeys and bearings, with what acts at once."""
+"""Extremes of forces in members, storeys and bearings, with what acts at once; and of strains."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from frames.recording.force_rows import element_sections
 from frames.results.recorded import REACHED
 from lir_element.results.dataset import labelled
 
@@ -14,7 +15,9 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.bundles.run_data import Output
+    from frames.model.frame_data import FrameData
     from frames.recording.force_rows import ForceKind, ForceMaps
+    from frames.statics.gravity import GravityState
     from lir_element.layout import Records
 
 WAYS = ("largest", "smallest")
@@ -27,13 +30,7 @@ _PLACES = {"member": "component", "storey": "storey_component", "reaction": "rea
 
 
 class ForceTracker:
-    """Keeps the extremes of forces, each with the five others at its instant.
-
-    Parameters
-    ----------
-    maps : ForceMaps
-        How forces follow from what is recorded.
-    """
+    """Keeps the extremes of forces, each with the five others at its instant."""
 
     def __init__(self, maps: ForceMaps) -> None:
         self._maps = maps
@@ -103,3 +100,65 @@ class ForceTracker:
             self._most[section, force, way] = found[section, force]
             self._values[section, force, way] = values[section, :, step]
             self._times[section, force, way] = time[step]
+
+
+_STRAINS_AT_ONCE = 256  # steps, whose forces are found at once
+_PICKED = (0, 4, 5)  # N, My, Mz
+
+
+class StrainGauge:
+    """Keeps the largest strains over their limits; of a structure without such members, nothing."""
+
+    def __init__(self, model: FrameData, state: GravityState) -> None:
+        known = {k: v for p in model.superelements.values() for k, v in p.elements.strains.items()}
+        names = state.system.elements.names
+        kept = [k for k, name in enumerate(names) if name in known]
+        self.names = [names[k] for k in kept]
+        self.reset()
+        if not kept:
+            return
+        over_q, rest = element_sections(state.system, kept)
+        basis = state.basis
+        whole = np.hstack([basis.expand_b, basis.expand_e])
+        if state.parts is not None:
+            whole = np.hstack([whole, -state.part_shift])
+        places = (
+            18 * np.arange(len(kept))[:, None, None] + [[0], [12]] + np.array(_PICKED)
+        ).ravel()
+        self._rows = np.asarray(over_q[places] @ whole)
+        self._rest = np.asarray(over_q[places] @ basis.offset) + rest[places]
+        most = max(len(rows) for name in self.names for rows in known[name])
+        self._strains = np.zeros((len(kept), 2, most, 3))
+        for k, name in enumerate(self.names):
+            for end, rows in enumerate(known[name]):
+                self._strains[k, end, : len(rows)] = rows
+
+    def reset(self) -> None:
+        """Forget what was taken up."""
+        self._most = np.zeros(len(self.names))
+        self._time = np.full(len(self.names), np.nan)
+
+    def take(self, out: Output, first: int, last: int) -> None:
+        """Take up rows first <= k < last of what was recorded."""
+        for begin in range(first, last if self.names else first, _STRAINS_AT_ONCE):
+            rows = slice(begin, min(begin + _STRAINS_AT_ONCE, last))
+            x = np.hstack([out.b[rows], out.e[rows], out.beyond[rows]])
+            forces = self._rows[:, : x.shape[1]] @ x.T + self._rest[:, None]
+            forces = forces.reshape(len(self.names), 2, 3, -1)
+            now = np.abs(self._strains @ forces).max(axis=(1, 2))
+            at = now.argmax(axis=1)
+            largest = now[np.arange(len(at)), at]
+            more = largest > self._most
+            self._most[more], self._time[more] = largest[more], out.time[rows][at[more]]
+
+    def attrs(self) -> dict[str, object]:
+        """Return attributes of the result: the largest, where, when, and how many are beyond 1."""
+        if not self.names:
+            return {}
+        k = int(self._most.argmax())
+        return {
+            "strain_over_limit": float(self._most[k]),
+            "strain_over_limit_in": self.names[k],
+            "strain_over_limit_at": float(self._time[k]),
+            "strain_over_limit_count": int((self._most > 1.0).sum()),
+        }

@@ -1,4 +1,4 @@
-"""What nonlinear parts of a structure did over a time history, as labelled variables and forces."""
+"""Links and hinges over a time history: labelled variables, forces, and what they reached."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from frames.assembly.nonlinear_parts import N_PLASTIC, WORK_DONE
 from frames.kernels.hinges import place
 from frames.model.components import hinge_name, hinged_ends
+from frames.results.peak_response import Extreme, extreme_of, later
 from frames.results.recorded import require_recorded
 from lir_element.results.dataset import labelled
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from frames.bundles.run_data import Output
     from frames.model.components import HingedEnd
     from frames.model.frame_data import FrameData
+    from frames.statics.gravity import GravityState
 
 HINGE_FORCES = ("N", "My", "Mz")
 """Forces on a hinge, in local axes of its member."""
@@ -146,3 +148,56 @@ def forces_beyond(system: System, data: xr.Dataset) -> FloatArray:
 def _places(end: int) -> list[int]:
     # Of N, My and Mz at an end among a member's five forces.
     return [place(end, part) for part in range(3)]
+
+
+class PartGauge:
+    """Keeps what nonlinear parts reached; of a structure without any, nothing."""
+
+    def __init__(self, state: GravityState, model: FrameData) -> None:
+        found = state.system.parts
+        self._links = len(found.links)
+        self._elastic = found.elastic[: self._links]
+        limits = [getattr(link.law, "yield_deformation", np.nan) for link in found.links]
+        self._yields = np.where(np.isfinite(limits), limits, np.inf)
+        order = {member: k for k, member in enumerate(found.hinged, start=self._links)}
+        ends = hinged_ends(model.hinges) if found.hinged else []
+        self._hinges = [(order[member], end) for _, member, end, _ in ends]
+        self._reached: dict[str, Extreme] = {}
+
+    def take(self, out: Output, first: int, last: int) -> None:
+        """Take up rows first <= k < last of what was recorded, which follow those before."""
+        time = out.time[first:last]
+        for name, values in self._histories(out, first, last).items():
+            if len(time):
+                now = extreme_of(values, time)
+                before = self._reached.get(name)
+                self._reached[name] = now if before is None else later(before, now)
+
+    def reached(self) -> dict[str, Extreme]:
+        """Return what was reached, by quantity."""
+        return self._reached
+
+    def left(self, out: Output, row: int) -> dict[str, FloatArray]:
+        """Return what is left at a row of what was recorded, by quantity."""
+        here = self._histories(out, row, row + 1)
+        kept = ("link_deformation", "link_work", "hinge_rotation", "hinge_work")
+        return {name: here[name][0] for name in kept if name in here}
+
+    def _histories(self, out: Output, first: int, last: int) -> dict[str, FloatArray]:
+        # As `part_variables` and frames.results.hinge_extremes form them.
+        found: dict[str, FloatArray] = {}
+        n, state = self._links, out.part_state[first:last]
+        if n:
+            d = out.deformation[first:last, :n]
+            force = out.beyond[first:last, :n] + self._elastic * d
+            found["link_ductility"] = np.where(d * force > 0.0, np.abs(d) / self._yields, 0.0)
+            found["link_deformation"], found["link_force"] = np.abs(d), np.abs(force)
+            found["link_reversal"], found["link_work"] = -force, state[:, :n, WORK_DONE]
+        if self._hinges:
+            part = np.array([k for k, _ in self._hinges])
+            end = np.array([e for _, e in self._hinges])
+            turns = [state[:, part, 3 * end + axis] for axis in (1, 2)]
+            found["hinge_rotation"] = np.linalg.norm(np.stack(turns, axis=-1), axis=-1)
+            found["hinge_turn"] = state[:, part, N_PLASTIC + end]
+            found["hinge_work"] = state[:, part, WORK_DONE + end]
+        return found

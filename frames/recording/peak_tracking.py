@@ -90,8 +90,8 @@ def devices_of(state: GravityState) -> Devices:
     )
 
 
-def shape_of(state: GravityState, places: Places) -> Shape:
-    """Return what the peaks of the structure are formed with."""
+def shape_of(state: GravityState, accelerating: FloatArray, places: Places) -> Shape:
+    """Return what the peaks of the structure are formed with; `accelerating` of `Resultants`."""
     basis, system = state.basis, state.system
     drifts, shear = _drift_rows(state, places), _shear_rows(state)
     over_u = sparse.csr_array(sparse.vstack([drifts, shear[0]]))
@@ -113,7 +113,7 @@ def shape_of(state: GravityState, places: Places) -> Shape:
     return Shape(
         moves=np.ascontiguousarray(moves.T),
         rest=np.concatenate([basis.offset[u_used], shears.rest]),
-        rates=np.ascontiguousarray(state.accelerating[a_used].T),
+        rates=np.ascontiguousarray(accelerating[a_used].T),
         mass_e=np.ascontiguousarray(basis.mass_e),
         u_start=u_rows[0],
         u_place=u_rows[1],
@@ -168,13 +168,7 @@ def nothing_reached(bearings: int, shape: Shape | None) -> Reached:
 
 
 class PeakTracker:
-    """Keeps what a run reached.
-
-    Parameters
-    ----------
-    devices, shape : Devices, Shape or None
-        Of the structure; without a shape what is above the bearings is left aside.
-    """
+    """Keeps what a run reached."""
 
     def __init__(self, devices: Devices, shape: Shape | None = None) -> None:
         own = ("x", "u", "x_rate", "a")  # scratch of this one alone

@@ -21,7 +21,7 @@ from frames.assembly.assemble import (
     member_end_forces,
     node_geometric_stiffness,
 )
-from frames.assembly.end_zones import at_ends
+from frames.assembly.members import at_ends
 from frames.assembly.nonlinear import with_axial_forces
 from frames.assembly.system import element_dofs
 from frames.model.axes import to_local

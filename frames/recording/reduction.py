@@ -96,13 +96,7 @@ def with_other_peak_state(data: xr.Dataset, found: PeakState, peak: FloatArray) 
 
 
 class Reduction:
-    """What a recording makes of a run that hands its steps over piece by piece.
-
-    Parameters
-    ----------
-    recording : Recording
-        What to keep.
-    """
+    """What a recording makes of a run that hands its steps over piece by piece."""
 
     def __init__(self, recording: Recording) -> None:
         self._recording = recording

@@ -30,7 +30,7 @@ from frames.recording.force_rows import force_maps
 from frames.recording.peak_tracking import can_track, devices_of, places_of, shape_of
 from frames.recording.reduction import judgeable_of, with_peak_state
 from frames.statics.gravity import gravity
-from frames.statics.model_traits import plane_coupling
+from frames.statics.springs import plane_coupling
 from lir_element.bundles.contact_data import detached
 
 if TYPE_CHECKING:
@@ -79,7 +79,6 @@ class Analysis:
     def fresh(self, seconds: float | None = None) -> GravityState:
         """Return the state at rest for one run to change; what was formed of it is shared."""
         shared = self.state
-        _ = shared.accelerating, shared.has_light_nodes, shared.resultants
         if shared.parts is not None:
             _ = shared.part_shift
         mine = copy.copy(shared)
@@ -133,7 +132,8 @@ class Analysis:
     @cached_property
     def shape(self) -> Shape:
         """What peaks of the structure are formed with."""
-        return shape_of(self.state, places_of(self.common.of_structure()))
+        accelerating = self.common.resultants.accelerating
+        return shape_of(self.state, accelerating, places_of(self.common.of_structure()))
 
     @cached_property
     def force_maps(self) -> ForceMaps:
@@ -221,7 +221,7 @@ def _keep(new: Analysis) -> None:
 
 def _arrays(state: GravityState) -> float:
     # Bytes of the largest arrays, before any run formed more.
-    arrays = [*state.run, *state.model, state.accelerating, *(state.parts or ())]
+    arrays = [*state.run, *state.model, *(state.parts or ())]
     arrays += [value for value in vars(state.basis).values() if isinstance(value, np.ndarray)]
     return float(sum(array.nbytes for array in arrays))
 

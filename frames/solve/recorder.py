@@ -11,8 +11,8 @@ from frames.bundles.nonlinear_data import part_sizes
 from frames.bundles.run_data import output_arrays
 from frames.kernels.integration import record
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
-from frames.recording.force_tracking import ForceTracker
-from frames.recording.nonlinear_tracking import PartGauge
+from frames.recording.force_tracking import ForceTracker, StrainGauge
+from frames.recording.nonlinear_results import PartGauge
 from frames.recording.peak_tracking import PeakTracker
 from frames.recording.recording import require_known
 from frames.recording.reduction import (
@@ -29,7 +29,6 @@ from frames.recording.size import (
     require_memory,
     require_room,
 )
-from frames.recording.strain_tracking import StrainGauge
 from frames.results.peak_response import largest, with_exceeded
 from frames.statics.resultants import Plausibility
 
@@ -66,7 +65,7 @@ class Gauges:
         state = analysis.state
         self._bearings = PeakTracker(analysis.devices, analysis.shape if whole else None)
         self._parts = PartGauge(state, analysis.model)
-        self._sums = Plausibility(state, state.resultants)
+        self._sums = Plausibility(state, analysis.common.resultants)
 
     def take(self, out: Output, states: Records, ground: Ground, first: int, last: int) -> None:
         """Take up rows first <= k < last of what was recorded, which follow those before."""

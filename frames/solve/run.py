@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from frames.bundles.model_data import ReducedModel
     from frames.bundles.run_data import Output
     from frames.motion.ground_motion import GroundMotion
-    from frames.recording.strain_tracking import StrainGauge
+    from frames.recording.force_tracking import StrainGauge
     from frames.results.findings import Findings
     from frames.solve.analysis import Analysis
     from frames.solve.options import Options

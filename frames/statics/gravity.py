@@ -23,11 +23,8 @@ from frames.assembly.nonlinear import with_axial_forces
 from frames.assembly.supports import LoadPath, load_path
 from frames.model import sanity_checks
 from frames.model.frame_data import FrameData
-from frames.statics.accelerations import accelerating, has_light_nodes
 from frames.statics.blas_threads import blas_threads_for
-from frames.statics.equilibrium import find_equilibrium
-from frames.statics.nonlinear_start import parts_at_rest
-from frames.statics.resultants import Resultants
+from frames.statics.equilibrium import find_equilibrium, parts_at_rest
 from frames.statics.sanity_checks import held_periods, sanity_warnings
 from frames.statics.springs import first_displacement
 from lir_element.argument_checks import require_choice, require_type
@@ -99,21 +96,6 @@ class GravityState:
     def part_shift(self) -> FloatArray:
         """How forces of nonlinear parts displace what has no mass, (n_free, m) [m/N, ...]."""
         return self.basis.shift(self.system.part_rows.T.toarray())
-
-    @cached_property
-    def accelerating(self) -> FloatArray:
-        """How accelerations of b and eta accelerate the free displacements, (n_free, n)."""
-        return accelerating(self)
-
-    @cached_property
-    def has_light_nodes(self) -> bool:
-        """Whether nodes have so little mass that no step follows it."""
-        return has_light_nodes(self)
-
-    @cached_property
-    def resultants(self) -> Resultants:
-        """Sums of all forces on what stands on bearings alone."""
-        return Resultants(self)
 
     @property
     def held_periods(self) -> tuple[float, ...]:

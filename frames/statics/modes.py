@@ -9,8 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from frames._errors import ModelError
-from frames.assembly.few_modes import few_modes
-from frames.assembly.natural_modes import UnstableError, natural_modes
+from frames.assembly.natural_modes import UnstableError, few_modes, natural_modes
 from frames.assembly.ritz import RitzSpace
 from frames.model.components import bearing_axial_stiffness
 from frames.model.frame_data import FrameData

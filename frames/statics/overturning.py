@@ -10,7 +10,7 @@ from scipy import sparse
 
 from frames.assembly.assemble import assemble
 from frames.assembly.basis import bearing_rows
-from frames.assembly.sparse_solver import Factors
+from frames.assembly.solvers import Factors
 from frames.assembly.supports import above_bearings
 from frames.model.components import bearing_axial_stiffness, bearing_rocking_stiffness
 from frames.statics.springs import spring_matrix
@@ -27,19 +27,11 @@ _NOTHING = 1e-6
 
 
 class Overturning(NamedTuple):
-    """What the bearings carry of an overturning moment, by the direction of the motion.
+    """What the bearings carry of an overturning moment, by the direction of the motion."""
 
-    Attributes
-    ----------
-    x, y : float
-        Share that their axial forces carry [-]; 1 where there is no moment to carry.
-    bearings : int
-        How many bearings there are.
-    """
-
-    x: float
+    x: float  # share that their axial forces carry [-]; 1 where there is no moment to carry
     y: float
-    bearings: int
+    bearings: int  # how many bearings there are
 
     @property
     def follows(self) -> bool:

@@ -2,27 +2,101 @@
 
 Both are formed from what is recorded: forces of bearings against weight and inertia, about all axes
 about which the structure is held by its bearings alone.
+
+A displacement without mass has an acceleration, the second derivative of a static one. It jumps
+wherever friction turns round or slips, and no step gives it: in Newmark's rule it rings from step
+to step, undamped, and masses that are next to nothing ring so fast that no step follows. What has a
+mass is accelerated by the forces on it; the rest is said to be accelerated as the elastic structure
+would carry it along, forces of bearings and nonlinear parts on it taken to stay as they are.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse import csgraph
 
 from frames.assembly.basis import bearing_rows
-from frames.assembly.sparse_solver import Factors
+from frames.assembly.solvers import Factors
+from frames.model.components import bearing_axial_stiffness
 from frames.results.peak_response import Extreme, extreme_of, later
 from frames.results.quantities import VIOLENT
-from frames.statics.accelerations import AtRest
+from frames.statics.springs import spring_matrix
 
 if TYPE_CHECKING:
-    from frames._types import FloatArray, IntArray
-    from frames.bundles.nonlinear_data import NonlinearElements
+    from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
     from frames.bundles.run_data import Output
+    from frames.statics.gravity import GravityState
     from lir_element.layout import Records
+
+FASTEST = 1e-3
+"""Own period of a displacement, all others held, over sqrt(L / g) of the bearings, below which its
+mass counts as none: half a millisecond, a tenth of the largest step (a choice)."""
+
+LIGHTEST = 1e-3
+"""Besides, of translations: their mass over that on a bearing, of stiff ties between floors' masses
+being no masses that are next to nothing (a choice)."""
+
+
+def accelerating(state: GravityState) -> FloatArray:
+    """Return how accelerations of b and eta accelerate the free degrees of freedom.
+
+    Shapes: result (n_free, n_b + n_e).
+    """
+    basis = state.basis
+    found = np.hstack([basis.expand_b, basis.mass_e * basis.expand_e])
+    stiffness = present_stiffness(state)
+    light = without_inertia(state, stiffness)
+    own = state.system.mass.diagonal() > 0.0
+    if not (light[basis.bearing_dofs].any() or (light & own).any()):
+        return found  # the rest does so in these coordinates
+    inner = sparse.csr_array(stiffness[light][:, light])
+    alone = inner.diagonal() <= 0.0
+    if alone.any():  # held by nothing that is linear: not accelerated
+        inner = sparse.csr_array(inner + sparse.diags_array(alone.astype(np.float64)))
+    right = np.asarray(stiffness[light][:, ~light] @ found[~light])
+    found[light] = -Factors(inner).solve(right)
+    return found
+
+
+def has_light_nodes(state: GravityState) -> bool:
+    """Return whether a displacement of the structure has so little mass that it counts as none."""
+    light = without_inertia(state, present_stiffness(state))
+    return bool((light & (state.system.mass.diagonal() > 0.0)).any())
+
+
+def present_stiffness(state: GravityState) -> SparseMatrix:
+    """Return the stiffness (n_free, n_free) of the structure on bearings pressed as at rest."""
+    return sparse.csr_array(state.system.stiffness + state.geometric + _springs(state))
+
+
+def without_inertia(state: GravityState, stiffness: SparseMatrix) -> BoolArray:
+    """Return which free degrees of freedom have no mass, or so little that no step follows it.
+
+    Shapes: stiffness (n_free, n_free), result (n_free,).
+    """
+    system = state.system
+    mass, held = system.mass.diagonal(), stiffness.diagonal()
+    length = min(placed.bearing.effective_radius for placed in system.bearings)
+    rate = 2.0 * math.pi / (FASTEST * math.sqrt(length / system.gravity))
+    carried = float(system.node_mass[:, :3].mean(axis=1).sum()) / len(system.bearings)
+    turns = np.array([label.rsplit(" ", 1)[1].startswith("r") for label in system.dof_labels])
+    fast = (held > rate**2 * mass) & (turns | (mass < LIGHTEST * carried))
+    return np.asarray(~(mass > 0.0) | fast)
+
+
+def _springs(state: GravityState) -> SparseMatrix:
+    # The bearings pressed as at rest: what restores along the pendulum, and the axial contact.
+    system = state.system
+    values = np.zeros((len(system.bearings), 6))
+    for k, (_, _, _, bearing) in enumerate(system.bearings):
+        values[k, :2] = state.axial_forces[k] / bearing.effective_radius
+        values[k, 2] = bearing_axial_stiffness(bearing)
+    return spring_matrix(system, values)
+
 
 RESULTANTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 """Forces along the axes, and moments about those through the middle of the bearings."""
@@ -31,47 +105,16 @@ _HELD = 1e-9  # of the stiffness against a motion, part by part, below which not
 _AT_ONCE = 256  # steps, of which the accelerations of all nodes are formed together
 
 
-class AtRestMoving(AtRest, Protocol):
-    """A structure at rest that knows how its coordinates move it."""
-
-    @property
-    def parts(self) -> NonlinearElements | None:
-        """Its nonlinear parts."""
-        ...
-
-    @property
-    def part_shift(self) -> FloatArray:
-        """How their forces displace what has no mass."""
-        ...
-
-    @property
-    def accelerating(self) -> FloatArray:
-        """How accelerations of its coordinates accelerate it."""
-        ...
-
-    @property
-    def has_light_nodes(self) -> bool:
-        """Whether nodes have so little mass that no step follows it."""
-        ...
-
-
 class Resultants:
     """Sums of all forces on what stands on bearings alone.
 
-    Parameters
-    ----------
-    state : AtRestMoving
-        The structure at rest.
-
-    Notes
-    -----
     A rigid motion q_r of those parts of the structure that no support holds takes no elastic force:
     ``q_r' (M a + K_g q + B' f - p)`` is the sum of inertia, of what axial forces make of
     displacements, of bearing forces and of loads, which is zero in equilibrium. Sums that supports
     or the fixed rotations of a node share in are not formed.
     """
 
-    def __init__(self, state: AtRestMoving) -> None:
+    def __init__(self, state: GravityState) -> None:
         system, basis = state.system, state.basis
         motions, formed, extent = _rigid_motions(state)
         weight = float(abs(motions[:, 2] @ system.load)) or float(np.abs(system.load).sum()) or 1.0
@@ -91,7 +134,11 @@ class Resultants:
                 system.part_rows @ motions
             ).T
         self._rest = np.asarray(stiffness @ motions).T @ basis.offset - motions.T @ system.load
-        self._over_a = np.asarray(system.mass @ motions).T @ state.accelerating
+        self.accelerating = accelerating(state)
+        """How accelerations of b and eta accelerate the free displacements, (n_free, n)."""
+        self.has_light_nodes = has_light_nodes(state)
+        """Whether nodes have so little mass that no step follows it."""
+        self._over_a = np.asarray(system.mass @ motions).T @ self.accelerating
         self._over_ground = motions.T @ system.inertia_load
         self._over_force = np.asarray(bearing_rows(system) @ motions).T
         self.nodes = _Nodes(state)
@@ -115,7 +162,7 @@ def _times(steps: FloatArray, rows: FloatArray) -> FloatArray:
     return np.asarray(np.einsum("ti,ki->tk", steps, rows))
 
 
-def _rigid_motions(state: AtRestMoving) -> tuple[FloatArray, FloatArray, float]:
+def _rigid_motions(state: GravityState) -> tuple[FloatArray, FloatArray, float]:
     # Rigid motions (n_free, 6) of what bearings alone hold, which of them nothing else resists,
     # and half the extent of the structure.
     system = state.system
@@ -146,7 +193,7 @@ def _rigid_motions(state: AtRestMoving) -> tuple[FloatArray, FloatArray, float]:
     return motions, formed, extent
 
 
-def _parts(state: AtRestMoving) -> IntArray:
+def _parts(state: GravityState) -> IntArray:
     # Parts of the structure that bearings alone connect, by free displacement.
     system = state.system
     pattern = abs(system.stiffness) + abs(system.mass)
@@ -157,7 +204,7 @@ class _Nodes:
     # Nodes with mass that can move, the smallest of these masses, their translations over the free
     # displacements.
 
-    def __init__(self, state: AtRestMoving) -> None:
+    def __init__(self, state: GravityState) -> None:
         mass, transform = moving_mass(state), sparse.csr_array(state.system.transform)
         self.places = np.flatnonzero(mass.max(axis=1) > 0.0)
         self.least = float(mass.max(axis=1)[self.places].min())
@@ -165,17 +212,9 @@ class _Nodes:
 
 
 class Plausibility:
-    """Keeps how far the forces of a run were from equilibrium, and how violently nodes moved.
+    """Keeps how far the forces of a run were from equilibrium, and how violently nodes moved."""
 
-    Parameters
-    ----------
-    state : AtRestMoving
-        The structure.
-    resultants : Resultants
-        Its sums of forces.
-    """
-
-    def __init__(self, state: AtRestMoving, resultants: Resultants) -> None:
+    def __init__(self, state: GravityState, resultants: Resultants) -> None:
         self._state, self._resultants, self._nodes = state, resultants, resultants.nodes
         self._reached: dict[str, Extreme] = {}
 
@@ -206,10 +245,10 @@ class Plausibility:
         bound += np.linalg.norm(ground, axis=1)
         nodes, count = self._nodes.places, len(self._state.system.node_names)
         found = Extreme(np.zeros(count), np.full(count, float(out.time[first])))
-        doubtful = np.flatnonzero(~(bound < VIOLENT) | self._state.has_light_nodes)
+        doubtful = np.flatnonzero(~(bound < VIOLENT) | self._resultants.has_light_nodes)
         for begin in range(0, len(doubtful), _AT_ONCE):
             some = doubtful[begin : begin + _AT_ONCE]
-            moves = np.hstack([a_b[some], a_e[some]]) @ self._state.accelerating.T
+            moves = np.hstack([a_b[some], a_e[some]]) @ self._resultants.accelerating.T
             moves = np.asarray(self._nodes.rows @ moves.T).T.reshape(len(some), -1, 3)
             sizes = np.linalg.norm(moves + ground[some][:, None], axis=-1)
             sizes = np.where(sizes > VIOLENT, sizes, 0.0)
@@ -220,7 +259,7 @@ class Plausibility:
         return found
 
 
-def moving_mass(state: AtRestMoving) -> FloatArray:
+def moving_mass(state: GravityState) -> FloatArray:
     """Return the masses of the nodes that can move (n_nodes, 3), 0 along what supports hold [kg].
 
     Shapes: result (n_nodes, 3).

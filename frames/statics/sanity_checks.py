@@ -43,33 +43,16 @@ STRONG_GROUND, FEEBLE = 50.0, 1e-3
 
 
 class BearingLoad(NamedTuple):
-    """A bearing under permanent loads.
+    """A bearing under permanent loads."""
 
-    Attributes
-    ----------
-    name : str
-        Of the bearing.
-    axial_force : float
-        Compression positive [N].
-    pressure : float
-        On the slider's area [Pa].
-    settlement : float
-        Closure of its axial contact [m].
-    period : float
-        Of its pendulum [s].
-    slip_stability : float
-        Slip of the interface that holds without rims [m]; infinite with the rigid slider.
-    slip_capacity : float
-        Slip at which the sliders' overlap ends [m].
-    """
-
-    name: str
-    axial_force: float
-    pressure: float
-    settlement: float
-    period: float
+    name: str  # of the bearing
+    axial_force: float  # compression positive [N]
+    pressure: float  # on the slider's area [Pa]
+    settlement: float  # closure of its axial contact [m]
+    period: float  # of its pendulum [s]
     slip_stability: float
-    slip_capacity: float
+    """Slip of the interface that holds without rims [m]; infinite with the rigid slider."""
+    slip_capacity: float  # slip at which the sliders' overlap ends [m]
 
 
 def bearing_loads(system: System, axial_forces: FloatArray) -> tuple[BearingLoad, ...]:

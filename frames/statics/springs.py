@@ -1,4 +1,4 @@
-"""Bearings as linear springs between their nodes."""
+"""Bearings as linear springs between their nodes, and what is known of a model before any run."""
 
 from __future__ import annotations
 
@@ -6,16 +6,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse.linalg import spsolve
 
+from frames.assembly.assemble import assemble
 from frames.assembly.basis import bearing_rows
-from frames.assembly.sparse_solver import Factors
-from frames.model.components import bearing_axial_stiffness, bearing_rocking_stiffness
+from frames.assembly.constraints import OUT_OF_PLANE
+from frames.assembly.solvers import Factors
+from frames.model.components import DOFS, bearing_axial_stiffness, bearing_rocking_stiffness
+from lir_element import Features
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
     from frames._types import FloatArray, SparseMatrix
     from frames.assembly.system import System
+    from frames.model.frame_data import FrameData
+    from frames.motion.ground_motion import GroundMotion
 
 
 def guessed_springs(system: System, with_points: Collection[str] = ()) -> SparseMatrix:
@@ -60,3 +66,49 @@ def spring_matrix(system: System, values: FloatArray) -> SparseMatrix:
     pair = np.array([[1.0, -1.0], [-1.0, 1.0]])
     blocks = [sparse.csr_array(np.kron(pair, np.diag(row))) for row in values]
     return sparse.csr_array(rows.T @ sparse.block_diag(blocks, format="csr") @ rows)
+
+
+def exact_features(frame: FrameData, motion: GroundMotion) -> Features:
+    """Return what a test case needs as far as that is certain before the run."""
+    system = assemble(frame)
+    bearings = [placed.bearing for placed in system.bearings]
+    lacking = []
+    if bearings and all(b.is_dcfp for b in bearings):
+        lacking.append("interface")
+    if all(np.isinf(b.rim_displacement).all() for b in bearings):
+        lacking.append("rims")
+    if all(law.f_max == law.f_min for b in bearings for law in b.frictions):
+        lacking.append("velocity_dependence")
+    if not motion.components[:, 1].any() and is_plane(system):
+        lacking.append("second_direction")
+    return Features.all().without(*lacking)
+
+
+def is_plane(system: System) -> bool:
+    """Return whether nothing couples the x-z plane of a frame with what moves out of it."""
+    outside = np.array([label.rsplit(" ", 1)[1] in OUT_OF_PLANE for label in system.dof_labels])
+    across = np.array([dof in OUT_OF_PLANE for dof in DOFS] * len(system.node_names))
+    parts = (
+        system.stiffness[~outside][:, outside],
+        system.mass[~outside][:, outside],
+        system.damping[~outside][:, outside],
+        system.transform[~across][:, outside],
+        system.transform[across][:, ~outside],
+    )
+    rows = abs(system.part_rows)
+    crossing = [np.asarray(rows[:, chosen].sum(axis=1)) > 0.0 for chosen in (outside, ~outside)]
+    if (crossing[0] & crossing[1]).any():
+        return False
+    if any(abs(part).max() > 0.0 for part in parts if part.shape[0] and part.shape[1]):
+        return False
+    return not (system.load[outside].any() or system.inertia_load[outside][:, [0, 2]].any())
+
+
+def plane_coupling(frame: FrameData) -> float:
+    """Return how far a frame moves along y when it is pushed along x."""
+    system = assemble(frame)
+    stiffness = sparse.csc_array(system.stiffness + guessed_springs(system))
+    moves: FloatArray = spsolve(stiffness, system.inertia_load[:, 0])
+    u = np.asarray(bearing_rows(system) @ moves).reshape(-1, 12)
+    relative = np.abs(u[:, 6:8] - u[:, :2]).max(axis=0)
+    return float(relative[1] / relative[0]) if relative[0] > 0.0 else np.inf

@@ -14,7 +14,7 @@ from frames import (
     moment_frame,
     shear_building,
 )
-from frames.statics.model_traits import exact_features, plane_coupling
+from frames.statics.springs import exact_features, plane_coupling
 from lir_element import CoulombFriction, Features, LIRBearing, VelocityFriction
 
 DT = 0.004

@@ -26,7 +26,7 @@ from frames import (
 )
 from frames.assembly.basis import build_basis
 from frames.assembly.ritz import RitzSpace
-from frames.assembly.sparse_solver import Factors
+from frames.assembly.solvers import Factors
 from frames.laws import Bilinear
 from frames.recording.reduction import present_quantities
 from frames.results.peak_response import largest

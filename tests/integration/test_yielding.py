@@ -31,7 +31,7 @@ from frames import (
 )
 from frames.assembly.assemble import assemble
 from frames.laws import Bilinear, BoucWen, Gap, HertzGap, PlasticHinge, Tie, ViscousDamper
-from frames.statics.model_traits import is_plane
+from frames.statics.springs import is_plane
 from lir_element import CoulombFriction, LIRBearing
 
 DT = 0.005

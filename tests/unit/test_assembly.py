@@ -23,7 +23,7 @@ from frames.assembly.assemble import (
     member_axial_forces,
     member_end_forces,
 )
-from frames.assembly.dense_solver import solve_positive
+from frames.assembly.solvers import solve_positive
 from frames.demo import bearing_for
 from frames.frame import Frame
 from frames.library.models import moment_frame

@@ -27,7 +27,7 @@ from frames.results.findings import doubts_of, findings_of
 from frames.results.level_doubts import level_doubts, travels
 from frames.results.measures import centre_shift
 from frames.results.peak_response import largest, total
-from frames.solve import level_escalation
+from frames.solve.time_history import escalate_level, mark_other_end
 from lir_element import (
     CoulombFriction,
     Element,
@@ -399,9 +399,7 @@ def test_auto_settles_at_once_where_nothing_is_missing():
 
 
 def settled(bearing: LIRBearing, features: Features) -> xr.Dataset:
-    return level_escalation.escalate_level(
-        lambda kept, level: run(bearing, features=kept, level=level), features
-    )
+    return escalate_level(lambda kept, level: run(bearing, features=kept, level=level), features)
 
 
 def test_cheap_run_is_repeated_where_the_rims_are_met():
@@ -439,7 +437,7 @@ def test_auto_takes_contact_for_bearings_that_ask():
         data = both.assign_attrs(level=str(level))
         return data.assign_attrs(audit(data).attrs())
 
-    again = level_escalation.escalate_level(analyse, Features())
+    again = escalate_level(analyse, Features())
     assert levels == ["pendulum", {"a": "contact"}]
     lines = again.attrs["auto_runs"].splitlines()
     assert "again with a at the level 'contact'" in lines[0]
@@ -464,7 +462,7 @@ def test_auto_names_runs_that_end_otherwise():
     for name, each in ends.items():
         data = run(device())
         data.attrs["auto_runs"] = "run 1: pendulum"
-        level_escalation.mark_other_end(data, each)
+        mark_other_end(data, each)
         lines[name] = [line for line in doubts_of(data) if line.startswith("ends:")]
         assert data.attrs["auto_runs"].count("\n") == len(lines[name])
     assert lines["alike"] == []

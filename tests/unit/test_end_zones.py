@@ -12,7 +12,7 @@ from frames.assembly.assemble import (
     member_axial_forces,
     member_end_forces,
 )
-from frames.assembly.end_zones import arms_geometric_stiffness
+from frames.assembly.members import arms_geometric_stiffness
 from frames.plots.model_geometry import member_lines
 
 PLAIN = Section(

@@ -11,8 +11,7 @@ from scipy.sparse import linalg
 
 import frames.statics.modes
 from frames import ModelError, modes, moment_frame
-from frames.assembly.few_modes import few_modes
-from frames.assembly.natural_modes import UnstableError, natural_modes
+from frames.assembly.natural_modes import UnstableError, few_modes, natural_modes
 from frames.demo import bearing_for
 
 if TYPE_CHECKING:

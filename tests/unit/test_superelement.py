@@ -7,7 +7,7 @@ from scipy import sparse
 
 from frames import Frame, ModelError, Section, shear_building
 from frames.assembly.assemble import assemble
-from frames.assembly.elimination import eliminate, separate_massless
+from frames.assembly.constraints import eliminate, separate_massless
 from lir_element import CoulombFriction, LIRBearing
 
 SECTION = Section.box(0.3, 0.3, 0.01)

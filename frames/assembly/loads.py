@@ -1,4 +1,4 @@
-r"""Loads of linear size along members as forces of clamped ends.
+"""Masses and permanent loads at the nodes of a frame, and loads of spans as forces of clamped ends.
 
 By Betti's theorem the force of a clamp is the work of the load on the deflection that a unit
 displacement of this end makes, negative: with the shape functions of the elastic stiffness, which
@@ -17,11 +17,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.assembly.members import shear_parameters
+from frames.model.applied_loads import load_masses
+from frames.model.axes import to_global
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.members import MemberArrays
-    from frames.model.applied_loads import SpanLoad
+    from frames.assembly.system import MemberTable
+    from frames.model.applied_loads import AppliedLoads, SpanLoad
+    from frames.model.frame_data import FrameData
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)  # exact to degree 5: load 1, shapes 3
 
@@ -68,3 +72,46 @@ def _shapes(s: FloatArray, phi: FloatArray) -> list[tuple[FloatArray, FloatArray
         (near, below * (s - 2.0 * s**2 + s**3 + bulge)),
         (far, below * (s**3 - s**2 - bulge)),
     ]
+
+
+def lumped_masses(
+    frame: FrameData, index: Mapping[str, int], members: MemberTable, applied: AppliedLoads
+) -> tuple[FloatArray, FloatArray]:
+    """Return the masses at the nodes: lumped ones, those of members, and those that loads make.
+
+    Shapes: mass (n_nodes, 6), weighing (n_nodes, 6).
+    """
+    mass = np.zeros((len(index), 6))
+    for name, values in frame.masses.items():
+        mass[index[name]] += values
+    half = 0.5 * members.arrays.density * members.arrays.area * members.arrays.length
+    for end in (0, 1):
+        np.add.at(mass[:, :3], members.nodes[:, end], half[:, None])
+    weighing = mass.copy()
+    for name, values in frame.weightless_masses.items():
+        weighing[index[name]] -= values
+    for name, made in load_masses(frame, applied).items():
+        mass[index[name], :3] += made
+    return mass, weighing
+
+
+def permanent_loads(
+    frame: FrameData,
+    index: Mapping[str, int],
+    members: MemberTable,
+    weighing: FloatArray,
+    applied: AppliedLoads,
+) -> FloatArray:
+    """Return weights and permanent loads at the nodes, superelements left out.
+
+    Shapes: weighing (n_nodes, 6), result (6 n_nodes,).
+    """
+    load = np.zeros((len(index), 6))
+    load[:, 2] -= frame.weight_factor * frame.gravity * weighing[:, 2]
+    for name, values in frame.loads.items():
+        load[index[name]] += values
+    for name, values, _ in applied.nodes:
+        load[index[name]] += values
+    flat = load.ravel()
+    np.subtract.at(flat, members.dofs, to_global(members.fixed_end, members.arrays.axes))
+    return flat
