@@ -104,7 +104,7 @@ def stack(
     units = {peak.quantity: peak.unit for row in rows for peak in row.peaks}
     coordinates["quantity"] = list(units)
     coordinates["unit"] = ("quantity", list(units.values()))
-    labels = _union(row.layout.labels for row in _unlike(rows))
+    labels = _union(layout.labels for layout in _unlike(rows))
     histories, more = _of_histories(rows)
     variables = _as_recorded(variables, labels, more)
     return xr.Dataset(variables | histories, coordinates | labels | more)
@@ -191,13 +191,12 @@ def _of_peaks(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
 
 def _of_reached(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
     # What was reached of each bearing, node, level: NaN where a run's structure has none such.
-    kinds = _unlike(rows)
-    labels = _union(kind.layout.labels for kind in kinds)
+    layouts = _unlike(rows)
+    labels = _union(layout.labels for layout in layouts)
     found: dict[str, xr.Variable] = {}
-    for kind in kinds:
-        runs = np.array([n for n, row in enumerate(rows) if row.layout is kind.layout])
+    for layout in layouts:
+        runs = np.array([n for n, row in enumerate(rows) if row.layout is layout])
         whole = np.stack([rows[n].reached for n in runs])
-        layout = kind.layout
         for k, name in enumerate(layout.names):
             dims = layout.dims[k]
             if name not in found:
@@ -210,14 +209,9 @@ def _of_reached(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
     return found
 
 
-class _Kind(NamedTuple):
-    layout: Layout
-
-
-def _unlike(rows: Sequence[RunResult]) -> list[_Kind]:
+def _unlike(rows: Sequence[RunResult]) -> list[Layout]:
     # The layouts of the rows, each once.
-    found = {id(row.layout): row.layout for row in rows if row.layout is not None}
-    return [_Kind(layout) for layout in found.values()]
+    return list({id(row.layout): row.layout for row in rows if row.layout is not None}.values())
 
 
 def _union(labels: Iterable[Mapping[str, tuple[str, ...]]]) -> dict[str, list[str]]:

@@ -43,13 +43,6 @@ _COPIES = 2.0
 """Rows, and the Dataset made of them."""
 
 
-class Kept(NamedTuple):
-    """What is kept of each run besides what it reached."""
-
-    recording: Recording
-    histories: bool
-
-
 class Structure(NamedTuple):
     """An analysis that many runs share, and where its numbers stand in their rows."""
 
@@ -58,7 +51,10 @@ class Structure(NamedTuple):
 
 
 class Runner:
-    """The runs of `time_histories`, and the structures that they share."""
+    """The runs of `time_histories`, and the structures that they share.
+
+    `recording` says which histories are kept, besides what each run reached; None: none.
+    """
 
     def __init__(
         self,
@@ -68,11 +64,11 @@ class Runner:
         cases: Sequence[Case],
         features: Features,
         level: str | Mapping[str, str],
-        kept: Kept,
+        recording: Recording | None,
     ) -> None:
         self.cases = cases
         self.motions, self.options = motions, options
-        self.features, self.kept = features, kept
+        self.features, self.recording = features, recording
         self._models, self._level = models, level
         self._shared: dict[str, Structure | AnalysisError] = {}
         self._left = {name: 0 for name in models}
@@ -100,7 +96,7 @@ class Runner:
                 self._shared.pop(name, None)
 
     def _set_up(self, name: str) -> Structure | AnalysisError:
-        recording = self.kept.recording if self.kept.histories else None
+        recording = self.recording
         try:
             found = Analysis(self._models[name], self.features, self._level)
         except AnalysisError as failure:
@@ -160,7 +156,7 @@ class Worker:
         data = run.judged
         note_end(data, *run.outcome)
         histories = None
-        if runner.kept.histories and isinstance(recorder, Recorder):
+        if runner.recording is not None and isinstance(recorder, Recorder):
             recorded = run.data if "time" in run.data.dims else recorder.recorded(data)
             histories = _histories(recorded, analysis.template)
         attrs = data.attrs
@@ -184,10 +180,10 @@ class Worker:
         self, structure: Structure, options: Options
     ) -> tuple[GravityState, PeakRecorder | Recorder]:
         # The state of this thread, at rest, and where its run writes.
-        analysis, kept = structure.analysis, self._runner.kept
+        analysis = structure.analysis
         if self._own is None or self._own[0] is not structure:
             state, peaks = analysis.fresh(), None
-            if analysis.can_track and not kept.histories:
+            if analysis.can_track and self._runner.recording is None:
                 peaks = PeakRecorder(analysis, state, self._is_stopped)
             self._own = structure, state, peaks
         else:

@@ -26,7 +26,6 @@ from lir_element._version import package_version
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from frames.batch.batch_run import Kept
     from frames.batch.cases import Case
     from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
@@ -38,7 +37,7 @@ _ENDING = ".run.npz"
 class KeptRuns:
     """A folder of runs, each under a digest of all that its numbers depend on.
 
-    The folder is made if it is not there; `asked` are features and levels.
+    The folder is made if it is not there; `asked` are features, levels and the recording.
     """
 
     def __init__(
@@ -48,13 +47,12 @@ class KeptRuns:
         motions: Mapping[str, GroundMotion],
         options: Mapping[str, Options],
         asked: object,
-        kept: Kept,
     ) -> None:
         self._folder = make_folder(folder)
         self._models = {name: fingerprint(model) for name, model in models.items()}
         self._digests = {name: motion_digest(motion) for name, motion in motions.items()}
         self._options = {n: fingerprint(o._replace(progress=None)) for n, o in options.items()}
-        self._common = fingerprint([asked, tuple(kept), sources_hash(), package_version()])
+        self._common = fingerprint([asked, sources_hash(), package_version()])
         self._layouts: dict[str, Layout] = {}
 
     def rows(self, cases: Sequence[Case]) -> list[RunResult]:

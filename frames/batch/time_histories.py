@@ -17,7 +17,7 @@ from frames._errors import AuditWarning, ModelWarning
 from frames._fingerprint import motion_digest
 from frames._provenance import provenance
 from frames.batch.batch_dataset import RunResult, stack
-from frames.batch.batch_run import Kept, Runner
+from frames.batch.batch_run import Runner
 from frames.batch.cases import BatchProgress, grid, named_models, named_motions, tell
 from frames.batch.completed_runs import KeptRuns
 from frames.recording.recording import Recording, whole_steps
@@ -134,7 +134,7 @@ def time_histories(
             f'level = "{level}" is one of single runs: call time_history for each, or take another'
         )
         raise ValueError(msg)
-    kept = _kept(record)
+    histories = _recording_of(record)
     options = {
         name: options_of(
             motion,
@@ -144,7 +144,7 @@ def time_histories(
             integrator=integrator,
             spectral_radius=spectral_radius,
             tolerance=tolerance,
-            recording=kept.recording,
+            recording=histories or Recording(every=None),
             progress=None,
         )
         for name, motion in grounds.items()
@@ -156,11 +156,12 @@ def time_histories(
     with blas_threads_for(*structures.values()):
         keeper, before = None, list[RunResult]()
         if resume is not None:
-            asked = (chosen, level)
-            keeper = KeptRuns(Path(resume), structures, grounds, options, asked, kept)
+            asked = (chosen, level, histories)
+            keeper = KeptRuns(Path(resume), structures, grounds, options, asked)
             before = keeper.rows(runs)
         todo = sorted({*range(len(runs))} - {row.place for row in before})
-        runner = Runner(structures, grounds, options, [runs[k] for k in todo], chosen, level, kept)
+        rest = [runs[k] for k in todo]
+        runner = Runner(structures, grounds, options, rest, chosen, level, histories)
         new, is_whole = _all(runner, min(count, len(todo)), tell(progress), keeper, len(before))
         rows = before + [row._replace(place=todo[row.place]) for row in new]
     if not rows:
@@ -172,7 +173,7 @@ def time_histories(
         "runs_asked_for": len(runs),
         "level": level if isinstance(level, str) else str(dict(level)),
         "features_left_out": ", ".join(chosen.left_out) or "none",
-        "recording": str(kept.recording) if kept.histories else "what was reached",
+        "recording": "what was reached" if histories is None else str(histories),
         "method": method,
         "integrator": integrator or "newmark",
         "spectral_radius": float(spectral_radius),
@@ -282,13 +283,13 @@ def _arriving(
             told(BatchProgress(done, total, perf_counter() - began, failed, taken))
 
 
-def _kept(record: object) -> Kept:
+def _recording_of(record: object) -> Recording | None:
     if record is None or record == "peaks":
-        return Kept(Recording(every=None), histories=False)
+        return None
     if not isinstance(record, Recording):
         msg = f'record = {record!r} must be None or "peaks", or a Recording such as Recording()'
         raise TypeError(msg)
-    return Kept(record, histories=True)
+    return record
 
 
 def _processors() -> int:

@@ -114,7 +114,7 @@ def run_one(
     judged = recorder.judgeable(data)
     judged.attrs = dict(data.attrs)
     outcome, findings = concluded(judged, state, end)
-    data.attrs = judged.attrs
+    data.attrs = dict(judged.attrs)
     return Run(data, judged, outcome, findings)
 
 

@@ -373,7 +373,7 @@ def test_swapped_fields_of_the_peaks_bundle_are_noticed_with_a_warm_cache(tmp_pa
     assert float(right[1]) > 0.0
     assert first == "1"
     assert run(code, tmp_path, LIR_CACHE_DIR=cache).stdout.split() == [*right, "0"]
-    source = tmp_path / "frames" / "peak_data.py"
+    source = tmp_path / "frames" / "bundles" / "peak_data.py"
     text = source.read_text(encoding="utf-8")
     whole, total = "    whole: Array ", "    total: Array "
     swapped = text.replace(whole, "    ?").replace(total, whole).replace("    ?", total)
