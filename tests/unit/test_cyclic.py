@@ -577,3 +577,36 @@ def test_bouc_wen_in_the_rig(sign: float) -> None:
     expected = plateau * math.tanh(1.5) + W * small / L
     # backward Euler with increments of 0.005 u_y
     assert_allclose(along_x(data, "bearing_force")[-1], sign * expected, rtol=3e-3, atol=0.0)
+
+
+@pytest.mark.parametrize(("level", "most"), [("pendulum", 0.02), ("contact", 0.06)])
+@pytest.mark.parametrize(
+    ("radius", "height", "slider_radius", "low"),
+    [((2.59, 1.88), 0.077, 0.068, (0.027, 0.058)), ((2.67, 1.01), 0.06, 0.09, (0.098, 0.0235))],
+)
+def test_below_its_capacity_it_is_a_dcfp(
+    radius: tuple[float, float],
+    height: float,
+    slider_radius: float,
+    low: tuple[float, float],
+    level: str,
+    most: float,
+) -> None:
+    """The actuator holds its load as well as the sliders' own equilibrium is found."""
+    device = bearing(
+        radius=radius,
+        slider_height=height,
+        slider_radius=slider_radius,
+        capacity=0.28,
+        friction=tuple(map(CoulombFriction, low)),
+        interface_friction=0.2,
+    )
+    turn = 6.0 * math.pi * np.linspace(0.0, 0.5, 120)
+    path = np.column_stack([np.sin(turn), 0.6 * np.sin(2.0 * turn / 3.0)])
+    path = (0.85 * device.capacity / np.hypot(*path.T).max() * path)[:14]
+    one = cyclic_test(device, path, axial_load=1e6, level=level)
+    two = cyclic_test(device.as_dcfp(), path, axial_load=1e6, level=level)
+    assert one.attrs["status"] == two.attrs["status"] == "ok"
+    assert not one.rim_force.any()
+    force, same = (each.bearing_force.to_numpy()[:, 0, :2] for each in (one, two))
+    assert_allclose(force, same, rtol=0.0, atol=most * np.abs(same).max())

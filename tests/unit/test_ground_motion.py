@@ -245,9 +245,15 @@ class TestColumns:
         assert_allclose(motion.y, [1.0, 2.0, 3.0], rtol=0.0, atol=0.0)
 
     def test_commas(self, write: Callable[[str, str], Path]) -> None:
-        path = write("a.csv", "0.0,1.5\n0.1,2.5 # last\n")
-        motion = GroundMotion.from_columns(x=path, time=0, unit="m/s2", delimiter=",")
-        assert_allclose(motion.x, [1.5, 2.5], rtol=0.0, atol=0.0)
+        for end in ("", ",", " , "):  # a separator may end a row
+            path = write("a.csv", f"0.0,1.5{end}\n0.1,2.5{end} # last\n")
+            motion = GroundMotion.from_columns(x=path, time=0, unit="m/s2", delimiter=",")
+            assert_allclose(motion.x, [1.5, 2.5], rtol=0.0, atol=0.0)
+            with pytest.raises(MotionError, match=r"separated by commas.*delimiter=\",\""):
+                GroundMotion.from_columns(x=path, time=0, unit="m/s2")
+        path = write("b.csv", "0.0,one\n0.1,two\n")
+        with pytest.raises(MotionError, match=r"line 1: '0.0,one' is not a number: remove"):
+            GroundMotion.from_columns(x=path, time=0, unit="m/s2")
 
     @pytest.mark.parametrize(
         ("text", "options", "message"),

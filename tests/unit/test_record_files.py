@@ -215,6 +215,29 @@ def test_what_cannot_be_used_is_refused(tmp_path: Path, text: str, words: str) -
         assert_allclose(read.x, [0.001, 0.002])
 
 
+LONG = esm().replace("NDATA: 1000", "NDATA: 10000") + "0.0\n" * 9000
+
+
+@pytest.mark.parametrize(
+    ("text", "count", "spare"),
+    [
+        (esm(), 1000, 20),
+        (esm().replace("NDATA: 1000", "NDATA: 980"), 980, 0),
+        (nsmn(), 1000, 60),  # 20 samples of each of three columns
+        (LONG, 10000, 100),  # 1 %
+    ],
+)
+def test_padding_after_the_samples_is_left_out(
+    tmp_path: Path, text: str, count: int, spare: int
+) -> None:
+    path = tmp_path / "padded.txt"
+    path.write_text(text + "0.0\n" * spare)
+    assert len(read_record(path)[0].trace.acceleration) == count
+    path.write_text(text + "0.0\n" * (spare + 1))
+    with pytest.raises(MotionError, match=f"names {count} samples, and the file holds"):
+        read_record(path)
+
+
 def test_a_peak_that_the_samples_miss_is_told(tmp_path: Path) -> None:
     path = tmp_path / "record.EW"
     path.write_text(knet(0, "E-W").replace("3920(gal)", "2000(gal)"))
@@ -226,6 +249,7 @@ def test_a_peak_that_the_samples_miss_is_told(tmp_path: Path) -> None:
 def folder(tmp_path: Path) -> Path:
     for k, direction in enumerate(("E-W", "N-S", "U-D")):
         (tmp_path / f"A.{direction.replace('-', '')}").write_text(knet(k, direction))
+    (tmp_path / "B.EW").write_text(knet(1, "30"))
     (tmp_path / "CE1.V2").write_text(csmip(2))
     (tmp_path / "five.acc").write_text("title\n" + rows(WAVES[0], 5, "%10.5f"))
     (tmp_path / "comma.txt").write_text(
@@ -247,6 +271,7 @@ def test_components_are_put_on_axes(folder: Path) -> None:
             {},
             r"hold 4 components.*which directions are x, y and z, as in x",
         ),
+        (("A.EW", "A.NS", "B.EW"), {}, r"hold 3 components.*which directions are x, y and z"),
         (("CE1.V2",), {"x": "45 Deg"}, "x = '45 Deg' is 0 of the directions 90 Deg, 360 Deg, Up"),
     ):
         with pytest.raises(MotionError, match=words):
