@@ -344,11 +344,11 @@ class Frame(FrameEditor):
         (`frames.exchange.pendulum_link.pendulum_link`). Rims, interface and slip have no link:
         write `frame.with_bearings(bearing.as_dcfp(rims=False))` to compare like with like.
         """
-        from frames.exchange.write_sap2000 import Writer, text_of
+        from frames.exchange.from_frame import building_of
+        from frames.exchange.write_sap2000 import tables_of, text_of
         from frames.results.storage import write_whole
 
-        text = text_of(Writer(self, displacement, units).tables())
-        write_whole(path, text)
+        write_whole(path, text_of(tables_of(building_of(self, displacement, units))))
 
     def to_etabs(
         self, path: str | Path, *, displacement: float | None = None, units: str = "KN, m, C"
@@ -378,10 +378,11 @@ class Frame(FrameEditor):
         points below the next story. Springs to a held node at one place are springs of points.
         docs/exchange.md says what of the file no file of ETABS confirms.
         """
+        from frames.exchange.from_frame import building_of
         from frames.exchange.write_etabs import EtabsWriter
         from frames.results.storage import write_whole
 
-        writer = EtabsWriter(self, displacement, units)
+        writer = EtabsWriter(building_of(self, displacement, units, program="ETABS"))
         write_whole(path, writer.text())
         return writer.names
 

@@ -151,6 +151,11 @@ class AreaSection:
     one_way: bool = False
     extra_weight: float = 0.0
 
+    @property
+    def factors(self) -> tuple[float, ...]:
+        """Factors by direction on the stiffness: 11, 22, 12 in plane, and of bending [-]."""
+        return (self.in_plane,) * 3 + (self.bending,) * 3
+
 
 @dataclass(frozen=True)
 class AreaObject:

@@ -10,6 +10,7 @@ import re
 from pathlib import Path
 
 from frames._errors import ModelError
+from frames.exchange.etabs_fields import ALIASES, NAMES
 from frames.exchange.s2k_text import read_text
 from frames.exchange.tables import Decimal, Row, Tables, Value
 
@@ -17,51 +18,6 @@ _TOKEN = re.compile(r'"([^"]*)"|([^\s"]+)')
 END = "$ END OF MODEL FILE"
 TEXT = "Text"
 """Field of text in quotation marks that follows no word."""
-
-NAMES = {
-    "STORY": ("Story",),
-    "MATERIAL": ("Material",),
-    "FRAMESECTION": ("Section",),
-    "CONCRETESECTION": ("Section",),
-    "SHELLPROP": ("Section",),
-    "LINKPROP": ("Link",),
-    "DIAPHRAGM": ("Diaphragm",),
-    "POINTSPRING": ("Spring",),
-    "POINTASSIGN": ("Point", "Story"),
-    "LINEASSIGN": ("Line", "Story"),
-    "AREAASSIGN": ("Area", "Story"),
-    "LINKASSIGN": ("Link",),
-    "POINTLOAD": ("Point", "Story"),
-    "LINELOAD": ("Line", "Story"),
-    "AREALOAD": ("Area", "Story"),
-    "LOADPATTERN": ("Pattern",),
-    "LOADCASE": ("Case",),
-    "COMBO": ("Combo",),
-    "MASSSOURCE": ("Source",),
-    "MASSSOURCELOAD": ("Source", "Pattern", "Factor"),
-    "GROUP": ("Group",),
-    "UNITS": ("Force", "Length", "Temperature"),
-    "POINT": ("Point", "X", "Y", "Below"),
-    "LINE": ("Line", "Kind", "I", "J", "Stories"),
-    "SHELLUNIFORMLOADSET": ("Set",),
-    "NAMEDFMODIFIER": ("Modifier",),
-    "NAMEDSHMODIFIER": ("Modifier",),
-}
-"""Positional values of a line by its first word; what follows are words with values."""
-
-ALIASES = {
-    "MATERIAL": {"M": "MASSPERVOLUME", "W": "WEIGHTPERVOLUME"},
-    "SHELLPROP": {
-        "ONEWAY": "ONEWAYLOADDIST",
-        "SLABDEPTH": "DECKSLABDEPTH",
-        "RIBDEPTH": "DECKRIBDEPTH",
-        "RIBWIDTH": "DECKRIBWIDTHTOP",
-        "RIBSPACING": "DECKRIBSPACING",
-        "WEIGHT": "DECKUNITWEIGHT",
-    },
-    "COMBO": {"LOAD": "LOADCASE"},
-}
-"""Words of ETABS 8 and 9 by first word, and those of later versions that mean the same."""
 
 _ALL_POSITIONAL = {"POINT", "LINE", "UNITS", "MASSSOURCELOAD"}
 

@@ -30,6 +30,12 @@ if TYPE_CHECKING:
 SLIDER_HEIGHT, SLIDER_RADIUS = 0.1, 0.15
 """Slider of a bearing made of a friction isolator link, whose file has none [m]."""
 
+UPRIGHT = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+"""Axes of a link between two joints at one place."""
+
+COINCIDENT = 1e-6
+"""Distance of two joints below which they have no direction [m]."""
+
 PENDULUM_LINKS = ("friction isolator", "sliding isolator", "friction pendulum")
 """Kinds of links that are friction pendulums."""
 
@@ -220,13 +226,12 @@ class Links:
             frame.add_node(other, *frame.nodes[link.i].position)
             frame.fix(other, "all")
             first, last = other, link.i
-            axes = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+            axes = UPRIGHT
         else:
             first, last = link.i, other
             ends = [np.array(frame.nodes[name].position) for name in (first, last)]
             apart = float(np.linalg.norm(ends[1] - ends[0]))
-            upright = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-            axes = frame_axes(ends[0], ends[1], link.angle) if apart > 1e-6 else upright
+            axes = frame_axes(ends[0], ends[1], link.angle) if apart > COINCIDENT else UPRIGHT
         fixed = []
         for k, name in enumerate(LINK_DOFS):
             dof = prop.dofs.get(name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from lir_element.units import STANDARD_GRAVITY
 
@@ -29,6 +30,28 @@ class Units:
 
     force: float
     length: float
+
+    one: ClassVar[float] = 1.0  # of what has no unit
+
+    @property
+    def per_length(self) -> float:
+        """Reciprocal of a length [1/m]."""
+        return 1.0 / self.length
+
+    @property
+    def area(self) -> float:
+        """Area [m2]."""
+        return self.length**2
+
+    @property
+    def inertia(self) -> float:
+        """Second moment of an area [m4]."""
+        return self.length**4
+
+    @property
+    def rotary(self) -> float:
+        """Mass times length squared [kg m2]."""
+        return self.mass * self.length**2
 
     @property
     def moment(self) -> float:
@@ -61,6 +84,12 @@ class Units:
         return self.mass / self.length**3
 
 
+def units_of(force: str, length: str) -> Units | None:
+    """Return the units that two words stand for, None if one is unknown."""
+    first, second = FORCES.get(force.strip().upper()), LENGTHS.get(length.strip().upper())
+    return None if first is None or second is None else Units(first, second)
+
+
 def link_scales(units: Units, *, turns: bool) -> dict[str, float]:
     """Return by what the numbers of a link's deformation become SI, by their name in `LinkDof`."""
     factor = units.moment if turns else units.line
@@ -73,9 +102,3 @@ def link_scales(units: Units, *, turns: bool) -> dict[str, float]:
         "open": 1.0 if turns else units.length,
         "place": units.length,
     }
-
-
-def units_of(force: str, length: str) -> Units | None:
-    """Return the units that two words stand for, None if one is unknown."""
-    first, second = FORCES.get(force.strip().upper()), LENGTHS.get(length.strip().upper())
-    return None if first is None or second is None else Units(first, second)
