@@ -8,8 +8,8 @@ import numpy as np
 
 from frames.exchange.building import AreaLoad, JointLoad, LineLoad
 from frames.exchange.geometry import area_normal
+from frames.exchange.loads import area_weight, frame_weight
 from frames.exchange.members import add_line_load
-from frames.exchange.sap2000_loads import area_weight, frame_weight
 from frames.exchange.slabs import corner_shares
 
 if TYPE_CHECKING:

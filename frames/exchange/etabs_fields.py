@@ -1,6 +1,6 @@
 """The dialect of ETABS' text: fields by what they are, what has no effect, what is refused."""
 
-from frames.exchange.fields import NOT_NEGATIVE, POISSON, POSITIVE, SHARE, Field, fields
+from frames.exchange.fields import NOT_NEGATIVE, POISSON, POSITIVE, SHARE, Field, SectionMap, fields
 
 DOFS = ("UX", "UY", "UZ", "RX", "RY", "RZ")
 """Displacements of a point."""
@@ -25,6 +25,7 @@ MODIFIERS = fields(
     default=1.0,
     bound=NOT_NEGATIVE,
 )
+SECTION = SectionMap(CONSTANTS, SIZES, MODIFIERS)
 FRAME_MODIFIERS = fields(
     "area=PROPMODA shear_2=PROPMODA2 shear_3=PROPMODA3 torsion=PROPMODT inertia_22=PROPMODI22 "
     "inertia_33=PROPMODI33 mass=PROPMODM weight=PROPMODW",
@@ -32,7 +33,6 @@ FRAME_MODIFIERS = fields(
     bound=NOT_NEGATIVE,
 )
 THICKNESS = fields("thickness=SLABTHICKNESS|WALLTHICKNESS|OVERALLDEPTH|TM", "length")
-BENDING_THICKNESS = fields("bending_thickness=TB", "length")
 DECK = (
     *fields("slab=DECKSLABDEPTH", "length", None),
     *fields("depth=DECKRIBDEPTH top=DECKRIBWIDTHTOP spacing=DECKRIBSPACING", "length"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
     from frames.exchange.tables import Row, Value
@@ -42,6 +42,14 @@ class Field(NamedTuple):
 Fields: TypeAlias = tuple[Field, ...]
 
 
+class SectionMap(NamedTuple):
+    """Fields of a cross-section: its constants, its sizes, and the factors on them."""
+
+    constants: Fields
+    sizes: Fields
+    modifiers: Fields
+
+
 def fields(
     pairs: str, unit: str = "one", default: float | None = 0.0, bound: Bound = ANY
 ) -> Fields:
@@ -51,12 +59,18 @@ def fields(
 
 
 def numbers(
-    row: Row, map_: Fields, units: Units, of: str = "", *, only_given: bool = False
-) -> dict[str, float]:
+    row: Row,
+    map_: Fields,
+    units: Units,
+    of: str = "",
+    *,
+    prefix: str = "",
+    only_given: bool = False,
+) -> dict[str, Any]:
     """Return the numbers of a row by our names, in SI; a number out of its bound is refused."""
-    found = {}
+    found: dict[str, Any] = {}
     for field in map_:
-        names = field.names.split("|")
+        names = [f"{prefix}{name}" for name in field.names.split("|")]
         given = [name for name in names if row.has(name)]
         if only_given and not given:
             continue
@@ -64,7 +78,7 @@ def numbers(
         value = row.number(name, field.default)
         if not field.bound.holds(value):
             message = f"{name} = {value:g}{of} {field.bound.words}"
-            raise row.error(message)
+            raise row.error(message, name)
         found[field.ours] = value * getattr(units, field.unit)
     return found
 

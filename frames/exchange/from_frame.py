@@ -31,7 +31,7 @@ from frames.exchange.building import (
 )
 from frames.exchange.geometry import area_normal, frame_axes
 from frames.exchange.links import COINCIDENT, UPRIGHT
-from frames.exchange.members import RELEASES
+from frames.exchange.members import MOMENTS
 from frames.exchange.pendulum_link import pendulum_link
 from frames.exchange.units import units_of
 from frames.model.axes import default_up
@@ -111,8 +111,9 @@ def _add_joints(frame: FrameData, building: Building) -> None:
     building.masses = {node: tuple(values.tolist()) for node, values in frame.masses.items()}
     for part in frame.diaphragms.values():
         building.constraints[part.name] = Constraint(part.name, "diaphragm", tuple(part.nodes))
-    flat = [*frame.levels, *frame.diaphragms.values()]
-    building.stories = [(part.name, frame.nodes[part.nodes[0]].z) for part in flat]
+    flat = [level.nodes[0] for level in frame.levels]
+    flat += [part.nodes[0] for part in frame.diaphragms.values()]
+    building.stories = [(node, frame.nodes[node].z) for node in flat]
 
 
 def _add_members(frame: FrameData, building: Building) -> None:
@@ -140,7 +141,7 @@ def _add_members(frame: FrameData, building: Building) -> None:
                 width=math.sqrt(12.0 * section.inertia_z / section.area),
             )
         start, end = (np.array(frame.nodes[n].position) for n in (member.i, member.j))
-        words = {ours: theirs for theirs, ours in RELEASES.items()}
+        words = {ours: theirs for theirs, ours in MOMENTS.items()}
         first, last = (frozenset(words[word] for word in end) for end in member.releases)
         ratio = _true(frame, member) / float(np.linalg.norm(end - start))
         building.frames[member.name] = FrameObject(

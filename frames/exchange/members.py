@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 LEAST_FACTOR = 1e-6
 """Factor on a stiffness that stands for none [-]."""
 
-RELEASES = {"T": "T", "M2": "Mz", "M3": "My"}
+MOMENTS = {"T": "T", "M2": "Mz", "M3": "My"}
 """Releases of the programs and those of members: local z is axis 2, local y is -3."""
 
 _GAUSS = ((0.5 - 0.5 / math.sqrt(3.0), 0.5), (0.5 + 0.5 / math.sqrt(3.0), 0.5))
@@ -98,7 +98,7 @@ def add_members(frame: FrameEditor, divided: list[Divided], sections: Sections) 
                 given.releases[1] if place == last else (),
             )
             releases = {
-                end: [RELEASES[word] for word in sorted(words)]
+                end: [MOMENTS[word] for word in sorted(words)]
                 for end, words in zip("ij", ends, strict=True)
                 if words
             }

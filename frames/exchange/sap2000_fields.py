@@ -1,6 +1,6 @@
 """The dialect of SAP2000's tables: fields by what they are, what has no effect, what is refused."""
 
-from frames.exchange.fields import NOT_NEGATIVE, POISSON, POSITIVE, SHARE, Field, fields
+from frames.exchange.fields import NOT_NEGATIVE, POISSON, POSITIVE, SHARE, Field, SectionMap, fields
 
 MATERIALS = "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"
 SECTIONS = "FRAME SECTION PROPERTIES 01 - GENERAL"
@@ -36,6 +36,7 @@ MODIFIERS = fields(
     default=1.0,
     bound=NOT_NEGATIVE,
 )
+SECTION = SectionMap(CONSTANTS, SIZES, MODIFIERS)
 THICKNESS = (
     Field("thickness", "Thickness", "length", bound=POSITIVE),
     Field("bending_thickness", "BendThick", "length"),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.exchange.geometry import area_normal
-from frames.exchange.sap2000_loads import area_weight, frame_weight
+from frames.exchange.loads import area_weight, frame_weight
 
 if TYPE_CHECKING:
     from collections.abc import Collection

@@ -39,9 +39,11 @@ class Row:
     ----------
     looked_at : set of str
         Fields that the reader has asked for.
+    lines : dict of str to int
+        Lines of fields that stand in others than `line`.
     """
 
-    __slots__ = ("decimal", "file", "line", "looked_at", "table", "values")
+    __slots__ = ("decimal", "file", "line", "lines", "looked_at", "table", "values")
 
     def __init__(
         self, file: str, table: str, line: int, values: dict[str, Value], decimal: Decimal = "."
@@ -49,15 +51,21 @@ class Row:
         self.file, self.table, self.line = file, table, line
         self.values, self.decimal = values, decimal
         self.looked_at: set[str] = set()
+        self.lines: dict[str, int] = {}
 
     @property
     def place(self) -> str:
         """Where the row stands: file, line and table."""
-        return f'{self.file}, line {self.line}, table "{self.table}"'
+        return self.place_of("")
 
-    def error(self, message: str) -> ModelError:
-        """Return an error that begins with the place of the row."""
-        return ModelError(f"{self.place}: {message}")
+    def place_of(self, field: str) -> str:
+        """Return where a field of the row stands."""
+        line = self.lines.get(field, self.line)
+        return f'{self.file}, line {line}, table "{self.table}"'
+
+    def error(self, message: str, field: str = "") -> ModelError:
+        """Return an error that begins with the place of the row, or of one of its fields."""
+        return ModelError(f"{self.place_of(field)}: {message}")
 
     def has(self, *fields: str) -> bool:
         """Return whether every field has a value."""
@@ -97,7 +105,7 @@ class Row:
         value = self.number(field, None if default is None else float(default))
         if not value.is_integer():
             msg = f"{field} = {value:g} must be a whole number"
-            raise self.error(msg)
+            raise self.error(msg, field)
         return int(value)
 
     def yes(self, field: str, *, default: bool | None = None) -> bool:
@@ -106,7 +114,7 @@ class Row:
         found = _YES.get(text.strip().lower())
         if found is None:
             msg = f'{field} = "{text}" must be Yes or No'
-            raise self.error(msg)
+            raise self.error(msg, field)
         return found
 
 
@@ -126,10 +134,10 @@ def as_number(row: Row, field: str, text: str) -> float:
                 f"{argument('decimal', other)}"
             )
         msg = f'{field} = "{text}" is no number: {remedy}'
-        raise row.error(msg) from None
+        raise row.error(msg, field) from None
     if not math.isfinite(found) or "_" in text:
         msg = f'{field} = "{text}" must be a finite number'
-        raise row.error(msg)
+        raise row.error(msg, field)
     return found
 
 
@@ -209,6 +217,36 @@ def by_name(rows: Sequence[Row], field: str) -> dict[str, Row]:
             raise row.error(message)
         found[name] = row
     return found
+
+
+def merged(
+    rows: Sequence[Row], *fields: str, adding: Collection[str] = ()
+) -> dict[tuple[str, ...], Row]:
+    """Return one row for each object: its lines add up, a value that comes again replaces.
+
+    Of the fields that add, it is put behind the value before.
+    """
+    found: dict[tuple[str, ...], Row] = {}
+    for row in rows:
+        key = tuple(row.text(field) for field in fields)
+        values: dict[str, Value] = dict(row.values)
+        one = found.setdefault(key, Row(row.file, row.table, row.line, {}, row.decimal))
+        for field in one.values.keys() & values.keys() & set(adding):
+            values[field] = f"{one.values[field]} {values[field]}"
+        one.values |= values
+        if row.line != one.line:
+            one.lines |= dict.fromkeys(values, row.line)
+        row.looked_at = one.looked_at
+    return found
+
+
+def known(row: Row, field: str, name: str, names: Collection[str], of: str = "") -> str:
+    """Return a name that a row refers to, or raise where nothing has it."""
+    if name not in names:
+        some = ", ".join(list(names)[:6]) or "none"
+        msg = f'{field} "{name}"{of} is not defined: there are {some}'
+        raise row.error(msg, field)
+    return name
 
 
 def require_space(row: Row, active: Collection[str]) -> None:

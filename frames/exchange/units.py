@@ -88,17 +88,3 @@ def units_of(force: str, length: str) -> Units | None:
     """Return the units that two words stand for, None if one is unknown."""
     first, second = FORCES.get(force.strip().upper()), LENGTHS.get(length.strip().upper())
     return None if first is None or second is None else Units(first, second)
-
-
-def link_scales(units: Units, *, turns: bool) -> dict[str, float]:
-    """Return by what the numbers of a link's deformation become SI, by their name in `LinkDof`."""
-    factor = units.moment if turns else units.line
-    return {
-        "stiffness": factor,
-        "damping": factor,
-        "yield": units.moment if turns else units.force,
-        "rate": 1.0 / units.length,
-        "radius": units.length,
-        "open": 1.0 if turns else units.length,
-        "place": units.length,
-    }

@@ -27,7 +27,7 @@ LEAST_STORY = 0.01
 """Least height of a story; a level that is closer to the one below has none of its own [m]."""
 
 
-_HALVES = (slice(2), slice(2, None))  # of the numbers of a material: a line each
+_HALVES = (dialect.MATERIAL[:2], dialect.MATERIAL[2:])  # a line of the file each
 
 
 class Places:
@@ -143,7 +143,7 @@ class EtabsWriter:
     def _materials(self) -> list[str]:
         lines = []
         for name, matter in self.building.materials.items():
-            own = (_numbers(written(dialect.MATERIAL[k], matter, self.units)) for k in _HALVES)
+            own = (_numbers(written(part, matter, self.units)) for part in _HALVES)
             kinds = ('TYPE "Other"', 'SYMTYPE "Isotropic"  A 0')
             lines += [
                 f"MATERIAL  {_quoted(name)}  {kind}  {numbers}"

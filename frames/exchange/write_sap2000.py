@@ -182,8 +182,11 @@ def _areas(building: Building) -> dict[str, Rows]:
     areas = building.areas.values()
     return {
         dialect.AREAS: [
-            {"Area": area.name, "NumJoints": len(area.joints)}
-            | {f"Joint{k}": joint for k, joint in enumerate(area.joints, start=1)}
+            {
+                "Area": area.name,
+                "NumJoints": len(area.joints),
+                **{f"Joint{k}": joint for k, joint in enumerate(area.joints, start=1)},
+            }
             for area in areas
         ],
         "AREA SECTION ASSIGNMENTS": [
@@ -254,10 +257,10 @@ def _links(building: Building) -> dict[str, Rows]:
         found[f"{head}01 - GENERAL"].append(row)
         for dof, given in prop.dofs.items():
             table = "08 - SLIDING ISOLATOR" if given.nonlinear else "02 - LINEAR"
-            found[head + table].append({"Link": name, "DOF": dof} | _dof(building, dof, given))
+            found[head + table].append({"Link": name, "DOF": dof, **_dof(building, dof, given)})
     for name, link in building.links.items():
-        ends: dict[str, Value] = {"JointI": link.i, "JointJ": link.j or ""}
-        found[dialect.LINK_PLACES].append({"Link": name} | ends)
+        row = {"Link": name, "JointI": link.i, "JointJ": link.j or ""}
+        found[dialect.LINK_PLACES].append(row)
         row = {"Link": name, "LinkType": building.link_properties[link.property].kind}
         row |= {"LinkJoints": "TwoJoint", "LinkProp": link.property}
         found["LINK PROPERTY ASSIGNMENTS"].append(row)

@@ -16,6 +16,7 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError, ModelWarning
 from frames.demo import bearing_for
+from frames.exchange.etabs import read_etabs
 from lir_element.opensees import opensees
 from tests import etabs_models, sap2000_models
 
@@ -111,6 +112,16 @@ def test_bad_files_are_refused_with_a_remedy(tmp_path: Path, name: str) -> None:
     text, message = BAD[name]
     with pytest.raises(ModelError, match=message):
         Frame.from_etabs(written(tmp_path, text))
+
+
+def test_a_case_adds_up_its_patterns(tmp_path: Path) -> None:
+    # its first one too, if the case has the name of that pattern
+    text = changed(
+        'LOADPAT  "Dead"  SF  1 ',
+        'LOADPAT  "Dead"  SF  1\n  LOADCASE "Dead"  LOADPAT  "Live"  SF  0.5',
+    )
+    building = read_etabs(written(tmp_path, text))
+    assert building.combinations["G"] == pytest.approx({"Dead": 1.0, "Live": 0.5 + 0.7})
 
 
 def test_assignments_become_what_members_have(tmp_path: Path) -> None:

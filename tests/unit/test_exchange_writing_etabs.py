@@ -38,6 +38,9 @@ def braced() -> Frame:
     frame.add_node("pit", 5.0, 0.0, 0.0)
     frame.fix("pit", "all")
     frame.add_spring("soil", "1@0", "pit", (1e6, 2e6, 3e6, 4e5, 5e5, 6e5))
+    frame.add_node("well", 5.0, 0.0, 0.0)
+    frame.fix("well", "all")
+    frame.add_spring("more soil", "well", "1@0", (1e5, 2e5, 3e5, 4e4, 5e4, 6e4))
     frame.add_spring("tie", "0@6.5", "1@6.5", (1e6, 2e6, 3e6, 4e5, 5e5, 6e5))
     frame.add_mass("2@6.5", 900.0, (10.0, 20.0, 30.0))
     return frame
