@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
+from typing import TypeVar
+
+K = TypeVar("K", bound=Hashable)
 
 SAME_PLACE = 1e-3
 """Distance up to which points count as at one place, and heights as one elevation [m]."""
 
 
-def by_elevation(heights: Mapping[str, float]) -> list[list[str]]:
-    """Return names by their heights [m], from below: a group begins above the last one's lowest."""
-    groups: list[list[str]] = []
+def by_elevation(heights: Mapping[K, float]) -> list[list[K]]:
+    """Return names by their heights [m], from below; no group is higher than `SAME_PLACE`."""
+    groups: list[list[K]] = []
     low = float("-inf")
     for name in sorted(heights, key=lambda name: heights[name]):
         if heights[name] - low > SAME_PLACE:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from frames.exchange.account import Account
-from frames.exchange.units import Units
+from frames.exchange.fields import Units
 
 Vector: TypeAlias = tuple[float, float, float]
 """Components along global x, y, z."""

@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING
 from frames.exchange import etabs_fields as dialect
 from frames.exchange.account import Account
 from frames.exchange.building import Building, JointLoad, MassSource, Pattern
-from frames.exchange.e2k_text import TEXT, read_e2k
 from frames.exchange.etabs_links import EtabsLinks, read_groups
 from frames.exchange.etabs_objects import Objects
 from frames.exchange.etabs_properties import read_properties, read_stories
-from frames.exchange.fields import numbers
+from frames.exchange.fields import FORCES, LENGTHS, Units, numbers, units_of
 from frames.exchange.loads import add_area_load, add_combinations, add_line_load, cases_of
+from frames.exchange.reading import TEXT, read_e2k
 from frames.exchange.section_shapes import read_libraries
 from frames.exchange.tables import Decimal, Row, Tables, known, merged, require_space
-from frames.exchange.units import FORCES, LENGTHS, Units, units_of
 
 if TYPE_CHECKING:
     from frames.model.sections import Section

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from frames.exchange import etabs_fields as dialect
 from frames.exchange.building import LINK_DOFS, Building, LinkDof, LinkObject, LinkProperty
-from frames.exchange.e2k_text import TEXT
 from frames.exchange.fields import numbers
+from frames.exchange.reading import TEXT
 from frames.exchange.tables import known, merged
 
 if TYPE_CHECKING:
     from frames.exchange.etabs_objects import Objects
+    from frames.exchange.fields import Units
     from frames.exchange.tables import Row, Tables
-    from frames.exchange.units import Units
 
 PROPERTIES, PLACES = "LINK PROPERTIES", "LINK CONNECTIVITIES"
 _LISTS = ("DOF", "FIXED", "NONLIN")

@@ -16,10 +16,11 @@ from frames.exchange.building import (
     FrameObject,
     Joint,
 )
-from frames.exchange.enclosed import FLAT, Levels
 from frames.exchange.fields import numbers
+from frames.exchange.geometry import Levels
 from frames.exchange.properties import modifiers_of, offsets_of, released, shell_factors
 from frames.exchange.tables import known, merged
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from frames.exchange.tables import Row, Tables
@@ -267,7 +268,7 @@ class Diaphragms:
         levels = Levels({name: joint.position for name, joint in building.joints.items()})
         for key, corners in self._areas:
             points = np.array([building.joints[name].position for name in corners])
-            if key in found and np.ptp(points[:, 2]) <= FLAT:
+            if key in found and np.ptp(points[:, 2]) <= SAME_PLACE:
                 inside = [joint for joint in levels.within(points) if joint not in taken]
                 found[key] += inside
                 taken.update(inside)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from frames._errors import ModelError
 from frames.exchange import etabs_fields as dialect
 from frames.exchange.building import AreaSection, Building, FrameSection
-from frames.exchange.fields import numbers
+from frames.exchange.fields import Units, numbers
 from frames.exchange.properties import (
     by_constants,
     material_of,
@@ -24,7 +24,6 @@ from frames.exchange.section_shapes import (
     with_constants,
 )
 from frames.exchange.tables import known, merged
-from frames.exchange.units import Units
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

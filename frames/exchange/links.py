@@ -13,10 +13,10 @@ from frames._remedies import argument, bearing_for
 from frames.assembly.assemble import assemble
 from frames.exchange.building import LINK_DOFS
 from frames.exchange.geometry import frame_axes
-from frames.model.geometry_checks import POSITION_TOLERANCE
 from frames.model.laws import Bilinear, Gap, ViscousDamper
 from frames.statics.springs import first_displacement, spring_forces
 from lir_element import CoulombFriction, FrictionLaw, LIRBearing, VelocityFriction
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
@@ -162,7 +162,7 @@ class Links:
         if link.j is None:
             return 0.0
         (x, y, z), (u, v, w) = (self.frame.nodes[name].position for name in (link.i, link.j))
-        return abs(w - z) if math.hypot(u - x, v - y) < POSITION_TOLERANCE else 0.0
+        return abs(w - z) if math.hypot(u - x, v - y) < SAME_PLACE else 0.0
 
     def _note_pendulum(self, link: LinkObject, prop: LinkProperty) -> None:
         what = (
@@ -178,7 +178,7 @@ class Links:
             what = "friction isolators without one stiffness before sliding, with that of bearings"
             self._note(what, link.name)
         rise = self._rise(link)
-        if any(abs(value.get("place", 0.0) - 0.5 * rise) > 1e-3 for value in values):
+        if any(abs(value.get("place", 0.0) - 0.5 * rise) > SAME_PLACE for value in values):
             what = "friction isolators, their shear force at half their height, in place of DJ"
             self._note(what, link.name)
 

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.exchange.building import AreaLoad, LineLoad
+from frames.exchange.building import AreaLoad, JointLoad, LineLoad
 from frames.exchange.geometry import area_normal, direction_of, frame_axes
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Collection, Iterable, Iterator
 
     from frames._types import FloatArray
     from frames.exchange.building import Building, Vector
@@ -96,6 +96,49 @@ def area_weight(building: Building, area: str) -> float:
     return (own + section.extra_weight) * section.weight * given.weight
 
 
+OWN_MASS = "own mass"
+"""Name of the case that stands for the mass of elements."""
+
+
+def own_weights(building: Building, pattern: str) -> Iterator[LineLoad | AreaLoad | JointLoad]:
+    """Yield the own weight of all elements as a load of a pattern."""
+    yield from _link_loads(building, pattern, 0.0)
+    for name in building.frames:
+        down = (0.0, 0.0, -frame_weight(building, name))
+        yield LineLoad(name, pattern, 0.0, 1.0, down, down)
+    for name in building.areas:
+        yield AreaLoad(name, pattern, (0.0, 0.0, -area_weight(building, name)))
+
+
+def own_masses(building: Building, gravity: float) -> Iterator[LineLoad | AreaLoad | JointLoad]:
+    """Yield the own mass of all elements times gravity, as loads of the case `OWN_MASS`."""
+    yield from _link_loads(building, OWN_MASS, gravity)
+    for name, given in building.frames.items():
+        section = building.sections[given.section]
+        matter = building.materials[given.material or section.material]
+        factor = section.modifiers.times(given.modifiers).mass
+        down = (0.0, 0.0, -gravity * matter.density * section.area * factor)
+        yield LineLoad(name, OWN_MASS, 0.0, 1.0, down, down)
+    for name, area in building.areas.items():
+        found = building.area_sections.get(area.section)
+        if found is None or found.kind == "none":
+            continue
+        matter = building.materials[found.material]
+        own = gravity * matter.density * found.thickness + found.extra_weight
+        yield AreaLoad(name, OWN_MASS, (0.0, 0.0, -own * found.mass * area.mass))
+
+
+def _link_loads(building: Building, pattern: str, gravity: float) -> Iterator[JointLoad]:
+    # Half of what a link weighs at each of its joints, the other half of one with a single joint
+    # in the ground. Source: CSI Analysis Reference Manual, "The Link/Support Element", mass.
+    for link in building.links.values():
+        prop = building.link_properties[link.property]
+        half = 0.5 * (gravity * prop.mass if gravity else prop.weight)
+        for joint in (link.i, link.j):
+            if half and joint is not None:
+                yield JointLoad(joint, pattern, (0.0, 0.0, -half, 0.0, 0.0, 0.0))
+
+
 def cases_of(
     building: Building, parts: Iterable[tuple[str, str, float]]
 ) -> dict[str, dict[str, float]]:
@@ -130,3 +173,42 @@ def add_combinations(
         building.combinations.pop(name, None)
     building.account.read(table, "combinations of static loads", len(building.combinations))
     building.account.left_out(table, "combinations of other cases, or envelopes", sorted(other))
+
+
+class Shares:
+    """Own weight, and modulus times volume, of all elements.
+
+    Parameters
+    ----------
+    building : Building
+        With its frame objects and areas.
+    """
+
+    def __init__(self, building: Building) -> None:
+        self._weight: dict[str, float] = {}
+        self._stiffness: dict[str, float] = {}
+        for name, frame in building.frames.items():
+            first, last = (np.array(building.joints[j].position) for j in (frame.i, frame.j))
+            length = float(np.linalg.norm(last - first))
+            section = building.sections[frame.section]
+            matter = building.materials.get(frame.material or section.material)
+            modulus = 0.0 if matter is None else matter.elastic_modulus
+            self._weight[name] = length * frame_weight(building, name)
+            self._stiffness[name] = length * modulus * section.area
+        for name, area in building.areas.items():
+            points = np.array([building.joints[j].position for j in area.joints])
+            _, size = area_normal(points)
+            found = building.area_sections.get(area.section)
+            matter = building.materials.get(found.material) if found else None
+            self._weight[name] = size * area_weight(building, name)
+            if found is not None and matter is not None:
+                self._stiffness[name] = size * matter.elastic_modulus * found.thickness
+
+    def of(self, names: Collection[str]) -> tuple[float | None, float | None]:
+        """Return the shares of weight and of stiffness of some elements [-], None of nothing."""
+        return _share(self._weight, names), _share(self._stiffness, names)
+
+
+def _share(values: dict[str, float], names: Collection[str]) -> float | None:
+    whole = sum(values.values())
+    return sum(values.get(name, 0.0) for name in names) / whole if whole > 0.0 else None

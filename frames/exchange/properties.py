@@ -13,9 +13,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from frames.exchange.building import Vector
-    from frames.exchange.fields import Fields, SectionMap
+    from frames.exchange.fields import Fields, SectionMap, Units
     from frames.exchange.tables import Row
-    from frames.exchange.units import Units
 
 
 def in_use(rows: dict[str, Row], names: Iterable[str]) -> tuple[dict[str, Row], list[str]]:

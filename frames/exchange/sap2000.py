@@ -23,7 +23,7 @@ from frames.exchange.building import (
     MassSource,
     Pattern,
 )
-from frames.exchange.fields import numbers
+from frames.exchange.fields import FORCES, LENGTHS, Units, numbers, units_of
 from frames.exchange.loads import (
     add_area_load,
     add_combinations,
@@ -41,11 +41,10 @@ from frames.exchange.properties import (
     shell_factors,
     sizes_of,
 )
-from frames.exchange.s2k_text import read_excel, read_s2k
+from frames.exchange.reading import read_excel, read_s2k
 from frames.exchange.sap2000_objects import read_objects, section_of
 from frames.exchange.section_shapes import section_by_shape
 from frames.exchange.tables import ACTIVE, Decimal, Row, Tables, by_name, known, require_space
-from frames.exchange.units import FORCES, LENGTHS, Units, units_of
 
 _BOOKS = {".xlsx", ".xlsm"}
 

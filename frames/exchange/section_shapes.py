@@ -12,8 +12,8 @@ from xml.parsers import expat
 from frames._errors import ModelError
 from frames._remedies import argument
 from frames.exchange.building import FrameSection, Modifiers
+from frames.exchange.fields import LENGTHS
 from frames.exchange.tables import Row
-from frames.exchange.units import LENGTHS
 from frames.model.rolled_shapes import catalogue_dimensions
 from frames.model.sections import Section
 

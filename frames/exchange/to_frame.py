@@ -7,19 +7,18 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
 from frames._remedies import argument
-from frames.exchange.area_loads import OWN_MASS, Loading
 from frames.exchange.building import MassSource
-from frames.exchange.choose_shells import choose_shells, meet_joints
-from frames.exchange.doubts import doubt_base, doubt_weights
+from frames.exchange.doubts import doubt_base, doubt_weights, note_areas, note_members
 from frames.exchange.links import Links, yield_displacements
+from frames.exchange.loads import OWN_MASS, Shares
 from frames.exchange.members import Sections, add_members
 from frames.exchange.mesh import Mesh, mesh_areas
-from frames.exchange.notes import note_areas, note_members
-from frames.exchange.shares import Shares
-from frames.exchange.slabs import Slabs
+from frames.exchange.shells import choose_shells, meet_joints
+from frames.exchange.slabs import Loading, Slabs
 from frames.exchange.stations import divide, under_loads
-from frames.exchange.supports import Places, add_constraints, add_supports, by_elevation
+from frames.exchange.supports import Places, add_constraints, add_supports, levels_of
 from frames.model.applied_loads import applied_loads, load_masses
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from frames.exchange.building import Building
@@ -288,7 +287,7 @@ def _add_masses(
 
 def _add_levels(frame: FrameEditor, building: Building, places: Places) -> None:
     joints = [name for name in building.joints if name in frame.nodes]
-    groups = {round(frame.nodes[g[0]].z, 3): g for g in by_elevation(frame, joints)}
+    groups = {round(frame.nodes[g[0]].z, 3): g for g in levels_of(frame, joints)}
     stories = {round(z, 3): name for name, z in building.stories}
     if not stories:
         levels = {
@@ -300,7 +299,7 @@ def _add_levels(frame: FrameEditor, building: Building, places: Places) -> None:
             levels = {
                 round(frame.nodes[member.i].z, 3)
                 for member in frame.members.values()
-                if abs(frame.nodes[member.i].z - frame.nodes[member.j].z) < 1e-3
+                if abs(frame.nodes[member.i].z - frame.nodes[member.j].z) < SAME_PLACE
             }
         levels |= {round(frame.nodes[name].z, 3) for name in places.joints}
         stories = {z: f"level-{k}" for k, z in enumerate(sorted(levels))}

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames._errors import ModelError
-from frames.library.building_plan import level_name
-from frames.library.floor_fields import fields_of
+from frames.library.building_plan import fields_of, level_name
 from frames.model.applied_loads import applied_loads, load_masses
 
 if TYPE_CHECKING:

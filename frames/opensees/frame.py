@@ -20,13 +20,21 @@ from frames.opensees.checks import (
     refuse_unsymmetric,
 )
 from frames.opensees.element_forces import line_elements
-from frames.opensees.loads import light_base, permanent_load, rigid_damping
 from frames.opensees.model import read_model
 from frames.opensees.natures import natures
-from frames.opensees.structure import Options, Structure, Taken, turning
-from frames.opensees.vertical_mass import with_vertical_mass
+from frames.opensees.structure import (
+    Options,
+    Structure,
+    Taken,
+    light_base,
+    permanent_load,
+    rigid_damping,
+    turning,
+    with_vertical_mass,
+)
 from frames.opensees.viscous import with_viscous_springs
 from lir_element.argument_checks import listed, require_choice, require_positive
+from lir_element.elevations import by_elevation
 from lir_element.opensees import opensees
 from lir_element.opensees.base_nodes import BASE_ROTATIONS
 
@@ -38,8 +46,6 @@ if TYPE_CHECKING:
 
 NAME = "opensees"
 """Name of the superelement that holds the model."""
-
-LEVEL_STEP = 1e-3  # m, within which nodes are at one elevation
 
 
 def read(options: Options) -> tuple[Taken, Structure]:
@@ -212,7 +218,7 @@ def _add_bearings(taken: Taken, structure: Structure, options: Options) -> None:
     if not options.base_diaphragm:
         return
     at = {str(tag): taken.nodes[str(tag)][2] for tag in options.base_nodes}
-    groups = [group for group in _by_elevation(at) if len(group) > 1]
+    groups = [group for group in by_elevation(at) if len(group) > 1]
     for k, group in enumerate(groups):
         taken.diaphragms["base" if len(groups) == 1 else f"base-{k + 1}"] = group
 
@@ -228,24 +234,13 @@ def _add_levels(taken: Taken, structure: Structure, options: Options) -> None:
     heavy = dict(zip(at, mass.tolist(), strict=True))
     rises = dict(zip(at, (~structure.fixed[:, 2]).tolist(), strict=True))
     bases = {str(tag) for tag in options.base_nodes}
-    for group in _by_elevation(at):
+    for group in by_elevation(at):
         is_base = bool(bases.intersection(group))
         if not is_base and not any(heavy[name] > 0.0 for name in group):
             continue
         # a master node that is held vertically is no part of the floor's vertical motion
         name = f"level-{len(taken.levels)}"
         taken.levels[name] = [node for node in group if rises[node]] or group
-
-
-def _by_elevation(at: dict[str, float]) -> list[list[str]]:
-    groups: list[list[str]] = []
-    low = -math.inf
-    for name in sorted(at, key=lambda name: at[name]):
-        if at[name] - low > LEVEL_STEP:
-            groups.append([])
-            low = at[name]
-        groups[-1].append(name)
-    return groups
 
 
 def _refuse_held_bases(system: System, structure: Structure, options: Options) -> None:
