@@ -277,25 +277,13 @@ class MassSource:
 
 @dataclass
 class Building:
-    """All that was read of a file.
+    """All that was read of a file."""
 
-    Attributes
-    ----------
-    name, program, version : str
-        Of the file.
-    units : Units
-        Of the file.
-    account : Account
-        What was read, read as something else, and left out.
-    stories : list of (str, float)
-        Names and elevations [m] from below.
-    """
-
-    name: str
-    program: str
-    version: str
-    units: Units
-    account: Account
+    name: str  # of the file
+    program: str  # of the file
+    version: str  # of the file
+    units: Units  # of the file
+    account: Account  # what was read, read as something else, and left out
     joints: dict[str, Joint] = field(default_factory=dict)
     materials: dict[str, Material] = field(default_factory=dict)
     sections: dict[str, FrameSection] = field(default_factory=dict)
@@ -315,4 +303,5 @@ class Building:
     area_loads: list[AreaLoad] = field(default_factory=list)
     mass_source: MassSource | None = None
     combinations: dict[str, dict[str, float]] = field(default_factory=dict)
+    # names and elevations [m] from below
     stories: list[tuple[str, float]] = field(default_factory=list)

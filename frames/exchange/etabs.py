@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from frames.exchange import etabs_fields as dialect
 from frames.exchange.account import Account
@@ -14,33 +13,24 @@ from frames.exchange.etabs_objects import Objects
 from frames.exchange.etabs_properties import read_properties, read_stories
 from frames.exchange.fields import FORCES, LENGTHS, Units, numbers, units_of
 from frames.exchange.loads import add_area_load, add_combinations, add_line_load, cases_of
+from frames.exchange.options import Options
 from frames.exchange.reading import TEXT, read_e2k
 from frames.exchange.section_shapes import read_libraries
-from frames.exchange.tables import Decimal, Row, Tables, known, merged, require_space
-
-if TYPE_CHECKING:
-    from frames.model.sections import Section
+from frames.exchange.tables import Row, Tables, known, merged, require_space
 
 
-def read_etabs(
-    path: str | Path,
-    *,
-    allow: Collection[str] = (),
-    decimal: Decimal = ".",
-    sections: Mapping[str, Section] | None = None,
-    library: str | Path | Sequence[str | Path] = (),
-) -> Building:
+def read_etabs(path: str | Path, options: Options | None = None) -> Building:
     """Read an ETABS model."""
-    file = Path(path)
-    tables = read_e2k(file, decimal)
-    account = Account(file.name, allow)
+    file, given = Path(path), options or Options()
+    tables = read_e2k(file, given.decimal)
+    account = Account(file.name, given.allow)
     program = tables.rows("PROGRAM")
     version = program[0].text("VERSION", "") if program else ""
     building = Building(file.stem, "ETABS", version, _units(tables), account)
     for row in tables.rows("ACTIVEDOF"):
         require_space(row, row.text("Name", "").upper().split())
     read_stories(tables, building)
-    read_properties(tables, building, sections, read_libraries(library))
+    read_properties(tables, building, given.sections, read_libraries(given.library))
     objects = Objects(tables, building)
     objects.read()
     EtabsLinks(tables, building, objects).read()

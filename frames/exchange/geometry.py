@@ -95,13 +95,7 @@ def level_of(z: float) -> int:
 
 
 class Levels:
-    """Joints by level.
-
-    Parameters
-    ----------
-    places : mapping of str to (float, float, float)
-        Joints [m].
-    """
+    """Joints by level."""
 
     def __init__(self, places: Mapping[str, Vector]) -> None:
         by_level: dict[int, list[str]] = {}

@@ -112,27 +112,12 @@ def yield_displacements(frame: FrameData, stiffness: Mapping[str, float]) -> dic
 
 
 class Links:
-    """Adds the links of a building to a frame.
-
-    Parameters
-    ----------
-    frame : Frame
-        With the nodes; it is added to.
-    building : Building
-        With the links.
-    places : Places
-        Where bearings stand in place of links.
-
-    Attributes
-    ----------
-    stiffness : dict of str to float
-        Of friction isolators before they slide, by bearing [N/m].
-    """
+    """Adds the links of a building to a frame that has the nodes."""
 
     def __init__(self, frame: FrameEditor, building: Building, places: Places) -> None:
         self.frame, self.building, self.places = frame, building, places
         self._as: dict[str, list[str]] = {}
-        self.stiffness: dict[str, float] = {}
+        self.stiffness: dict[str, float] = {}  # of isolators before they slide [N/m]
 
     def add(self) -> None:
         """Add all links."""

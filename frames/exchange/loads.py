@@ -176,13 +176,7 @@ def add_combinations(
 
 
 class Shares:
-    """Own weight, and modulus times volume, of all elements.
-
-    Parameters
-    ----------
-    building : Building
-        With its frame objects and areas.
-    """
+    """Own weight, and modulus times volume, of all elements."""
 
     def __init__(self, building: Building) -> None:
         self._weight: dict[str, float] = {}

@@ -28,13 +28,7 @@ _GAUSS = ((0.5 - 0.5 / math.sqrt(3.0), 0.5), (0.5 + 0.5 / math.sqrt(3.0), 0.5))
 
 
 class Sections:
-    """Sections of members by what they are made of, each made once.
-
-    Parameters
-    ----------
-    building : Building
-        With the cross-sections and materials.
-    """
+    """Sections of members by what they are made of, each made once."""
 
     def __init__(self, building: Building) -> None:
         self._building = building

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -33,6 +33,7 @@ from frames.exchange.loads import (
     frame_weight,
     vector_of,
 )
+from frames.exchange.options import Options
 from frames.exchange.properties import (
     by_constants,
     in_use,
@@ -44,18 +45,16 @@ from frames.exchange.properties import (
 from frames.exchange.reading import read_excel, read_s2k
 from frames.exchange.sap2000_objects import read_objects, section_of
 from frames.exchange.section_shapes import section_by_shape
-from frames.exchange.tables import ACTIVE, Decimal, Row, Tables, by_name, known, require_space
+from frames.exchange.tables import ACTIVE, Row, Tables, by_name, known, require_space
 
 _BOOKS = {".xlsx", ".xlsm"}
 
 
-def read_sap2000(
-    path: str | Path, *, allow: Collection[str] = (), decimal: Decimal = "."
-) -> Building:
+def read_sap2000(path: str | Path, options: Options | None = None) -> Building:
     """Read a SAP2000 model."""
-    file = Path(path)
-    tables = read_excel(file) if file.suffix.lower() in _BOOKS else read_s2k(file, decimal)
-    account = Account(file.name, allow)
+    file, given = Path(path), options or Options()
+    tables = read_excel(file) if file.suffix.lower() in _BOOKS else read_s2k(file, given.decimal)
+    account = Account(file.name, given.allow)
     units, version = _units(tables)
     building = Building(file.stem, "SAP2000", version, units, account)
     _refuse_plane(tables)

@@ -56,14 +56,7 @@ class Slabs:
 
     A slab is cut into panels along the members within it; a panel gives its load to the members
     along its edges, each point to the nearest edge, or one way. Where no members run along all
-    edges that carry, the corners of the area get it.
-
-    Parameters
-    ----------
-    frame : Frame
-        With all members.
-    building : Building
-        With the areas.
+    edges that carry, the corners of the area get it. The frame has all members.
     """
 
     def __init__(self, frame: FrameEditor, building: Building) -> None:
@@ -203,17 +196,7 @@ def _corners(face: list[str], plan: dict[str, FloatArray]) -> list[str]:
 
 
 class Loading:
-    """Puts loads of patterns on a frame.
-
-    Parameters
-    ----------
-    building : Building
-        With the loads.
-    divided : dict of str to Divided
-        Frame objects.
-    mesh : Mesh
-        Shells: their loads go to their nodes.
-    """
+    """Puts loads of patterns on a frame; those of shells go to their nodes."""
 
     def __init__(self, building: Building, divided: Mapping[str, Divided], mesh: Mesh) -> None:
         self.building, self.divided, self.mesh = building, divided, mesh

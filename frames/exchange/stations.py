@@ -28,34 +28,16 @@ Points = dict[str, tuple[float, float, float]]
 
 @dataclass(frozen=True, eq=False)
 class Divided:
-    """A frame object divided into members.
-
-    Attributes
-    ----------
-    frame : FrameObject
-        The object.
-    nodes : list of str
-        From joint i to joint j.
-    shares : ndarray
-        Where they are, of the length between the joints [-].
-    start, way : ndarray, (3,)
-        Its axis: where it is at joint i, and the vector to where it is at joint j [m].
-    length : float
-        Between the joints [m].
-    axes : ndarray, (3, 3)
-        Axes 1, 2, 3.
-    stiff : tuple of float
-        Shares of the length that are stiff at i and at j [-].
-    """
+    """A frame object divided into members."""
 
     frame: FrameObject
-    nodes: list[str]
-    shares: FloatArray
-    start: FloatArray
-    way: FloatArray
-    length: float
-    axes: FloatArray
-    stiff: tuple[float, float]
+    nodes: list[str]  # from joint i to joint j
+    shares: FloatArray  # where they are, of the length between the joints [-]
+    start: FloatArray  # (3,), where its axis is at joint i [m]
+    way: FloatArray  # (3,), from there to where its axis is at joint j [m]
+    length: float  # between the joints [m]
+    axes: FloatArray  # (3, 3), axes 1, 2, 3
+    stiff: tuple[float, float]  # shares of the length that are stiff at i and at j [-]
 
     @property
     def members(self) -> list[str]:

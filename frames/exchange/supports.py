@@ -20,15 +20,7 @@ if TYPE_CHECKING:
 
 
 class Places:
-    """Where bearings stand.
-
-    Attributes
-    ----------
-    joints : dict of str to LIRBearing
-        Devices under joints.
-    links : dict of str to LIRBearing
-        Devices in place of links.
-    """
+    """Where bearings stand: under joints, and in place of links."""
 
     def __init__(self, building: Building, options: Options) -> None:
         self._building = building

@@ -22,26 +22,7 @@ _YES = {"yes": True, "true": True, "no": False, "false": False}
 
 
 class Row:
-    """One row of a table.
-
-    Parameters
-    ----------
-    file, table : str
-        Where it stands, for messages.
-    line : int
-        Its line in the file, or its row in the sheet.
-    values : dict of str to Value
-        Values by field.
-    decimal : {".", ","}
-        Decimal sign of the file.
-
-    Attributes
-    ----------
-    looked_at : set of str
-        Fields that the reader has asked for.
-    lines : dict of str to int
-        Lines of fields that stand in others than `line`.
-    """
+    """One row of a table, at its line of a file or of a sheet."""
 
     __slots__ = ("decimal", "file", "line", "lines", "looked_at", "table", "values")
 
@@ -50,8 +31,8 @@ class Row:
     ) -> None:
         self.file, self.table, self.line = file, table, line
         self.values, self.decimal = values, decimal
-        self.looked_at: set[str] = set()
-        self.lines: dict[str, int] = {}
+        self.looked_at: set[str] = set()  # fields that the reader has asked for
+        self.lines: dict[str, int] = {}  # of fields that stand in others than `line`
 
     @property
     def place(self) -> str:
@@ -142,13 +123,7 @@ def as_number(row: Row, field: str, text: str) -> float:
 
 
 class Tables:
-    """The tables of a file by name, upper case.
-
-    Parameters
-    ----------
-    file : str
-        Name of the file, for messages.
-    """
+    """The tables of a file by name, upper case."""
 
     def __init__(self, file: str) -> None:
         self.file = file

@@ -2,29 +2,35 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
-from frames._errors import ModelError
+from frames._errors import ModelError, ModelWarning
 from frames._remedies import argument
 from frames.exchange.building import MassSource
 from frames.exchange.doubts import doubt_base, doubt_weights, note_areas, note_members
+from frames.exchange.etabs import read_etabs
 from frames.exchange.links import Links, yield_displacements
 from frames.exchange.loads import OWN_MASS, Shares
 from frames.exchange.members import Sections, add_members
 from frames.exchange.mesh import Mesh, mesh_areas
-from frames.exchange.shells import choose_shells, meet_joints
+from frames.exchange.options import Options
+from frames.exchange.sap2000 import read_sap2000
+from frames.exchange.shells import add_shells, choose_shells, meet_joints
 from frames.exchange.slabs import Loading, Slabs
 from frames.exchange.stations import divide, under_loads
 from frames.exchange.supports import Places, add_constraints, add_supports, levels_of
 from frames.model.applied_loads import applied_loads, load_masses
+from frames.model.editing import FrameEditor
+from lir_element._compile.collection import without_collection
 from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from frames.exchange.building import Building
-    from frames.exchange.options import Options
     from frames.exchange.stations import Divided, Points
-    from frames.model.editing import FrameEditor
     from lir_element import LIRBearing
 
 _KINDS = (
@@ -33,6 +39,31 @@ _KINDS = (
     ("S", ("snow",)),
 )
 """Load cases of the frame, and the kinds of patterns that belong to them."""
+
+
+F = TypeVar("F", bound=FrameEditor)
+
+READERS = {"SAP2000": read_sap2000, "ETABS": read_etabs}
+"""Readers of files by program."""
+
+
+def imported(
+    kind: type[F], program: str, path: str | Path, options: Options, name: str | None
+) -> F:
+    """Return a program's model as a frame on bearings, and warn of what was probably not meant."""
+    building = READERS[program](path, options)
+    frame = kind(building.name if name is None else name)
+    with without_collection():  # loads by the hundred thousand: a third of the time
+        devices = fill(frame, building, options)
+    frame = frame.with_bearings(devices) if devices else frame
+    building.account.groups = {
+        name: tuple(label for kind, label in members if kind in {"joint", "link"})
+        for name, members in building.groups.items()
+    }
+    frame._imported = building.account
+    for doubt in building.account.doubts:
+        warnings.warn(doubt, ModelWarning, stacklevel=3)
+    return frame
 
 
 def fill(frame: FrameEditor, building: Building, options: Options) -> dict[str, LIRBearing]:
@@ -201,8 +232,6 @@ def _add_nodes(
 
 def _add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
     if mesh.elements:
-        from frames.exchange.shells import add_shells  # needs the optional openseespy
-
         add_shells(frame, building, mesh)
         areas = list(dict.fromkeys(area for area, _ in mesh.elements))
         what = f"shells, in {len(mesh.elements)} elements of OpenSees"

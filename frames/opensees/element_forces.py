@@ -1,4 +1,4 @@
-"""Forces and strains in beams, columns and bars of an OpenSees model, as rows over displacements."""
+"""Forces and strains in lines of an OpenSees model, as rows over displacements of nodes."""
 
 from __future__ import annotations
 

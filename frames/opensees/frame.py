@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from scipy import sparse
 
-from frames._errors import ModelError
+from frames._errors import ModelError, ModelWarning
 from frames.assembly.assemble import assemble
 from frames.model.components import DOFS, bearing_height
+from frames.model.editing import FrameEditor
 from frames.model.superelement import lumped
 from frames.opensees.checks import (
     judge_elements,
@@ -37,6 +39,7 @@ from lir_element.argument_checks import listed, require_choice, require_positive
 from lir_element.elevations import by_elevation
 from lir_element.opensees import opensees
 from lir_element.opensees.base_nodes import BASE_ROTATIONS
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.assembly.system import System
@@ -48,13 +51,25 @@ NAME = "opensees"
 """Name of the superelement that holds the model."""
 
 
+F = TypeVar("F", bound=FrameEditor)
+
+
+def imported(kind: type[F], options: Options, name: str) -> F:
+    """Return OpenSees' current model as a frame on bearings, and warn of what should be known."""
+    frame = kind(name, STANDARD_GRAVITY if options.gravity is None else options.gravity)
+    taken, structure = read(options)
+    fill(frame, taken)
+    refuse_taken(frame, structure, options)
+    for note in taken.notes:
+        warnings.warn(f"Frame.from_opensees: {note}", ModelWarning, stacklevel=3)
+    return frame
+
+
 def read(options: Options) -> tuple[Taken, Structure]:
     """Read the current model of OpenSeesPy as the parts of a frame on bearings."""
     _check_options(options)
     model = read_model()
-    unknown = [
-        tag for tag in (*options.base_nodes, *options.other_supports) if tag not in model.tags
-    ]
+    unknown = [tag for tag in (*options.bases, *options.other_supports) if tag not in model.tags]
     if unknown:
         message = (
             f"the OpenSees model has no node {unknown[0]}, named as a base node or support: give "
@@ -65,7 +80,7 @@ def read(options: Options) -> tuple[Taken, Structure]:
     up = 1 if options.vertical == "y" or model.coordinates.shape[1] == 2 else 2
     ops = opensees()
     notes = judge_elements(model, natures(ops, model), up, accept=options.accept_nonlinear)
-    refuse_other_supports(model, options.base_nodes, options.other_supports)
+    refuse_other_supports(model, options.bases, options.other_supports)
     if options.damping:
         damping, said = with_viscous_springs(ops, model)
         notes += said
@@ -115,6 +130,7 @@ def fill(frame: FrameBuilder, taken: Taken) -> None:
 
 
 def _check_options(options: Options) -> None:
+    bearings = options.bearings
     if options.vertical not in {None, "y", "z"}:
         message = f'vertical = {options.vertical!r}: the axis that points up is "z" or "y"'
         raise ModelError(message)
@@ -130,7 +146,7 @@ def _check_options(options: Options) -> None:
             remedy="9.81, or None where the model is loaded",
             error=ModelError,
         )
-    for tag, device in options.bearings.items():
+    for tag, device in bearings.items():
         bearing_height(f"bearing-{tag}", device)
 
 
@@ -169,7 +185,7 @@ def _turned(model: OpenSeesModel, options: Options) -> Structure:
 def _released(structure: Structure, options: Options) -> Structure:
     # Base nodes: translations and the rotation about the vertical free, the others as asked for;
     # what is held at every node (a plane model in space) stays. Nodes that nothing reaches go.
-    bases = [structure.tags.index(tag) for tag in options.base_nodes]
+    bases = [structure.tags.index(tag) for tag in options.bases]
     parts = [*structure.matrices.values(), structure.equations]
     reached = np.sum([np.asarray(abs(part).sum(axis=0)) for part in parts], axis=0)
     used = reached.reshape(-1, 6).any(axis=1)
@@ -178,7 +194,7 @@ def _released(structure: Structure, options: Options) -> Structure:
     if options.base_rotations != "kept":
         fixed[np.ix_(bases, [3, 4])] = options.base_rotations == "fixed"
     fixed |= np.all(structure.fixed[used], axis=0)
-    idle = [tag for tag in options.base_nodes if not used[structure.tags.index(tag)]]
+    idle = [tag for tag in options.bases if not used[structure.tags.index(tag)]]
     if idle:
         message = f"base node {idle[0]} carries nothing: no element, mass or constraint is there"
         raise ModelError(message)
@@ -217,7 +233,7 @@ def _add_bearings(taken: Taken, structure: Structure, options: Options) -> None:
         taken.bearings[f"bearing-{tag}"] = (ground, str(tag), device)
     if not options.base_diaphragm:
         return
-    at = {str(tag): taken.nodes[str(tag)][2] for tag in options.base_nodes}
+    at = {str(tag): taken.nodes[str(tag)][2] for tag in options.bases}
     groups = [group for group in by_elevation(at) if len(group) > 1]
     for k, group in enumerate(groups):
         taken.diaphragms["base" if len(groups) == 1 else f"base-{k + 1}"] = group
@@ -233,7 +249,7 @@ def _add_levels(taken: Taken, structure: Structure, options: Options) -> None:
     mass = lumped(structure.matrices["mass"])[:, 0]
     heavy = dict(zip(at, mass.tolist(), strict=True))
     rises = dict(zip(at, (~structure.fixed[:, 2]).tolist(), strict=True))
-    bases = {str(tag) for tag in options.base_nodes}
+    bases = {str(tag) for tag in options.bases}
     for group in by_elevation(at):
         is_base = bool(bases.intersection(group))
         if not is_base and not any(heavy[name] > 0.0 for name in group):
@@ -246,7 +262,7 @@ def _add_levels(taken: Taken, structure: Structure, options: Options) -> None:
 def _refuse_held_bases(system: System, structure: Structure, options: Options) -> None:
     # A base node that constraints still hold would leave its bearing without work.
     moving = np.diff(system.transform.indptr) > 0
-    for tag in options.base_nodes:
+    for tag in options.bases:
         node = system.node_names.index(str(tag))
         needed = ~structure.fixed[structure.tags.index(tag)]
         held = [DOFS[axis] for axis in range(3) if needed[axis] and not moving[6 * node + axis]]

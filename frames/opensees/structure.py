@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,7 @@ from frames._remedies import argument, in_python
 from frames.model.superelement import lumped
 from lir_element.argument_checks import listed, require_non_negative
 from lir_element.elevations import SAME_PLACE
+from lir_element.opensees.base_nodes import bearings_by_node
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -27,8 +29,8 @@ if TYPE_CHECKING:
 class Options:
     """What `Frame.from_opensees` was asked for."""
 
-    base_nodes: tuple[int, ...]
-    bearings: Mapping[int, LIRBearing]
+    base_nodes: Sequence[int]
+    bearing: LIRBearing | Mapping[int, LIRBearing]
     vertical: str | None
     base_rotations: str
     base_diaphragm: bool
@@ -40,6 +42,16 @@ class Options:
     vertical_mass: str | Mapping[int, float] | None
     length_unit: float
     force_unit: float
+
+    @cached_property
+    def bearings(self) -> dict[int, LIRBearing]:
+        """Bearings by base node, in the order of those."""
+        return bearings_by_node(self.base_nodes, self.bearing, error=ModelError)
+
+    @property
+    def bases(self) -> tuple[int, ...]:
+        """Tags of the nodes that stand on bearings."""
+        return tuple(self.bearings)
 
 
 def turning(ndm: int, vertical: str | None) -> tuple[FloatArray, FloatArray]:
@@ -153,14 +165,14 @@ def rigid_damping(structure: Structure, options: Options) -> list[str]:
 def light_base(structure: Structure, options: Options) -> list[str]:
     """Note bases without mass: friction then acts on nothing that has inertia."""
     moved = lumped(structure.matrices["mass"])[:, 0]
-    bases = [structure.tags.index(tag) for tag in options.base_nodes]
+    bases = [structure.tags.index(tag) for tag in options.bases]
     if moved[bases].sum() > _LIGHT * moved.sum():
         return []
     return [
         f"the base nodes have {moved[bases].sum():.4g} kg of {moved.sum():.4g} kg: a base without "
         "mass rings, and steps become small; give them the mass of the slab above the bearings, "
-        f"ops.mass({options.base_nodes[0]}, ...) and so on before"
-        + in_python(f', or frame.add_mass("{options.base_nodes[0]}", kg) afterwards')
+        f"ops.mass({options.bases[0]}, ...) and so on before"
+        + in_python(f', or frame.add_mass("{options.bases[0]}", kg) afterwards')
     ]
 
 
