@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Literal, TypeAlias
+from typing import ClassVar, Literal, TypeAlias
 
 from frames._errors import ModelError
 from frames._remedies import argument
@@ -26,6 +26,9 @@ class Row:
 
     __slots__ = ("decimal", "file", "line", "lines", "looked_at", "table", "values")
 
+    refusal: ClassVar[type[ValueError]] = ModelError
+    remedy: ClassVar[str] = "export the table with all its fields"
+
     def __init__(
         self, file: str, table: str, line: int, values: dict[str, Value], decimal: Decimal = "."
     ) -> None:
@@ -41,12 +44,12 @@ class Row:
 
     def place_of(self, field: str) -> str:
         """Return where a field of the row stands."""
-        line = self.lines.get(field, self.line)
-        return f'{self.file}, line {line}, table "{self.table}"'
+        table = f', table "{self.table}"' if self.table else ""
+        return f"{self.file}, line {self.lines.get(field, self.line)}{table}"
 
-    def error(self, message: str, field: str = "") -> ModelError:
+    def error(self, message: str, field: str = "") -> ValueError:
         """Return an error that begins with the place of the row, or of one of its fields."""
-        return ModelError(f"{self.place_of(field)}: {message}")
+        return self.refusal(f"{self.place_of(field)}: {message}")
 
     def has(self, *fields: str) -> bool:
         """Return whether every field has a value."""
@@ -59,10 +62,7 @@ class Row:
         value = self.values.get(field, "")
         if value == "":
             if default is None:
-                message = (
-                    f"no value of {field}, there are {', '.join(self.values)}: export the table "
-                    "with all its fields"
-                )
+                message = f"{field} is empty, there are {', '.join(self.values)}: {self.remedy}"
                 raise self.error(message)
             return default
         if isinstance(value, bool):

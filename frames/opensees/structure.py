@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -21,7 +21,6 @@ from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix
-    from frames.model.part_elements import PartElements
     from lir_element import LIRBearing
 
 
@@ -76,23 +75,6 @@ class Structure:
     present: BoolArray  # (n, 6), false for displacements that the model does not have
     equations: SparseMatrix
     load: FloatArray  # (6 n,)
-
-
-@dataclass
-class Taken:
-    """What a frame is given: the arguments of the verbs that add it, in their order."""
-
-    nodes: dict[str, tuple[float, float, float]] = field(default_factory=dict)
-    fixed: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    matrices: dict[str, SparseMatrix] = field(default_factory=dict)
-    members: tuple[str, ...] = ()  # nodes of the superelement
-    load: FloatArray | None = None
-    equations: SparseMatrix | None = None
-    bearings: dict[str, tuple[str, str, LIRBearing]] = field(default_factory=dict)
-    diaphragms: dict[str, list[str]] = field(default_factory=dict)
-    levels: dict[str, list[str]] = field(default_factory=dict)
-    notes: list[str] = field(default_factory=list)
-    elements: PartElements | None = None
 
 
 _LOADED = 1e-3  # of the weight of the masses, from which on a model counts as loaded
