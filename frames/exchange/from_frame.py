@@ -12,8 +12,6 @@ from frames._errors import ModelError
 from frames.exchange.account import Account
 from frames.exchange.building import (
     LINK_DOFS,
-    AreaObject,
-    AreaSection,
     Building,
     Constraint,
     FrameObject,
@@ -30,10 +28,11 @@ from frames.exchange.building import (
     Pattern,
 )
 from frames.exchange.fields import units_of
-from frames.exchange.geometry import area_normal, frame_axes
+from frames.exchange.geometry import frame_axes
 from frames.exchange.links import COINCIDENT, UPRIGHT
 from frames.exchange.members import MOMENTS
 from frames.exchange.pendulum_link import pendulum_link
+from frames.exchange.shells import shell_parts, shells_of
 from frames.model.axes import default_up
 from frames.model.components import DOFS
 from frames.model.floors import members_at, panel_loads
@@ -44,12 +43,9 @@ if TYPE_CHECKING:
     from frames.exchange.building import Vector
     from frames.model.components import BearingLink, Member
     from frames.model.frame_data import FrameData
-    from frames.model.part_elements import ShellElement
-    from frames.model.superelement import Superelement
 
 _DEAD = "D"
 _KINDS = {_DEAD: "Dead", "L": "Live", "S": "Snow"}
-_PLUMB = 1e-6
 
 
 def building_of(
@@ -65,7 +61,7 @@ def building_of(
     building = Building(frame.name, program, words, units, Account(frame.name))
     _add_joints(frame, building)
     _add_members(frame, building)
-    _add_shells(frame, building)
+    shells_of(frame, building)
     _add_loads(frame, building)
     _add_springs(frame, building)
     if frame.bearings:
@@ -75,7 +71,7 @@ def building_of(
 
 
 def _refuse(frame: FrameData, displacement: float | None, program: str) -> None:
-    shells = {part.name for part in _shell_parts(frame)}
+    shells = {part.name for part in shell_parts(frame)}
     for word, group in (
         ("superelements", [name for name in frame.superelements if name not in shells]),
         ("nonlinear links", frame.links),
@@ -196,68 +192,6 @@ def _angle(member: Member, start: FloatArray, end: FloatArray, program: str) -> 
     second = up - (up @ axes[0]) * axes[0]
     turned = math.degrees(math.atan2(float(second @ axes[2]), float(second @ axes[1])))
     return turned if abs(turned) > 1e-9 else 0.0
-
-
-def _shell_parts(frame: FrameData) -> list[Superelement]:
-    # The superelements that are shells and nothing else.
-    return [
-        part
-        for part in frame.superelements.values()
-        if part.elements.shells
-        and not part.load.any()
-        and not any(m.count_nonzero() for m in (part.mass, part.damping, part.equations))
-    ]
-
-
-def _add_shells(frame: FrameData, building: Building) -> None:
-    # Each element is an area, of a section without mass. The modulus of the stiffer of membrane and
-    # plate is that of the material; a factor of the section makes the other one.
-    diaphragms = [(part.name, set(part.nodes)) for part in frame.diaphragms.values()]
-    materials: dict[tuple[float, float], str] = {}
-    sections: dict[object, str] = {}
-    count: dict[str, int] = defaultdict(int)
-    for shell in (shell for part in _shell_parts(frame) for shell in part.elements.shells):
-        within = [name for name, nodes in diaphragms if nodes.issuperset(shell.nodes)]
-        if within:
-            message = (
-                f'a shell of area "{shell.area}" lies within the rigid diaphragm "{within[0]}", '
-                f"where {building.program} has it as a slab: take it out, or the diaphragm"
-            )
-            raise ModelError(message)
-        stiffest = shell.elastic_modulus * max(shell.bending, 1.0)
-        matter = (stiffest, shell.poisson_ratio)
-        if matter not in materials:
-            materials[matter] = name = f"SM{len(materials) + 1}"
-            shear = 0.5 * stiffest / (1.0 + shell.poisson_ratio)
-            building.materials[name] = Material(name, stiffest, shear, matter[1], 0.0, 0.0)
-        kind = "WALL" if area_kind(building, shell.nodes) == "PANEL" else "SLAB"
-        key = (kind, *shell[2:])
-        if key not in sections:
-            sections[key] = name = f"{kind}{len(sections) + 1}"
-            building.area_sections[name] = _area_section(name, materials[matter], shell)
-        count[shell.area] += 1
-        name = f"{shell.area}/{count[shell.area]}"
-        building.areas[name] = AreaObject(name, tuple(shell.nodes), sections[key], place="")
-
-
-def _area_section(name: str, material: str, shell: ShellElement) -> AreaSection:
-    return AreaSection(
-        name,
-        material,
-        "shell",
-        thickness=shell.thickness,
-        bending_thickness=shell.thickness,
-        in_plane=1.0 / max(shell.bending, 1.0),
-        bending=min(shell.bending, 1.0),
-    )
-
-
-def area_kind(building: Building, joints: tuple[str, ...]) -> str:
-    """Return what ETABS calls an area: by its normal."""
-    normal, _ = area_normal(np.array([building.joints[name].position for name in joints]))
-    if abs(normal[2]) > 1.0 - _PLUMB:
-        return "FLOOR"
-    return "PANEL" if abs(normal[2]) < _PLUMB else "RAMP"
 
 
 def _add_loads(frame: FrameData, building: Building) -> None:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy import sparse
 
 from frames._errors import ModelError
-from frames.exchange.building import Constraint
-from frames.exchange.geometry import Levels, level_of
+from frames.exchange.building import AreaObject, AreaSection, Constraint, Material
+from frames.exchange.geometry import Levels, area_normal, level_of
 from frames.exchange.loads import Shares
 from frames.exchange.mesh import joints_within
 from frames.model.part_elements import ShellElement, WithoutForces, no_elements
@@ -20,10 +21,12 @@ from lir_element.opensees import opensees
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
-    from frames.exchange.building import AreaObject, Building
+    from frames.exchange.building import Building
     from frames.exchange.mesh import Inside, Mesh
     from frames.exchange.stations import Points
     from frames.model.editing import FrameEditor
+    from frames.model.frame_data import FrameData
+    from frames.model.superelement import Superelement
 
 
 _MESHED = "ETABS"
@@ -89,6 +92,8 @@ def _tie(building: Building, decks: list[AreaObject]) -> None:
 AT_ONCE = 60
 """Elements whose matrices are read together: they are full ones."""
 
+
+_PLUMB = 1e-6  # cosine of a normal, below which an area stands upright
 
 NONE = 1e-6
 """Factor on a stiffness that stands for none [-]."""
@@ -197,3 +202,68 @@ def shell_numbers(building: Building, area: AreaObject) -> tuple[float, float, f
         section.thickness,
         plate / plane,
     )
+
+
+def shell_parts(frame: FrameData) -> list[Superelement]:
+    """Return the superelements that are shells and nothing else."""
+    return [
+        part
+        for part in frame.superelements.values()
+        if part.elements.shells
+        and not part.load.any()
+        and not any(m.count_nonzero() for m in (part.mass, part.damping, part.equations))
+    ]
+
+
+def shells_of(frame: FrameData, building: Building) -> None:
+    """Add the shells of a frame to a building: each element an area, of a section without mass.
+
+    The modulus of the stiffer of membrane and plate is that of the material; a factor of the
+    section makes the other one.
+    """
+    diaphragms = [(part.name, set(part.nodes)) for part in frame.diaphragms.values()]
+    materials: dict[tuple[float, float], str] = {}
+    sections: dict[object, str] = {}
+    count: dict[str, int] = defaultdict(int)
+    for shell in (shell for part in shell_parts(frame) for shell in part.elements.shells):
+        within = [name for name, nodes in diaphragms if nodes.issuperset(shell.nodes)]
+        if within:
+            message = (
+                f'a shell of area "{shell.area}" lies within the rigid diaphragm "{within[0]}", '
+                f"where {building.program} has it as a slab: take it out, or the diaphragm"
+            )
+            raise ModelError(message)
+        stiffest = shell.elastic_modulus * max(shell.bending, 1.0)
+        matter = (stiffest, shell.poisson_ratio)
+        if matter not in materials:
+            materials[matter] = name = f"SM{len(materials) + 1}"
+            shear = 0.5 * stiffest / (1.0 + shell.poisson_ratio)
+            building.materials[name] = Material(name, stiffest, shear, matter[1], 0.0, 0.0)
+        kind = "WALL" if area_kind(building, shell.nodes) == "PANEL" else "SLAB"
+        key = (kind, *shell[2:])
+        if key not in sections:
+            sections[key] = name = f"{kind}{len(sections) + 1}"
+            building.area_sections[name] = _area_section(name, materials[matter], shell)
+        count[shell.area] += 1
+        name = f"{shell.area}/{count[shell.area]}"
+        building.areas[name] = AreaObject(name, tuple(shell.nodes), sections[key], place="")
+
+
+def _area_section(name: str, material: str, shell: ShellElement) -> AreaSection:
+    return AreaSection(
+        name,
+        material,
+        "shell",
+        thickness=shell.thickness,
+        bending_thickness=shell.thickness,
+        in_plane=1.0 / max(shell.bending, 1.0),
+        bending=min(shell.bending, 1.0),
+    )
+
+
+def area_kind(building: Building, joints: tuple[str, ...]) -> str:
+    """Return what ETABS calls an area: by its normal."""
+    normal, _ = area_normal(np.array([building.joints[name].position for name in joints]))
+    if abs(normal[2]) > 1.0 - _PLUMB:
+        return "FLOOR"
+    return "PANEL" if abs(normal[2]) < _PLUMB else "RAMP"

@@ -10,7 +10,7 @@ from frames._errors import ModelError
 from frames.exchange import etabs_fields as dialect
 from frames.exchange.building import RELEASES
 from frames.exchange.fields import written
-from frames.exchange.from_frame import area_kind
+from frames.exchange.shells import area_kind
 from frames.exchange.write_sap2000 import along_axes
 
 if TYPE_CHECKING:
