@@ -64,6 +64,8 @@ def test_both_formats_give_one_frame(tmp_path: Path, walls: bool, units: tuple[s
     assert ("shells" in one.superelements) == walls
 
 
+NEW_LINE = "\n"
+
 BAD = {
     "truncated": (TEXT[: len(TEXT) // 2], r"is cut off|is not closed|needs its name"),
     "no end": (TEXT.replace("$ END OF MODEL FILE", ""), r"without the line \$ END OF MODEL FILE"),
@@ -83,6 +85,10 @@ BAD = {
     "below the base": (changed('"1"  "1"  1', '"1"  "1"  3'), r"stories below .* there is none"),
     "no mass source": (TEXT.replace("  MASSSOURCE  ", "  MASSSAUCE  "), r"has no mass source"),
     "units": (changed('"KN"  "M"', '"stone"  "M"'), r'UNITS "stone" "M" must be a force'),
+    "bound": (
+        changed("U 0.2", "U 0.7"),
+        rf'line {TEXT[: TEXT.index("U 0.2")].count(NEW_LINE) + 1}, .*: U = 0.7 of material "C30"',
+    ),
     "shape": (changed("AREA 0.2", "AREB 0.2"), r'is a "General" without Area'),
     "restraint": (changed("UX UY UZ", "UX UY UX9"), r'RESTRAINT "UX9" must be of'),
     "stages": (
