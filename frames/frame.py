@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Self, cast
 
-from frames._errors import ModelError, ModelWarning
 from frames.model.editing import FrameEditor
-from lir_element._compile.collection import without_collection
-from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
     from frames.exchange.account import Account
-    from frames.exchange.building import Building
-    from frames.exchange.options import BaseRotations, Options
+    from frames.exchange.options import BaseRotations
     from frames.model.sections import Section
     from frames.motion.ground_motion import GroundMotion
     from frames.statics.model_check import ModelCheck
@@ -133,33 +128,25 @@ class Frame(FrameEditor):
         state. What OpenSees does not show cannot be seen: damping by `modalDampingQ` and by
         elements' option ``-damp``. See docs/choices.md.
         """
-        from frames.opensees import frame as opensees_frame  # needs the optional openseespy
+        from frames.opensees.frame import imported  # needs the optional openseespy
         from frames.opensees.structure import Options
-        from lir_element.opensees.base_nodes import bearings_by_node
 
-        devices = bearings_by_node(base_nodes, bearing, error=ModelError)
         options = Options(
-            base_nodes=tuple(devices),
-            bearings=devices,
-            vertical=vertical,
-            base_rotations=base_rotations,
-            base_diaphragm=base_diaphragm,
-            gravity=gravity,
-            damping=damping,
-            levels=levels,
-            other_supports=tuple(other_supports),
-            accept_nonlinear=accept_nonlinear,
-            vertical_mass=vertical_mass,
-            length_unit=length_unit,
-            force_unit=force_unit,
+            base_nodes,
+            bearing,
+            vertical,
+            base_rotations,
+            base_diaphragm,
+            gravity,
+            damping,
+            levels,
+            other_supports,
+            accept_nonlinear,
+            vertical_mass,
+            length_unit,
+            force_unit,
         )
-        frame = cls(name, STANDARD_GRAVITY if gravity is None else gravity)
-        taken, structure = opensees_frame.read(options)
-        opensees_frame.fill(frame, taken)
-        opensees_frame.refuse_taken(frame, structure, options)
-        for note in taken.notes:
-            warnings.warn(f"Frame.from_opensees: {note}", ModelWarning, stacklevel=2)
-        return frame
+        return imported(cls, options, name)
 
     @classmethod
     def from_sap2000(
@@ -230,10 +217,12 @@ class Frame(FrameEditor):
             that do not let each bearing carry its column, a level on the bearings without mass.
         """
         from frames.exchange.options import Options
-        from frames.exchange.sap2000 import read_sap2000
+        from frames.exchange.to_frame import imported
 
-        options = Options(bearing, at, loads, mass, mesh, base_rotations, base_diaphragm)
-        return cls._of(read_sap2000(path, allow=allow, decimal=decimal), options, name)
+        options = Options(
+            bearing, at, loads, mass, mesh, base_rotations, base_diaphragm, allow, decimal
+        )
+        return imported(cls, "SAP2000", path, options, name)
 
     @classmethod
     def from_etabs(
@@ -288,31 +277,23 @@ class Frame(FrameEditor):
         ModelWarning
             As `from_sap2000` does.
         """
-        from frames.exchange.etabs import read_etabs
         from frames.exchange.options import Options
+        from frames.exchange.to_frame import imported
 
-        options = Options(bearing, at, loads, mass, mesh, base_rotations, base_diaphragm)
-        building = read_etabs(
-            path, allow=allow, decimal=decimal, sections=sections, library=library
+        options = Options(
+            bearing,
+            at,
+            loads,
+            mass,
+            mesh,
+            base_rotations,
+            base_diaphragm,
+            allow,
+            decimal,
+            sections,
+            library,
         )
-        return cls._of(building, options, name)
-
-    @classmethod
-    def _of(cls, building: Building, options: Options, name: str | None) -> Self:
-        from frames.exchange.to_frame import fill
-
-        frame = cls(building.name if name is None else name)
-        with without_collection():  # loads by the hundred thousand: a third of the time
-            devices = fill(frame, building, options)
-        frame = frame.with_bearings(devices) if devices else frame
-        building.account.groups = {
-            name: tuple(label for kind, label in members if kind in {"joint", "link"})
-            for name, members in building.groups.items()
-        }
-        frame._imported = building.account
-        for doubt in building.account.doubts:
-            warnings.warn(doubt, ModelWarning, stacklevel=3)
-        return frame
+        return imported(cls, "ETABS", path, options, name)
 
     def to_sap2000(
         self, path: str | Path, *, displacement: float | None = None, units: str = "KN, m, C"
@@ -344,11 +325,11 @@ class Frame(FrameEditor):
         (`frames.exchange.pendulum_link.pendulum_link`). Rims, interface and slip have no link:
         write `frame.with_bearings(bearing.as_dcfp(rims=False))` to compare like with like.
         """
-        from frames.exchange.write_sap2000 import Writer, text_of
+        from frames.exchange.from_frame import building_of
+        from frames.exchange.write_sap2000 import tables_of, text_of
         from frames.results.storage import write_whole
 
-        text = text_of(Writer(self, displacement, units).tables())
-        write_whole(path, text)
+        write_whole(path, text_of(tables_of(building_of(self, displacement, units))))
 
     def to_etabs(
         self, path: str | Path, *, displacement: float | None = None, units: str = "KN, m, C"
@@ -378,10 +359,11 @@ class Frame(FrameEditor):
         points below the next story. Springs to a held node at one place are springs of points.
         docs/exchange.md says what of the file no file of ETABS confirms.
         """
+        from frames.exchange.from_frame import building_of
         from frames.exchange.write_etabs import EtabsWriter
         from frames.results.storage import write_whole
 
-        writer = EtabsWriter(self, displacement, units)
+        writer = EtabsWriter(building_of(self, displacement, units, program="ETABS"))
         write_whole(path, writer.text())
         return writer.names
 

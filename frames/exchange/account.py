@@ -19,44 +19,19 @@ READ, READ_AS, LEFT_OUT = "read", "read as something else", "left out"
 
 @dataclass(frozen=True)
 class Entry:
-    """Objects of one table that fared alike.
+    """Objects of one table that fared alike."""
 
-    Attributes
-    ----------
-    fate : str
-        `READ`, `READ_AS` or `LEFT_OUT`.
-    table : str
-        Table or section of the file.
-    what : str
-        Which objects, and what became of them.
-    count : int
-        How many.
-    names : tuple of str
-        Some of their names.
-    weight, stiffness : float or None
-        Share of the own weight, and of the stiffness of all elements, modulus times volume, that
-        they stand for [-].
-    """
-
-    fate: str
+    fate: str  # READ, READ_AS or LEFT_OUT
     table: str
-    what: str
+    what: str  # which objects, and what became of them
     count: int
-    names: tuple[str, ...] = ()
-    weight: float | None = None
-    stiffness: float | None = None
+    names: tuple[str, ...] = ()  # some of them
+    weight: float | None = None  # share of the own weight that they stand for [-]
+    stiffness: float | None = None  # the same of modulus times volume of all elements [-]
 
 
 class Account:
-    """What became of everything in a file.
-
-    Parameters
-    ----------
-    file : str
-        Its name.
-    allow : collection of str
-        What may be left out although it changes the answer, by its key.
-    """
+    """What became of everything in a file; `allow` has keys of what may be left out of it."""
 
     SHOWN = 6
 

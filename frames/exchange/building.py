@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from frames.exchange.account import Account
-from frames.exchange.units import Units
+from frames.exchange.fields import Units
 
 Vector: TypeAlias = tuple[float, float, float]
 """Components along global x, y, z."""
@@ -151,6 +151,11 @@ class AreaSection:
     one_way: bool = False
     extra_weight: float = 0.0
 
+    @property
+    def factors(self) -> tuple[float, ...]:
+        """Factors by direction on the stiffness: 11, 22, 12 in plane, and of bending [-]."""
+        return (self.in_plane,) * 3 + (self.bending,) * 3
+
 
 @dataclass(frozen=True)
 class AreaObject:
@@ -272,25 +277,13 @@ class MassSource:
 
 @dataclass
 class Building:
-    """All that was read of a file.
+    """All that was read of a file."""
 
-    Attributes
-    ----------
-    name, program, version : str
-        Of the file.
-    units : Units
-        Of the file.
-    account : Account
-        What was read, read as something else, and left out.
-    stories : list of (str, float)
-        Names and elevations [m] from below.
-    """
-
-    name: str
-    program: str
-    version: str
-    units: Units
-    account: Account
+    name: str  # of the file
+    program: str  # of the file
+    version: str  # of the file
+    units: Units  # of the file
+    account: Account  # what was read, read as something else, and left out
     joints: dict[str, Joint] = field(default_factory=dict)
     materials: dict[str, Material] = field(default_factory=dict)
     sections: dict[str, FrameSection] = field(default_factory=dict)
@@ -310,4 +303,5 @@ class Building:
     area_loads: list[AreaLoad] = field(default_factory=list)
     mass_source: MassSource | None = None
     combinations: dict[str, dict[str, float]] = field(default_factory=dict)
+    # names and elevations [m] from below
     stories: list[tuple[str, float]] = field(default_factory=list)

@@ -1,4 +1,4 @@
-"""What of an imported building was probably not meant: doubts, which its user sees as warnings."""
+"""What the account of an import says of the frame, and what was probably not meant: doubts."""
 
 from __future__ import annotations
 
@@ -7,18 +7,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._remedies import argument
-from frames.exchange.area_loads import own_masses, own_weights
 from frames.exchange.building import AreaLoad, JointLoad
 from frames.exchange.geometry import area_normal
-from frames.exchange.supports import LEVEL_STEP
+from frames.exchange.loads import Shares, own_masses, own_weights
+from frames.exchange.members import LEAST_FACTOR
+from frames.exchange.stations import is_offset
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from frames.exchange.building import Building, LineLoad, MassSource
+    from frames.exchange.members import Sections
+    from frames.exchange.mesh import Mesh
     from frames.exchange.options import Options
+    from frames.exchange.slabs import Slabs
+    from frames.exchange.stations import Divided
     from frames.exchange.supports import Places
     from frames.model.frame_data import FrameData
+
 
 LIGHT_BASE = 0.01
 """Share of the mass that the level on the bearings needs, below which it is doubted [-]."""
@@ -112,7 +119,7 @@ def doubt_base(
         )
     level = {frame.nodes[node].z for node in tops}
     every = {node: float(values[0]) for node, values in frame.masses.items()}
-    at_base = {n for n in every if any(abs(frame.nodes[n].z - z) < LEVEL_STEP for z in level)}
+    at_base = {n for n in every if any(abs(frame.nodes[n].z - z) < SAME_PLACE for z in level)}
     base = sum(every[node] for node in at_base)
     whole = sum(every.values())
     if base < LIGHT_BASE * whole:
@@ -174,3 +181,41 @@ class _Sizes:
 
 def _quoted(names: Iterable[str]) -> str:
     return ", ".join(f'"{name}"' for name in names)
+
+
+def note_members(building: Building, sections: Sections, divided: list[Divided]) -> None:
+    """Note frame objects that became something else: softened, divided, offset, cut."""
+    account = building.account
+    account.read_as(
+        "sections",
+        f"with a stiffness of none, taken as {LEAST_FACTOR:g} of it",
+        sorted(sections.softened),
+    )
+    shares = Shares(building)
+    cases = {
+        "divided at joints on their line or under point loads": [
+            one for one in divided if len(one.nodes) > 2
+        ],
+        "stiff end zones that reach beyond the next joint or leave no length, cut before it": [
+            one for one in divided if one.cut
+        ],
+        "insertion points that do not transform the stiffness, as the file says": [
+            one
+            for one in divided
+            if not one.frame.transforms and (one.frame.cardinal < 10 or any(one.frame.offset_i))
+        ],
+        "insertion points, as rigid offsets": [one for one in divided if is_offset(one.frame)],
+    }
+    for what, found in cases.items():
+        names = [one.frame.name for one in found]
+        account.read_as("frames", what, names, *shares.of(names))
+
+
+def note_areas(building: Building, slabs: Slabs, mesh: Mesh) -> None:
+    """Note loads of areas that went to their corners, and in which directions masses act."""
+    account = building.account
+    shells = {area for area, _ in mesh.elements}
+    loaded = [name for name in slabs.at_corners if name not in shells]
+    account.read_as("areas", "loads on areas, at their corners: no members around them", loaded)
+    if building.patterns:
+        account.read_as("masses", "of loads and elements, in all three directions", ["all"])

@@ -1,52 +1,38 @@
-"""Links of an ETABS text file: between points, and under points as their springs."""
+"""Links of an ETABS text file: between points and under points; groups of both."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from frames.exchange import etabs_fields as dialect
 from frames.exchange.building import LINK_DOFS, Building, LinkDof, LinkObject, LinkProperty
-from frames.exchange.units import link_scales
+from frames.exchange.fields import numbers
+from frames.exchange.reading import TEXT
+from frames.exchange.tables import known, merged
 
 if TYPE_CHECKING:
     from frames.exchange.etabs_objects import Objects
+    from frames.exchange.fields import Units
     from frames.exchange.tables import Row, Tables
 
 PROPERTIES, PLACES = "LINK PROPERTIES", "LINK CONNECTIVITIES"
-VALUES = {
-    "K": "stiffness",
-    "YIELD": "yield",
-    "KRATIO": "ratio",
-    "OPEN": "open",
-    "CSLOW": "slow",
-    "CFAST": "fast",
-    "RATE": "rate",
-    "RADIUS": "radius",
-    "DJ": "place",
+_LISTS = ("DOF", "FIXED", "NONLIN")
+_OF_DOF = {"FIXED", "NONLIN", "EXP"} | {
+    field.names
+    for map_ in (*dialect.LINEAR.values(), *dialect.NONLINEAR.values())
+    for field in map_
 }
-"""Nonlinear numbers of a deformation by the word that follows its name, U2RADIUS."""
-
-_LINEAR = {"STIFF", "KE", "CE", "NONLIN", "FIXED", "EXP"}
 _HARMLESS = ("Link", "TYPE", "MASS", "WEIGHT", "RMASS", "PDM", "STIFF", "GUID", "COLOR", "NOTE")
+_AT_STORIES = {"POINT": "joint", "LINE": "frame", "AREA": "area"}
 
 
 class EtabsLinks:
-    """Reads the links of an ETABS file into a building that has its objects.
-
-    Parameters
-    ----------
-    tables : Tables
-        Of the file.
-    building : Building
-        It is added to.
-    objects : Objects
-        Which makes joints of points, and has noted which points stand on links.
-    """
+    """Reads the links of an ETABS file into a building that has its objects."""
 
     def __init__(self, tables: Tables, building: Building, objects: Objects) -> None:
         self.tables, self.building, self.objects = tables, building, objects
-        self._rows: dict[str, list[Row]] = {}
-        for row in tables.rows("LINKPROP"):
-            self._rows.setdefault(row.text("Link"), []).append(row)
+        rows = merged(tables.rows("LINKPROP"), "Link", adding=_LISTS)
+        self._properties = {name: row for (name,), row in rows.items()}
 
     def read(self) -> None:
         """Read links, and the properties that they have."""
@@ -55,11 +41,11 @@ class EtabsLinks:
         building = self.building
         building.account.read(PLACES, "links", len(building.links))
         used = {link.property for link in building.links.values()}
-        for name in self._rows:
+        for name, row in self._properties.items():
             if name in used:
-                building.link_properties[name] = self._property(name)
+                building.link_properties[name] = _property(row, name, building.units)
         building.account.read(PROPERTIES, "link properties in use", len(used))
-        idle = [name for name in self._rows if name not in used]
+        idle = [name for name in self._properties if name not in used]
         building.account.left_out(PROPERTIES, "which nothing has", idle)
 
     def _read_between(self) -> None:
@@ -70,11 +56,11 @@ class EtabsLinks:
             joints, given = self._ends(row), assigned.get(name)
             words = {} if given is None else {k: v for k, v in given.values.items() if k != "Link"}
             pairs = [(k, v) for k, value in words.items() for v in str(value).split("\n")]
-            found = [value for _, value in pairs if value in self._rows]
+            found = [value for _, value in pairs if value in self._properties]
             if not joints or given is None or not found:
                 refused.append((name, row))
                 continue
-            given.looked_at.update(word for word, value in pairs if value in self._rows)
+            given.looked_at.update(word for word, value in pairs if value in self._properties)
             other = joints[1] if len(joints) > 1 else None
             angle = given.number("ANG", 0.0)
             if name in self.building.links:
@@ -106,10 +92,7 @@ class EtabsLinks:
 
     def _read_springs(self) -> None:
         for joint, row in self.objects.on_links.items():
-            name = row.text("LINKPROP")
-            if name not in self._rows:
-                msg = f'LINKPROP "{name}" is not defined in {PROPERTIES}'
-                raise row.error(msg)
+            name = known(row, "LINKPROP", row.text("LINKPROP"), self._properties)
             axis = row.text("AXIALDIR", "Z").upper()
             if "Z" not in axis:
                 what = f"springs of points by links along {axis}"
@@ -119,52 +102,74 @@ class EtabsLinks:
             link = LinkObject(label, joint, None, name, row.place, row.number("ANGLE", 0.0))
             self.building.links[label] = link
 
-    def _property(self, name: str) -> LinkProperty:
-        rows, units = self._rows[name], self.building.units
-        words: dict[str, Row] = {}
-        active: dict[str, list[str]] = {word: [] for word in ("DOF", "FIXED", "NONLIN")}
-        for row in rows:
-            for word in row.values:
-                if word in active:
-                    active[word] += row.text(word).upper().replace(",", " ").split()
-                else:
-                    words[word] = row
-        wrong = [dof for given in active.values() for dof in given if dof not in LINK_DOFS]
-        if wrong:
-            msg = f'"{wrong[0]}" of link property "{name}" must be of {", ".join(LINK_DOFS)}'
-            raise rows[0].error(msg)
-        parts = {word for dof in active["DOF"] for word in words if word.startswith(dof)}
-        unknown = [word for word in words if word not in parts and not word.startswith(_HARMLESS)]
-        unknown += [w for w in parts if w[2:] not in VALUES and w[2:] not in _LINEAR]
-        return LinkProperty(
-            name,
-            next((row.text("TYPE") for row in rows if row.has("TYPE")), ""),
-            {dof: self._dof(dof, words, active) for dof in active["DOF"]},
-            words["MASS"].number("MASS") * units.mass if "MASS" in words else 0.0,
-            words["WEIGHT"].number("WEIGHT") * units.force if "WEIGHT" in words else 0.0,
-            tuple(unknown),
-        )
 
-    def _dof(self, dof: str, words: dict[str, Row], active: dict[str, list[str]]) -> LinkDof:
-        scales = link_scales(self.building.units, turns=dof.startswith("R"))
-        factor = scales["stiffness"]
+def _property(row: Row, name: str, units: Units) -> LinkProperty:
+    active = {word: row.text(word, "").upper().replace(",", " ").split() for word in _LISTS}
+    wrong = [dof for given in active.values() for dof in given if dof not in LINK_DOFS]
+    if wrong:
+        msg = f'"{wrong[0]}" of link property "{name}" must be of {", ".join(LINK_DOFS)}'
+        raise row.error(msg)
+    words = [word for word in row.values if word not in _LISTS]
+    parts = [word for word in words if word.startswith(tuple(active["DOF"])) and row.text(word)]
+    unknown = [w for w in words if w not in parts and not w.startswith(_HARMLESS)]
+    unknown += [word for word in parts if word[2:] not in _OF_DOF]
+    dofs = {dof: _dof(row, dof, active, units) for dof in active["DOF"]}
+    weights = numbers(row, dialect.LINK, units)
+    kind = row.text("TYPE", "")
+    return LinkProperty(name, kind, dofs, unknown=tuple(unknown), **weights)
 
-        def number(word: str) -> float:
-            row = words.get(dof + word)
-            return 0.0 if row is None else row.number(dof + word)
 
-        def says(word: str) -> bool:
-            row = words.get(dof + word)
-            return dof in active[word] or (row is not None and row.yes(dof + word))
+def _dof(row: Row, dof: str, active: dict[str, list[str]], units: Units) -> LinkDof:
+    turns = dof.startswith("R")
+    linear = numbers(row, dialect.LINEAR[turns], units, prefix=dof)
 
-        return LinkDof(
-            fixed=says("FIXED"),
-            stiffness=(number("STIFF") or number("KE")) * factor,
-            damping=number("CE") * factor,
-            nonlinear=says("NONLIN"),
-            values={
-                ours: number(word) * scales.get(ours, 1.0)
-                for word, ours in VALUES.items()
-                if dof + word in words
-            },
-        )
+    def says(word: str) -> bool:
+        return dof in active[word] or row.yes(dof + word, default=False)
+
+    return LinkDof(
+        fixed=says("FIXED"),
+        stiffness=linear["own"] or linear["stiffness"],
+        damping=linear["damping"],
+        nonlinear=says("NONLIN"),
+        values=numbers(row, dialect.NONLINEAR[turns], units, prefix=dof, only_given=True),
+    )
+
+
+def read_groups(tables: Tables, building: Building) -> None:
+    """Read the groups, by which bearings are placed, into a building that has its links.
+
+    A line names a group and an object of it: GROUP "ISO" POINT "12" "Base", GROUP "ISO" LINK "K1".
+    A point that stands on a link brings this link along.
+    """
+    odd = []
+    for row in tables.rows("GROUP"):
+        name = row.text("Group")
+        members = building.groups.setdefault(name, [])
+        found = _members(row, building)
+        if found is None:
+            odd.append(name)
+        else:
+            members += found
+    building.account.read("GROUPS", "groups", len(building.groups))
+    what = "objects of groups on lines of another form: bearings are not placed by them"
+    building.account.left_out("GROUPS", what, list(dict.fromkeys(odd)))
+
+
+def _members(row: Row, building: Building) -> list[tuple[str, str]] | None:
+    # Objects of a line by kind; none of a line that only defines a group, None of another form.
+    kinds = [word for word in (*_AT_STORIES, "LINK") if row.has(word)]
+    if not kinds:
+        return []
+    if len(kinds) > 1:
+        return None
+    names = row.text(kinds[0]).split("\n")
+    if kinds[0] == "LINK":
+        is_known = all(name in building.links for name in names)
+        return [("link", name) for name in names] if is_known else None
+    stories = row.text(TEXT, "").split("\n")
+    if len(stories) != len(names) or "" in stories:
+        return None
+    labels = [f"{name}-{story}" for name, story in zip(names, stories, strict=True)]
+    found = [(_AT_STORIES[kinds[0]], label) for label in labels]
+    under = [f"link-{label}" for label in labels if kinds[0] == "POINT"]
+    return found + [("link", link) for link in under if link in building.links]

@@ -1,4 +1,4 @@
-"""Axes of frame objects and areas as SAP2000 and ETABS define them, and directions of loads."""
+"""Axes of objects as SAP2000 and ETABS define them, directions of loads, joints in areas."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from frames.model.axes import VERTICAL_SINE
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -15,6 +16,10 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
 
     Point: TypeAlias = Sequence[float] | FloatArray
+    from collections.abc import Mapping
+
+    from frames.exchange.building import Vector
+
 
 _GLOBAL = {
     "x": (1.0, 0.0, 0.0),
@@ -82,3 +87,49 @@ def cardinal_shift(cardinal: int, depth: float, width: float) -> tuple[float, fl
         return 0.0, 0.0
     row, column = divmod(cardinal - 1, 3)
     return 0.5 * depth * (1 - row), 0.5 * width * (column - 1)
+
+
+def level_of(z: float) -> int:
+    """Return the number of the level at a height [m]."""
+    return round(z / SAME_PLACE)
+
+
+class Levels:
+    """Joints by level."""
+
+    def __init__(self, places: Mapping[str, Vector]) -> None:
+        by_level: dict[int, list[str]] = {}
+        for name, place in places.items():
+            by_level.setdefault(level_of(place[2]), []).append(name)
+        self._levels = {
+            level: (names, np.array([places[name][:2] for name in names]))
+            for level, names in by_level.items()
+        }
+
+    def within(self, corners: FloatArray) -> dict[str, FloatArray]:
+        """Return the joints inside of a level area and on its edges, and their places in plan.
+
+        Shapes: corners (n, 3), result (2,).
+        """
+        names, places = self._levels.get(level_of(float(corners[0, 2])), ([], np.zeros((0, 2))))
+        outline = corners[:, :2]
+        low, high = outline.min(axis=0) - SAME_PLACE, outline.max(axis=0) + SAME_PLACE
+        near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
+        return {names[k]: places[k] for k in near if _within(places[k], outline)}
+
+
+def _within(place: FloatArray, outline: FloatArray) -> bool:
+    # Inside a polygon, or within a millimetre of its edges.
+    inside = False
+    for a, b in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+        way, apart = b - a, place - a
+        length = float(np.hypot(*way))
+        if length > 0.0:
+            along = float(apart @ way) / length
+            beside = abs(float(way[0] * apart[1] - way[1] * apart[0])) / length
+            if beside <= SAME_PLACE and -SAME_PLACE <= along <= length + SAME_PLACE:
+                return True
+        if (a[1] > place[1]) != (b[1] > place[1]):
+            cut = a[0] + (place[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+            inside ^= bool(place[0] < cut)
+    return inside

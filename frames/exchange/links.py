@@ -13,10 +13,10 @@ from frames._remedies import argument, bearing_for
 from frames.assembly.assemble import assemble
 from frames.exchange.building import LINK_DOFS
 from frames.exchange.geometry import frame_axes
-from frames.model.geometry_checks import POSITION_TOLERANCE
 from frames.model.laws import Bilinear, Gap, ViscousDamper
 from frames.statics.springs import first_displacement, spring_forces
 from lir_element import CoulombFriction, FrictionLaw, LIRBearing, VelocityFriction
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
@@ -29,6 +29,12 @@ if TYPE_CHECKING:
 
 SLIDER_HEIGHT, SLIDER_RADIUS = 0.1, 0.15
 """Slider of a bearing made of a friction isolator link, whose file has none [m]."""
+
+UPRIGHT = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+"""Axes of a link between two joints at one place."""
+
+COINCIDENT = 1e-6
+"""Distance of two joints below which they have no direction [m]."""
 
 PENDULUM_LINKS = ("friction isolator", "sliding isolator", "friction pendulum")
 """Kinds of links that are friction pendulums."""
@@ -106,27 +112,12 @@ def yield_displacements(frame: FrameData, stiffness: Mapping[str, float]) -> dic
 
 
 class Links:
-    """Adds the links of a building to a frame.
-
-    Parameters
-    ----------
-    frame : Frame
-        With the nodes; it is added to.
-    building : Building
-        With the links.
-    places : Places
-        Where bearings stand in place of links.
-
-    Attributes
-    ----------
-    stiffness : dict of str to float
-        Of friction isolators before they slide, by bearing [N/m].
-    """
+    """Adds the links of a building to a frame that has the nodes."""
 
     def __init__(self, frame: FrameEditor, building: Building, places: Places) -> None:
         self.frame, self.building, self.places = frame, building, places
         self._as: dict[str, list[str]] = {}
-        self.stiffness: dict[str, float] = {}
+        self.stiffness: dict[str, float] = {}  # of isolators before they slide [N/m]
 
     def add(self) -> None:
         """Add all links."""
@@ -156,7 +147,7 @@ class Links:
         if link.j is None:
             return 0.0
         (x, y, z), (u, v, w) = (self.frame.nodes[name].position for name in (link.i, link.j))
-        return abs(w - z) if math.hypot(u - x, v - y) < POSITION_TOLERANCE else 0.0
+        return abs(w - z) if math.hypot(u - x, v - y) < SAME_PLACE else 0.0
 
     def _note_pendulum(self, link: LinkObject, prop: LinkProperty) -> None:
         what = (
@@ -172,7 +163,7 @@ class Links:
             what = "friction isolators without one stiffness before sliding, with that of bearings"
             self._note(what, link.name)
         rise = self._rise(link)
-        if any(abs(value.get("place", 0.0) - 0.5 * rise) > 1e-3 for value in values):
+        if any(abs(value.get("place", 0.0) - 0.5 * rise) > SAME_PLACE for value in values):
             what = "friction isolators, their shear force at half their height, in place of DJ"
             self._note(what, link.name)
 
@@ -220,13 +211,12 @@ class Links:
             frame.add_node(other, *frame.nodes[link.i].position)
             frame.fix(other, "all")
             first, last = other, link.i
-            axes = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+            axes = UPRIGHT
         else:
             first, last = link.i, other
             ends = [np.array(frame.nodes[name].position) for name in (first, last)]
             apart = float(np.linalg.norm(ends[1] - ends[0]))
-            upright = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-            axes = frame_axes(ends[0], ends[1], link.angle) if apart > 1e-6 else upright
+            axes = frame_axes(ends[0], ends[1], link.angle) if apart > COINCIDENT else UPRIGHT
         fixed = []
         for k, name in enumerate(LINK_DOFS):
             dof = prop.dofs.get(name)

@@ -21,18 +21,14 @@ if TYPE_CHECKING:
 LEAST_FACTOR = 1e-6
 """Factor on a stiffness that stands for none [-]."""
 
-_RELEASES = {"T": "T", "M2": "Mz", "M3": "My"}  # local z of a member is axis 2, local y is -3
+MOMENTS = {"T": "T", "M2": "Mz", "M3": "My"}
+"""Releases of the programs and those of members: local z is axis 2, local y is -3."""
+
 _GAUSS = ((0.5 - 0.5 / math.sqrt(3.0), 0.5), (0.5 + 0.5 / math.sqrt(3.0), 0.5))
 
 
 class Sections:
-    """Sections of members by what they are made of, each made once.
-
-    Parameters
-    ----------
-    building : Building
-        With the cross-sections and materials.
-    """
+    """Sections of members by what they are made of, each made once."""
 
     def __init__(self, building: Building) -> None:
         self._building = building
@@ -96,7 +92,7 @@ def add_members(frame: FrameEditor, divided: list[Divided], sections: Sections) 
                 given.releases[1] if place == last else (),
             )
             releases = {
-                end: [_RELEASES[word] for word in sorted(words)]
+                end: [MOMENTS[word] for word in sorted(words)]
                 for end, words in zip("ij", ends, strict=True)
                 if words
             }

@@ -10,14 +10,15 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from frames._errors import ModelError
-from frames.exchange.stations import ON_LINE, Points
+from frames.exchange.stations import Points
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from frames._types import FloatArray
     from frames.exchange.building import AreaObject
-    from frames.exchange.interior import Inside
+
 
 Edge = tuple[str, str]
 
@@ -105,7 +106,7 @@ def _cuts(
             for edge, share in zip(((a, b), (a, d)), place, strict=True):
                 key = _key(edge)
                 new = share if edge == key else 1.0 - share
-                least = ON_LINE / math.dist(points[a], points[edge[1]])
+                least = SAME_PLACE / math.dist(points[a], points[edge[1]])
                 if min(abs(new - old) for old in found[key]) > least:
                     found[key] = sorted([*found[key], new])
     _spread(quads, found)
@@ -138,11 +139,11 @@ def _joints_on(edges: list[Edge], points: Points) -> dict[Edge, list[float]]:
     for edge in edges:
         first, last = (np.array(points[name]) for name in edge)
         length = float(np.linalg.norm(last - first))
-        near = tree.query_ball_point(0.5 * (first + last), max(0.5 * length - ON_LINE, 0.0))
+        near = tree.query_ball_point(0.5 * (first + last), max(0.5 * length - SAME_PLACE, 0.0))
         shares = {0.0, 1.0}
         for k in near:
             along = float((where[k] - first) @ (last - first)) / length**2
-            if np.linalg.norm(where[k] - first - along * (last - first)) <= ON_LINE:
+            if np.linalg.norm(where[k] - first - along * (last - first)) <= SAME_PLACE:
                 shares.add(along)
         found[edge] = sorted(shares)
     return found
@@ -199,7 +200,7 @@ def _names(edge: Edge, shares: list[float], points: Points) -> list[str]:
         if len(labels):
             apart = np.linalg.norm(where - place, axis=1)
             near = int(apart.argmin())
-            if apart[near] <= ON_LINE:
+            if apart[near] <= SAME_PLACE:
                 names.append(labels[near])
                 continue
         name = f"{edge[0]}~{edge[1]}~{k}"
@@ -231,7 +232,7 @@ def _quad(
                 grid[row][column] = (left if column == 0 else right)[row]
             else:
                 x, y, z = _bilinear(corners, u[column], v[row]).tolist()
-                meets = (j for j in inside if math.dist(points[j], (x, y, z)) <= ON_LINE)
+                meets = (j for j in inside if math.dist(points[j], (x, y, z)) <= SAME_PLACE)
                 name = next(meets, f"{area.name}~{row}~{column}")
                 points.setdefault(name, (x, y, z))
                 grid[row][column] = name
@@ -255,3 +256,55 @@ def _shares(edge: Edge, cuts: dict[Edge, list[float]]) -> list[float]:
 def _bilinear(corners: FloatArray, u: float, v: float) -> FloatArray:
     weights = np.array([(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v])
     return weights @ corners
+
+
+Inside = dict[str, dict[str, tuple[float, float]]]
+"""Joints within each area, by its name: shares along its first and along its last edge [-]."""
+
+_STEPS = 30
+
+
+def joints_within(areas: Sequence[AreaObject], points: Points) -> Inside:
+    """Return the joints that lie within areas, not on their edges."""
+    names = list(points)
+    where = np.array([points[name] for name in names]).reshape(-1, 3)
+    tree = cKDTree(where)
+    found: Inside = {}
+    for area in areas:
+        corners = np.array([points[name] for name in area.joints])
+        centre = corners.mean(axis=0)
+        low, high = corners.min(axis=0) - SAME_PLACE, corners.max(axis=0) + SAME_PLACE
+        reach = float(np.linalg.norm(corners - centre, axis=1).max())
+        for k in tree.query_ball_point(centre, reach):
+            outside = (where[k] < low) | (where[k] > high)
+            if names[k] in area.joints or outside.any():
+                continue
+            shares = _shares_of(corners, where[k])
+            if shares is not None:
+                found.setdefault(area.name, {})[names[k]] = shares
+    return found
+
+
+def _shares_of(corners: FloatArray, place: FloatArray) -> tuple[float, float] | None:
+    # By Newton on the bilinear surface of four corners; None off the area or on its edges.
+    a, b, d = corners[0], corners[1], corners[-1]
+    twist = corners[2] - b - d + a if len(corners) == 4 else np.zeros(3)
+    u = v = 0.5
+    for _ in range(_STEPS):
+        off = a + u * (b - a) + v * (d - a) + u * v * twist - place
+        along, across = b - a + v * twist, d - a + u * twist
+        matrix = np.stack([along, across], axis=1)
+        step = np.linalg.lstsq(matrix, -off, rcond=None)[0]
+        u, v = u + float(step[0]), v + float(step[1])
+        if abs(u) > 1e3 or abs(v) > 1e3:
+            return None
+        if float(np.abs(step).max()) < 1e-12:
+            break
+    off = a + u * (b - a) + v * (d - a) + u * v * twist - place
+    if float(np.linalg.norm(off)) > SAME_PLACE:
+        return None
+    wide = min(float(np.linalg.norm(side)) for side in (b - a + v * twist, d - a + u * twist))
+    least = SAME_PLACE / wide
+    if len(corners) == 3:
+        return (u, v) if min(u, v) > least and u + v < 1.0 - least else None
+    return (u, v) if least < u < 1.0 - least and least < v < 1.0 - least else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -10,6 +10,10 @@ from frames._errors import ModelError
 from lir_element.argument_checks import require_choice, require_positive, require_type
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    from frames.exchange.tables import Decimal
+    from frames.model.sections import Section
     from lir_element import LIRBearing
 
 BaseRotations: TypeAlias = Literal["kept", "free", "fixed"]
@@ -21,7 +25,7 @@ Bearings: TypeAlias = "LIRBearing | Mapping[str, LIRBearing] | None"
 
 @dataclass(frozen=True)
 class Options:
-    """Options of `Frame.from_sap2000`; its docstring says what they mean."""
+    """Options of an import; `Frame.from_sap2000` and `Frame.from_etabs` say what they mean."""
 
     bearing: Bearings = None
     at: Sequence[str] | None = None
@@ -30,6 +34,10 @@ class Options:
     mesh: float = 1.25
     base_rotations: BaseRotations = "kept"
     base_diaphragm: bool = True
+    allow: Collection[str] = ()
+    decimal: Decimal = "."
+    sections: Mapping[str, Section] | None = None
+    library: str | Path | Sequence[str | Path] = ()
 
     def __post_init__(self) -> None:
         """Check what can be checked without the file."""

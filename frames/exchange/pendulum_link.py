@@ -13,32 +13,16 @@ if TYPE_CHECKING:
 
 
 class PendulumLink(NamedTuple):
-    """A friction isolator link that stands for a bearing under an axial load.
+    """A friction isolator link that stands for a bearing under an axial load."""
 
-    Attributes
-    ----------
-    radius : float
-        L = R_1 + R_2 - h [m].
-    slow, fast : float
-        Q/W at rest and at high speed [-].
-    rate : float
-        Of the speed of the whole bearing [s/m].
-    elastic, effective : float
-        Stiffness before sliding, and to the displacement of the equivalent-linear analysis [N/m].
-    damping : float
-        Viscous coefficient with the energy of a cycle at that displacement [N s/m].
-    vertical : float
-        Axial stiffness [N/m].
-    """
-
-    radius: float
-    slow: float
-    fast: float
-    rate: float
-    elastic: float
-    effective: float
-    damping: float
-    vertical: float
+    radius: float  # L = R_1 + R_2 - h [m]
+    slow: float  # Q/W at rest [-]
+    fast: float  # Q/W at high speed [-]
+    rate: float  # of the speed of the whole bearing [s/m]
+    elastic: float  # stiffness before sliding [N/m]
+    effective: float  # secant to the displacement of the equivalent-linear analysis [N/m]
+    damping: float  # with the energy of a cycle at that displacement [N s/m]
+    vertical: float  # axial stiffness [N/m]
 
 
 def pendulum_link(bearing: LIRBearing, load: float, displacement: float) -> PendulumLink:

@@ -2,124 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+
+from frames.exchange import sap2000_fields as dialect
 from frames.exchange.account import Account
-from frames.exchange.building import Building
-from frames.exchange.excel_tables import read_excel
-from frames.exchange.s2k_text import read_s2k
-from frames.exchange.sap2000_loads import read_loads
-from frames.exchange.sap2000_objects import read_objects
-from frames.exchange.sap2000_properties import read_properties
-from frames.exchange.tables import ACTIVE, Decimal, Tables, require_space
-from frames.exchange.units import FORCES, LENGTHS, Units, units_of
+from frames.exchange.building import (
+    LINK_DOFS,
+    AreaLoad,
+    AreaSection,
+    Building,
+    FrameSection,
+    JointLoad,
+    LineLoad,
+    LinkDof,
+    LinkProperty,
+    MassSource,
+    Pattern,
+)
+from frames.exchange.fields import FORCES, LENGTHS, Units, numbers, units_of
+from frames.exchange.loads import (
+    add_area_load,
+    add_combinations,
+    add_line_load,
+    area_weight,
+    cases_of,
+    frame_weight,
+    vector_of,
+)
+from frames.exchange.options import Options
+from frames.exchange.properties import (
+    by_constants,
+    in_use,
+    material_of,
+    modifiers_of,
+    shell_factors,
+    sizes_of,
+)
+from frames.exchange.reading import read_excel, read_s2k
+from frames.exchange.sap2000_objects import read_objects, section_of
+from frames.exchange.section_shapes import section_by_shape
+from frames.exchange.tables import ACTIVE, Row, Tables, by_name, known, require_space
 
 _BOOKS = {".xlsx", ".xlsm"}
 
-REFUSED = (
-    ("FRAME HINGE ASSIGN", "hinges", "plastic hinges of frames, which stay elastic"),
-    ("CONNECTIVITY - CABLE", "cables", "cables"),
-    ("CONNECTIVITY - TENDON", "tendons", "tendons"),
-    ("CONNECTIVITY - SOLID", "solids", "solids"),
-    ("FRAME TENSION AND COMPRESSION LIMITS", "tension limits", "limits of axial force, without"),
-    ("CASE - STATIC 5", "staged construction", "stages of construction, taken as built at once"),
-    ("CASE - STATIC 6", "staged construction", "stages of construction, taken as built at once"),
-    ("JOINT SPRING ASSIGNMENTS 2", "coupled springs", "coupled springs of joints"),
-    ("FRAME SPRING ASSIGNMENTS", "line and area springs", "springs along frames"),
-    ("AREA SPRING ASSIGNMENTS", "line and area springs", "springs under areas"),
-    ("FRAME RELEASE ASSIGNMENTS 2", "partial fixity", "partial fixity, taken as full releases"),
-    ("FRAME LOCAL AXES ASSIGNMENTS 2", "advanced axes", "advanced axes of frames"),
-    ("AREA OVERWRITES", "area overwrites", "thickness and joint offsets of single areas"),
-    ("AREA EDGE CONSTRAINT", "edge constraints", "constraints along edges of areas"),
-    ("FRAME LOADS - TEMPERATURE", "imposed strains", "temperatures of frames"),
-    ("FRAME LOADS - STRAIN", "imposed strains", "strains of frames"),
-    ("FRAME LOADS - DEFORMATION", "imposed strains", "deformations of frames"),
-    ("FRAME LOADS - TARGET", "imposed strains", "target forces of frames"),
-    ("JOINT LOADS - GROUND DISPLACEMENT", "imposed strains", "displacements of supports"),
-    ("AREA LOADS - TEMPERATURE", "imposed strains", "temperatures of areas"),
-    ("AREA LOADS - STRAIN", "imposed strains", "strains of areas"),
-    ("AREA LOADS - SURFACE PRESSURE", "surface pressures", "pressures on faces of areas"),
-    ("AREA ADDED MASS", "added masses", "masses added to areas"),
-    ("FRAME ADDED MASS", "added masses", "masses added to frames"),
-    ("JOINT ADDED MASS BY", "added masses", "masses added to joints by weight or volume"),
-)
-"""Tables whose loss would change the answer: beginning of the name, key of `allow`, what it is."""
 
-HARMLESS = (
-    "AREA AUTO MESH",
-    "AREA BRIDGE",
-    "AREA LOCAL AXES",
-    "AREA SECTION PROPERTY",
-    "AREA VEHICLE",
-    "FRAME BRIDGE",
-    "FRAME DESIGN",
-    "FRAME JOINT OFFSETS - BRIDGE",
-    "FRAME LOAD TRANSFER",
-    "FRAME LOADS - OPEN STRUCTURE",
-    "FRAME OUTPUT STATION",
-    "FRAME P-DELTA",
-    "FRAME PROGRAM DETERMINED",
-    "FRAME SECTION PROPERTIES",
-    "FRAME VEHICLE",
-    "JOINT BRIDGE",
-    "JOINT MERGE",
-    "JOINT PANEL ZONE",
-    "JOINT PATTERN",
-    "JOINT VEHICLE",
-    "LINK BRIDGE",
-    "LINK FREQUENCY",
-    "LINK VEHICLE",
-)
-"""Tables of objects that the linear model does not need, by the beginning of the name."""
-
-KNOWN = {
-    "": "GUID Notes Color Joint Frame Area Link Name Material Section SectionName LoadPat "
-    "Length CentroidX CentroidY CentroidZ",
-    "AREA LOADS": "CoordSys=GLOBAL CoordSys=Local DistType=Twoway",
-    "AREA SECTION PROPERTIES": "Arc CoordSys DrillDOF InComp MatAngle TotalMass TotalWt",
-    "AREA SECTION ASSIGNMENTS": "MatProp=Default",
-    "CASE - STATIC 1": "*",
-    "COMBINATION DEFINITIONS": "*",
-    "CONNECTIVITY - AREA": "AreaArea NumJoints Perimeter",
-    "CONSTRAINT DEFINITIONS": "CoordSys=GLOBAL MultiLevel",
-    "FRAME AUTO MESH": "AtFrames=No MaxDegrees MaxLength NumSegments",
-    "FRAME INSERTION POINT": "CoordSys=GLOBAL Mirror2=No Mirror3=No",
-    "FRAME LOADS": "AbsDist AbsDistA AbsDistB CoordSys=GLOBAL CoordSys=Local RelDist RelDistA "
-    "RelDistB",
-    "FRAME LOCAL AXES": "Angle",
-    "FRAME OFFSET": "OffsetType Type",
-    "FRAME SECTION ASSIGNMENTS": "AutoSelect DesignSect SectionType",
-    "FRAME SECTION PROPERTIES": "ConcBeam ConcCol CGOffset2 CGOffset3 EccV2 EccV3 FileName "
-    "FilletRadius FromFile I23 PNAOffset2 PNAOffset3 R22 R33 S22 S22Left S22Neg S22Pos S22Right "
-    "S33 S33Bot S33Neg S33Pos S33Top SectInFile TotalMass TotalWt Z22 Z33",
-    "GROUPS": "*",
-    "JOINT ADDED MASS": "CoordSys=GLOBAL CoordSys=Local",
-    "JOINT COORDINATES": "CoordSys CoordType SpecialJt T XorR Y Z",
-    "JOINT CONSTRAINT": "Type",
-    "JOINT LOCAL AXES": "AdvanceAxes=No AdvancedAxes=No",
-    "LINK LOCAL AXES": "AdvanceAxes=No AdvancedAxes=No",
-    "LINK PROPERTY ASSIGNMENTS": "LinkFDProp=None LinkType",
-    "LINK PROPERTY DEFINITIONS 01": "DefArea DefLength PDM2I PDM2J PDM3I PDM3J RotInert1=0 "
-    "RotInert2=0 RotInert3=0",
-    "LOAD PATTERN": "AutoLoad",
-    "MASS SOURCE": "Elements IsDefault LoadPat Loads MassSource Masses Multiplier",
-    "MATERIAL PROPERTIES 01": "Grade SymType=Isotropic SymType=Uniaxial TempDepend=No Type",
-    "MATERIAL PROPERTIES 02": "A1",
-    "PROGRAM CONTROL": "*",
-}
-"""Fields without effect on the frame, as `Tables.unknown` takes them."""
-
-_OBJECTS = ("CONNECTIVITY", "CONSTRAINT DEFINITIONS", "JOINT ", "FRAME ", "AREA ", "LINK ")
-
-
-def read_sap2000(
-    path: str | Path, *, allow: Collection[str] = (), decimal: Decimal = "."
-) -> Building:
+def read_sap2000(path: str | Path, options: Options | None = None) -> Building:
     """Read a SAP2000 model."""
-    file = Path(path)
-    tables = read_excel(file) if file.suffix.lower() in _BOOKS else read_s2k(file, decimal)
-    account = Account(file.name, allow)
+    file, given = Path(path), options or Options()
+    tables = read_excel(file) if file.suffix.lower() in _BOOKS else read_s2k(file, given.decimal)
+    account = Account(file.name, given.allow)
     units, version = _units(tables)
     building = Building(file.stem, "SAP2000", version, units, account)
     _refuse_plane(tables)
@@ -151,19 +86,248 @@ def _refuse_plane(tables: Tables) -> None:
 def _judge_rest(tables: Tables, account: Account) -> None:
     # Tables that nobody read: refused, harmless, or noted.
     for name, count in tables.unread().items():
-        refused = next((r for r in REFUSED if name.startswith(r[0])), None)
+        refused = next((r for r in dialect.REFUSED if name.startswith(r[0])), None)
         if refused is not None:
             rows = tables.rows(name)
             what = f"{refused[2]}, {count} rows"
             account.refuse(refused[1], name, what, [_first(rows[0].values)], rows[0].place)
-        elif name.startswith(_OBJECTS) and not name.startswith(HARMLESS):
+        elif name.startswith(dialect.OBJECTS) and not name.startswith(dialect.HARMLESS):
             rows = tables.rows(name)
             what = f"a table that is not known here, {count} rows"
             account.refuse("other tables", name, what, [_first(rows[0].values)], rows[0].place)
-    account.unknown(tables.unknown(KNOWN))
+    account.unknown(tables.unknown(dialect.KNOWN))
     rest = [f"{name} ({count})" for name, count in tables.unread().items()]
     account.left_out("other tables", "what the linear model does not need, with rows", rest)
 
 
 def _first(values: dict[str, str | float | bool]) -> str:
     return str(next(iter(values.values()), ""))
+
+
+def read_properties(tables: Tables, building: Building) -> None:
+    """Read materials, sections and link properties into a building."""
+    account, units = building.account, building.units
+    frames = tables.rows("FRAME SECTION ASSIGNMENTS")
+    areas = tables.rows("AREA SECTION ASSIGNMENTS")
+    kinds = [row.text("Section", "") for row in areas]
+    sections = _used(tables, building, dialect.SECTIONS, "SectionName", map(section_of, frames))
+    shells = _used(tables, building, dialect.AREA_SECTIONS, "Section", kinds)
+    used = {row.text("Material", "") for row in (*sections.values(), *shells.values())}
+    used |= {row.text("MatProp", "") for row in frames}
+    heads = by_name(tables.rows("MATERIAL PROPERTIES 01 - GENERAL"), "Material")
+    for name, row in _used(tables, building, dialect.MATERIALS, "Material", used).items():
+        for field in ("UnitMass", "UnitWeight"):  # which stand in either table of materials
+            if name in heads and heads[name].has(field) and not row.has(field):
+                row.values[field] = heads[name].values[field]
+        building.materials[name] = material_of(row, name, dialect.MATERIAL, units)
+    account.read(dialect.MATERIALS, "materials in use", len(building.materials))
+    for name, row in sections.items():
+        building.sections[name] = _section(row, name, building)
+    account.read(dialect.SECTIONS, "cross-sections in use", len(building.sections))
+    for name, row in shells.items():
+        building.area_sections[name] = _area_section(row, name, building)
+    account.read(dialect.AREA_SECTIONS, "sections of areas in use", len(building.area_sections))
+    _read_links(tables, building)
+
+
+def _used(
+    tables: Tables, building: Building, table: str, field: str, names: Iterable[str]
+) -> dict[str, Row]:
+    rows, idle = in_use(by_name(tables.rows(table), field), names)
+    building.account.left_out(table, "which nothing has", idle)
+    return rows
+
+
+def _section(row: Row, name: str, building: Building) -> FrameSection:
+    shape, material = row.text("Shape", "General"), row.text("Material", "")
+    account, units = building.account, building.units
+    sizes = sizes_of(row, dialect.SECTION, units)
+    modifiers = modifiers_of(row, dialect.MODIFIERS, units)
+    if "nonprismatic" in shape.lower():
+        what = "a nonprismatic section"
+        account.refuse("nonprismatic sections", dialect.SECTIONS, what, [name], row.place)
+    if not row.has("Area", "I33", "I22"):
+        known(row, "Material", material, building.materials)
+        poisson = building.materials[material].poisson_ratio
+        found = section_by_shape(row, name, material, shape, sizes, poisson)
+    else:
+        if abs(row.number("I23", 0.0)) > 1e-6 * max(row.number("I33"), row.number("I22")):
+            what = (
+                "the product of inertia I23 of a section, whose axes 2 and 3 are not principal ones"
+            )
+            account.refuse("I23", dialect.SECTIONS, what, [name], row.place)
+        found = by_constants(row, name, material, shape, dialect.SECTION, units)
+    return replace(found, modifiers=modifiers)
+
+
+def _area_section(row: Row, name: str, building: Building) -> AreaSection:
+    account, table = building.account, dialect.AREA_SECTIONS
+    kind = f"{row.text('AreaType', 'Shell')} {row.text('Type', 'Shell-Thin')}".lower()
+    if "layered" in kind or "nonlinear" in kind:
+        what = "a layered shell, taken as a linear one of its thickness"
+        account.refuse("layered shells", table, what, [name], row.place)
+    if not kind.startswith("shell"):
+        what = f'an area of type "{row.text("AreaType")}", of which loads alone are read'
+        account.refuse("plane and solid areas", table, what, [name], row.place)
+        return AreaSection(name, "", "none", 0.0, 0.0)
+    words = ("membrane", "plate")
+    found = next((word for word in words if word in kind.removeprefix("shell ")), "shell")
+    material = known(row, "Material", row.text("Material"), building.materials)
+    of = f' of area section "{name}"'
+    thickness, bending = numbers(row, dialect.THICKNESS, building.units, of).values()
+    factors = shell_factors(row, dialect.SHELL, building)
+    return AreaSection(name, material, found, thickness, bending or thickness, **factors)
+
+
+def _read_links(tables: Tables, building: Building) -> None:
+    placed = (row.text("LinkProp", "") for row in tables.rows("LINK PROPERTY ASSIGNMENTS"))
+    rows = by_name(tables.rows(f"{dialect.LINKS} 01 - GENERAL"), "Link")
+    general, idle = in_use(rows, placed)
+    building.account.left_out(dialect.LINKS, "which nothing has", idle)
+    dofs: dict[str, dict[str, LinkDof]] = {name: {} for name in general}
+    for row in tables.starting(dialect.LINKS):
+        if not row.has("DOF") or row.text("Link") in idle:
+            row.looked_at.clear()
+            continue
+        name, dof = known(row, "Link", row.text("Link"), general), row.text("DOF").upper()
+        if dof not in LINK_DOFS:
+            msg = f'DOF = "{dof}" must be one of {", ".join(LINK_DOFS)}'
+            raise row.error(msg)
+        dofs[name].setdefault(dof, _link_dof(row, building.units, turns=dof.startswith("R")))
+    for name, row in general.items():
+        weights = numbers(row, dialect.LINK, building.units)
+        kind = row.text("LinkType", "")
+        building.link_properties[name] = LinkProperty(name, kind, dofs[name], **weights)
+    building.account.read(dialect.LINKS, "link properties in use", len(general))
+
+
+def _link_dof(row: Row, units: Units, *, turns: bool) -> LinkDof:
+    return LinkDof(
+        fixed=row.yes("Fixed", default=False),
+        nonlinear=row.yes("NonLinear", default=False),
+        values=numbers(row, dialect.NONLINEAR[turns], units, only_given=True),
+        **numbers(row, dialect.LINEAR[turns], units),
+    )
+
+
+def read_loads(tables: Tables, building: Building) -> None:
+    """Read patterns, loads, masses and combinations into a building."""
+    for name, row in by_name(tables.rows(dialect.PATTERNS), "LoadPat").items():
+        kind, factor = row.text("DesignType", "Other"), row.number("SelfWtMult", 0.0)
+        building.patterns[name] = Pattern(name, kind, factor)
+    account = building.account
+    account.read(dialect.PATTERNS, "load patterns", len(building.patterns))
+    for row in tables.rows("JOINT LOADS - FORCE"):
+        joint = known(row, "Joint", row.text("Joint"), building.joints)
+        _require_global(row, f'load of joint "{joint}"')
+        forces = tuple(numbers(row, dialect.FORCES, building.units).values())
+        building.joint_loads.append(JointLoad(joint, _pattern(row, building), forces))
+    account.read("JOINT LOADS - FORCE", "loads on joints", len(building.joint_loads))
+    for table in ("FRAME LOADS - DISTRIBUTED", "FRAME LOADS - POINT"):
+        before = len(building.line_loads)
+        for row in tables.rows(table):
+            _add_frame_load(row, building, point=table.endswith("POINT"))
+        account.read(table, "loads on frames", len(building.line_loads) - before)
+    for table, field in (("FRAME LOADS - GRAVITY", "Frame"), ("AREA LOADS - GRAVITY", "Area")):
+        for row in tables.rows(table):
+            _add_gravity(row, building, field)
+        account.read(table, "multiples of own weight", len(tables.rows(table)))
+    before = len(building.area_loads)
+    for table in ("AREA LOADS - UNIFORM", "AREA LOADS - UNIFORM TO FRAME"):
+        for row in tables.rows(table):
+            area = known(row, "Area", row.text("Area"), building.areas)
+            size, pattern = row.number("UnifLoad"), _pattern(row, building)
+            add_area_load(row, building, area, pattern, row.text("Dir"), size)
+    account.read("AREA LOADS", "uniform loads", len(building.area_loads) - before)
+    _read_source(tables, building)
+    cases = cases_of(
+        building,
+        (
+            (row.text("Case"), row.text("LoadName", ""), row.number("LoadSF", 1.0))
+            for row in tables.rows("CASE - STATIC 1 - LOAD ASSIGNMENTS")
+        ),
+    )
+    combinations = tables.rows("COMBINATION DEFINITIONS")
+    parts = [
+        (row.text("ComboName"), _linear_case(row), row.number("ScaleFactor", 1.0))
+        for row in combinations
+    ]
+    add_combinations(building, "COMBINATION DEFINITIONS", cases, parts)
+
+
+def _linear_case(row: Row) -> str | None:
+    is_sum = row.text("ComboType", "Linear Add").lower() == "linear add"
+    return row.text("CaseName", "") if is_sum else None
+
+
+def _pattern(row: Row, building: Building) -> str:
+    field = "LoadPat" if row.has("LoadPat") else "LoadCase"
+    return known(row, field, row.text(field), building.patterns)
+
+
+def _require_global(row: Row, what: str) -> None:
+    # Local axes of joints are the global ones: others are refused by their own table.
+    if row.text("CoordSys", "GLOBAL").upper() not in {"GLOBAL", "LOCAL"}:
+        msg = f"{what} must be given in GLOBAL axes"
+        raise row.error(msg)
+
+
+def _add_frame_load(row: Row, building: Building, *, point: bool) -> None:
+    frame = known(row, "Frame", row.text("Frame"), building.frames)
+    pattern, word = _pattern(row, building), row.text("Dir")
+    if row.text("Type", "Force").lower().startswith("moment"):
+        key = what = "moments along frames"
+        building.account.refuse(key, row.table, what, [frame], row.place)
+        return
+    sizes = [row.number("Force")] * 2 if point else [row.number(f"FOverL{m}") for m in "AB"]
+    a, b = (_at(row, building, frame, mark) for mark in (("", "") if point else "AB"))
+    add_line_load(row, building, frame, pattern, word, sizes, (a, b), point=point)
+
+
+def _at(row: Row, building: Building, frame: str, mark: str) -> float:
+    # Distance from joint i as a share of the length.
+    if not row.text("DistType", "RelDist").lower().startswith("abs"):
+        return row.number(f"RelDist{mark}")
+    given = building.frames[frame]
+    first, last = (np.array(building.joints[n].position) for n in (given.i, given.j))
+    length = float(np.linalg.norm(last - first))
+    return row.number(f"AbsDist{mark}") * building.units.length / length
+
+
+def _add_gravity(row: Row, building: Building, field: str) -> None:
+    # Multiples of own weight, along global axes: MultiplierZ = -1 is own weight, downwards.
+    name = known(row, field, row.text(field), getattr(building, f"{field.lower()}s"))
+    factors = np.array([row.number(f"Multiplier{axis}", 0.0) for axis in "XYZ"])
+    pattern = _pattern(row, building)
+    if field == "Frame":
+        load = vector_of(factors * frame_weight(building, name))
+        building.line_loads.append(LineLoad(name, pattern, 0.0, 1.0, load, load))
+    else:
+        load = vector_of(factors * area_weight(building, name))
+        building.area_loads.append(AreaLoad(name, pattern, load))
+
+
+def _read_source(tables: Tables, building: Building) -> None:
+    rows = tables.rows("MASS SOURCE")
+    if rows:
+        first = next((r for r in rows if r.yes("IsDefault", default=False)), rows[0])
+        name = first.text("MassSource", "")
+        own = [r for r in rows if r.text("MassSource", "") == name]
+        elements = any(r.yes("Elements", default=False) for r in own)
+        added = any(r.yes("Masses", default=False) for r in own)
+        loads = {_pattern(r, building): r.number("Multiplier") for r in own if r.has("LoadPat")}
+        counted = loads if any(r.yes("Loads", default=True) for r in own) else {}
+        building.mass_source = MassSource(elements, added, counted)
+        others = sorted({r.text("MassSource", "") for r in rows} - {name})
+        building.account.left_out("MASS SOURCE", "mass sources besides the default", others)
+    old = tables.rows("MASSES 1 - MASS SOURCE")
+    if old and building.mass_source is None:
+        words = {r.text("MassFrom", "Elements").lower() for r in old}
+        elements = any("element" in word for word in words)
+        loads = {
+            _pattern(r, building): r.number("Multiplier")
+            for r in old
+            if r.has("LoadPat") or r.has("LoadCase")
+        }
+        building.mass_source = MassSource(elements, elements, loads)
+    building.account.read("MASS SOURCE", "mass source", int(building.mass_source is not None))

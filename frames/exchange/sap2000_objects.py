@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
+from frames.exchange import sap2000_fields as dialect
 from frames.exchange.building import (
     RELEASES,
     AreaObject,
@@ -15,33 +15,26 @@ from frames.exchange.building import (
     FrameObject,
     Joint,
     LinkObject,
-    Vector,
 )
+from frames.exchange.fields import numbers
 from frames.exchange.geometry import frame_axes
-from frames.exchange.sap2000_properties import (
-    known,
-    section_modifiers,
-    section_of,
-    shell_factors,
-)
-from frames.exchange.tables import by_name
+from frames.exchange.loads import vector_of
+from frames.exchange.properties import modifiers_of, offsets_of, released, shell_factors
+from frames.exchange.tables import Row, Tables, by_name, known
 
-if TYPE_CHECKING:
-    from frames._types import FloatArray
-    from frames.exchange.tables import Row, Tables
-
-DOFS = (("U1", "ux"), ("U2", "uy"), ("U3", "uz"), ("R1", "rx"), ("R2", "ry"), ("R3", "rz"))
-"""Displacements of a joint: the file's names and ours."""
-
-JOINTS, FRAMES, AREAS = "JOINT COORDINATES", "CONNECTIVITY - FRAME", "CONNECTIVITY - AREA"
 _GROUND = {"", "ground", "gnd", "none"}
+
+
+def section_of(row: Row) -> str:
+    """Return the section of a row of assignments to frames."""
+    return row.text("AnalSect", row.text("Section", "None"))
 
 
 def read_objects(tables: Tables, building: Building) -> None:
     """Read joints, frames, areas, links, supports, constraints and groups into a building."""
-    for name, row in by_name(tables.needed(JOINTS, "export all tables"), "Joint").items():
+    for name, row in by_name(tables.needed(dialect.JOINTS, "export all tables"), "Joint").items():
         building.joints[name] = _joint(row, name, building)
-    building.account.read(JOINTS, "joints", len(building.joints))
+    building.account.read(dialect.JOINTS, "joints", len(building.joints))
     _refuse_turned_joints(tables, building)
     _read_frames(tables, building)
     _read_areas(tables, building)
@@ -54,10 +47,9 @@ def read_objects(tables: Tables, building: Building) -> None:
 
 
 def _joint(row: Row, name: str, building: Building) -> Joint:
-    one = building.units.length
-    if row.has("GlobalX", "GlobalY", "GlobalZ"):
-        fields = ("GlobalX", "GlobalY", "GlobalZ")
-    else:
+    map_ = dialect.GLOBAL
+    if not row.has("GlobalX", "GlobalY", "GlobalZ"):
+        map_ = dialect.OWN
         system = row.text("CoordSys", "GLOBAL"), row.text("CoordType", "Cartesian")
         if system[0].upper() != "GLOBAL" or system[1].upper() != "CARTESIAN":
             message = (
@@ -65,9 +57,7 @@ def _joint(row: Row, name: str, building: Building) -> Joint:
                 "GlobalY and GlobalZ: export it in global Cartesian ones"
             )
             raise row.error(message)
-        fields = ("XorR", "Y", "Z")
-    x, y, z = (one * row.number(field) for field in fields)
-    return Joint(name, x, y, z, row.place)
+    return Joint(name, **numbers(row, map_, building.units), place=row.place)
 
 
 def _refuse_turned_joints(tables: Tables, building: Building) -> None:
@@ -82,7 +72,7 @@ def _refuse_turned_joints(tables: Tables, building: Building) -> None:
 
 def _read_frames(tables: Tables, building: Building) -> None:
     sections = by_name(tables.rows("FRAME SECTION ASSIGNMENTS"), "Frame")
-    for name, row in by_name(tables.rows(FRAMES), "Frame").items():
+    for name, row in by_name(tables.rows(dialect.FRAMES), "Frame").items():
         i, j = (known(row, f, row.text(f), building.joints) for f in ("JointI", "JointJ"))
         if i == j:
             msg = f'frame "{name}" begins and ends at joint "{i}"'
@@ -94,7 +84,7 @@ def _read_frames(tables: Tables, building: Building) -> None:
         section = section_of(assigned)
         if row.yes("IsCurved", default=False):
             what = "curved frames, taken as straight ones"
-            building.account.refuse("curved frames", FRAMES, what, [name], row.place)
+            building.account.refuse("curved frames", dialect.FRAMES, what, [name], row.place)
         material = assigned.text("MatProp", "Default")
         frame = FrameObject(name, i, j, section, row.place)
         if section.lower() != "none":
@@ -107,10 +97,10 @@ def _read_frames(tables: Tables, building: Building) -> None:
         known(row, "Frame", row.text("Frame"), building.frames)
     _assign_frames(tables, building)
     empty = [name for name, frame in building.frames.items() if frame.section.lower() == "none"]
-    building.account.left_out(FRAMES, "frames without a section", empty)
+    building.account.left_out(dialect.FRAMES, "frames without a section", empty)
     for name in empty:
         del building.frames[name]
-    building.account.read(FRAMES, "frame objects", len(building.frames))
+    building.account.read(dialect.FRAMES, "frame objects", len(building.frames))
 
 
 def _assign_frames(tables: Tables, building: Building) -> None:
@@ -137,71 +127,42 @@ def _turned(frame: FrameObject, row: Row, building: Building) -> FrameObject:
 
 
 def _modified(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    del building
-    return replace(frame, modifiers=section_modifiers(row))
+    return replace(frame, modifiers=modifiers_of(row, dialect.MODIFIERS, building.units))
 
 
 def _released(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    ends = tuple(
-        frozenset(word for word in RELEASES if row.yes(f"{word}{end}", default=False))
-        for end in "IJ"
-    )
+    words = {f"{word}{end}" for word in RELEASES for end in "IJ"}
     if row.yes("PartialFix", default=False):
         what = "partial fixity of end releases, taken as full releases"
         building.account.refuse("partial fixity", row.table, what, [frame.name], row.place)
-    forces = {"P", "V2", "V3"}
-    if (ends[0] | ends[1]) & forces:
-        what = "releases of axial and shear forces, which are passed on"
-        building.account.refuse("force releases", row.table, what, [frame.name], row.place)
-    return replace(frame, releases=(ends[0] - forces, ends[1] - forces))
+    free = [word for word in words if row.yes(word, default=False)]
+    return replace(frame, releases=released(row, frame.name, free, building))
 
 
 def _with_end_zones(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    one = building.units.length
-    lengths = []
-    for end in "IJ":
-        names = (f"Length{end}", f"LengthOff{end}", f"End{end}", f"Offset{end}")
-        given = [row.number(name) for name in names if row.has(name)]
-        lengths.append(one * given[0] if given else 0.0)
-    factor = row.number("RigidFactor", row.number("RigidFact", 0.0))
-    if min(lengths) < 0.0 or not 0.0 <= factor <= 1.0:
-        message = (
-            f'end zones of frame "{frame.name}" must be 0 or longer, and RigidFactor = {factor:g} '
-            "between 0 and 1"
-        )
-        raise row.error(message)
-    return replace(frame, end_i=lengths[0], end_j=lengths[1], rigid=factor)
+    of = f' of frame "{frame.name}"'
+    return replace(frame, **numbers(row, dialect.END_ZONES, building.units, of))
 
 
 def _inserted(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    one = building.units.length
     number = re.match(r"\s*(\d+)", row.text("CardinalPt", "10"))
     cardinal = int(number[1]) if number else 0
     if not 1 <= cardinal <= 11:
         msg = f'CardinalPt = "{row.text("CardinalPt")}" must begin with 1 to 11'
         raise row.error(msg)
-    offsets: list[Vector] = []
-    for end in "IJ":
-        x, y, z = (one * row.number(f"JtOffset{axis}{end}", 0.0) for axis in "XYZ")
-        offsets.append((x, y, z))
+    offset_i, offset_j = offsets_of(row, dialect.OFFSETS, building.units)
     if row.text("CoordSys", "GLOBAL").lower() == "local":
         first, last = (building.joints[name].position for name in (frame.i, frame.j))
         axes = frame_axes(first, last, frame.angle)
-        offsets = [_turned_by(axes, offset) for offset in offsets]
+        offset_i, offset_j = (vector_of(axes.T @ offset) for offset in (offset_i, offset_j))
     fields = ("StiffTransform", "StiffTrans", "Transform")
-    transforms = all(row.yes(field, default=True) for field in fields)
     return replace(
         frame,
         cardinal=cardinal,
-        offset_i=offsets[0],
-        offset_j=offsets[1],
-        transforms=transforms,
+        offset_i=offset_i,
+        offset_j=offset_j,
+        transforms=all(row.yes(field, default=True) for field in fields),
     )
-
-
-def _turned_by(axes: FloatArray, offset: Vector) -> Vector:
-    x, y, z = (axes.T @ offset).tolist()
-    return (x, y, z)
 
 
 def _meshed(frame: FrameObject, row: Row, building: Building) -> FrameObject:
@@ -212,7 +173,7 @@ def _meshed(frame: FrameObject, row: Row, building: Building) -> FrameObject:
 
 def _read_areas(tables: Tables, building: Building) -> None:
     sections = by_name(tables.rows("AREA SECTION ASSIGNMENTS"), "Area")
-    for row in tables.rows(AREAS):
+    for row in tables.rows(dialect.AREAS):
         name = row.text("Area")
         fields = [f for f in row.values if re.fullmatch(r"Joint\d+", f) and row.has(f)]
         joints = tuple(known(row, f, row.text(f), building.joints) for f in fields)
@@ -233,19 +194,13 @@ def _read_areas(tables: Tables, building: Building) -> None:
         known(row, "Area", row.text("Area"), building.areas)
     for name, row in by_name(tables.rows("AREA STIFFNESS MODIFIERS"), "Area").items():
         known(row, "Area", name, building.areas)
-        in_plane, bending = shell_factors(row, building)
-        building.areas[name] = replace(
-            building.areas[name],
-            in_plane=in_plane,
-            bending=bending,
-            mass=row.number("MMod", row.number("MassMod", 1.0)),
-            weight=row.number("WMod", row.number("WeightMod", 1.0)),
-        )
-    building.account.read(AREAS, "areas", len(building.areas))
+        factors = shell_factors(row, dialect.SHELL, building)
+        building.areas[name] = replace(building.areas[name], **factors)
+    building.account.read(dialect.AREAS, "areas", len(building.areas))
 
 
 def _read_links(tables: Tables, building: Building) -> None:
-    table = "CONNECTIVITY - LINK"
+    table = dialect.LINK_PLACES
     assigned = by_name(tables.rows("LINK PROPERTY ASSIGNMENTS"), "Link")
     angles = by_name(tables.rows("LINK LOCAL AXES ASSIGNMENTS 1 - TYPICAL"), "Link")
     for name, row in by_name(tables.rows(table), "Link").items():
@@ -271,25 +226,27 @@ def _read_supports(tables: Tables, building: Building) -> None:
     table = "JOINT RESTRAINT ASSIGNMENTS"
     for name, row in by_name(tables.rows(table), "Joint").items():
         known(row, "Joint", name, building.joints)
-        held = tuple(ours for field, ours in DOFS if row.yes(field, default=False))
+        held = tuple(ours for field, ours in dialect.DOFS if row.yes(field, default=False))
         if held:
             building.restraints[name] = held
     building.account.read(table, "supports", len(building.restraints))
-    units = building.units
     table = "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED"
     for name, row in by_name(tables.rows(table), "Joint").items():
         known(row, "Joint", name, building.joints)
         if row.text("CoordSys", "GLOBAL").upper() not in {"GLOBAL", "LOCAL"}:
             msg = f'spring of joint "{name}" must be given in GLOBAL axes'
             raise row.error(msg)
-        values = [row.number(field, 0.0) for field, _ in DOFS]
-        if min(values) < 0.0:
-            msg = f'a spring of joint "{name}" = {min(values):g} must be 0 or greater'
-            raise row.error(msg)
+        of = f' of the spring of joint "{name}"'
+        values = tuple(numbers(row, dialect.SUPPORT, building.units, of).values())
         if any(values):
-            scale = [units.line] * 3 + [units.moment] * 3
-            building.springs[name] = tuple(a * b for a, b in zip(values, scale, strict=True))
+            building.springs[name] = values
     building.account.read(table, "joint springs", len(building.springs))
+    table = "JOINT ADDED MASS ASSIGNMENTS"
+    for name, row in by_name(tables.rows(table), "Joint").items():
+        known(row, "Joint", name, building.joints)
+        of = f' of joint "{name}"'
+        building.masses[name] = tuple(numbers(row, dialect.MASS, building.units, of).values())
+    building.account.read(table, "masses added to joints", len(building.masses))
 
 
 def _read_constraints(tables: Tables, building: Building) -> None:
@@ -301,7 +258,7 @@ def _read_constraints(tables: Tables, building: Building) -> None:
                 what = "diaphragms that are not horizontal"
                 place = row.place
                 building.account.refuse("other constraints", row.table, what, ["Axis"], place)
-            flags = tuple(ours for _, ours in DOFS if row.yes(ours.upper(), default=True))
+            flags = tuple(ours for _, ours in dialect.DOFS if row.yes(ours.upper(), default=True))
             kinds[row.text("Name")] = (kind.lower(), flags)
     joints: dict[str, list[str]] = {}
     table = "JOINT CONSTRAINT ASSIGNMENTS"
@@ -312,7 +269,7 @@ def _read_constraints(tables: Tables, building: Building) -> None:
             what = f'a constraint of type "{kind or "not defined"}"'
             building.account.refuse("other constraints", table, what, [name], row.place)
             continue
-        kinds.setdefault(name, (kind, tuple(ours for _, ours in DOFS)))
+        kinds.setdefault(name, (kind, tuple(ours for _, ours in dialect.DOFS)))
         joints.setdefault(name, []).append(known(row, "Joint", row.text("Joint"), building.joints))
     for name, members in joints.items():
         kind, dofs = kinds[name]

@@ -1,28 +1,99 @@
-"""Stiffness of meshed areas, by the shell elements of OpenSees, as superelements of a frame."""
+"""Which areas are shells, and their stiffness by the elements of OpenSees, as a superelement."""
 
 from __future__ import annotations
 
+from collections import defaultdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy import sparse
 
 from frames._errors import ModelError
+from frames.exchange.building import AreaObject, AreaSection, Constraint, Material
+from frames.exchange.geometry import Levels, area_normal, level_of
+from frames.exchange.loads import Shares
+from frames.exchange.mesh import joints_within
 from frames.model.part_elements import ShellElement, WithoutForces, no_elements
 from frames.opensees.model import read_model
 from lir_element.argument_checks import listed
+from lir_element.elevations import SAME_PLACE
 from lir_element.opensees import opensees
 
 if TYPE_CHECKING:
-    from frames._types import SparseMatrix
-    from frames.exchange.building import AreaObject, Building
-    from frames.exchange.mesh import Mesh
+    from frames._types import FloatArray, SparseMatrix
+    from frames.exchange.building import Building
+    from frames.exchange.mesh import Inside, Mesh
     from frames.exchange.stations import Points
     from frames.model.editing import FrameEditor
+    from frames.model.frame_data import FrameData
+    from frames.model.superelement import Superelement
+
+
+_MESHED = "ETABS"
+"""The program that divides areas at the joints within them."""
+
+
+def choose_shells(building: Building) -> list[AreaObject]:
+    """Return the areas whose stiffness counts: all but level ones in rigid diaphragms and decks."""
+    sets = [set(c.joints) for c in building.constraints.values() if c.kind == "diaphragm"]
+    found, flat, loose = [], [], []
+    for area in building.areas.values():
+        section = building.area_sections.get(area.section)
+        if section is None or section.kind == "none":
+            continue
+        level = float(np.ptp(_corners(building, area)[:, 2])) < SAME_PLACE
+        if level and any(set(area.joints) <= joints for joints in sets):
+            flat.append(area.name)
+        elif level and section.kind == "membrane" and section.one_way:
+            loose.append(area)
+        else:
+            found.append(area)
+    what = "slabs in rigid diaphragms, by their loads and masses alone: their bending is not stiff"
+    shares = Shares(building)
+    building.account.read_as("areas", what, flat, *shares.of(flat))
+    if loose:
+        what = "one-way decks in no rigid diaphragm, taken as rigid in their plane"
+        names = [area.name for area in loose]
+        building.account.refuse("loose decks", "areas", what, names, loose[0].place)
+        _tie(building, loose)
+    return found
+
+
+def meet_joints(building: Building, shells: list[AreaObject], points: Points) -> Inside:
+    """Return the joints within shells that their mesh has to meet."""
+    inside = joints_within([area for area in shells if len(area.joints) <= 4], points)
+    names = list(dict.fromkeys(joint for joints in inside.values() for joint in joints))
+    if building.program == _MESHED:
+        building.account.read_as("areas", "joints within shells, met by their mesh", names)
+        return inside
+    what = "joints within shells that do not touch them, as in the program"
+    building.account.read_as("areas", what, names)
+    return {}
+
+
+def _corners(building: Building, area: AreaObject) -> FloatArray:
+    return np.array([building.joints[name].position for name in area.joints])
+
+
+def _tie(building: Building, decks: list[AreaObject]) -> None:
+    # A diaphragm for the decks of each level, of all joints that they enclose.
+    held = {j for c in building.constraints.values() if c.kind == "diaphragm" for j in c.joints}
+    levels = Levels({name: joint.position for name, joint in building.joints.items()})
+    joints: dict[int, dict[str, None]] = {}
+    for area in decks:
+        corners = _corners(building, area)
+        here = joints.setdefault(level_of(float(corners[0, 2])), {})
+        here.update(dict.fromkeys(name for name in levels.within(corners) if name not in held))
+    for k, names in enumerate(joints.values(), start=1):
+        label = f"decks-{k}"
+        building.constraints[label] = Constraint(label, "diaphragm", tuple(names))
+
 
 AT_ONCE = 60
 """Elements whose matrices are read together: they are full ones."""
 
+
+_PLUMB = 1e-6  # cosine of a normal, below which an area stands upright
 
 NONE = 1e-6
 """Factor on a stiffness that stands for none [-]."""
@@ -131,3 +202,68 @@ def shell_numbers(building: Building, area: AreaObject) -> tuple[float, float, f
         section.thickness,
         plate / plane,
     )
+
+
+def shell_parts(frame: FrameData) -> list[Superelement]:
+    """Return the superelements that are shells and nothing else."""
+    return [
+        part
+        for part in frame.superelements.values()
+        if part.elements.shells
+        and not part.load.any()
+        and not any(m.count_nonzero() for m in (part.mass, part.damping, part.equations))
+    ]
+
+
+def shells_of(frame: FrameData, building: Building) -> None:
+    """Add the shells of a frame to a building: each element an area, of a section without mass.
+
+    The modulus of the stiffer of membrane and plate is that of the material; a factor of the
+    section makes the other one.
+    """
+    diaphragms = [(part.name, set(part.nodes)) for part in frame.diaphragms.values()]
+    materials: dict[tuple[float, float], str] = {}
+    sections: dict[object, str] = {}
+    count: dict[str, int] = defaultdict(int)
+    for shell in (shell for part in shell_parts(frame) for shell in part.elements.shells):
+        within = [name for name, nodes in diaphragms if nodes.issuperset(shell.nodes)]
+        if within:
+            message = (
+                f'a shell of area "{shell.area}" lies within the rigid diaphragm "{within[0]}", '
+                f"where {building.program} has it as a slab: take it out, or the diaphragm"
+            )
+            raise ModelError(message)
+        stiffest = shell.elastic_modulus * max(shell.bending, 1.0)
+        matter = (stiffest, shell.poisson_ratio)
+        if matter not in materials:
+            materials[matter] = name = f"SM{len(materials) + 1}"
+            shear = 0.5 * stiffest / (1.0 + shell.poisson_ratio)
+            building.materials[name] = Material(name, stiffest, shear, matter[1], 0.0, 0.0)
+        kind = "WALL" if area_kind(building, shell.nodes) == "PANEL" else "SLAB"
+        key = (kind, *shell[2:])
+        if key not in sections:
+            sections[key] = name = f"{kind}{len(sections) + 1}"
+            building.area_sections[name] = _area_section(name, materials[matter], shell)
+        count[shell.area] += 1
+        name = f"{shell.area}/{count[shell.area]}"
+        building.areas[name] = AreaObject(name, tuple(shell.nodes), sections[key], place="")
+
+
+def _area_section(name: str, material: str, shell: ShellElement) -> AreaSection:
+    return AreaSection(
+        name,
+        material,
+        "shell",
+        thickness=shell.thickness,
+        bending_thickness=shell.thickness,
+        in_plane=1.0 / max(shell.bending, 1.0),
+        bending=min(shell.bending, 1.0),
+    )
+
+
+def area_kind(building: Building, joints: tuple[str, ...]) -> str:
+    """Return what ETABS calls an area: by its normal."""
+    normal, _ = area_normal(np.array([building.joints[name].position for name in joints]))
+    if abs(normal[2]) > 1.0 - _PLUMB:
+        return "FLOOR"
+    return "PANEL" if abs(normal[2]) < _PLUMB else "RAMP"

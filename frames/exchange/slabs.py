@@ -1,4 +1,4 @@
-"""Loads of areas that are no shells: to the members around each panel, or to corners."""
+"""Loads on a frame: of areas that are no shells to the members around each panel, or to corners."""
 
 from __future__ import annotations
 
@@ -9,16 +9,24 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
-from frames.exchange.enclosed import FLAT, Levels, level_of
-from frames.exchange.geometry import area_normal
+from frames.exchange.building import AreaLoad, JointLoad, LineLoad
+from frames.exchange.geometry import Levels, area_normal, level_of
+from frames.exchange.loads import OWN_MASS, own_masses, own_weights
+from frames.exchange.members import add_line_load
 from frames.model.components import FloorLoad
 from frames.model.floors import floor_panel, members_at, panel_loads
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from frames._types import FloatArray
     from frames.exchange.building import AreaObject, Building
+    from frames.exchange.mesh import Mesh
+    from frames.exchange.stations import Divided
     from frames.model.editing import FrameEditor
     from frames.model.floors import PanelLoads
+
 
 _PANEL = "panel"
 
@@ -48,14 +56,7 @@ class Slabs:
 
     A slab is cut into panels along the members within it; a panel gives its load to the members
     along its edges, each point to the nearest edge, or one way. Where no members run along all
-    edges that carry, the corners of the area get it.
-
-    Parameters
-    ----------
-    frame : Frame
-        With all members.
-    building : Building
-        With the areas.
+    edges that carry, the corners of the area get it. The frame has all members.
     """
 
     def __init__(self, frame: FrameEditor, building: Building) -> None:
@@ -108,7 +109,7 @@ class Slabs:
 
     def _unit_loads(self, area: AreaObject) -> list[PanelLoads] | None:
         points = self._points(area)
-        if np.ptp(points[:, 2]) > FLAT:
+        if np.ptp(points[:, 2]) > SAME_PLACE:
             return None
         section = self.building.area_sections.get(area.section)
         span = None
@@ -143,7 +144,7 @@ def _by_level(frame: FrameEditor) -> dict[int, dict[str, list[str]]]:
     found: dict[int, dict[str, list[str]]] = {}
     for member in frame.members.values():
         first, last = frame.nodes[member.i], frame.nodes[member.j]
-        if abs(first.z - last.z) <= FLAT:
+        if abs(first.z - last.z) <= SAME_PLACE:
             level = found.setdefault(level_of(first.z), {})
             level.setdefault(member.i, []).append(member.j)
             level.setdefault(member.j, []).append(member.i)
@@ -192,3 +193,71 @@ def _corners(face: list[str], plan: dict[str, FloatArray]) -> list[str]:
         if abs(float(one[0] * two[1] - one[1] * two[0])) > 1e-6 * size:
             kept.append(name)
     return kept
+
+
+class Loading:
+    """Puts loads of patterns on a frame; those of shells go to their nodes."""
+
+    def __init__(self, building: Building, divided: Mapping[str, Divided], mesh: Mesh) -> None:
+        self.building, self.divided, self.mesh = building, divided, mesh
+        self._shells = {area for area, _ in mesh.elements}
+        self._elements: dict[str, list[tuple[str, ...]]] = {}
+        for area, nodes in mesh.elements:
+            self._elements.setdefault(area, []).append(nodes)
+
+    def put(
+        self, frame: FrameEditor, slabs: Slabs, factors: Mapping[str, tuple[float, str]], own: bool
+    ) -> None:
+        """Put the loads of patterns on a frame."""
+        building = self.building
+        loads: list[LineLoad | AreaLoad | JointLoad] = [
+            *building.line_loads,
+            *building.area_loads,
+            *building.joint_loads,
+        ]
+        chosen = dict(factors)
+        for name, pattern in building.patterns.items():
+            factor = pattern.self_weight
+            if name in chosen and factor:
+                loads += [_times(load, factor) for load in own_weights(building, name)]
+        if own:
+            loads += list(own_masses(building, frame.gravity))
+            chosen[OWN_MASS] = (1.0, OWN_MASS)
+        for load in loads:
+            factor, case = chosen.get(load.pattern, (0.0, ""))
+            if not factor:
+                continue
+            if isinstance(load, LineLoad):
+                if any(load.start) or any(load.end):
+                    add_line_load(frame, self.divided[load.frame], load, factor, case)
+            elif isinstance(load, JointLoad):
+                if any(load.forces):
+                    frame.add_load(load.joint, [factor * v for v in load.forces], case=case)
+            elif any(load.load):
+                self._on_area(frame, slabs, load, factor, case)
+
+    def _on_area(
+        self, frame: FrameEditor, slabs: Slabs, load: AreaLoad, factor: float, case: str
+    ) -> None:
+        vector = factor * np.array(load.load)
+        if load.area not in self._shells:
+            slabs.add(self.building.areas[load.area], vector, case)
+            return
+        for nodes in self._elements[load.area]:
+            points = np.array([frame.nodes[name].position for name in nodes])
+            _, size = area_normal(points)
+            for node, share in zip(nodes, corner_shares(points), strict=True):
+                frame.add_load(node, [*(share * size * vector).tolist(), 0.0, 0.0, 0.0], case=case)
+
+
+def _times(load: LineLoad | AreaLoad | JointLoad, factor: float) -> LineLoad | AreaLoad | JointLoad:
+    def scaled(vector: tuple[float, float, float]) -> tuple[float, float, float]:
+        x, y, z = vector
+        return (factor * x, factor * y, factor * z)
+
+    if isinstance(load, JointLoad):
+        return JointLoad(load.joint, load.pattern, tuple(factor * v for v in load.forces))
+    if isinstance(load, AreaLoad):
+        return AreaLoad(load.area, load.pattern, scaled(load.load))
+    start, end = scaled(load.start), scaled(load.end)
+    return LineLoad(load.frame, load.pattern, load.a, load.b, start, end, load.point)

@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 from frames._errors import ModelError
 from frames.exchange.building import NOWHERE, FrameObject
 from frames.exchange.geometry import cardinal_shift, frame_axes
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.exchange.building import Building
 
-ON_LINE = 1e-3
-"""How far a joint may be beside the line of a frame object to lie on it [m]."""
 
 MOST_STIFF = 0.95
 """Largest share of a member that its stiff end zones take [-]."""
@@ -29,34 +28,16 @@ Points = dict[str, tuple[float, float, float]]
 
 @dataclass(frozen=True, eq=False)
 class Divided:
-    """A frame object divided into members.
-
-    Attributes
-    ----------
-    frame : FrameObject
-        The object.
-    nodes : list of str
-        From joint i to joint j.
-    shares : ndarray
-        Where they are, of the length between the joints [-].
-    start, way : ndarray, (3,)
-        Its axis: where it is at joint i, and the vector to where it is at joint j [m].
-    length : float
-        Between the joints [m].
-    axes : ndarray, (3, 3)
-        Axes 1, 2, 3.
-    stiff : tuple of float
-        Shares of the length that are stiff at i and at j [-].
-    """
+    """A frame object divided into members."""
 
     frame: FrameObject
-    nodes: list[str]
-    shares: FloatArray
-    start: FloatArray
-    way: FloatArray
-    length: float
-    axes: FloatArray
-    stiff: tuple[float, float]
+    nodes: list[str]  # from joint i to joint j
+    shares: FloatArray  # where they are, of the length between the joints [-]
+    start: FloatArray  # (3,), where its axis is at joint i [m]
+    way: FloatArray  # (3,), from there to where its axis is at joint j [m]
+    length: float  # between the joints [m]
+    axes: FloatArray  # (3, 3), axes 1, 2, 3
+    stiff: tuple[float, float]  # shares of the length that are stiff at i and at j [-]
 
     @property
     def members(self) -> list[str]:
@@ -96,7 +77,7 @@ def divide(
     for frame in building.frames.values():
         first, last = (np.array(points[name]) for name in (frame.i, frame.j))
         length = float(np.linalg.norm(last - first))
-        if length < ON_LINE:
+        if length < SAME_PLACE:
             message = (
                 f'{frame.place}: frame "{frame.name}" is {length:g} m long between joints '
                 f'"{frame.i}" and "{frame.j}": merge them, or join them by a link'
@@ -104,7 +85,7 @@ def divide(
             raise ModelError(message)
         between: list[tuple[float, str]] = []
         if frame.meshed:
-            near = tree.query_ball_point(0.5 * (first + last), 0.5 * length - ON_LINE)
+            near = tree.query_ball_point(0.5 * (first + last), 0.5 * length - SAME_PLACE)
             between = _on_line(near, names, where, first, last, length)
         found.append(_divided(building, frame, between, (first, last), length))
     _at_loads(found, points, loads)
@@ -128,7 +109,7 @@ def _on_line(
     return sorted(
         (float(a) / length, names[k])
         for k, a, b in zip(near, along, beside, strict=True)
-        if b <= ON_LINE
+        if b <= SAME_PLACE
     )
 
 
@@ -175,7 +156,7 @@ def _at_loads(found: list[Divided], points: Points, loads: Mapping[str, Sequence
     for k, each in enumerate(found):
         for share in sorted(set(loads.get(each.frame.name, ()))):
             low, high = each.stiff[0], 1.0 - each.stiff[1]
-            known = float(np.abs(found[k].shares - share).min()) * each.length < ON_LINE
+            known = float(np.abs(found[k].shares - share).min()) * each.length < SAME_PLACE
             if known or not low < share < high:
                 continue
             one = found[k]

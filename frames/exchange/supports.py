@@ -10,6 +10,7 @@ import numpy as np
 from frames._errors import ModelError
 from frames._remedies import argument
 from frames.model.components import DOFS, bearing_height
+from lir_element.elevations import SAME_PLACE, by_elevation
 
 if TYPE_CHECKING:
     from frames.exchange.building import Building, Constraint
@@ -17,20 +18,9 @@ if TYPE_CHECKING:
     from frames.model.editing import FrameEditor
     from lir_element import LIRBearing
 
-LEVEL_STEP = 1e-3
-"""Within what joints are at one elevation [m]."""
-
 
 class Places:
-    """Where bearings stand.
-
-    Attributes
-    ----------
-    joints : dict of str to LIRBearing
-        Devices under joints.
-    links : dict of str to LIRBearing
-        Devices in place of links.
-    """
+    """Where bearings stand: under joints, and in place of links."""
 
     def __init__(self, building: Building, options: Options) -> None:
         self._building = building
@@ -53,7 +43,7 @@ class Places:
         if not self.joints and not self.links:
             low = min((joint.z for joint in building.joints.values()), default=0.0)
             some = [*building.groups, *building.link_properties]
-            some += [n for n, joint in building.joints.items() if joint.z - low < LEVEL_STEP]
+            some += [n for n, joint in building.joints.items() if joint.z - low < SAME_PLACE]
             message = (
                 f"{building.account.file} has no joint that is restrained vertically to put a "
                 "bearing under: name groups, joints, links or link properties, "
@@ -143,7 +133,7 @@ def add_constraints(
         joints = [joint for joint in constraint.joints if joint in frame.nodes]
         if constraint.kind == "diaphragm":
             free = [j for j in joints if not {"ux", "uy"} <= frame.fixed_dofs.get(j, frozenset())]
-            for k, group in enumerate(by_elevation(frame, free)):
+            for k, group in enumerate(levels_of(frame, free)):
                 name = constraint.name if k == 0 else f"{constraint.name}-{k + 1}"
                 if len(group) > 1:
                     frame.add_diaphragm(name, group)
@@ -158,23 +148,16 @@ def add_constraints(
 
 def _add_base(frame: FrameEditor, building: Building, joints: list[str]) -> None:
     taken = {node for part in frame.diaphragms.values() for node in part.nodes}
-    for k, group in enumerate(by_elevation(frame, joints)):
+    for k, group in enumerate(levels_of(frame, joints)):
         if len(group) > 1 and not taken.intersection(group):
             frame.add_diaphragm("base" if k == 0 else f"base-{k + 1}", group)
             what = "joints on bearings at one elevation, which move in plan as one body"
             building.account.read_as("supports", what, group)
 
 
-def by_elevation(frame: FrameEditor, joints: list[str]) -> list[list[str]]:
-    """Return nodes by their elevation, from below; those of one group are within 1 mm."""
-    groups: list[list[str]] = []
-    low = -np.inf
-    for joint in sorted(joints, key=lambda name: frame.nodes[name].z):
-        if frame.nodes[joint].z - low > LEVEL_STEP:
-            groups.append([])
-            low = frame.nodes[joint].z
-        groups[-1].append(joint)
-    return groups
+def levels_of(frame: FrameEditor, joints: list[str]) -> list[list[str]]:
+    """Return nodes by their elevation, from below."""
+    return by_elevation({joint: frame.nodes[joint].z for joint in joints})
 
 
 def _add_ties(frame: FrameEditor, constraint: Constraint, joints: list[str]) -> None:

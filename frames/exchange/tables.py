@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from typing import Literal, TypeAlias
+from typing import ClassVar, Literal, TypeAlias
 
 from frames._errors import ModelError
 from frames._remedies import argument
@@ -22,42 +22,34 @@ _YES = {"yes": True, "true": True, "no": False, "false": False}
 
 
 class Row:
-    """One row of a table.
+    """One row of a table, at its line of a file or of a sheet."""
 
-    Parameters
-    ----------
-    file, table : str
-        Where it stands, for messages.
-    line : int
-        Its line in the file, or its row in the sheet.
-    values : dict of str to Value
-        Values by field.
-    decimal : {".", ","}
-        Decimal sign of the file.
+    __slots__ = ("decimal", "file", "line", "lines", "looked_at", "table", "values")
 
-    Attributes
-    ----------
-    looked_at : set of str
-        Fields that the reader has asked for.
-    """
-
-    __slots__ = ("decimal", "file", "line", "looked_at", "table", "values")
+    refusal: ClassVar[type[ValueError]] = ModelError
+    remedy: ClassVar[str] = "export the table with all its fields"
 
     def __init__(
         self, file: str, table: str, line: int, values: dict[str, Value], decimal: Decimal = "."
     ) -> None:
         self.file, self.table, self.line = file, table, line
         self.values, self.decimal = values, decimal
-        self.looked_at: set[str] = set()
+        self.looked_at: set[str] = set()  # fields that the reader has asked for
+        self.lines: dict[str, int] = {}  # of fields that stand in others than `line`
 
     @property
     def place(self) -> str:
         """Where the row stands: file, line and table."""
-        return f'{self.file}, line {self.line}, table "{self.table}"'
+        return self.place_of("")
 
-    def error(self, message: str) -> ModelError:
-        """Return an error that begins with the place of the row."""
-        return ModelError(f"{self.place}: {message}")
+    def place_of(self, field: str) -> str:
+        """Return where a field of the row stands."""
+        table = f', table "{self.table}"' if self.table else ""
+        return f"{self.file}, line {self.lines.get(field, self.line)}{table}"
+
+    def error(self, message: str, field: str = "") -> ValueError:
+        """Return an error that begins with the place of the row, or of one of its fields."""
+        return self.refusal(f"{self.place_of(field)}: {message}")
 
     def has(self, *fields: str) -> bool:
         """Return whether every field has a value."""
@@ -70,10 +62,7 @@ class Row:
         value = self.values.get(field, "")
         if value == "":
             if default is None:
-                message = (
-                    f"no value of {field}, there are {', '.join(self.values)}: export the table "
-                    "with all its fields"
-                )
+                message = f"{field} is empty, there are {', '.join(self.values)}: {self.remedy}"
                 raise self.error(message)
             return default
         if isinstance(value, bool):
@@ -97,7 +86,7 @@ class Row:
         value = self.number(field, None if default is None else float(default))
         if not value.is_integer():
             msg = f"{field} = {value:g} must be a whole number"
-            raise self.error(msg)
+            raise self.error(msg, field)
         return int(value)
 
     def yes(self, field: str, *, default: bool | None = None) -> bool:
@@ -106,7 +95,7 @@ class Row:
         found = _YES.get(text.strip().lower())
         if found is None:
             msg = f'{field} = "{text}" must be Yes or No'
-            raise self.error(msg)
+            raise self.error(msg, field)
         return found
 
 
@@ -126,21 +115,15 @@ def as_number(row: Row, field: str, text: str) -> float:
                 f"{argument('decimal', other)}"
             )
         msg = f'{field} = "{text}" is no number: {remedy}'
-        raise row.error(msg) from None
+        raise row.error(msg, field) from None
     if not math.isfinite(found) or "_" in text:
         msg = f'{field} = "{text}" must be a finite number'
-        raise row.error(msg)
+        raise row.error(msg, field)
     return found
 
 
 class Tables:
-    """The tables of a file by name, upper case.
-
-    Parameters
-    ----------
-    file : str
-        Name of the file, for messages.
-    """
+    """The tables of a file by name, upper case."""
 
     def __init__(self, file: str) -> None:
         self.file = file
@@ -209,6 +192,36 @@ def by_name(rows: Sequence[Row], field: str) -> dict[str, Row]:
             raise row.error(message)
         found[name] = row
     return found
+
+
+def merged(
+    rows: Sequence[Row], *fields: str, adding: Collection[str] = ()
+) -> dict[tuple[str, ...], Row]:
+    """Return one row for each object: its lines add up, a value that comes again replaces.
+
+    Of the fields that add, it is put behind the value before.
+    """
+    found: dict[tuple[str, ...], Row] = {}
+    for row in rows:
+        key = tuple(row.text(field) for field in fields)
+        values: dict[str, Value] = dict(row.values)
+        one = found.setdefault(key, Row(row.file, row.table, row.line, {}, row.decimal))
+        for field in one.values.keys() & values.keys() & set(adding):
+            values[field] = f"{one.values[field]} {values[field]}"
+        one.values |= values
+        if row.line != one.line:
+            one.lines |= dict.fromkeys(values, row.line)
+        row.looked_at = one.looked_at
+    return found
+
+
+def known(row: Row, field: str, name: str, names: Collection[str], of: str = "") -> str:
+    """Return a name that a row refers to, or raise where nothing has it."""
+    if name not in names:
+        some = ", ".join(list(names)[:6]) or "none"
+        msg = f'{field} "{name}"{of} is not defined: there are {some}'
+        raise row.error(msg, field)
+    return name
 
 
 def require_space(row: Row, active: Collection[str]) -> None:

@@ -2,30 +2,35 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
-from frames._errors import ModelError
+from frames._errors import ModelError, ModelWarning
 from frames._remedies import argument
-from frames.exchange.area_loads import OWN_MASS, Loading
 from frames.exchange.building import MassSource
-from frames.exchange.choose_shells import choose_shells, meet_joints
-from frames.exchange.doubts import doubt_base, doubt_weights
+from frames.exchange.doubts import doubt_base, doubt_weights, note_areas, note_members
+from frames.exchange.etabs import read_etabs
 from frames.exchange.links import Links, yield_displacements
+from frames.exchange.loads import OWN_MASS, Shares
 from frames.exchange.members import Sections, add_members
 from frames.exchange.mesh import Mesh, mesh_areas
-from frames.exchange.notes import note_areas, note_members
-from frames.exchange.shares import Shares
-from frames.exchange.slabs import Slabs
+from frames.exchange.options import Options
+from frames.exchange.sap2000 import read_sap2000
+from frames.exchange.shells import add_shells, choose_shells, meet_joints
+from frames.exchange.slabs import Loading, Slabs
 from frames.exchange.stations import divide, under_loads
-from frames.exchange.supports import Places, add_constraints, add_supports, by_elevation
+from frames.exchange.supports import Places, add_constraints, add_supports, levels_of
 from frames.model.applied_loads import applied_loads, load_masses
+from frames.model.editing import FrameEditor
+from lir_element._compile.collection import without_collection
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from frames.exchange.building import Building
-    from frames.exchange.options import Options
     from frames.exchange.stations import Divided, Points
-    from frames.model.editing import FrameEditor
     from lir_element import LIRBearing
 
 _KINDS = (
@@ -34,6 +39,31 @@ _KINDS = (
     ("S", ("snow",)),
 )
 """Load cases of the frame, and the kinds of patterns that belong to them."""
+
+
+F = TypeVar("F", bound=FrameEditor)
+
+READERS = {"SAP2000": read_sap2000, "ETABS": read_etabs}
+"""Readers of files by program."""
+
+
+def imported(
+    kind: type[F], program: str, path: str | Path, options: Options, name: str | None
+) -> F:
+    """Return a program's model as a frame on bearings, and warn of what was probably not meant."""
+    building = READERS[program](path, options)
+    frame = kind(building.name if name is None else name)
+    with without_collection():  # loads by the hundred thousand: a third of the time
+        devices = fill(frame, building, options)
+    frame = frame.with_bearings(devices) if devices else frame
+    building.account.groups = {
+        name: tuple(label for kind, label in members if kind in {"joint", "link"})
+        for name, members in building.groups.items()
+    }
+    frame._imported = building.account
+    for doubt in building.account.doubts:
+        warnings.warn(doubt, ModelWarning, stacklevel=3)
+    return frame
 
 
 def fill(frame: FrameEditor, building: Building, options: Options) -> dict[str, LIRBearing]:
@@ -202,8 +232,6 @@ def _add_nodes(
 
 def _add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
     if mesh.elements:
-        from frames.exchange.shells import add_shells  # needs the optional openseespy
-
         add_shells(frame, building, mesh)
         areas = list(dict.fromkeys(area for area, _ in mesh.elements))
         what = f"shells, in {len(mesh.elements)} elements of OpenSees"
@@ -288,7 +316,7 @@ def _add_masses(
 
 def _add_levels(frame: FrameEditor, building: Building, places: Places) -> None:
     joints = [name for name in building.joints if name in frame.nodes]
-    groups = {round(frame.nodes[g[0]].z, 3): g for g in by_elevation(frame, joints)}
+    groups = {round(frame.nodes[g[0]].z, 3): g for g in levels_of(frame, joints)}
     stories = {round(z, 3): name for name, z in building.stories}
     if not stories:
         levels = {
@@ -300,7 +328,7 @@ def _add_levels(frame: FrameEditor, building: Building, places: Places) -> None:
             levels = {
                 round(frame.nodes[member.i].z, 3)
                 for member in frame.members.values()
-                if abs(frame.nodes[member.i].z - frame.nodes[member.j].z) < 1e-3
+                if abs(frame.nodes[member.i].z - frame.nodes[member.j].z) < SAME_PLACE
             }
         levels |= {round(frame.nodes[name].z, 3) for name in places.joints}
         stories = {z: f"level-{k}" for k, z in enumerate(sorted(levels))}

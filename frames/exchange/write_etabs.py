@@ -1,149 +1,204 @@
-"""Writes a frame as ETABS' text, its bearings as friction isolator links: from SAP2000's tables."""
+"""Writes a building as ETABS' text: points in plan at stories, lines and areas at stories."""
 
 from __future__ import annotations
 
+import math
+from bisect import bisect_left
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from frames._errors import ModelError
-from frames.exchange.etabs_places import EtabsPlaces
-from frames.exchange.write_materials import MATERIALS
-from frames.exchange.write_sap2000 import Writer
-from frames.exchange.write_shells import shell_lines
+from frames.exchange import etabs_fields as dialect
+from frames.exchange.building import RELEASES
+from frames.exchange.fields import written
+from frames.exchange.shells import area_kind
+from frames.exchange.write_sap2000 import along_axes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from frames.exchange.write_s2k_text import Value
-    from frames.model.frame_data import FrameData
+    from frames.exchange.building import Building, FrameObject, Joint, LinkDof
+    from frames.exchange.write_sap2000 import Value
 
 HEAD = (
     "$ File written by lir-dcfp. Not confirmed by any file of ETABS itself: LINKPROP of friction "
     "isolators, LINK, LINKASSIGN; check these links after the import"
 )
-_DOFS = ("UX", "UY", "UZ", "RX", "RY", "RZ")
-_NUMBERED = ((1, "X"), (2, "Y"), (3, "Z"))
-_NONLINEAR = {"TransK": "K", "Slow": "CSLOW", "Fast": "CFAST", "Rate": "RATE", "Radius": "RADIUS"}
-_LINKS = "LINK PROPERTY DEFINITIONS"
+LEAST_STORY = 0.01
+"""Least height of a story; a level that is closer to the one below has none of its own [m]."""
+
+
+_HALVES = (dialect.MATERIAL[:2], dialect.MATERIAL[2:])  # a line of the file each
+
+
+class Places:
+    """Stories and points: each joint is a point in plan at a story, or hangs below the next one.
+
+    Stories are the building's, and always the lowest and the highest joint. `at` has point and
+    story by joint.
+    """
+
+    def __init__(self, building: Building) -> None:
+        self._one = building.units.length
+        heights = sorted({joint.z for joint in building.joints.values()})
+        chosen = {z for _, z in building.stories}
+        self._z = [heights[0]]
+        for z in heights[1:]:
+            if z in chosen and z - self._z[-1] > LEAST_STORY:
+                self._z.append(z)
+        if heights[-1] > self._z[-1]:
+            self._z.append(heights[-1])
+        self._names = ["Base", *(f"Story{k}" for k in range(1, len(self._z)))]
+        self._points: dict[tuple[float, float, float], str] = {}
+        self.at: dict[str, tuple[str, str]] = {}
+        taken: dict[tuple[str, str], str] = {}
+        for joint in building.joints.values():
+            place = self._place(joint)
+            if place in taken:
+                message = (
+                    f'nodes "{taken[place]}" and "{joint.name}" stand at one place, which ETABS '
+                    "merges: move one of them, or join them in the frame"
+                )
+                raise ModelError(message)
+            taken[place] = joint.name
+            self.at[joint.name] = place
+
+    def _place(self, joint: Joint) -> tuple[str, str]:
+        k = bisect_left(self._z, joint.z)
+        key = (joint.x, joint.y, self._z[k] - joint.z)
+        return self._points.setdefault(key, str(len(self._points) + 1)), self._names[k]
+
+    def level(self, joint: str) -> int:
+        """Return the number of the story at which a joint is, 0 for the base."""
+        return self._names.index(self.at[joint][1])
+
+    def stories(self) -> list[str]:
+        """Return the lines of stories, from the top."""
+        lines = [
+            f'STORY "{name}"  HEIGHT {(z - low) / self._one!r}  MASTERSTORY "Yes"'
+            for name, z, low in zip(self._names[1:], self._z[1:], self._z[:-1], strict=True)
+        ]
+        return [*lines[::-1], f'STORY "Base"  ELEV {self._z[0] / self._one!r}']
+
+    def points(self) -> list[str]:
+        """Return the lines of points: x, y, and how far below the story."""
+        return [
+            f'POINT "{name}"  '
+            + " ".join(repr(v / self._one) for v in (place if place[2] else place[:2]))
+            for place, name in self._points.items()
+        ]
 
 
 class EtabsWriter:
-    """The text of a frame.
+    """The text of a building, whose `version` has the words of the units.
 
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    displacement : float or None
-        Of the equivalent-linear analysis, for links [m].
-    words : str
-        Units of the file, "KN, m, C".
-
-    Attributes
-    ----------
-    names : dict of str to str
-        What nodes ("12-Story2") and members ("C1-Story2") are called in the file.
+    `names` says what nodes ("12-Story2") and, once the text is made, members ("C1-Story2") are
+    called in it.
     """
 
-    def __init__(self, frame: FrameData, displacement: float | None, words: str) -> None:
-        self.frame, self.words = frame, words
-        tables = Writer(frame, displacement, words, program="ETABS")
-        self.units = tables.units
-        self._rows = tables.tables()
-        self._grounded = self._springs()
-        self.places = EtabsPlaces(frame, self.units.length, set(self._grounded.values()))
+    def __init__(self, building: Building) -> None:
+        self.building, self.units = building, building.units
+        self.places = Places(building)
         self.names = {node: f"{p}-{s}" for node, (p, s) in self.places.at.items()}
         self._lines: dict[str, tuple[str, str, bool]] = {}
+        self._springs = {joint: f"S{k}" for k, joint in enumerate(building.springs, start=1)}
 
     def text(self) -> str:
-        """Return the text; `names` is complete then."""
-        force, length, heat = (word.strip().upper() for word in f"{self.words}, C".split(",")[:3])
-        shells = shell_lines(self.frame, self._rows, self.places)
+        """Return the text."""
+        words = f"{self.building.version}, C".split(",")[:3]
+        units = "  ".join(_quoted(word.strip().upper()) for word in words)
+        area_sections = self._area_sections()
+        places, assigns = self._areas()
         parts: dict[str, list[str]] = {
             "PROGRAM INFORMATION": ['PROGRAM  "ETABS"  VERSION "20.2.0"'],
-            "CONTROLS": [f'UNITS  "{force}"  "{length}"  "{heat}"', "PREFERENCE  MERGETOL 0.0001"],
+            "CONTROLS": [f"UNITS  {units}", "PREFERENCE  MERGETOL 0.0001"],
             "STORIES - IN SEQUENCE FROM TOP": self.places.stories(),
-            "DIAPHRAGM NAMES": self._kinds(),
+            "DIAPHRAGM NAMES": [
+                f"DIAPHRAGM {_quoted(name)}  TYPE RIGID" for name in self.building.constraints
+            ],
             "MATERIAL PROPERTIES": self._materials(),
             "FRAME SECTIONS": self._sections(),
-            **{word: shells[word] for word in ("SLAB PROPERTIES", "WALL PROPERTIES")},
+            "SLAB PROPERTIES": [line for line in area_sections if '"Slab"' in line],
+            "WALL PROPERTIES": [line for line in area_sections if '"Wall"' in line],
             "LINK PROPERTIES": self._link_properties(),
             "POINT SPRING PROPERTIES": self._point_springs(),
             "POINT COORDINATES": self.places.points(),
             "LINE CONNECTIVITIES": self._connectivities(),
-            "AREA CONNECTIVITIES": shells["AREA CONNECTIVITIES"],
+            "AREA CONNECTIVITIES": places,
             "LINK CONNECTIVITIES": self._links(),
             "POINT ASSIGNS": self._point_assigns(),
-            "LINE ASSIGNS": self._line_assigns(),
-            "AREA ASSIGNS": shells["AREA ASSIGNS"],
-            "LINK ASSIGNS": self._link_assigns(),
+            "LINE ASSIGNS": [self._line_assign(one) for one in self.building.frames.values()],
+            "AREA ASSIGNS": assigns,
+            "LINK ASSIGNS": [
+                f"LINKASSIGN  {_quoted(name)}  PROPERTY  {_quoted(link.property)}"
+                for name, link in self.building.links.items()
+            ],
+            **self._loads(),
         }
-        parts |= self._loads()
         out = [HEAD, ""]
         for section, lines in parts.items():
             if lines:
                 out += [f"$ {section}", *(f"  {line}  " for line in lines), ""]
         return "\r\n".join([*out, "  END", "$ END OF MODEL FILE", ""])
 
-    def _table(self, name: str) -> list[dict[str, Value]]:
-        return self._rows.get(name, [])
-
-    def _springs(self) -> dict[str, str]:
-        # Springs between a node and a held one at the same place, by the held node: ETABS merges
-        # joints at one place, and has springs of points for them.
-        frame = self.frame
-        used = {n for m in frame.members.values() for n in (m.i, m.j)}
-        used |= {n for part in frame.bearings.values() for n in (part.i, part.j)}
-        found = {}
-        for spring in frame.springs.values():
-            ends = (spring.i, spring.j)
-            first, last = (frame.nodes[n].position for n in ends)
-            held = [n for n in ends if len(frame.fixed_dofs.get(n, ())) == 6 and n not in used]
-            if held and np.allclose(first, last, rtol=0.0, atol=1e-6):
-                found[spring.name] = held[0]
-        return found
-
-    def _kinds(self) -> list[str]:
-        rows = self._table("CONSTRAINT DEFINITIONS - DIAPHRAGM")
-        return [f"DIAPHRAGM {_quoted(row['Name'])}  TYPE RIGID" for row in rows]
-
     def _materials(self) -> list[str]:
         lines = []
-        for row in self._table(MATERIALS):
-            head = f"MATERIAL  {_quoted(row['Material'])}"
-            lines.append(
-                f'{head}  TYPE "Other"  WEIGHTPERVOLUME 0  MASSPERVOLUME {row["UnitMass"]!r}'
-            )
-            lines.append(f'{head}  SYMTYPE "Isotropic"  E {row["E1"]!r}  U {row["U12"]!r}  A 0')
+        for name, matter in self.building.materials.items():
+            own = (_numbers(written(part, matter, self.units)) for part in _HALVES)
+            kinds = ('TYPE "Other"', 'SYMTYPE "Isotropic"  A 0')
+            lines += [
+                f"MATERIAL  {_quoted(name)}  {kind}  {numbers}"
+                for kind, numbers in zip(kinds, own, strict=True)
+            ]
         return lines
 
     def _sections(self) -> list[str]:
-        words = {
-            "D": "t3",
-            "B": "t2",
-            "AREA": "Area",
-            "AS2": "AS2",
-            "AS3": "AS3",
-            "I33": "I33",
-            "I22": "I22",
-            "TORSION": "TorsConst",
-        }
-        return [
-            f"FRAMESECTION  {_quoted(row['SectionName'])}  MATERIAL {_quoted(row['Material'])}"
-            f'  SHAPE "General"  {_numbers({w: row[k] for w, k in words.items()})}'
-            for row in self._table("FRAME SECTION PROPERTIES 01 - GENERAL")
-        ]
+        lines = []
+        for name, section in self.building.sections.items():
+            values = written(dialect.SIZES[:2], section, self.units)
+            values |= written(dialect.CONSTANTS, section, self.units)
+            finite = {k: 0.0 if v == math.inf else v for k, v in values.items()}
+            lines.append(
+                f"FRAMESECTION  {_quoted(name)}  MATERIAL {_quoted(section.material)}"
+                f'  SHAPE "{section.shape}"  {_numbers(finite)}'
+            )
+        return lines
+
+    def _area_sections(self) -> list[str]:
+        lines = []
+        for name, section in self.building.area_sections.items():
+            what = "SLAB" if name.startswith("SLAB") else "WALL"
+            thickness = {f"{what}THICKNESS": section.thickness / self.units.length}
+            factors = written(dialect.SHELL[:6], section.factors, self.units)
+            lines.append(
+                f'SHELLPROP  "{name}"  PROPTYPE  "{what.title()}"  MATERIAL '
+                f'"{section.material}"  MODELINGTYPE "ShellThin"  {_numbers(thickness | factors)}'
+            )
+        return lines
+
+    def _areas(self) -> tuple[list[str], list[str]]:
+        # Lines of places, and of what is assigned.
+        places, assigns = [], []
+        for k, area in enumerate(self.building.areas.values(), start=1):
+            levels = [self.places.level(joint) for joint in area.joints]
+            story = self.places.at[area.joints[levels.index(max(levels))]][1]
+            points = "  ".join(f'"{self.places.at[joint][0]}"' for joint in area.joints)
+            downs = "  ".join(str(max(levels) - level) for level in levels)
+            kind = area_kind(self.building, area.joints)
+            places.append(f'AREA  "A{k}"  {kind}  {len(area.joints)}  {points}  {downs}')
+            assigns.append(
+                f'AREAASSIGN  "A{k}"  "{story}"  SECTION "{area.section}"  OBJMESHTYPE "NOAUTOMESH"'
+            )
+        return places, assigns
 
     def _connectivities(self) -> list[str]:
         lines = []
         count = {"COLUMN": 0, "BEAM": 0, "BRACE": 0}
-        for row in self._table("CONNECTIVITY - FRAME"):
-            name, low, high = (str(row[key]) for key in ("Frame", "JointI", "JointJ"))
+        for one in self.building.frames.values():
+            low, high = one.i, one.j
             turned = self.places.level(low) > self.places.level(high)
             if turned:
                 low, high = high, low
-            first, last = self.frame.nodes[low], self.frame.nodes[high]
+            first, last = self.building.joints[low], self.building.joints[high]
             apart = self.places.level(high) - self.places.level(low)
             plumb = (first.x, first.y) == (last.x, last.y)
             kind = "COLUMN" if plumb else "BRACE" if apart else "BEAM"
@@ -152,185 +207,140 @@ class EtabsWriter:
             (point, _), (other, story) = self.places.at[low], self.places.at[high]
             label = f"{letter}{count[kind]}"
             lines.append(f'LINE  "{label}"  {kind}  "{point}"  "{other}"  {apart}')
-            self._lines[name] = (label, story, turned)
-            self.names[name] = f"{label}-{story}"
+            self._lines[one.name] = (label, story, turned)
+            self.names[one.name] = f"{label}-{story}"
         return lines
 
-    def _line_assigns(self) -> list[str]:
-        found: dict[str, list[str]] = {}
-        for row in self._table("FRAME SECTION ASSIGNMENTS"):
-            found[str(row["Frame"])] = [f"SECTION {_quoted(row['AnalSect'])}"]
-        for row in self._table("FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL"):
-            name = str(row["Frame"])
-            sign = -1.0 if self._lines[name][2] else 1.0  # axis 2 stays, 1 and 3 turn round
-            found[name].append(f"ANG {sign * float(row['Angle'])!r}")
-        for row in self._table("FRAME RELEASE ASSIGNMENTS 1 - GENERAL"):
-            name = str(row["Frame"])
-            ends = dict(zip("IJ", self._ends(name), strict=True))
-            words = ("P", "V2", "V3", "T", "M2", "M3")
-            free = [f"{w}{there}" for here, there in ends.items() for w in words if row[w + here]]
-            found[name].append(f'RELEASE "{" ".join(free)}"')
-        for row in self._table("FRAME INSERTION POINT ASSIGNMENTS"):
-            name = str(row["Frame"])
-            ends = dict(zip("IJ", self._ends(name), strict=True))
-            numbers = {
-                f"OFFSET{axis}{there}": row[f"JtOffset{axis}{here}"]
-                for here, there in ends.items()
-                for axis in "XYZ"
-            }
-            found[name].append(f'CARDINALPT 10  {_numbers(numbers)}  TRANSFORMSTIFF "Yes"')
-        for row in self._table("FRAME PROPERTY MODIFIERS"):
-            found[str(row["Frame"])].append(f"PROPMODM {row['MassMod']!r}")
-        return [
-            f'LINEASSIGN  "{self._lines[name][0]}"  "{self._lines[name][1]}"  {"  ".join(words)}'
-            '  AUTOMESH "NO"'
-            for name, words in found.items()
-        ]
-
-    def _ends(self, name: str) -> str:
-        return "JI" if self._lines[name][2] else "IJ"
+    def _line_assign(self, one: FrameObject) -> str:
+        label, story, turned = self._lines[one.name]
+        words = [f"SECTION {_quoted(one.section)}"]
+        if one.angle:  # of a line that is turned, axis 2 stays, 1 and 3 turn round
+            words.append(f"ANG {-one.angle if turned else one.angle!r}")
+        releases, offsets = one.releases, (one.offset_i, one.offset_j)
+        if turned:
+            releases, offsets = releases[::-1], offsets[::-1]
+        if any(releases):
+            ends = zip("IJ", releases, strict=True)
+            free = [f"{word}{end}" for end, found in ends for word in RELEASES if word in found]
+            words.append(f'RELEASE "{" ".join(free)}"')
+        if any(offsets[0]) or any(offsets[1]):
+            numbers = written(dialect.OFFSETS, (*offsets[0], *offsets[1]), self.units)
+            words.append(f'CARDINALPT 10  {_numbers(numbers)}  TRANSFORMSTIFF "Yes"')
+        factors = written(dialect.FRAME_MODIFIERS, one.modifiers, self.units)
+        words += [f"{word} {factor!r}" for word, factor in factors.items() if factor not in {1.0}]
+        return f'LINEASSIGN  "{label}"  "{story}"  {"  ".join(words)}  AUTOMESH "NO"'
 
     def _link_properties(self) -> list[str]:
-        kinds = {str(r["Link"]): str(r["LinkType"]) for r in self._table(f"{_LINKS} 01 - GENERAL")}
         lines = []
-        for name, kind in kinds.items():
-            if name.removeprefix("K-") in self._grounded:
-                continue
-            rows = [
-                row
-                for table in ("02 - LINEAR", "08 - SLIDING ISOLATOR")
-                for row in self._table(f"{_LINKS} {table}")
-                if row["Link"] == name
-            ]
+        for name, prop in self.building.link_properties.items():
             head = f"LINKPROP  {_quoted(name)}"
-            lines.append(f'{head}  TYPE "{kind.upper()}"')
-            lines.append(f'{head}  DOF "{" ".join(str(row["DOF"]) for row in rows)}"')
-            lines += [f"{head}  {_numbers(_dof(row))}" for row in rows]
+            lines.append(f'{head}  TYPE "{prop.kind.upper()}"')
+            lines.append(f'{head}  DOF "{" ".join(prop.dofs)}"')
+            lines += [f"{head}  {_numbers(self._dof(*item))}" for item in prop.dofs.items()]
         return lines
+
+    def _dof(self, dof: str, given: LinkDof) -> dict[str, Value]:
+        # Words of a deformation: of linear links STIFF, of isolators KE, CE and nonlinear numbers.
+        turns = dof.startswith("R")
+        linear = dialect.LINEAR[turns]
+        if not given.nonlinear:
+            values = written(linear, {"own": given.stiffness}, self.units)
+        else:
+            values = {"NONLIN": True} | written(linear[1:], given, self.units)
+            values |= written(dialect.NONLINEAR[turns], given.values, self.units)
+        return {f"{dof}{word}": value for word, value in values.items()}
 
     def _point_springs(self) -> list[str]:
         lines = []
-        for name in self._grounded:
-            values = self.frame.springs[name].stiffness
-            scale = [self.units.line] * 3 + [self.units.moment] * 3
-            parts = {w: v / s for w, v, s in zip(_DOFS, values, scale, strict=True)}
-            lines.append(
-                f'POINTSPRING  {_quoted(name)}  STIFFNESSOPTION "USERDEFINED"  {_numbers(parts)}'
-            )
+        for joint, name in self._springs.items():
+            values = _numbers(written(dialect.SUPPORT, self.building.springs[joint], self.units))
+            lines.append(f'POINTSPRING  {_quoted(name)}  STIFFNESSOPTION "USERDEFINED"  {values}')
         return lines
 
     def _links(self) -> list[str]:
         lines = []
-        for row in self._table("CONNECTIVITY - LINK"):
-            if row["Link"] not in self._grounded:
-                ends = (self.places.at[str(row[key])] for key in ("JointI", "JointJ"))
-                places = "  ".join(f'POINT  "{story}"  "{point}"' for point, story in ends)
-                lines.append(f"LINK  {_quoted(row['Link'])}  {places}")
+        for name, link in self.building.links.items():
+            ends = (self.places.at[joint] for joint in (link.i, link.j) if joint is not None)
+            places = "  ".join(f'POINT  "{story}"  "{point}"' for point, story in ends)
+            lines.append(f"LINK  {_quoted(name)}  {places}")
         return lines
 
-    def _link_assigns(self) -> list[str]:
-        return [
-            f"LINKASSIGN  {_quoted(row['Link'])}  PROPERTY  {_quoted(row['LinkProp'])}"
-            for row in self._table("LINK PROPERTY ASSIGNMENTS")
-            if row["Link"] not in self._grounded
-        ]
-
     def _point_assigns(self) -> list[str]:
-        found: dict[str, list[str]] = {node: [] for node in self.places.at}
-        for node, dofs in self.frame.fixed_dofs.items():
-            if node in found:
-                held = " ".join(dof for dof in _DOFS if dof.lower() in dofs)
-                found[node].append(f'RESTRAINT "{held}"')
-        for row in self._table("JOINT CONSTRAINT ASSIGNMENTS"):
-            found[str(row["Joint"])].append(f"DIAPH {_quoted(row['Constraint'])}")
-        for name, ground in self._grounded.items():
-            spring = self.frame.springs[name]
-            node = spring.i if spring.j == ground else spring.j
-            found[node].append(f"SPRINGPROP {_quoted(name)}")
-        for row in self._table("JOINT ADDED MASS ASSIGNMENTS"):
-            if row["Mass1"] != row["Mass2"]:
+        building = self.building
+        found: dict[str, list[str]] = {joint: [] for joint in self.places.at}
+        for joint, held in building.restraints.items():
+            found[joint].append(f'RESTRAINT "{" ".join(dof.upper() for dof in held)}"')
+        for part in building.constraints.values():
+            for joint in part.joints:
+                found[joint].append(f"DIAPH {_quoted(part.name)}")
+        for joint, name in self._springs.items():
+            found[joint].append(f"SPRINGPROP {_quoted(name)}")
+        for joint, (x, y, z, *turns) in building.masses.items():
+            if x != y:
                 message = (
-                    f'masses of node "{row["Joint"]}" differ between x and y, which ETABS\' text '
+                    f'masses of node "{joint}" differ between x and y, which ETABS\' text '
                     "cannot hold: give one mass in plan"
                 )
                 raise ModelError(message)
-            parts = {"MASSUXUY": row["Mass1"], "MASSUZ": row["Mass3"]}
-            parts |= {f"MASSR{axis}": row[f"MMI{k}"] for k, axis in enumerate("XYZ", start=1)}
-            found[str(row["Joint"])].append(_numbers(parts))
-        for row in self._table("JOINT LOADS - FORCE"):
-            if not found[str(row["Joint"])]:
-                found[str(row["Joint"])].append('DIAPH "DISCONNECTED"')
-        lines = []
-        for node, words in found.items():
-            point, story = self.places.at[node]
-            if words:
-                lines.append(f'POINTASSIGN  "{point}"  "{story}"  {"  ".join(words)}')
-        return lines
+            found[joint].append(_numbers(written(dialect.MASS, (x, z, *turns), self.units)))
+        for load in building.joint_loads:
+            if not found[load.joint]:
+                found[load.joint].append('DIAPH "DISCONNECTED"')
+        return [
+            f'POINTASSIGN  "{point}"  "{story}"  {"  ".join(words)}'
+            for joint, words in found.items()
+            if words
+            for point, story in (self.places.at[joint],)
+        ]
 
     def _loads(self) -> dict[str, list[str]]:
-        patterns = self._table("LOAD PATTERN DEFINITIONS")
-        points = []
-        for row in self._table("JOINT LOADS - FORCE"):
-            point, story = self.places.at[str(row["Joint"])]
-            words = zip(
-                ("FX", "FY", "FZ", "MX", "MY", "MZ"),
-                ("F1", "F2", "F3", "M1", "M2", "M3"),
-                strict=True,
-            )
-            parts = _numbers({word: row[field] for word, field in words})
-            lc = _quoted(row["LoadPat"])
+        building, points, lines = self.building, [], []
+        for load in building.joint_loads:
+            point, story = self.places.at[load.joint]
+            parts = _numbers(written(dialect.FORCES, load.forces, self.units))
+            lc = _quoted(load.pattern)
             points.append(f'POINTLOAD  "{point}"  "{story}"  TYPE "FORCE"  LC {lc}  {parts}')
-        lines = []
-        for row in self._table("FRAME LOADS - DISTRIBUTED"):
-            label, story, turned = self._lines[str(row["Frame"])]
-            a, b, start, end = (
-                float(row[key]) for key in ("RelDistA", "RelDistB", "FOverLA", "FOverLB")
-            )
-            if turned:
-                a, b, start, end = 1.0 - b, 1.0 - a, end, start
-            parts = _numbers({"FSTART": start, "FEND": end, "RDSTART": a, "RDEND": b})
-            lc = _quoted(row["LoadPat"])
-            head = f'LINELOAD  "{label}"  "{story}"  TYPE "TRAPF"  DIR "{row["Dir"]}"  LC {lc}'
-            lines.append(f"{head}  {parts}")
-        source = self._table("MASS SOURCE")
-        masses = [row for row in source if row["Loads"]]
-        name = _quoted(source[0]["MassSource"])
-        yes = "Yes" if masses else "No"
+        for line in building.line_loads:
+            label, story, turned = self._lines[line.frame]
+            for way, *ends in along_axes(line):
+                start, end = (size / self.units.line for size in ends)
+                a, b = line.a, line.b
+                if turned:
+                    a, b, start, end = 1.0 - b, 1.0 - a, end, start
+                parts = _numbers({"FSTART": start, "FEND": end, "RDSTART": a, "RDEND": b})
+                head = f'LINELOAD  "{label}"  "{story}"  TYPE "TRAPF"  DIR "{way}"'
+                lines.append(f"{head}  LC {_quoted(line.pattern)}  {parts}")
+        patterns = {name: _quoted(name) for name in building.patterns}
+        kinds = {name: pattern.kind for name, pattern in building.patterns.items()}
         return {
             "LOAD PATTERNS": [
-                f'LOADPATTERN {_quoted(r["LoadPat"])}  TYPE  "{r["DesignType"]}"  SELFWEIGHT  0'
-                for r in patterns
+                f'LOADPATTERN {quoted}  TYPE  "{kinds[name]}"  SELFWEIGHT  0'
+                for name, quoted in patterns.items()
             ],
             "POINT OBJECT LOADS": points,
             "FRAME OBJECT LOADS": lines,
-            "MASS SOURCE": [
-                f'MASSSOURCE  {name}  INCLUDEELEMENTS "Yes"  INCLUDEADDEDMASS "Yes"'
-                f'  INCLUDELOADS "{yes}"  INCLUDEMOVE "No"  INCLUDELATERALMASS "Yes"'
-                '  INCLUDEVERTICALMASS "Yes"  LUMPATSTORIES "No"  ISDEFAULT "Yes"',
-                *(
-                    f"MASSSOURCELOAD  {name}  {_quoted(r['LoadPat'])}  {r['Multiplier']!r}"
-                    for r in masses
-                ),
-            ],
+            "MASS SOURCE": self._mass_source(),
             "LOAD CASES": [
-                line
-                for r in patterns
-                for line in (
-                    f'LOADCASE {_quoted(r["LoadPat"])}  TYPE  "Linear Static"  INITCOND  "PRESET"',
-                    f"LOADCASE {_quoted(r['LoadPat'])}  LOADPAT  {_quoted(r['LoadPat'])}  SF  1",
+                f"LOADCASE {name}  {words}"
+                for name in patterns.values()
+                for words in (
+                    'TYPE  "Linear Static"  INITCOND  "PRESET"',
+                    f"LOADPAT  {name}  SF  1",
                 )
             ],
         }
 
-
-def _dof(row: dict[str, Value]) -> dict[str, Value]:
-    # Words of a deformation: of linear links STIFF, of isolators KE, CE and the nonlinear numbers.
-    dof = str(row["DOF"])
-    if "NonLinear" not in row:
-        return {f"{dof}STIFF": row.get("TransKE", row.get("RotKE", 0.0))}
-    found: dict[str, Value] = {f"{dof}NONLIN": row["NonLinear"]}
-    found |= {f"{dof}KE": row["TransKE"], f"{dof}CE": row["TransCE"]}
-    return found | {f"{dof}{word}": row[key] for key, word in _NONLINEAR.items() if key in row}
+    def _mass_source(self) -> list[str]:
+        source = self.building.mass_source
+        shares = {} if source is None else source.patterns
+        head = (
+            'MASSSOURCE  "MSSSRC1"  INCLUDEELEMENTS "Yes"  INCLUDEADDEDMASS "Yes"'
+            f'  INCLUDELOADS "{"Yes" if shares else "No"}"  INCLUDEMOVE "No"'
+            '  INCLUDELATERALMASS "Yes"  INCLUDEVERTICALMASS "Yes"  LUMPATSTORIES "No"'
+            '  ISDEFAULT "Yes"'
+        )
+        loads = (f"{_quoted(name)}  {share!r}" for name, share in shares.items())
+        return [head, *(f'MASSSOURCELOAD  "MSSSRC1"  {load}' for load in loads)]
 
 
 def _quoted(value: Value) -> str:

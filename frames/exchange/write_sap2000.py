@@ -1,260 +1,276 @@
-"""Writes a frame as SAP2000's text tables, its bearings as friction isolator links."""
+"""Writes a building as SAP2000's text tables, the format that its import reads."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
-
-import numpy as np
+from typing import TYPE_CHECKING, TypeAlias
 
 from frames._errors import ModelError
-from frames.exchange.geometry import frame_axes
-from frames.exchange.units import units_of
-from frames.exchange.write_links import LinkWriter
-from frames.exchange.write_loads import LoadWriter
-from frames.exchange.write_materials import MATERIALS, material_row
-from frames.exchange.write_s2k_text import text_of as text_of
-from frames.exchange.write_shells import shell_parts, shell_tables
-from frames.model.axes import default_up
-from frames.model.components import DOFS
+from frames.exchange import sap2000_fields as dialect
+from frames.exchange.building import RELEASES, Modifiers
+from frames.exchange.fields import written
 
 if TYPE_CHECKING:
-    from frames._types import FloatArray
-    from frames.exchange.write_s2k_text import Tables, Value
-    from frames.model.components import Member
-    from frames.model.frame_data import FrameData
-    from frames.model.sections import Section
+    from frames.exchange.building import Building, FrameObject, LineLoad, LinkDof
 
-_HELD = ("U1", "U2", "U3", "R1", "R2", "R3")
-_WORDS = {"T": "T", "My": "M3", "Mz": "M2"}
+Value: TypeAlias = str | float | int | bool
+"""What a cell holds."""
+
+Rows: TypeAlias = list[dict[str, Value]]
+
+_MASS_SOURCE: dict[str, Value] = {
+    "MassSource": "MSSSRC1",
+    "Elements": True,
+    "Masses": True,
+    "IsDefault": True,
+}
 
 
-class Writer:
-    """The tables of a frame.
+def text_of(tables: dict[str, Rows]) -> str:
+    """Return tables as the text that SAP2000 imports."""
+    lines = ["File written by lir-dcfp", " "]
+    for name, rows in tables.items():
+        lines.append(f'TABLE:  "{name}"')
+        lines += ["   " + "   ".join(f"{k}={_text(v)}" for k, v in row.items()) for row in rows]
+        lines.append(" ")
+    return "\r\n".join([*lines, "END TABLE DATA", ""])
 
-    Parameters
-    ----------
-    frame : Frame
-        The model.
-    displacement : float or None
-        Of the equivalent-linear analysis, for links [m].
-    words : str
-        Units of the file, "KN, m, C".
-    program : str
-        For messages.
-    """
 
-    def __init__(
-        self,
-        frame: FrameData,
-        displacement: float | None,
-        words: str,
-        *,
-        program: str = "SAP2000",
-    ) -> None:
-        self.frame, self.displacement, self.program = frame, displacement, program
-        parts = words.split(",")
-        found = units_of(parts[0], parts[1]) if len(parts) > 1 else None
-        if found is None:
-            message = f'units = "{words}" must be such as "KN, m, C" or "Kip, in, F"'
-            raise ModelError(message)
-        self.words, self.units = words, found
-        self._refuse()
+def _text(value: Value) -> str:
+    if isinstance(value, bool):
+        return "Yes" if value else "No"
+    if isinstance(value, float):
+        return repr(float(value))
+    words = str(value)
+    if '"' in words:
+        message = f"the name {words!r} has a quotation mark, which SAP2000's text cannot hold"
+        raise ModelError(message)
+    return f'"{words}"' if not words or " " in words or "=" in words else words
 
-    def _refuse(self) -> None:
-        frame, shells = self.frame, {part.name for part in shell_parts(self.frame)}
-        for word, group in (
-            ("superelements", [name for name in frame.superelements if name not in shells]),
-            ("nonlinear links", frame.links),
-            ("plastic hinges", frame.hinges),
-        ):
-            if group:
-                message = (
-                    f'frame "{frame.name}" has {word} ("{next(iter(group))}"), which are not '
-                    f"written for {self.program}: take them out of a copy, or model them there"
-                )
-                raise ModelError(message)
-        if frame.bearings and self.displacement is None:
-            message = (
-                "bearings are written as friction isolator links, whose effective stiffness and "
-                "damping are those at a displacement: give displacement=0.25, in metres"
-            )
-            raise ModelError(message)
-        shared = [p.name for p in frame.floor_loads.values() if p.mass is not None]
-        if shared:
-            message = (
-                f'floor load "{shared[0]}" has a share of mass of its own: give it by the mass '
-                "source of its case"
-            )
-            raise ModelError(message)
 
-    def tables(self) -> Tables:
-        """Return all tables."""
-        found: Tables = {
-            "PROGRAM CONTROL": [
-                {"ProgramName": "SAP2000", "Version": "20.0.0", "CurrUnits": self.words}
-            ],
-        }
-        loads = LoadWriter(self.frame, self.units, self._true)
-        links = LinkWriter(self.frame, self.displacement, self.units)
-        shells = shell_tables(self.frame, self.units, self.program)
-        for part in (self._joints(), self._members(), shells, loads.tables(), links.tables()):
-            for name, rows in part.items():
-                found.setdefault(name, []).extend(rows)
-        return {name: rows for name, rows in found.items() if rows}
+def tables_of(building: Building) -> dict[str, Rows]:
+    """Return a building as tables; `version` of it has the words of the units."""
+    head: dict[str, Value] = {"ProgramName": "SAP2000", "Version": "20.0.0"}
+    found = {
+        "PROGRAM CONTROL": [head | {"CurrUnits": building.version}],
+        **_joints(building),
+        **_properties(building),
+        **_members(building),
+        **_areas(building),
+        **_loads(building),
+        **_links(building),
+    }
+    return {name: rows for name, rows in found.items() if rows}
 
-    def _joints(self) -> Tables:
-        frame, one = self.frame, self.units.length
-        joints: list[dict[str, Value]] = [
+
+def _joints(building: Building) -> dict[str, Rows]:
+    units = building.units
+    own: dict[str, Value] = {"CoordSys": "GLOBAL", "CoordType": "Cartesian"}
+    ties = [(part, joint) for part in building.constraints.values() for joint in part.joints]
+    return {
+        dialect.JOINTS: [
+            {"Joint": name, **own, **written(dialect.OWN, joint, units), "SpecialJt": True}
+            for name, joint in building.joints.items()
+        ],
+        "JOINT RESTRAINT ASSIGNMENTS": [
+            {"Joint": name} | {theirs: ours in held for theirs, ours in dialect.DOFS}
+            for name, held in building.restraints.items()
+        ],
+        "JOINT ADDED MASS ASSIGNMENTS": [
+            {"Joint": name, "CoordSys": "Local", **written(dialect.MASS, values, units)}
+            for name, values in building.masses.items()
+        ],
+        "CONSTRAINT DEFINITIONS - DIAPHRAGM": [
+            {"Name": name, "CoordSys": "GLOBAL", "Axis": "Z"} for name in building.constraints
+        ],
+        "JOINT CONSTRAINT ASSIGNMENTS": [
+            {"Joint": joint, "Constraint": part.name, "Type": "Diaphragm"} for part, joint in ties
+        ],
+    }
+
+
+def _properties(building: Building) -> dict[str, Rows]:
+    units = building.units
+    return {
+        dialect.MATERIALS: [
+            {"Material": name, **written(dialect.MATERIAL, matter, units)}
+            for name, matter in building.materials.items()
+        ],
+        dialect.SECTIONS: [
             {
-                "Joint": node.name,
-                "CoordSys": "GLOBAL",
-                "CoordType": "Cartesian",
-                "XorR": node.x / one,
-                "Y": node.y / one,
-                "Z": node.z / one,
-                "SpecialJt": True,
+                "SectionName": name,
+                "Material": section.material,
+                "Shape": section.shape,
+                **written(dialect.SIZES[:2], section, units),
+                **_finite(written(dialect.CONSTANTS, section, units)),
+                "I23": 0,
             }
-            for node in frame.nodes.values()
+            for name, section in building.sections.items()
+        ],
+        dialect.AREA_SECTIONS: [
+            {
+                "Section": name,
+                "Material": section.material,
+                "MatAngle": 0.0,
+                "AreaType": "Shell",
+                "Type": "Shell-Thin",
+                **written(dialect.THICKNESS, section, units),
+                **written(dialect.SHELL[:6], section.factors, units),
+            }
+            for name, section in building.area_sections.items()
+        ],
+    }
+
+
+def _finite(values: dict[str, Value]) -> dict[str, Value]:
+    # A shear area of none stands for a section that does not shear.
+    return {k: 0.0 if v == math.inf else v for k, v in values.items()}
+
+
+def _members(building: Building) -> dict[str, Rows]:
+    frames = building.frames.values()
+    return {
+        dialect.FRAMES: [
+            {"Frame": one.name, "JointI": one.i, "JointJ": one.j, "IsCurved": False}
+            for one in frames
+        ],
+        "FRAME SECTION ASSIGNMENTS": [
+            {
+                "Frame": one.name,
+                "AutoSelect": "N.A.",
+                "AnalSect": one.section,
+                "MatProp": "Default",
+            }
+            for one in frames
+        ],
+        "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL": [
+            {"Frame": one.name, "Angle": one.angle, "AdvanceAxes": False}
+            for one in frames
+            if one.angle
+        ],
+        "FRAME RELEASE ASSIGNMENTS 1 - GENERAL": [
+            {"Frame": one.name, **_released(one), "PartialFix": False}
+            for one in frames
+            if any(one.releases)
+        ],
+        "FRAME INSERTION POINT ASSIGNMENTS": [
+            {
+                "Frame": one.name,
+                "CardinalPt": "10 (centroid)",
+                "CoordSys": "GLOBAL",
+                **written(dialect.OFFSETS, (*one.offset_i, *one.offset_j), building.units),
+                "Transform": True,
+            }
+            for one in frames
+            if any(one.offset_i) or any(one.offset_j)
+        ],
+        "FRAME PROPERTY MODIFIERS": [
+            {"Frame": one.name, **written(dialect.MODIFIERS, one.modifiers, building.units)}
+            for one in frames
+            if one.modifiers != Modifiers()
+        ],
+        "FRAME AUTO MESH ASSIGNMENTS": [{"Frame": one.name, "AutoMesh": False} for one in frames],
+    }
+
+
+def _released(one: FrameObject) -> dict[str, Value]:
+    ends = zip("IJ", one.releases, strict=True)
+    return {f"{word}{end}": word in free for end, free in ends for word in RELEASES}
+
+
+def _areas(building: Building) -> dict[str, Rows]:
+    areas = building.areas.values()
+    return {
+        dialect.AREAS: [
+            {
+                "Area": area.name,
+                "NumJoints": len(area.joints),
+                **{f"Joint{k}": joint for k, joint in enumerate(area.joints, start=1)},
+            }
+            for area in areas
+        ],
+        "AREA SECTION ASSIGNMENTS": [
+            {"Area": area.name, "Section": area.section} for area in areas
+        ],
+    }
+
+
+def _loads(building: Building) -> dict[str, Rows]:
+    source = building.mass_source
+    shares = {} if source is None else source.patterns
+    return {
+        dialect.PATTERNS: [
+            {"LoadPat": name, "DesignType": pattern.kind, "SelfWtMult": 0}
+            for name, pattern in building.patterns.items()
+        ],
+        "MASS SOURCE": [
+            _MASS_SOURCE | {"Loads": True, "LoadPat": name, "Multiplier": share}
+            for name, share in shares.items()
         ]
-        held: list[dict[str, Value]] = [
-            {"Joint": node} | {h: dof in dofs for h, dof in zip(_HELD, DOFS, strict=True)}
-            for node, dofs in frame.fixed_dofs.items()
-        ]
-        masses: list[dict[str, Value]] = []
-        for node, values in frame.masses.items():
-            row: dict[str, Value] = {"Joint": node, "CoordSys": "Local"}
-            row |= {f"Mass{k + 1}": float(values[k]) / self.units.mass for k in range(3)}
-            inertia = self.units.mass * one**2
-            row |= {f"MMI{k + 1}": float(values[3 + k]) / inertia for k in range(3)}
-            masses.append(row)
-        kinds: list[dict[str, Value]] = []
-        ties: list[dict[str, Value]] = []
-        for part in frame.diaphragms.values():
-            kinds.append({"Name": part.name, "CoordSys": "GLOBAL", "Axis": "Z"})
-            ties += [{"Joint": n, "Constraint": part.name, "Type": "Diaphragm"} for n in part.nodes]
-        return {
-            "JOINT COORDINATES": joints,
-            "JOINT RESTRAINT ASSIGNMENTS": held,
-            "JOINT ADDED MASS ASSIGNMENTS": masses,
-            "CONSTRAINT DEFINITIONS - DIAPHRAGM": kinds,
-            "JOINT CONSTRAINT ASSIGNMENTS": ties,
-        }
+        or [_MASS_SOURCE | {"Loads": False}],
+        "JOINT LOADS - FORCE": [
+            {
+                "Joint": load.joint,
+                "LoadPat": load.pattern,
+                "CoordSys": "GLOBAL",
+                **written(dialect.FORCES, load.forces, building.units),
+            }
+            for load in building.joint_loads
+        ],
+        "FRAME LOADS - DISTRIBUTED": [
+            {
+                "Frame": load.frame,
+                "LoadPat": load.pattern,
+                "CoordSys": "GLOBAL",
+                "Type": "Force",
+                "Dir": way,
+                "DistType": "RelDist",
+                "RelDistA": load.a,
+                "RelDistB": load.b,
+                "FOverLA": start / building.units.line,
+                "FOverLB": end / building.units.line,
+            }
+            for load in building.line_loads
+            for way, start, end in along_axes(load)
+        ],
+    }
 
-    def _members(self) -> Tables:
-        found: Tables = {
-            name: []
-            for name in (
-                MATERIALS,
-                "FRAME SECTION PROPERTIES 01 - GENERAL",
-                "CONNECTIVITY - FRAME",
-                "FRAME SECTION ASSIGNMENTS",
-                "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL",
-                "FRAME RELEASE ASSIGNMENTS 1 - GENERAL",
-                "FRAME INSERTION POINT ASSIGNMENTS",
-                "FRAME PROPERTY MODIFIERS",
-                "FRAME AUTO MESH ASSIGNMENTS",
-            )
-        }
-        materials: dict[tuple[float, float, float], str] = {}
-        sections: dict[Section, str] = {}
-        for member in self.frame.members.values():
-            section = member.section
-            key = (section.elastic_modulus, section.shear_modulus, section.density)
-            if key not in materials:
-                materials[key] = f"M{len(materials) + 1}"
-                rows = found[MATERIALS]
-                rows.append(self._material(materials[key], key, member.name))
-            if section not in sections:
-                sections[section] = f"S{len(sections) + 1}"
-                rows = found["FRAME SECTION PROPERTIES 01 - GENERAL"]
-                rows.append(self._section(sections[section], materials[key], section))
-            self._member(member, sections[section], found)
-        return found
 
-    def _material(
-        self, name: str, key: tuple[float, float, float], member: str
-    ) -> dict[str, Value]:
-        modulus, shear, density = key
-        poisson = 0.5 * modulus / shear - 1.0
-        if not -1.0 < poisson <= 0.5:
-            message = (
-                f'member "{member}": moduli {modulus:g} and {shear:g} Pa have Poisson\'s ratio '
-                f"{poisson:g}, {self.program} needs one in (-1, 0.5]: give another shear_modulus"
-            )
-            raise ModelError(message)
-        return material_row(name, modulus, poisson, density, self.units)
+def along_axes(load: LineLoad) -> list[tuple[str, float, float]]:
+    """Return a load along a frame object by the global axes along which it acts."""
+    parts = zip("XYZ", load.start, load.end, strict=True)
+    return [(way, start, end) for way, start, end in parts if start or end]
 
-    def _section(self, name: str, material: str, section: Section) -> dict[str, Value]:
-        one = self.units.length
 
-        def shear(area: float) -> float:
-            return 0.0 if math.isinf(area) else area / one**2
+def _links(building: Building) -> dict[str, Rows]:
+    head = f"{dialect.LINKS} "
+    found: dict[str, Rows] = {
+        f"{head}01 - GENERAL": [],
+        f"{head}02 - LINEAR": [],
+        f"{head}08 - SLIDING ISOLATOR": [],
+        dialect.LINK_PLACES: [],
+        "LINK PROPERTY ASSIGNMENTS": [],
+    }
+    for name, prop in building.link_properties.items():
+        row: dict[str, Value] = {"Link": name, "LinkType": prop.kind}
+        row |= written(dialect.LINK, prop, building.units)
+        found[f"{head}01 - GENERAL"].append(row)
+        for dof, given in prop.dofs.items():
+            table = "08 - SLIDING ISOLATOR" if given.nonlinear else "02 - LINEAR"
+            found[head + table].append({"Link": name, "DOF": dof, **_dof(building, dof, given)})
+    for name, link in building.links.items():
+        row = {"Link": name, "JointI": link.i, "JointJ": link.j or ""}
+        found[dialect.LINK_PLACES].append(row)
+        row = {"Link": name, "LinkType": building.link_properties[link.property].kind}
+        row |= {"LinkJoints": "TwoJoint", "LinkProp": link.property}
+        found["LINK PROPERTY ASSIGNMENTS"].append(row)
+    return found
 
-        return {
-            "SectionName": name,
-            "Material": material,
-            "Shape": "General",
-            "t3": math.sqrt(12.0 * section.inertia_y / section.area) / one,
-            "t2": math.sqrt(12.0 * section.inertia_z / section.area) / one,
-            "Area": section.area / one**2,
-            "TorsConst": section.torsion_constant / one**4,
-            "I33": section.inertia_y / one**4,
-            "I22": section.inertia_z / one**4,
-            "I23": 0,
-            "AS2": shear(section.shear_area_z),
-            "AS3": shear(section.shear_area_y),
-        }
 
-    def _member(self, member: Member, section: str, found: Tables) -> None:
-        name = member.name
-        start, end = (np.array(self.frame.nodes[n].position) for n in (member.i, member.j))
-        found["CONNECTIVITY - FRAME"].append(
-            {"Frame": name, "JointI": member.i, "JointJ": member.j, "IsCurved": False}
-        )
-        found["FRAME SECTION ASSIGNMENTS"].append(
-            {"Frame": name, "AutoSelect": "N.A.", "AnalSect": section, "MatProp": "Default"}
-        )
-        found["FRAME AUTO MESH ASSIGNMENTS"].append({"Frame": name, "AutoMesh": False})
-        angle = self._angle(member, start, end)
-        if angle:
-            table = "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL"
-            found[table].append({"Frame": name, "Angle": angle, "AdvanceAxes": False})
-        if any(member.releases):
-            row: dict[str, Value] = {"Frame": name}
-            for mark, words in zip("IJ", member.releases, strict=True):
-                free = {_WORDS[word] for word in words}
-                row |= {f"{w}{mark}": w in free for w in ("P", "V2", "V3", "T", "M2", "M3")}
-            found["FRAME RELEASE ASSIGNMENTS 1 - GENERAL"].append(row | {"PartialFix": False})
-        if member.has_offsets:
-            row = {"Frame": name, "CardinalPt": "10 (centroid)", "CoordSys": "GLOBAL"}
-            for mark, offset in zip("IJ", member.offsets, strict=True):
-                parts = zip("XYZ", offset, strict=True)
-                row |= {f"JtOffset{axis}{mark}": value / self.units.length for axis, value in parts}
-            found["FRAME INSERTION POINT ASSIGNMENTS"].append(row | {"Transform": True})
-            ratio = self._true(member) / float(np.linalg.norm(end - start))
-            found["FRAME PROPERTY MODIFIERS"].append({"Frame": name, "MassMod": ratio})
-
-    def _true(self, member: Member) -> float:
-        # Length between the ends of a member.
-        first, last = (
-            np.add(self.frame.nodes[node].position, offset)
-            for node, offset in zip((member.i, member.j), member.offsets, strict=True)
-        )
-        return float(np.linalg.norm(last - first))
-
-    def _angle(self, member: Member, start: FloatArray, end: FloatArray) -> float:
-        first, last = start + member.offsets[0], end + member.offsets[1]
-        along = (last - first) / np.linalg.norm(last - first)
-        axes = frame_axes(start, end)
-        if float(along @ axes[0]) < 1.0 - 1e-12:
-            message = (
-                f'member "{member.name}": its offsets turn it against the line between its nodes, '
-                f"which {self.program}'s local axes do not follow: give both ends the same offset "
-                "across it"
-            )
-            raise ModelError(message)
-        up = default_up(first[None], last[None])[0] if member.up is None else np.array(member.up)
-        second = up - (up @ axes[0]) * axes[0]
-        turned = math.degrees(math.atan2(float(second @ axes[2]), float(second @ axes[1])))
-        return turned if abs(turned) > 1e-9 else 0.0
+def _dof(building: Building, dof: str, given: LinkDof) -> dict[str, Value]:
+    turns, units = dof.startswith("R"), building.units
+    row: dict[str, Value] = {"Fixed": given.fixed}
+    if given.nonlinear:
+        row["NonLinear"] = True
+    row |= written(dialect.LINEAR[turns], given, units)
+    return row | written(dialect.NONLINEAR[turns], given.values, units)

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames._errors import ModelError
-from frames.library.building_plan import level_name
-from frames.library.floor_fields import fields_of
+from frames.library.building_plan import fields_of, level_name
 from frames.model.applied_loads import applied_loads, load_masses
 
 if TYPE_CHECKING:
@@ -22,22 +21,21 @@ FACADE = "D"
 
 
 class Pressures(NamedTuple):
-    """Loads of a building's floors, downwards.
+    """Loads of a building's floors, downwards."""
 
-    Attributes
-    ----------
-    floors, roof, base, open_base : mapping of str to float
-        Load by load case [N/m2], >= 0, of fields with a floor above, of those without, and of
-        the same at the base.
-    facade : float
-        Along the outer edges of every floor above the base [N/m], >= 0.
-    """
-
+    # load by load case [N/m2], >= 0, of fields with a floor above, of those without, and of the
+    # same at the base
     floors: Mapping[str, float]
+    # load by load case [N/m2], >= 0, of fields with a floor above, of those without, and of the
+    # same at the base
     roof: Mapping[str, float]
+    # load by load case [N/m2], >= 0, of fields with a floor above, of those without, and of the
+    # same at the base
     base: Mapping[str, float]
+    # load by load case [N/m2], >= 0, of fields with a floor above, of those without, and of the
+    # same at the base
     open_base: Mapping[str, float]
-    facade: float = 0.0
+    facade: float = 0.0  # along the outer edges of every floor above the base [N/m], >= 0
 
     def of_field(self, level: int, *, covered: bool) -> Mapping[str, float]:
         """Return the loads of a field at a level, with a floor above it or without."""

@@ -9,9 +9,10 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.model.components import FloorLoad, Member, Node, TaperedLoad
-from frames.model.geometry_checks import POSITION_TOLERANCE, member_ends, node_list, one_elevation
+from frames.model.geometry_checks import member_ends, node_list, one_elevation
 from frames.model.panels import nearest_edges, one_way, turning
 from lir_element.argument_checks import require_vector
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -116,7 +117,7 @@ def _chain(
         for member in around.get(here, ()):
             other = member.j if member.i == here else member.i
             along, beside = place(other)
-            if beside <= POSITION_TOLERANCE and at < along <= length + POSITION_TOLERANCE:
+            if beside <= SAME_PLACE and at < along <= length + SAME_PLACE:
                 onward.append((member, other, along))
         if len(onward) != 1:
             what = (

@@ -21,14 +21,12 @@ from frames.model.components import (
 )
 from frames.model.names import known_name
 from lir_element.argument_checks import require_finite, require_type, require_vector
+from lir_element.elevations import SAME_PLACE
 from lir_element.units import LENGTHS, meant
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from lir_element import LIRBearing
-
-POSITION_TOLERANCE = 1e-3
-"""How far positions that should agree may differ: diaphragm planes, bearing ends [m]."""
 
 LARGEST_OFFSET = 20.0
 """Length of a rigid end zone that no member has [m]."""
@@ -65,10 +63,10 @@ def one_elevation(nodes: Nodes, chosen: tuple[str, ...], owner: str) -> float:
     """Return the elevation that nodes share [m], or raise."""
     low = min((nodes[node] for node in chosen), key=lambda node: node.z)
     high = max((nodes[node] for node in chosen), key=lambda node: node.z)
-    if high.z - low.z > POSITION_TOLERANCE:
+    if high.z - low.z > SAME_PLACE:
         message = (
             f'{owner} is not horizontal: node "{low.name}" is at z = {low.z:g} m, node '
-            f'"{high.name}" at z = {high.z:g} m, they may differ by {POSITION_TOLERANCE:g} m: '
+            f'"{high.name}" at z = {high.z:g} m, they may differ by {SAME_PLACE:g} m: '
             "split it, or put its nodes at one elevation"
         )
         raise ModelError(message)
@@ -88,10 +86,10 @@ def member_up(
     start, end = first + np.array([offsets[0]]), second + np.array([offsets[1]])
     length = float(np.linalg.norm(end - start))
     between = f'"{i}" to "{j}"' + (" less its offsets" if any(map(any, offsets)) else "")
-    if length < POSITION_TOLERANCE:
+    if length < SAME_PLACE:
         message = (
             f'member "{name}" from {between} is {length:g} m long, it must be longer '
-            f"than {POSITION_TOLERANCE:g} m: join coincident nodes by add_spring"
+            f"than {SAME_PLACE:g} m: join coincident nodes by add_spring"
         )
         raise ModelError(message)
     if float(((end - start) * (second - first)).sum()) < 0.0:
@@ -183,7 +181,7 @@ def refuse_shared(name: str, nodes: tuple[str, ...], others: Mapping[str, Diaphr
 
 def fits(rise: float, height: float) -> bool:
     """Return whether a bearing of a height stands between nodes that are `rise` apart [m]."""
-    return min(abs(rise), abs(rise - height)) <= POSITION_TOLERANCE
+    return min(abs(rise), abs(rise - height)) <= SAME_PLACE
 
 
 def require_bearing_place(nodes: Nodes, name: str, i: str, j: str, bearing: LIRBearing) -> None:
@@ -192,16 +190,16 @@ def require_bearing_place(nodes: Nodes, name: str, i: str, j: str, bearing: LIRB
     below, above = nodes[i], nodes[j]
     offset = math.hypot(above.x - below.x, above.y - below.y)
     rise = above.z - below.z
-    if offset > POSITION_TOLERANCE:
+    if offset > SAME_PLACE:
         message = (
             f'bearing "{name}": node "{j}" stands {offset:g} m beside the vertical through '
-            f'node "{i}", at most {POSITION_TOLERANCE:g} m is allowed: give both one x and y'
+            f'node "{i}", at most {SAME_PLACE:g} m is allowed: give both one x and y'
         )
         raise ModelError(message)
     if not fits(rise, height):
         message = (
             f'bearing "{name}": node "{j}" is {rise:g} m above node "{i}", it must be 0 m or '
-            f"the bearing's height {height:g} m within {POSITION_TOLERANCE:g} m: "
+            f"the bearing's height {height:g} m within {SAME_PLACE:g} m: "
             f"place node j at z of node i plus bearing.height{_in_mm(rise, height)}"
         )
         raise ModelError(message)
@@ -209,7 +207,7 @@ def require_bearing_place(nodes: Nodes, name: str, i: str, j: str, bearing: LIRB
 
 def require_above(name: str, z: float, below: Level | None) -> None:
     """Raise unless a new level is above the one added before."""
-    if below is not None and z <= below.z + POSITION_TOLERANCE:
+    if below is not None and z <= below.z + SAME_PLACE:
         message = (
             f'level "{name}" at z = {z:g} m must lie above level "{below.name}" at '
             f"{below.z:g} m: add levels from below to above, one for each elevation"
@@ -243,6 +241,6 @@ def member_releases(
 
 def _in_mm(rise: float, height: float) -> str:
     for name, factor in LENGTHS:
-        if abs(rise * factor - height) <= max(POSITION_TOLERANCE * factor, 1e-3 * height):
+        if abs(rise * factor - height) <= max(SAME_PLACE * factor, 1e-3 * height):
             return f"; coordinates are in m ({rise:g} {name} are {rise * factor:.4g} m)"
     return ""

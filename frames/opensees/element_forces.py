@@ -1,26 +1,26 @@
-"""Forces in beams, columns and bars of an OpenSees model, as rows over displacements of nodes."""
+"""Forces and strains in lines of an OpenSees model, as rows over displacements of nodes."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from frames.assembly.members import at_ends
 from frames.model.part_elements import PartElements, WithoutForces, no_elements
-from frames.opensees.element_loads import element_loads, middle_of
 from frames.opensees.element_stiffness import apart_from_assembled, geometry, stiffnesses
-from frames.opensees.materials import printed_model
+from frames.opensees.materials import law_of, printed_model
 from frames.opensees.natures import BARS, LINEAR
-from frames.opensees.strains import strain_rows
 from lir_element.argument_checks import listed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from frames._types import FloatArray
+    from frames.opensees.materials import Law, Printed
     from frames.opensees.model import ElementEntry, OpenSeesModel
     from frames.opensees.structure import Options
+
 
 PREFIX = "element-"
 """Of the names of elements, before their tags."""
@@ -90,3 +90,141 @@ def _told(others: Sequence[tuple[ElementEntry, str]]) -> tuple[WithoutForces, ..
         WithoutForces(kind, len(tags), listed(sorted(tags)), why)
         for (kind, why), tags in groups.items()
     )
+
+
+_SIZES = {3: 2, 4: 3, 5: 3, 6: 4}
+"""Numbers that OpenSees hands over of a load, by the tag of its class: uniform in the plane, at a
+point in the plane, uniform in space, at a point in space."""
+
+_UNIFORM = (3, 5)
+_TURNED = 1e-2  # of the forces, by which loads that turn with their element may differ
+
+
+class ElementLoad(NamedTuple):
+    """A load of an element in its local axes."""
+
+    force: tuple[float, float, float]
+    """Per length, or at a point, in units of the model."""
+    at: float | None
+    """Place of a point load over the length of the element [-]; None of a uniform load."""
+
+
+def element_loads(ops: Any, ndm: int) -> dict[int, list[ElementLoad | None]]:
+    """Read the loads of all elements."""
+    found: dict[int, list[ElementLoad | None]] = {}
+    for pattern in ops.getPatterns() or ():
+        tags = [int(tag) for tag in ops.getEleLoadTags(pattern) or ()]
+        if not tags:
+            continue
+        kinds = [int(kind) for kind in ops.getEleLoadClassTags(pattern)]
+        numbers = list(map(float, ops.getEleLoadData(pattern)))
+        is_known = sum(_SIZES.get(kind, 0) for kind in kinds) == len(numbers)
+        is_known = is_known and all(kind in _SIZES for kind in kinds)
+        factor, first = float(ops.getLoadFactor(pattern)), 0
+        for tag, kind in zip(tags, kinds, strict=True):
+            load = None
+            if is_known:
+                own = numbers[first : first + _SIZES[kind]]
+                first += _SIZES[kind]
+                load = _load(own, kind, ndm, factor)
+            found.setdefault(tag, []).append(load)
+    return found
+
+
+def _load(numbers: Sequence[float], kind: int, ndm: int, factor: float) -> ElementLoad:
+    # OpenSees lists what is across the element before what is along it.
+    across, along = numbers[: ndm - 1], numbers[ndm - 1]
+    y, z = (*across, 0.0)[:2]
+    at = None if kind in _UNIFORM else numbers[ndm]
+    return ElementLoad((factor * along, factor * y, factor * z), at)
+
+
+def middle_of(
+    loads: Sequence[ElementLoad | None], length: float, ends: FloatArray
+) -> FloatArray | None:
+    """Return what loads of an element add in its middle to the mean of both ends.
+
+    Shapes: ends (12,), result (6,).
+    """
+    total, found = np.zeros(3), np.zeros(6)
+    for load in loads:
+        if load is None:
+            return None
+        force = np.array(load.force)
+        at = 0.5 if load.at is None else load.at
+        force = force * length if load.at is None else force
+        total += force
+        if load.at is not None:
+            found[:3] += 0.5 * np.sign(at - 0.5) * force
+        lever = 0.125 * length if load.at is None else (0.25 - 0.5 * abs(at - 0.5)) * length
+        found[4] += lever * force[2]
+        found[5] -= lever * force[1]
+    apart = np.abs(ends[:3] + ends[6:9] + total).max()
+    size = np.abs(ends[:3]).max() + np.abs(ends[6:9]).max()
+    return found if apart <= _TURNED * size else None
+
+
+_ANGLES = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False) + 0.05
+_WAYS = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
+_NONE = 1e-12  # of the largest stiffness of a section, that counts as none
+
+
+def strain_rows(
+    ops: Any, printed: Printed, lines: Sequence[ElementEntry]
+) -> dict[int, tuple[FloatArray, FloatArray]]:
+    """Return how far strains go at both ends of elements, by their forces there.
+
+    A strain is ``e_0 - y k_z + z k_y``, of the section's initial stiffness; what it is divided by
+    is the strain up to which the material keeps its stiffness (`Law.limit`).
+    """
+    laws: dict[str, Law | None] = {}
+
+    def law(tag: str) -> Law | None:
+        if tag not in laws:
+            laws[tag] = law_of(ops, printed, tag, 1.0)
+        return laws[tag]
+
+    sections: dict[str, FloatArray] = {}
+    found = {}
+    for element in lines:
+        entry = printed.elements.get(str(element.tag), {})
+        given = entry.get("sections") or ([entry["section"]] if "section" in entry else [])
+        if given:
+            ends = []
+            for tag in (str(given[0]), str(given[-1])):
+                if tag not in sections:
+                    sections[tag] = _of_section(printed, tag, law)
+                ends.append(sections[tag])
+        elif "A" in entry and (own := law(str(entry.get("material")))) is not None:
+            stiff = own.stiffness * float(entry["A"])
+            known = 0.0 < own.limit < np.inf and stiff > 0.0
+            rows = [[1.0 / (stiff * own.limit), 0.0, 0.0]] if known else []
+            ends = [np.array(rows).reshape(-1, 3)] * 2
+        else:
+            continue
+        if any(len(rows) for rows in ends):
+            found[element.tag] = (ends[0], ends[1])
+    return found
+
+
+def _of_section(printed: Printed, tag: str, law: Any) -> FloatArray:
+    entry = printed.sections.get(tag, {})
+    if entry.get("section"):  # of an aggregator
+        return _of_section(printed, str(entry["section"]), law)
+    fibres = [(f, law(str(f["material"]))) for f in entry.get("fibers", ())]
+    if not fibres or any(own is None for _, own in fibres):
+        return np.zeros((0, 3))
+    places = np.array([[*f["coord"], 0.0][:2] for f, _ in fibres], dtype=np.float64)
+    shape = np.column_stack([np.ones(len(fibres)), places[:, 1], -places[:, 0]])  # e_0, k_y, k_z
+    stiff = np.array([own.stiffness * float(f["area"]) for f, own in fibres])
+    whole = shape.T @ (stiff[:, None] * shape)
+    size = np.sqrt(np.maximum(np.diag(whole), _NONE * whole.max()))
+    inverse = np.linalg.pinv(whole / np.outer(size, size), rcond=1e-9) / np.outer(size, size)
+    rows = []
+    for kind in dict.fromkeys(str(f["material"]) for f, _ in fibres):
+        limit = law(kind).limit
+        if 0.0 < limit < np.inf:
+            own = np.flatnonzero([str(f["material"]) == kind for f, _ in fibres])
+            far = np.unique(own[np.argmax(places[own] @ _WAYS.T, axis=0)])
+            rows.append(shape[far] @ inverse / limit)
+    return np.vstack(rows) if rows else np.zeros((0, 3))

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from scipy import sparse
 
-from frames._errors import ModelError
+from frames._errors import ModelError, ModelWarning
 from frames.assembly.assemble import assemble
 from frames.model.components import DOFS, bearing_height
+from frames.model.editing import FrameEditor
 from frames.model.superelement import lumped
 from frames.opensees.checks import (
     judge_elements,
@@ -20,35 +22,41 @@ from frames.opensees.checks import (
     refuse_unsymmetric,
 )
 from frames.opensees.element_forces import line_elements
-from frames.opensees.loads import light_base, permanent_load, rigid_damping
 from frames.opensees.model import read_model
 from frames.opensees.natures import natures
-from frames.opensees.structure import Options, Structure, Taken, turning
-from frames.opensees.vertical_mass import with_vertical_mass
+from frames.opensees.structure import (
+    Options,
+    Structure,
+    light_base,
+    permanent_load,
+    rigid_damping,
+    turning,
+    with_vertical_mass,
+)
 from frames.opensees.viscous import with_viscous_springs
 from lir_element.argument_checks import listed, require_choice, require_positive
+from lir_element.elevations import by_elevation
 from lir_element.opensees import opensees
 from lir_element.opensees.base_nodes import BASE_ROTATIONS
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.assembly.system import System
-    from frames.model.builder import FrameBuilder
-    from frames.model.frame_data import FrameData
     from frames.opensees.model import OpenSeesModel
 
 NAME = "opensees"
 """Name of the superelement that holds the model."""
 
-LEVEL_STEP = 1e-3  # m, within which nodes are at one elevation
+
+F = TypeVar("F", bound=FrameEditor)
 
 
-def read(options: Options) -> tuple[Taken, Structure]:
-    """Read the current model of OpenSeesPy as the parts of a frame on bearings."""
+def imported(kind: type[F], options: Options, name: str) -> F:
+    """Return OpenSees' current model as a frame on bearings, and warn of what should be known."""
     _check_options(options)
+    frame = kind(name, STANDARD_GRAVITY if options.gravity is None else options.gravity)
     model = read_model()
-    unknown = [
-        tag for tag in (*options.base_nodes, *options.other_supports) if tag not in model.tags
-    ]
+    unknown = [tag for tag in (*options.bases, *options.other_supports) if tag not in model.tags]
     if unknown:
         message = (
             f"the OpenSees model has no node {unknown[0]}, named as a base node or support: give "
@@ -59,7 +67,7 @@ def read(options: Options) -> tuple[Taken, Structure]:
     up = 1 if options.vertical == "y" or model.coordinates.shape[1] == 2 else 2
     ops = opensees()
     notes = judge_elements(model, natures(ops, model), up, accept=options.accept_nonlinear)
-    refuse_other_supports(model, options.base_nodes, options.other_supports)
+    refuse_other_supports(model, options.bases, options.other_supports)
     if options.damping:
         damping, said = with_viscous_springs(ops, model)
         notes += said
@@ -71,44 +79,28 @@ def read(options: Options) -> tuple[Taken, Structure]:
     load, said = permanent_load(structure, options)
     notes += said + rigid_damping(structure, options) + light_base(structure, options)
     elements = line_elements(ops, model, options)
-    taken = Taken(load=load, notes=notes, elements=elements)
-    _add_structure(taken, structure)
-    _add_bearings(taken, structure, options)
-    _add_levels(taken, structure, options)
-    return taken, structure
-
-
-def refuse_taken(frame: FrameData, structure: Structure, options: Options) -> None:
-    """Refuse a frame imported whose bearings could not work, or that would fall."""
+    _add_nodes(frame, structure)
+    frame.add_superelement(
+        NAME,
+        [str(tag) for tag in structure.tags],
+        **structure.matrices,
+        load=load,
+        equations=structure.equations,
+        notes=notes,
+        elements=elements,
+    )
+    _add_bearings(frame, options)
+    _add_levels(frame, structure, options)
     system = assemble(frame)
     _refuse_held_bases(system, structure, options)
     refuse_leaning(system, structure.initial)
-
-
-def fill(frame: FrameBuilder, taken: Taken) -> None:
-    """Add everything that was read of an OpenSees model to an empty frame."""
-    for name, point in taken.nodes.items():
-        frame.add_node(name, *point)
-    for name, dofs in taken.fixed.items():
-        frame.fix(name, *dofs)
-    frame.add_superelement(
-        "opensees",
-        taken.members,
-        **taken.matrices,
-        load=taken.load,
-        equations=taken.equations,
-        notes=taken.notes,
-        elements=taken.elements,
-    )
-    for name, (i, j, device) in taken.bearings.items():
-        frame.add_bearing(name, i, j, device)
-    for name, nodes in taken.diaphragms.items():
-        frame.add_diaphragm(name, nodes)
-    for name, nodes in taken.levels.items():
-        frame.add_level(name, nodes)
+    for note in notes:
+        warnings.warn(f"Frame.from_opensees: {note}", ModelWarning, stacklevel=3)
+    return frame
 
 
 def _check_options(options: Options) -> None:
+    bearings = options.bearings
     if options.vertical not in {None, "y", "z"}:
         message = f'vertical = {options.vertical!r}: the axis that points up is "z" or "y"'
         raise ModelError(message)
@@ -124,7 +116,7 @@ def _check_options(options: Options) -> None:
             remedy="9.81, or None where the model is loaded",
             error=ModelError,
         )
-    for tag, device in options.bearings.items():
+    for tag, device in bearings.items():
         bearing_height(f"bearing-{tag}", device)
 
 
@@ -163,7 +155,7 @@ def _turned(model: OpenSeesModel, options: Options) -> Structure:
 def _released(structure: Structure, options: Options) -> Structure:
     # Base nodes: translations and the rotation about the vertical free, the others as asked for;
     # what is held at every node (a plane model in space) stays. Nodes that nothing reaches go.
-    bases = [structure.tags.index(tag) for tag in options.base_nodes]
+    bases = [structure.tags.index(tag) for tag in options.bases]
     parts = [*structure.matrices.values(), structure.equations]
     reached = np.sum([np.asarray(abs(part).sum(axis=0)) for part in parts], axis=0)
     used = reached.reshape(-1, 6).any(axis=1)
@@ -172,7 +164,7 @@ def _released(structure: Structure, options: Options) -> Structure:
     if options.base_rotations != "kept":
         fixed[np.ix_(bases, [3, 4])] = options.base_rotations == "fixed"
     fixed |= np.all(structure.fixed[used], axis=0)
-    idle = [tag for tag in options.base_nodes if not used[structure.tags.index(tag)]]
+    idle = [tag for tag in options.bases if not used[structure.tags.index(tag)]]
     if idle:
         message = f"base node {idle[0]} carries nothing: no element, mass or constraint is there"
         raise ModelError(message)
@@ -190,68 +182,56 @@ def _released(structure: Structure, options: Options) -> Structure:
     )
 
 
-def _add_structure(taken: Taken, structure: Structure) -> None:
-    taken.members = tuple(str(tag) for tag in structure.tags)
-    taken.matrices, taken.equations = structure.matrices, structure.equations
-    for name, point, fixed in zip(
-        taken.members, structure.coordinates.tolist(), structure.fixed, strict=True
-    ):
-        taken.nodes[name] = (point[0], point[1], point[2])
-        held = tuple(dof for dof, is_held in zip(DOFS, fixed, strict=True) if is_held)
+def _add_nodes(frame: FrameEditor, structure: Structure) -> None:
+    places = structure.coordinates.tolist()
+    for tag, place, fixed in zip(structure.tags, places, structure.fixed, strict=True):
+        frame.add_node(str(tag), *place)
+        held = [dof for dof, is_held in zip(DOFS, fixed, strict=True) if is_held]
         if held:
-            taken.fixed[name] = held
+            frame.fix(str(tag), *held)
 
 
-def _add_bearings(taken: Taken, structure: Structure, options: Options) -> None:
+def _add_bearings(frame: FrameEditor, options: Options) -> None:
     for tag, device in options.bearings.items():
-        x, y, z = taken.nodes[str(tag)]
+        x, y, z = frame.nodes[str(tag)].position
         ground = f"ground-{tag}"
-        taken.nodes[ground] = (x, y, z - device.height)
-        taken.fixed[ground] = ("all",)
-        taken.bearings[f"bearing-{tag}"] = (ground, str(tag), device)
+        frame.add_node(ground, x, y, z - device.height)
+        frame.fix(ground, "all")
+        frame.add_bearing(f"bearing-{tag}", ground, str(tag), device)
     if not options.base_diaphragm:
         return
-    at = {str(tag): taken.nodes[str(tag)][2] for tag in options.base_nodes}
-    groups = [group for group in _by_elevation(at) if len(group) > 1]
+    at = {str(tag): frame.nodes[str(tag)].z for tag in options.bases}
+    groups = [group for group in by_elevation(at) if len(group) > 1]
     for k, group in enumerate(groups):
-        taken.diaphragms["base" if len(groups) == 1 else f"base-{k + 1}"] = group
+        frame.add_diaphragm("base" if len(groups) == 1 else f"base-{k + 1}", group)
 
 
-def _add_levels(taken: Taken, structure: Structure, options: Options) -> None:
+def _add_levels(frame: FrameEditor, structure: Structure, options: Options) -> None:
     # The base, and every elevation with mass; or as given.
     at = dict(zip(map(str, structure.tags), structure.coordinates[:, 2].tolist(), strict=True))
     if options.levels is not None:
         given = sorted(options.levels.items(), key=lambda item: at.get(str(item[1][0]), math.inf))
-        taken.levels = {name: [str(tag) for tag in tags] for name, tags in given}
+        for name, tags in given:
+            frame.add_level(name, [str(tag) for tag in tags])
         return
     mass = lumped(structure.matrices["mass"])[:, 0]
     heavy = dict(zip(at, mass.tolist(), strict=True))
     rises = dict(zip(at, (~structure.fixed[:, 2]).tolist(), strict=True))
-    bases = {str(tag) for tag in options.base_nodes}
-    for group in _by_elevation(at):
-        is_base = bool(bases.intersection(group))
-        if not is_base and not any(heavy[name] > 0.0 for name in group):
-            continue
+    bases = {str(tag) for tag in options.bases}
+    floors = [
+        group
+        for group in by_elevation(at)
+        if bases.intersection(group) or any(heavy[name] > 0.0 for name in group)
+    ]
+    for k, group in enumerate(floors):
         # a master node that is held vertically is no part of the floor's vertical motion
-        name = f"level-{len(taken.levels)}"
-        taken.levels[name] = [node for node in group if rises[node]] or group
-
-
-def _by_elevation(at: dict[str, float]) -> list[list[str]]:
-    groups: list[list[str]] = []
-    low = -math.inf
-    for name in sorted(at, key=lambda name: at[name]):
-        if at[name] - low > LEVEL_STEP:
-            groups.append([])
-            low = at[name]
-        groups[-1].append(name)
-    return groups
+        frame.add_level(f"level-{k}", [node for node in group if rises[node]] or group)
 
 
 def _refuse_held_bases(system: System, structure: Structure, options: Options) -> None:
     # A base node that constraints still hold would leave its bearing without work.
     moving = np.diff(system.transform.indptr) > 0
-    for tag in options.base_nodes:
+    for tag in options.bases:
         node = system.node_names.index(str(tag))
         needed = ~structure.fixed[structure.tags.index(tag)]
         held = [DOFS[axis] for axis in range(3) if needed[axis] and not moving[6 * node + axis]]

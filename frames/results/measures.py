@@ -19,13 +19,13 @@ from frames.results.recorded import (
     require_whole_levels,
     standing,
 )
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from frames._types import FloatArray, IntArray
 
-_SAME_PLACE = 1e-3  # m, in plan, of nodes that stand over one another
 _ROUND_OFF = 1e-9  # m, of coordinates
 
 ABSORBED = ENERGY_TERMS[1:]
@@ -245,7 +245,7 @@ def lines_of(data: xr.Dataset) -> Lines:
             continue
         apart = np.linalg.norm(place[high][:, None] - place[low][None], axis=-1)
         nearest = apart.argmin(axis=1)
-        over = apart[np.arange(len(high)), nearest] < _SAME_PLACE
+        over = apart[np.arange(len(high)), nearest] < SAME_PLACE
         chosen = over if over.any() else ~over
         pairs += [
             (low[n], up, k) for up, n, fits in zip(high, nearest, chosen, strict=True) if fits

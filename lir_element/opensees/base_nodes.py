@@ -7,13 +7,12 @@ from typing import Any
 
 from lir_element.argument_checks import listed
 from lir_element.device.bearing import LIRBearing
+from lir_element.elevations import SAME_PLACE, by_elevation
 from lir_element.opensees.dangling_references import leftovers
 
 BASE_ROTATIONS = ("kept", "free", "fixed")
 """What becomes of the rotations of base nodes about horizontal axes."""
 
-_AT_REST = 1e-3  # m, which a base node may have moved before
-_ONE_LEVEL = 1e-3  # m, within which base nodes are at one elevation
 _NO_MASS = 1e-6  # of all nodal masses, below which the base counts as without mass
 
 
@@ -62,9 +61,9 @@ def check_base(ops: Any, bases: list[int], metre: float) -> None:
             )
             raise ValueError(msg)
         moved = metre * max(abs(value) for value in ops.nodeDisp(tag)[:3])
-        if moved > _AT_REST:
+        if moved > SAME_PLACE:
             msg = (
-                f"base node {tag} has moved by {moved:.3g} m, at most {_AT_REST:g} m is allowed, "
+                f"base node {tag} has moved by {moved:.3g} m, at most {SAME_PLACE:g} m is allowed, "
                 "for its bearing would start displaced: call isolate on the model as it was built "
                 "(ops.reset() takes it back), or while its supports hold it"
             )
@@ -90,14 +89,9 @@ def new_tags(
     return dict(zip(bases, new, strict=True))
 
 
-def by_elevation(ops: Any, bases: list[int], up: int, metre: float) -> list[list[int]]:
+def not_alone(ops: Any, bases: list[int], up: int, metre: float) -> list[list[int]]:
     """Return base nodes by elevation, those that are not alone."""
-    at = {tag: metre * ops.nodeCoord(tag)[up] for tag in bases}
-    groups: list[list[int]] = []
-    for tag in sorted(bases, key=lambda tag: at[tag]):
-        if not groups or at[tag] - at[groups[-1][0]] > _ONE_LEVEL:
-            groups.append([])
-        groups[-1].append(tag)
+    groups = by_elevation({tag: metre * ops.nodeCoord(tag)[up] for tag in bases})
     return [sorted(group, key=bases.index) for group in groups if len(group) > 1]
 
 

@@ -13,11 +13,11 @@ from lir_element.element import LEVELS, Level
 from lir_element.opensees.base_nodes import (
     BASE_ROTATIONS,
     bearings_by_node,
-    by_elevation,
     check_base,
     check_ties,
     doubts,
     new_tags,
+    not_alone,
     release,
 )
 from lir_element.opensees.held_signals import signals_held
@@ -241,7 +241,7 @@ def isolate(
     check_base(ops, bases, metre)
     grounds = new_tags(ops.getNodeTags(), ground_tags, bases, "ground_tags", "node")
     elements = new_tags(element_tags(), tags, bases, "tags", "element")
-    groups = by_elevation(ops, bases, up, metre) if base_diaphragm else []
+    groups = not_alone(ops, bases, up, metre) if base_diaphragm else []
     check_ties(ops, bases, groups)
     notes = doubts(ops, bases, up)
     routes: dict[int, str] = {}

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from lir_element.argument_checks import require_positive
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing
     from lir_element.layout import Floats
 
-_TOLERANCE = 1e-3
-"""How far the nodes of a bearing may be from where they belong [m]."""
 _NDF = {2: 3, 3: 6}
 
 
@@ -85,7 +84,7 @@ def place(
         warnings.warn(msg, PlacementWarning, stacklevel=3)
     rise = metre * (points[1] - points[0])
     _check_rise(i, j, rise, axes, bearing.height)
-    if np.linalg.norm(rise) <= _TOLERANCE and _hangs(ops, i, j, ndm):
+    if np.linalg.norm(rise) <= SAME_PLACE and _hangs(ops, i, j, ndm):
         msg = (
             f"node {j}, the upper one, is held by a support and node {i}, the lower one, is not: "
             f"where the bearing stands on node {j} the nodes are swapped, give i={j} and j={i}"
@@ -195,30 +194,30 @@ def _check_rise(i: int, j: int, rise: Floats, axes: Floats, height: float) -> No
     x, y, z = axes @ full
     apart = float(np.linalg.norm(full))
     thousandth = 1e-3 * apart
-    if abs(thousandth - height) <= _TOLERANCE and apart > _TOLERANCE:
+    if abs(thousandth - height) <= SAME_PLACE and apart > SAME_PLACE:
         msg = (
             f"nodes {i} and {j} are {apart:g} m apart, a thousand times the bearing's height of "
             f"{height:g} m: where the model is in mm, give length_unit=0.001 (and force_unit=1e3 "
             "where it is in kN)"
         )
         raise ValueError(msg)
-    if abs(z + height) <= _TOLERANCE and max(abs(x), abs(y)) <= _TOLERANCE:
+    if abs(z + height) <= SAME_PLACE and max(abs(x), abs(y)) <= SAME_PLACE:
         msg = (
             f"node {j} is {-z:g} m below node {i}, the bearing's height: the nodes are swapped, "
             f"give i={j} and j={i} (i is the node below)"
         )
         raise ValueError(msg)
-    if max(abs(x), abs(y)) > _TOLERANCE:
+    if max(abs(x), abs(y)) > SAME_PLACE:
         msg = (
             f"node {j} lies {np.hypot(x, y):g} m beside the bearing's axis through node {i}, at "
-            f"most {_TOLERANCE:g} m is allowed: move it, or give the axis by orient=(x, y, z), "
+            f"most {SAME_PLACE:g} m is allowed: move it, or give the axis by orient=(x, y, z), "
             "(0, 1, 0) where y points upwards"
         )
         raise ValueError(msg)
-    if min(abs(z), abs(z - height)) > _TOLERANCE:
+    if min(abs(z), abs(z - height)) > SAME_PLACE:
         msg = (
             f"node {j} is {z:g} m above node {i}, it must be 0 m or the bearing's height "
-            f"{height:g} m (slider and plates) within {_TOLERANCE:g} m: move it, or give the "
+            f"{height:g} m (slider and plates) within {SAME_PLACE:g} m: move it, or give the "
             "bearing another plate_thickness"
         )
         raise ValueError(msg)

@@ -16,6 +16,7 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError, ModelWarning
 from frames.demo import bearing_for
+from frames.exchange.etabs import read_etabs
 from lir_element.opensees import opensees
 from tests import etabs_models, sap2000_models
 
@@ -63,6 +64,8 @@ def test_both_formats_give_one_frame(tmp_path: Path, walls: bool, units: tuple[s
     assert ("shells" in one.superelements) == walls
 
 
+NEW_LINE = "\n"
+
 BAD = {
     "truncated": (TEXT[: len(TEXT) // 2], r"is cut off|is not closed|needs its name"),
     "no end": (TEXT.replace("$ END OF MODEL FILE", ""), r"without the line \$ END OF MODEL FILE"),
@@ -82,6 +85,10 @@ BAD = {
     "below the base": (changed('"1"  "1"  1', '"1"  "1"  3'), r"stories below .* there is none"),
     "no mass source": (TEXT.replace("  MASSSOURCE  ", "  MASSSAUCE  "), r"has no mass source"),
     "units": (changed('"KN"  "M"', '"stone"  "M"'), r'UNITS "stone" "M" must be a force'),
+    "bound": (
+        changed("U 0.2", "U 0.7"),
+        rf'line {TEXT[: TEXT.index("U 0.2")].count(NEW_LINE) + 1}, .*: U = 0.7 of material "C30"',
+    ),
     "shape": (changed("AREA 0.2", "AREB 0.2"), r'is a "General" without Area'),
     "restraint": (changed("UX UY UZ", "UX UY UX9"), r'RESTRAINT "UX9" must be of'),
     "stages": (
@@ -111,6 +118,16 @@ def test_bad_files_are_refused_with_a_remedy(tmp_path: Path, name: str) -> None:
     text, message = BAD[name]
     with pytest.raises(ModelError, match=message):
         Frame.from_etabs(written(tmp_path, text))
+
+
+def test_a_case_adds_up_its_patterns(tmp_path: Path) -> None:
+    # its first one too, if the case has the name of that pattern
+    text = changed(
+        'LOADPAT  "Dead"  SF  1 ',
+        'LOADPAT  "Dead"  SF  1\n  LOADCASE "Dead"  LOADPAT  "Live"  SF  0.5',
+    )
+    building = read_etabs(written(tmp_path, text))
+    assert building.combinations["G"] == pytest.approx({"Dead": 1.0, "Live": 0.5 + 0.7})
 
 
 def test_assignments_become_what_members_have(tmp_path: Path) -> None:

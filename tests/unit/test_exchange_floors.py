@@ -12,7 +12,7 @@ from scipy.sparse import csr_matrix
 
 from frames import Frame, ModelError
 from frames.assembly.assemble import assemble
-from frames.exchange.interior import joints_within
+from frames.exchange.mesh import joints_within
 from lir_element.opensees import opensees
 from tests import etabs_models, sap2000_models
 

@@ -16,6 +16,7 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError, ModelWarning, gravity
 from frames.demo import bearing_for
+from frames.exchange.building import Modifiers
 from frames.exchange.geometry import cardinal_shift, frame_axes
 from frames.exchange.links import equivalent_bearing
 from frames.exchange.sap2000 import read_sap2000
@@ -114,6 +115,18 @@ def test_bad_files_are_refused_with_a_remedy(tmp_path: Path, name: str) -> None:
     text, message = BAD[name]
     with pytest.raises(ModelError, match=message):
         Frame.from_sap2000(written(tmp_path, text))
+
+
+def test_a_section_by_its_shape_has_its_modifiers(tmp_path: Path) -> None:
+    rows = {"SectionName": "COL", "Material": "C30", "Shape": "Rectangular", "t3": 0.5, "t2": 0.4}
+    tables = SMALL | {
+        "FRAME SECTION PROPERTIES 01 - GENERAL": [
+            rows | {"I3Mod": 0.5} if row["SectionName"] == "COL" else row
+            for row in SMALL["FRAME SECTION PROPERTIES 01 - GENERAL"]
+        ]
+    }
+    building = read_sap2000(written(tmp_path, models.text(tables)))
+    assert building.sections["COL"].modifiers == Modifiers(inertia_33=0.5)
 
 
 def test_what_is_allowed_is_left_out_and_noted(tmp_path: Path) -> None:

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.testing import assert_allclose
-from scipy.sparse import csr_matrix
 
 from frames import Frame, ModelError
 from frames.assembly.assemble import assemble
@@ -19,6 +18,7 @@ from frames.viewer.structure import structure_of
 from lir_element.opensees import opensees
 from tests import etabs_models
 from tests.fixed_base import periods, reactions
+from tests.unit.test_exchange_writing import same
 
 MESH = 2.5
 CASES = {"D": 1.0, "L": 1.0}
@@ -38,21 +38,6 @@ def walls(tmp_path: Path, **more: object) -> Frame:
     path.write_text(text.replace(stiff, f"{stiff}  {factors}", 1), encoding="utf-8")
     opensees().wipe()
     return Frame.from_etabs(path, mesh=MESH, **more)  # type: ignore[arg-type]
-
-
-def same(one: Frame, two: Frame, names: dict[str, str] | None = None) -> None:
-    first, second = assemble(one), assemble(two)
-    kinds = ("D1-Story1-Story1", "D1-Story1")  # what ETABS' text calls the diaphragm
-    labels = [label.replace(*kinds) for label in second.dof_labels]
-    order = []
-    for label in first.dof_labels:
-        node, dof = label.rsplit(" ", 1)
-        order.append(labels.index(f"{(names or {}).get(node, node)} {dof}"))
-    assert sorted(order) == list(range(len(labels)))
-    for word in ("stiffness", "mass"):
-        left, right = csr_matrix(getattr(first, word)), csr_matrix(getattr(second, word))
-        assert abs(left - right[order][:, order]).max() <= 1e-12 * abs(left).max()
-    assert_allclose(second.load[order], first.load, atol=1e-12 * np.abs(first.load).max())
 
 
 @pytest.mark.parametrize("units", ["KN, m, C", "Kip, in, F"])

@@ -34,7 +34,7 @@ from frames.design.project.level_runs import histories_at_levels
 from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
 from frames.design.report.words import Words
-from frames.exchange.excel_tables import read_excel
+from frames.exchange.reading import read_excel
 from frames.results.storage import csv_of, from_text
 from tests.patience import patience
 

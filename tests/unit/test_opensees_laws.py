@@ -9,8 +9,8 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError, ModelWarning, modes
 from frames.laws import Gap
+from frames.opensees.checks import energy_shares
 from frames.opensees.model import read_model
-from frames.opensees.shares import energy_shares
 from frames.opensees.viscous import with_viscous_springs
 from lir_element import CoulombFriction, LIRBearing
 from validation.opensees.model import solver

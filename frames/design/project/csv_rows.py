@@ -4,75 +4,62 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from frames._csv import csv_lines
 from frames.design._errors import ProjectError
 from frames.design.project.quantities import si
+from frames.exchange.tables import Row
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from frames.exchange.tables import Value
 
 _HEAD = re.compile(r"\s*([a-z_]+)\s*(?:\[\s*([^]]+?)\s*\])?\s*")  # x [m]
 _RANGE = re.compile(r"(\d+)(?:\s*(?:-|to)\s*(\d+))?")
 
 
-@dataclass(frozen=True, kw_only=True)
-class CsvRow:
-    """A row of a table.
+class CsvRow(Row):
+    """A row of a table: texts by column, with the unit of the head where it has one."""
 
-    Attributes
-    ----------
-    where : str
-        File and line, for messages.
-    cells : mapping of str to str
-        Texts by column, with the unit of the head where it has one; empty ones left out.
-    """
+    __slots__ = ()
 
-    where: str
-    cells: Mapping[str, str]
-
-    def text(self, key: str) -> str:
-        """Return a cell that must be there, or raise a ProjectError."""
-        if key not in self.cells:
-            msg = f"{self.where}: {key} is empty: give it"
-            raise ProjectError(msg)
-        return self.cells[key]
+    refusal = ProjectError
+    remedy = "give it"
 
     def length(self, key: str) -> float:
         """Return a cell that is a length [m], or raise a ProjectError."""
+        given = self.text(key)
         try:
-            return si(self.text(key), "m", "6.5 m")
+            return si(given, "m", "6.5 m")
         except ValueError as cause:
-            msg = (
-                f'{self.where}: {key} = "{self.cells.get(key, "")}" {cause}, or head it "{key} [m]"'
-            )
-            raise ProjectError(msg) from cause
+            msg = f'{key} = "{given}" {cause}, or head it "{key} [m]"'
+            raise self.error(msg) from cause
 
     def choice(self, key: str, choices: Sequence[str]) -> str | None:
         """Return a cell that is one of some words, None if it is empty, or raise."""
-        given = self.cells.get(key)
+        given = self.text(key, "") or None
         if given is not None and given not in choices:
             known = ", ".join(f'"{each}"' for each in choices)
-            msg = f'{self.where}: {key} = "{given}" is not known: choose one of {known}'
-            raise ProjectError(msg)
+            msg = f'{key} = "{given}" is not known: choose one of {known}'
+            raise self.error(msg)
         return given
 
     def span(self, key: str, least: int, most: int) -> range:
         """Return a cell such as "2" or "1-3" as a range; empty is all from least to most."""
-        given = self.cells.get(key)
-        if given is None:
+        given = self.text(key, "")
+        if not given:
             return range(least, most + 1)
         found = _RANGE.fullmatch(given)
         first, last = (int(found[1]), int(found[2] or found[1])) if found else (1, 0)
         if not least <= first <= last <= most:
             msg = (
-                f'{self.where}: {key} = "{given}" must be a number or a range such as '
-                f'"{least}-{most}", from the lower to the upper, within {least} to {most}'
+                f'{key} = "{given}" must be a number or a range such as "{least}-{most}", from '
+                f"the lower to the upper, within {least} to {most}"
             )
-            raise ProjectError(msg)
+            raise self.error(msg)
         return range(first, last + 1)
 
 
@@ -92,7 +79,7 @@ def csv_rows(path: Path, needed: Sequence[str], other: Sequence[str] = ()) -> li
     _require_heads(path, names, lines[0][1] if lines else [], needed, other)
     rows = []
     for number, line in lines[1:]:
-        cells = {
+        cells: dict[str, Value] = {
             name: f"{cell.strip()} {unit}" if unit else cell.strip()
             for name, unit, cell in zip(names, units, line, strict=False)
             if cell.strip()
@@ -102,7 +89,7 @@ def csv_rows(path: Path, needed: Sequence[str], other: Sequence[str] = ()) -> li
             msg += ": look for a comma in a number, which needs semicolons between the cells"
             raise ProjectError(msg)
         if cells:
-            rows.append(CsvRow(where=f"{path.name}, line {number}", cells=cells))
+            rows.append(CsvRow(path.name, "", number, cells))
     if not rows:
         msg = f"{path} has no rows: give one for each member, with {', '.join(needed)}"
         raise ProjectError(msg)

@@ -10,6 +10,7 @@ from frames.design.project.bearing_types import bearing_under
 from frames.design.project.member_sections import storeys_of
 from frames.design.project.schema_devices import SIDES
 from frames.laws import Gap, ViscousDamper
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
 
 MOAT = "moat"
 """Name of the walls: links "moat-<node>-<side>"."""
-
-_NEAR = 1e-3  # m, within which nodes lie on one line
 
 
 def with_devices(frame: Frame, moat: MoatTable | None, dampers: Mapping[str, DamperTable]) -> Frame:
@@ -49,7 +48,9 @@ def _add_moat(frame: Frame, given: MoatTable) -> None:
     for side in given.sides:
         axis, sign = "xy".index(side[0]), 1.0 if side[1] == "+" else -1.0
         out = [sign * frame.nodes[node].position[axis] for node in nodes]
-        edge = [node for node, place in zip(nodes, out, strict=True) if max(out) - place < _NEAR]
+        edge = [
+            node for node, place in zip(nodes, out, strict=True) if max(out) - place < SAME_PLACE
+        ]
         law = Gap(
             gap=given.gap,
             stiffness=given.stiffness / len(edge),
@@ -126,7 +127,7 @@ def _on_line(frame: Frame, level: int, column: str) -> str:
     below = frame.nodes[frame.bearings[bearing_under(column, frame)].j]
     for node in frame.levels[level].nodes:
         place = frame.nodes[node]
-        if abs(place.x - below.x) < _NEAR and abs(place.y - below.y) < _NEAR:
+        if abs(place.x - below.x) < SAME_PLACE and abs(place.y - below.y) < SAME_PLACE:
             return node
     msg = (
         f'there is no node of level "{frame.levels[level].name}" over column "{column}": dampers '

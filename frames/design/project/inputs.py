@@ -291,13 +291,7 @@ def _imported(given: ImportedModel, bearing: LIRBearing, name: str, folder: Path
             path,
             bearing,
             at=given.bearings_at or None,
-            loads=given.loads,
-            mass=given.mass,
-            allow=given.allow,
-            mesh=given.mesh,
-            base_rotations=given.base_rotations,
-            base_diaphragm=given.base_diaphragm,
-            decimal=given.decimal,
+            **given.model_dump(exclude={"kind", "file", "bearings_at", "sections", "library"}),
             name=name,
         )
 

@@ -54,7 +54,7 @@ class SectionsByName:
                 own = list(self._tables)
                 near = difflib.get_close_matches(name, own, n=1) or own[:1]
                 hint = f'; [structure.sections] has "{near[0]}"' if near else ""
-                msg = f'{row.where}: section "{name}": {cause}{hint}'
+                msg = f'{row.place}: section "{name}": {cause}{hint}'
                 raise ProjectError(msg) from cause
         found = self._made[name, column]
         turned = row.choice("depth_along", ("x", "y"))
@@ -80,14 +80,14 @@ def _columns(
         name, place = row.text("name"), (row.length("x"), row.length("y"))
         if lines.setdefault(name, place) != place:
             msg = (
-                f'{row.where}: column "{name}" stands at ({place[0]:g}, {place[1]:g}) m here, at '
+                f'{row.place}: column "{name}" stands at ({place[0]:g}, {place[1]:g}) m here, at '
                 f"({lines[name][0]:g}, {lines[name][1]:g}) m before: a name has one place"
             )
             raise ProjectError(msg)
         own = sections.of(row, column=True)
         for storey in row.span("storeys", 1, len(given.storey_height)):
             if (name, storey) in parts:
-                msg = f'{row.where}: column "{name}" has two sections in storey {storey}: keep one'
+                msg = f'{row.place}: column "{name}" has two sections in storey {storey}: keep one'
                 raise ProjectError(msg)
             parts[name, storey] = ColumnPart(name, storey, own.section, own.up)
     for (one, here), (other, there) in combinations(lines.items(), 2):
@@ -121,17 +121,17 @@ def _beams(
             if end not in lines:
                 near = difflib.get_close_matches(end, lines, n=1)
                 meant = f'is "{near[0]}" meant?' if near else "add it there"
-                msg = f'{row.where}: {given.columns_table} has no column "{end}": {meant}'
+                msg = f'{row.place}: {given.columns_table} has no column "{end}": {meant}'
                 raise ProjectError(msg)
         if ends[0] == ends[1]:
-            msg = f'{row.where}: the beam begins and ends at "{ends[0]}": give two columns'
+            msg = f'{row.place}: the beam begins and ends at "{ends[0]}": give two columns'
             raise ProjectError(msg)
         own = sections.of(row, column=False)
         for floor in row.span("floors", 0, len(given.storey_height)):
             key = (floor, frozenset(ends))
             if key in found:
                 msg = (
-                    f'{row.where}: there are two beams between "{ends[0]}" and "{ends[1]}" on '
+                    f'{row.place}: there are two beams between "{ends[0]}" and "{ends[1]}" on '
                     f"floor {floor}: keep one"
                 )
                 raise ProjectError(msg)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from frames.library.building_walls import ARM
+from frames.library.building import ARM
 from frames.recording.force_rows import MEMBER_FORCES
 
 if TYPE_CHECKING:

@@ -1,0 +1,178 @@
+"""The dialect of ETABS' text: fields by what they are, what has no effect, what is refused."""
+
+from frames.exchange.fields import NOT_NEGATIVE, POISSON, POSITIVE, SHARE, Field, SectionMap, fields
+
+DOFS = ("UX", "UY", "UZ", "RX", "RY", "RZ")
+"""Displacements of a point."""
+
+POINT = fields("x=X y=Y", "length", None) + fields("below=Below", "length")
+MATERIAL = (
+    Field("weight", "WEIGHTPERVOLUME", "weight"),
+    Field("density", "MASSPERVOLUME", "density"),
+    Field("elastic_modulus", "E|E1", "stress", bound=POSITIVE),
+    Field("poisson_ratio", "U|U1", bound=POISSON),
+)
+SIZES = fields("depth=D width=B flange=TF web=TW|TF", "length")
+CONSTANTS = (
+    *fields("area=AREA", "area", None),
+    *fields("shear_2=AS2 shear_3=AS3", "area"),
+    *fields("inertia_33=I33 inertia_22=I22", "inertia", None),
+    *fields("torsion=TORSION", "inertia"),
+)
+MODIFIERS = fields(
+    "area=AMOD shear_2=A2MOD shear_3=A3MOD torsion=JMOD inertia_22=I2MOD inertia_33=I3MOD "
+    "mass=MMOD weight=WMOD",
+    default=1.0,
+    bound=NOT_NEGATIVE,
+)
+SECTION = SectionMap(CONSTANTS, SIZES, MODIFIERS)
+FRAME_MODIFIERS = fields(
+    "area=PROPMODA shear_2=PROPMODA2 shear_3=PROPMODA3 torsion=PROPMODT inertia_22=PROPMODI22 "
+    "inertia_33=PROPMODI33 mass=PROPMODM weight=PROPMODW",
+    default=1.0,
+    bound=NOT_NEGATIVE,
+)
+THICKNESS = fields("thickness=SLABTHICKNESS|WALLTHICKNESS|OVERALLDEPTH|TM", "length")
+DECK = (
+    *fields("slab=DECKSLABDEPTH", "length", None),
+    *fields("depth=DECKRIBDEPTH top=DECKRIBWIDTHTOP spacing=DECKRIBSPACING", "length"),
+    *fields("bottom=DECKRIBWIDTHBOTTOM|DECKRIBWIDTHTOP", "length"),
+    *fields("extra_weight=DECKUNITWEIGHT", "stress"),
+)
+SHELL = fields(
+    "F11=F11MOD F22=F22MOD F12=F12MOD M11=M11MOD M22=M22MOD M12=M12MOD mass=MMOD weight=WMOD",
+    default=1.0,
+    bound=NOT_NEGATIVE,
+)
+AREA_MODIFIERS = fields(
+    "F11=PROPMODF11 F22=PROPMODF22 F12=PROPMODF12 M11=PROPMODM11 M22=PROPMODM22 M12=PROPMODM12 "
+    "mass=PROPMODM weight=PROPMODW",
+    default=1.0,
+    bound=NOT_NEGATIVE,
+)
+END_ZONES = (
+    *fields("end_i=LENGTHOFFI end_j=LENGTHOFFJ", "length", bound=NOT_NEGATIVE),
+    Field("rigid", "RIGIDZONE", bound=SHARE),
+)
+OFFSETS = fields(" ".join(f"{a}{e}=OFFSET{a}{e}" for e in "IJ" for a in "XYZ"), "length")
+SUPPORT = fields("ux=UX uy=UY uz=UZ", "line") + fields("rx=RX ry=RY rz=RZ", "moment")
+"""Springs of a point."""
+
+MASS = (
+    *fields("plan=MASSUXUY uz=MASSUZ", "mass"),
+    *fields("rx=MASSRX ry=MASSRY rz=MASSRZ", "rotary"),
+)
+LINK = fields("mass=MASS", "mass") + fields("weight=WEIGHT", "force")
+_ANY_TURN = (
+    *fields("ratio=KRATIO slow=CSLOW fast=CFAST"),
+    *fields("rate=RATE", "per_length"),
+    *fields("radius=RADIUS place=DJ", "length"),
+)
+LINEAR = {
+    False: fields("own=STIFF stiffness=KE damping=CE", "line"),
+    True: fields("own=STIFF stiffness=KE damping=CE", "moment"),
+}
+"""Stiffness and damping of a link's deformation by whether it is a rotation: words after U2."""
+
+NONLINEAR = {
+    False: (
+        *fields("stiffness=K", "line"),
+        *fields("yield=YIELD", "force"),
+        *fields("open=OPEN", "length"),
+        *_ANY_TURN,
+    ),
+    True: (*fields("stiffness=K yield=YIELD", "moment"), *fields("open=OPEN"), *_ANY_TURN),
+}
+"""Nonlinear numbers of a link's deformation by whether it is a rotation: words after U2."""
+
+FORCES = fields("fx=FX fy=FY fz=FZ", "force") + fields("mx=MX my=MY mz=MZ", "moment")
+
+NAMES = {
+    "STORY": ("Story",),
+    "MATERIAL": ("Material",),
+    "FRAMESECTION": ("Section",),
+    "CONCRETESECTION": ("Section",),
+    "SHELLPROP": ("Section",),
+    "LINKPROP": ("Link",),
+    "DIAPHRAGM": ("Diaphragm",),
+    "POINTSPRING": ("Spring",),
+    "POINTASSIGN": ("Point", "Story"),
+    "LINEASSIGN": ("Line", "Story"),
+    "AREAASSIGN": ("Area", "Story"),
+    "LINKASSIGN": ("Link",),
+    "POINTLOAD": ("Point", "Story"),
+    "LINELOAD": ("Line", "Story"),
+    "AREALOAD": ("Area", "Story"),
+    "LOADPATTERN": ("Pattern",),
+    "LOADCASE": ("Case",),
+    "COMBO": ("Combo",),
+    "MASSSOURCE": ("Source",),
+    "MASSSOURCELOAD": ("Source", "Pattern", "Factor"),
+    "GROUP": ("Group",),
+    "UNITS": ("Force", "Length", "Temperature"),
+    "POINT": ("Point", "X", "Y", "Below"),
+    "LINE": ("Line", "Kind", "I", "J", "Stories"),
+    "SHELLUNIFORMLOADSET": ("Set",),
+    "NAMEDFMODIFIER": ("Modifier",),
+    "NAMEDSHMODIFIER": ("Modifier",),
+}
+"""Positional values of a line by its first word; what follows are words with values."""
+
+ALIASES = {
+    "MATERIAL": {"M": "MASSPERVOLUME", "W": "WEIGHTPERVOLUME"},
+    "SHELLPROP": {
+        "ONEWAY": "ONEWAYLOADDIST",
+        "SLABDEPTH": "DECKSLABDEPTH",
+        "RIBDEPTH": "DECKRIBDEPTH",
+        "RIBWIDTH": "DECKRIBWIDTHTOP",
+        "RIBSPACING": "DECKRIBSPACING",
+        "WEIGHT": "DECKUNITWEIGHT",
+    },
+    "COMBO": {"LOAD": "LOADCASE"},
+}
+"""Words of ETABS 8 and 9 by first word, and those of later versions that mean the same."""
+
+REFUSED = {
+    "HINGEASSIGN": ("hinges", "plastic hinges of frames, which stay elastic"),
+    "AREAHINGEASSIGN": ("hinges", "plastic hinges of walls, which stay elastic"),
+    "TENDONASSIGN": ("tendons", "tendons"),
+    "LINESPRING": ("line and area springs", "springs along lines"),
+    "AREASPRING": ("line and area springs", "springs under areas"),
+    "AREAJOINTOFFSETDATA": ("area overwrites", "offsets of corners of areas"),
+    "AREATHICKNESSOVERWRITE": ("area overwrites", "thickness of single areas"),
+    "AREAEDGERELEASE": ("edge releases", "releases along edges of areas"),
+    "LINECURVEDATA": ("curved frames", "curved lines, taken as straight ones"),
+    "AREACURVEDATA": ("curved areas", "curved edges of areas, taken as straight ones"),
+    "STAGE": ("staged construction", "stages of construction, taken as built at once"),
+    "SEQUENTIAL": ("staged construction", "stages of construction, taken as built at once"),
+}
+"""Beginnings of first words whose loss would change the answer: key of `allow`, what it is."""
+
+KNOWN = {
+    "": " ".join(
+        ["GUID NOTES COLOR Name Area Kind Ends", *(n for ns in NAMES.values() for n in ns)]
+    ),
+    "AREAASSIGN": "ADDRESTRAINT CARDINALPOINT DIAPHRAGMTOFLOOR LINECONSTRAINT MAXMESHSIZE MESHAT "
+    "OBJMESHTYPE PIER SPANDREL TRANSFORMSTIFFNESSFOROFFSETS=NO",
+    "COMBO": "*",
+    "CONCRETESECTION": "*",
+    "FRAMESECTION": "FILE INCLUDEAUTORIGIDZONEAREA NOTIONALUSERVALUE NOTIONALSIZE R22 R33 S22NEG "
+    "S22POS S33NEG S33POS Z22 Z33",
+    "LINEASSIGN": "AUTOMESH FLOORMESH MAXSTASPC MESH MESHATINTERSECTIONS MINNUMSTA PIER "
+    "SELFWEIGHTOPTION SPANDREL",
+    "LINKPROP": "*",
+    "LOADCASE": "*",
+    "MASSSOURCE": "INCLUDELATERALMASS=YES INCLUDEMOVE=NO INCLUDEVERTICALMASS",
+    "MATERIAL": "A CPCOMPRESSION CPTENSION DESIGNTYPE EFFFU EFFFY ENERGYDEGFACT FC FINALSLOPE FU "
+    "FUE FY FYE FYS GRADE HYSTYPE IGNORETENSIONACCEPTANCE IOCOMPRESSION IOTENSION LSCOMPRESSION "
+    "LSTENSION POINTID PRICE SSTYPE STRAIN STRAINATFC STRAINATHARDENING STRAINATMAXSTRESS "
+    "STRAINATRUPTURE STRAINATULTIMATE STRESS SYMTYPE=ISOTROPIC SYMTYPE=UNIAXIAL TIMEDEPCONCCODE "
+    "TYPE",
+    "POINTASSIGN": "USERJOINT",
+    "POINTSPRING": "STIFFNESSOPTION",
+    "PROGRAM": "*",
+    "SHELLPROP": "DECKMATERIAL DECKSHEARTHICKNESS DECKTYPE PLATETYPE SHEARSTUDDIAM SHEARSTUDFU "
+    "SHEARSTUDHEIGHT",
+    "STORY": "MASTERSTORY SIMILARTO SPLICEABOVE SPLICEHEIGHT",
+}
+"""Words without effect on the frame, as `Tables.unknown` takes them."""

@@ -1,0 +1,179 @@
+"""Units and fields of a file: a map of fields is applied to read, and inverted to write."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
+
+from lir_element.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from frames.exchange.tables import Row, Value
+
+
+_POUND = 0.45359237 * STANDARD_GRAVITY
+
+FORCES = {
+    "N": 1.0,
+    "KN": 1e3,
+    "MN": 1e6,
+    "KGF": STANDARD_GRAVITY,
+    "TONF": 1e3 * STANDARD_GRAVITY,
+    "LB": _POUND,
+    "KIP": 1e3 * _POUND,
+}
+"""Forces [N] by word."""
+
+LENGTHS = {"MM": 1e-3, "CM": 1e-2, "M": 1.0, "IN": 0.0254, "FT": 0.3048}
+"""Lengths [m] by word."""
+
+
+@dataclass(frozen=True)
+class Units:
+    """Units of a file: force [N] and length [m]; time is in seconds, angles are in degrees."""
+
+    force: float
+    length: float
+
+    one: ClassVar[float] = 1.0  # of what has no unit
+
+    @property
+    def per_length(self) -> float:
+        """Reciprocal of a length [1/m]."""
+        return 1.0 / self.length
+
+    @property
+    def area(self) -> float:
+        """Area [m2]."""
+        return self.length**2
+
+    @property
+    def inertia(self) -> float:
+        """Second moment of an area [m4]."""
+        return self.length**4
+
+    @property
+    def rotary(self) -> float:
+        """Mass times length squared [kg m2]."""
+        return self.mass * self.length**2
+
+    @property
+    def moment(self) -> float:
+        """Moment [N m]."""
+        return self.force * self.length
+
+    @property
+    def line(self) -> float:
+        """Force per length, and stiffness [N/m]."""
+        return self.force / self.length
+
+    @property
+    def stress(self) -> float:
+        """Force per area [Pa]."""
+        return self.force / self.length**2
+
+    @property
+    def weight(self) -> float:
+        """Force per volume [N/m3]."""
+        return self.force / self.length**3
+
+    @property
+    def mass(self) -> float:
+        """Mass: force over acceleration [kg]."""
+        return self.force / self.length
+
+    @property
+    def density(self) -> float:
+        """Mass per volume [kg/m3]."""
+        return self.mass / self.length**3
+
+
+def units_of(force: str, length: str) -> Units | None:
+    """Return the units that two words stand for, None if one is unknown."""
+    first, second = FORCES.get(force.strip().upper()), LENGTHS.get(length.strip().upper())
+    return None if first is None or second is None else Units(first, second)
+
+
+class Bound(NamedTuple):
+    """What a number must be: the words of the refusal, and whether a number is that."""
+
+    words: str
+    holds: Callable[[float], bool]
+
+
+ANY = Bound("", lambda _: True)
+POSITIVE = Bound("must be positive", lambda value: value > 0.0)
+NOT_NEGATIVE = Bound("must be 0 or greater", lambda value: value >= 0.0)
+SHARE = Bound("must lie in [0, 1]", lambda value: 0.0 <= value <= 1.0)
+POISSON = Bound("must lie in (-1, 0.5]", lambda value: -1.0 < value <= 0.5)
+
+
+class Field(NamedTuple):
+    """A number of a file.
+
+    `ours` is what it is called in a row of a building, `names` what the file calls it: the first
+    name is written, the others are those of other versions. `unit` is one of `Units`; without a
+    `default` the file must have it.
+    """
+
+    ours: str
+    names: str
+    unit: str = "one"
+    default: float | None = 0.0
+    bound: Bound = ANY
+
+
+Fields: TypeAlias = tuple[Field, ...]
+
+
+class SectionMap(NamedTuple):
+    """Fields of a cross-section: its constants, its sizes, and the factors on them."""
+
+    constants: Fields
+    sizes: Fields
+    modifiers: Fields
+
+
+def fields(
+    pairs: str, unit: str = "one", default: float | None = 0.0, bound: Bound = ANY
+) -> Fields:
+    """Return fields of one kind from pairs "ours=theirs|other"."""
+    split = (pair.split("=") for pair in pairs.split())
+    return tuple(Field(ours, names, unit, default, bound) for ours, names in split)
+
+
+def numbers(
+    row: Row,
+    map_: Fields,
+    units: Units,
+    of: str = "",
+    *,
+    prefix: str = "",
+    only_given: bool = False,
+) -> dict[str, Any]:
+    """Return the numbers of a row by our names, in SI; a number out of its bound is refused."""
+    found: dict[str, Any] = {}
+    for field in map_:
+        names = [f"{prefix}{name}" for name in field.names.split("|")]
+        given = [name for name in names if row.has(name)]
+        if only_given and not given:
+            continue
+        name = given[0] if given else names[0]
+        value = row.number(name, field.default)
+        if not field.bound.holds(value):
+            message = f"{name} = {value:g}{of} {field.bound.words}"
+            raise row.error(message, name)
+        found[field.ours] = value * getattr(units, field.unit)
+    return found
+
+
+def written(map_: Fields, given: object, units: Units) -> dict[str, Value]:
+    """Return the fields of a row of a building, or of as many numbers, as a file has them."""
+    if isinstance(given, dict):
+        pairs: Iterable[tuple[Field, float]] = ((f, given[f.ours]) for f in map_ if f.ours in given)
+    elif isinstance(given, Sequence):
+        pairs = zip(map_, given, strict=True)
+    else:
+        pairs = ((field, getattr(given, field.ours)) for field in map_)
+    return {f.names.split("|")[0]: value / getattr(units, f.unit) for f, value in pairs}

@@ -1,0 +1,208 @@
+"""Own weights, loads and combinations of a building, whichever the dialect that they come from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from frames.exchange.building import AreaLoad, JointLoad, LineLoad
+from frames.exchange.geometry import area_normal, direction_of, frame_axes
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Iterator
+
+    from frames._types import FloatArray
+    from frames.exchange.building import Building, Vector
+    from frames.exchange.tables import Row
+
+
+def vector_of(values: FloatArray) -> Vector:
+    """Return three components as a tuple.
+
+    Shapes: values (3,).
+    """
+    x, y, z = values.tolist()
+    return (x, y, z)
+
+
+def add_line_load(
+    row: Row,
+    building: Building,
+    frame: str,
+    pattern: str,
+    word: str,
+    sizes: Iterable[float],
+    ends: tuple[float, float],
+    *,
+    point: bool = False,
+) -> None:
+    """Add a load along a frame object, or a force on it, of sizes in the units of the file."""
+    given = building.frames[frame]
+    first, last = (building.joints[name].position for name in (given.i, given.j))
+    axes = frame_axes(first, last, given.angle)
+    found = direction_of(word, axes)
+    if found is None:
+        msg = f'"{word}" of frame "{frame}" is no direction: Gravity, X, Y, Z, 1, 2, 3'
+        raise row.error(msg)
+    vector, projected = found
+    a, b = ends
+    if not -1e-9 <= a <= b <= 1.0 + 1e-6 or (a >= b and not point):
+        msg = f'a load from {a:g} to {b:g} of the length of frame "{frame}" is not on it'
+        raise row.error(msg)
+    factor = float(np.linalg.norm(np.cross(axes[0], vector))) if projected else 1.0
+    scale = building.units.force if point else factor * building.units.line
+    start, end = (vector_of(scale * size * vector) for size in sizes)
+    load = LineLoad(frame, pattern, max(a, 0.0), min(b, 1.0), start, end, point)
+    building.line_loads.append(load)
+
+
+def add_area_load(
+    row: Row, building: Building, area: str, pattern: str, word: str, size: float
+) -> None:
+    """Add a load on an area, of a size in the units of the file."""
+    points = np.array([building.joints[name].position for name in building.areas[area].joints])
+    normal, _ = area_normal(points)
+    found = direction_of(word, None)
+    if word.strip().lower() in {"3", "local-3"}:
+        found = normal, False
+    if found is None:
+        message = f'"{word}" of area "{area}" is no direction that is read: Gravity, X, Y, Z or 3'
+        raise row.error(message)
+    vector, projected = found
+    way = vector * (abs(float(normal @ vector)) if projected else 1.0)
+    load = vector_of(size * building.units.stress * way)
+    building.area_loads.append(AreaLoad(area, pattern, load))
+
+
+def frame_weight(building: Building, frame: str) -> float:
+    """Return the own weight of a frame object per length [N/m]."""
+    given = building.frames[frame]
+    section = building.sections[given.section]
+    name = given.material or section.material
+    factors = section.modifiers.times(given.modifiers)
+    weight = building.materials[name].weight if name in building.materials else 0.0
+    return weight * section.area * factors.weight
+
+
+def area_weight(building: Building, area: str) -> float:
+    """Return the own weight of an area per its own area [N/m2]."""
+    given = building.areas[area]
+    section = building.area_sections.get(given.section)
+    if section is None:
+        return 0.0
+    material = building.materials.get(section.material)
+    own = 0.0 if material is None else material.weight * section.thickness
+    return (own + section.extra_weight) * section.weight * given.weight
+
+
+OWN_MASS = "own mass"
+"""Name of the case that stands for the mass of elements."""
+
+
+def own_weights(building: Building, pattern: str) -> Iterator[LineLoad | AreaLoad | JointLoad]:
+    """Yield the own weight of all elements as a load of a pattern."""
+    yield from _link_loads(building, pattern, 0.0)
+    for name in building.frames:
+        down = (0.0, 0.0, -frame_weight(building, name))
+        yield LineLoad(name, pattern, 0.0, 1.0, down, down)
+    for name in building.areas:
+        yield AreaLoad(name, pattern, (0.0, 0.0, -area_weight(building, name)))
+
+
+def own_masses(building: Building, gravity: float) -> Iterator[LineLoad | AreaLoad | JointLoad]:
+    """Yield the own mass of all elements times gravity, as loads of the case `OWN_MASS`."""
+    yield from _link_loads(building, OWN_MASS, gravity)
+    for name, given in building.frames.items():
+        section = building.sections[given.section]
+        matter = building.materials[given.material or section.material]
+        factor = section.modifiers.times(given.modifiers).mass
+        down = (0.0, 0.0, -gravity * matter.density * section.area * factor)
+        yield LineLoad(name, OWN_MASS, 0.0, 1.0, down, down)
+    for name, area in building.areas.items():
+        found = building.area_sections.get(area.section)
+        if found is None or found.kind == "none":
+            continue
+        matter = building.materials[found.material]
+        own = gravity * matter.density * found.thickness + found.extra_weight
+        yield AreaLoad(name, OWN_MASS, (0.0, 0.0, -own * found.mass * area.mass))
+
+
+def _link_loads(building: Building, pattern: str, gravity: float) -> Iterator[JointLoad]:
+    # Half of what a link weighs at each of its joints, the other half of one with a single joint
+    # in the ground. Source: CSI Analysis Reference Manual, "The Link/Support Element", mass.
+    for link in building.links.values():
+        prop = building.link_properties[link.property]
+        half = 0.5 * (gravity * prop.mass if gravity else prop.weight)
+        for joint in (link.i, link.j):
+            if half and joint is not None:
+                yield JointLoad(joint, pattern, (0.0, 0.0, -half, 0.0, 0.0, 0.0))
+
+
+def cases_of(
+    building: Building, parts: Iterable[tuple[str, str, float]]
+) -> dict[str, dict[str, float]]:
+    """Return static cases as factors by pattern, from (case, pattern, factor).
+
+    A pattern of whose name there is no case is one itself.
+    """
+    cases: dict[str, dict[str, float]] = {}
+    for case, pattern, factor in parts:
+        if pattern in building.patterns:
+            found = cases.setdefault(case, {})
+            found[pattern] = found.get(pattern, 0.0) + factor
+    return {name: {name: 1.0} for name in building.patterns} | cases
+
+
+def add_combinations(
+    building: Building,
+    table: str,
+    cases: dict[str, dict[str, float]],
+    parts: Iterable[tuple[str, str | None, float]],
+) -> None:
+    """Add combinations from (name, case, factor); without a static case they are left out."""
+    other: set[str] = set()
+    for name, case, factor in parts:
+        if case is None or case not in cases:
+            other.add(name)
+            continue
+        found = building.combinations.setdefault(name, {})
+        for pattern, share in cases[case].items():
+            found[pattern] = found.get(pattern, 0.0) + share * factor
+    for name in other:
+        building.combinations.pop(name, None)
+    building.account.read(table, "combinations of static loads", len(building.combinations))
+    building.account.left_out(table, "combinations of other cases, or envelopes", sorted(other))
+
+
+class Shares:
+    """Own weight, and modulus times volume, of all elements."""
+
+    def __init__(self, building: Building) -> None:
+        self._weight: dict[str, float] = {}
+        self._stiffness: dict[str, float] = {}
+        for name, frame in building.frames.items():
+            first, last = (np.array(building.joints[j].position) for j in (frame.i, frame.j))
+            length = float(np.linalg.norm(last - first))
+            section = building.sections[frame.section]
+            matter = building.materials.get(frame.material or section.material)
+            modulus = 0.0 if matter is None else matter.elastic_modulus
+            self._weight[name] = length * frame_weight(building, name)
+            self._stiffness[name] = length * modulus * section.area
+        for name, area in building.areas.items():
+            points = np.array([building.joints[j].position for j in area.joints])
+            _, size = area_normal(points)
+            found = building.area_sections.get(area.section)
+            matter = building.materials.get(found.material) if found else None
+            self._weight[name] = size * area_weight(building, name)
+            if found is not None and matter is not None:
+                self._stiffness[name] = size * matter.elastic_modulus * found.thickness
+
+    def of(self, names: Collection[str]) -> tuple[float | None, float | None]:
+        """Return the shares of weight and of stiffness of some elements [-], None of nothing."""
+        return _share(self._weight, names), _share(self._stiffness, names)
+
+
+def _share(values: dict[str, float], names: Collection[str]) -> float | None:
+    whole = sum(values.values())
+    return sum(values.get(name, 0.0) for name in names) / whole if whole > 0.0 else None
