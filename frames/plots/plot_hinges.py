@@ -17,7 +17,7 @@ from frames.plots.model_geometry import member_lines
 from frames.plots.part_marks import hinge_places
 from frames.plots.plot_model import AT_REST, frame_of
 from frames.recording.recovery import require_own
-from frames.results.hinge_extremes import hinge_rotation
+from frames.results.formulas import hinge_rotation
 from frames.results.peak_response import largest
 
 if TYPE_CHECKING:

@@ -59,7 +59,7 @@ class PartGauge:
         return {name: here[name][0] for name in kept if name in here}
 
     def _histories(self, out: Output, first: int, last: int) -> dict[str, FloatArray]:
-        # As `part_variables` and frames.results.hinge_extremes form them.
+        # As `part_variables` and frames.results.formulas form them.
         found: dict[str, FloatArray] = {}
         n, state = self._links, out.part_state[first:last]
         if n:

@@ -29,8 +29,8 @@ from frames.recording.size import (
     require_room,
 )
 from frames.recording.strain_tracking import StrainGauge
+from frames.results.formulas import in_plan
 from frames.results.peak_response import largest, with_exceeded
-from frames.results.quantities import in_plan
 from frames.statics.fresh_runs import once
 from frames.statics.resultants import Plausibility
 

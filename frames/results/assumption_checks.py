@@ -14,9 +14,9 @@ import xarray as xr
 
 from frames.peak_data import FULL_SLIP, LOOSE
 from frames.results.energy_balance import Remark, equilibrium, time_step
+from frames.results.formulas import left_out
 from frames.results.level_doubts import level_doubts, levels_of_bearings
 from frames.results.peak_response import Extreme, largest, left, total
-from frames.results.quantities import left_out
 from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
 from lir_element.device.specification import STACK_RANGE, stack_stiffness

@@ -14,8 +14,8 @@ from scipy.sparse import csgraph
 
 from frames.assembly.basis import bearing_rows
 from frames.assembly.sparse_solver import Factors
+from frames.results.formulas import VIOLENT
 from frames.results.peak_response import Extreme, extreme_of, later
-from frames.results.quantities import VIOLENT
 from frames.statics.accelerations import AtRest
 
 if TYPE_CHECKING:

@@ -82,15 +82,11 @@ COLUMN = {
     ),
     "frames/results/quantities.py": (
         '    "tilt": Quantity(',
-        '    "pressed_in": Quantity(\n'
-        "        _B,\n"
+        '    "pressed_in": _stepped(\n'
         '        "m",\n'
         '        "deformation of a rim",\n'
-        "        lambda d: formed(\n"
-        '            either, *np.moveaxis(of_bearings(d, "rim_closure", "surface"), -1, 0)\n'
-        "        ),\n"
-        "        by_step=True,\n"
-        '        row="rim deformation",\n'
+        '        lambda d: of_bearings(d, "rim_closure", "surface").max(axis=-1),\n'
+        '        title="rim deformation",\n'
         "    ),\n"
         '    "tilt": Quantity(',
     ),

@@ -10,8 +10,8 @@ import pandas as pd
 
 from frames.design._errors import CheckError
 from frames.motion.ground_motion import GroundMotion
+from frames.results.formulas import in_plan, rims_met
 from frames.results.measures import floor_acceleration, storey_drift, uplift_gap
-from frames.results.quantities import in_plan, rims_met
 from frames.results.recorded import require_recorded, require_steps
 from lir_element.argument_checks import require_between, require_non_negative
 

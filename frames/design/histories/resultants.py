@@ -9,7 +9,7 @@ import pandas as pd
 
 from frames.design._errors import CheckError
 from frames.peak_data import PRESSED
-from frames.results.quantities import in_plan
+from frames.results.formulas import in_plan
 from frames.results.recorded import require_recorded, require_steps
 from lir_element.argument_checks import require_between, require_positive
 

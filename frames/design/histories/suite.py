@@ -11,10 +11,8 @@ import numpy as np
 
 from frames.design._errors import CheckError
 from frames.design.calculation.trace import Trace
-from frames.results.peak_response import largest, left, storeys_of_lines, total
-from frames.results.quantities import LEFT, QUANTITIES
+from frames.results.peak_response import places_of, reached
 from frames.results.recorded import REACHED
-from frames.results.totals import TOTALS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -222,28 +220,12 @@ def peaks_of_runs(data: xr.Dataset, name: str) -> FloatArray:
             msg = f"the runs keep no {name!r}, an earlier version made them: run them again"
             raise CheckError(msg)
         return data.variables[REACHED + name].transpose("run", ...).to_numpy()
-    if name in QUANTITIES:
-        return largest(data, name).values[None]
-    if name in TOTALS:
-        return total(data, name)[None]
-    return left(data, name.removesuffix("_left"))[None]
+    return reached(data, name)[None]
 
 
 def names_of(data: xr.Dataset, name: str) -> tuple[str, ...]:
     """Return the names of what a quantity is reached by: bearings, levels, storeys, lines."""
-    kind = name.removesuffix("_left")
-    if kind in LEFT and kind != name:
-        dims = QUANTITIES[kind].dims
-    else:
-        dims = (QUANTITIES if name in QUANTITIES else TOTALS)[name].dims
-    if dims == ():
-        return ("",)
-    dim = dims[0]
-    if "run" not in data.dims and dim == "line":
-        return tuple(storeys_of_lines(data)[0])
-    if dim == "storey" and dim not in data.coords:
-        return tuple(map(str, data["level"].to_numpy()[1:]))
-    return tuple(map(str, data[dim].to_numpy()))
+    return tuple(map(str, places_of(data, name)))
 
 
 class Failure(NamedTuple):
