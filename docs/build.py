@@ -416,7 +416,7 @@ def demo_table() -> str:
             name: time_history(moment_frame(bearing=bearings, name=name), motion, **options)
             for name, bearings in demo.systems_of(demo.design()).items()
         }
-    lines = [line for line in table_of(results).splitlines() if not line.startswith("run time")]
+    lines = [line for line in table_of(results).splitlines() if not line.startswith("seconds")]
     return "\n".join(["```text", *lines, "```"])
 
 

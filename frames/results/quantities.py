@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
 
 
+_IN_FIGURES = {"m": ("mm", 1e3), "N": ("kN", 1e-3), "m/s2": ("m/s²", 1.0), "%": ("%", 1e2)}
+
+
 class Quantity(NamedTuple):
     """A number of a time history: what it is, and what tables, checks and figures say of it."""
 
@@ -55,6 +58,11 @@ class Quantity(NamedTuple):
     """Field of `DesignLimits` that it is held against."""
     symbol: str = ""
     """Of that check."""
+
+    @property
+    def in_figures(self) -> tuple[str, float]:
+        """Its unit in figures, and the factor to it."""
+        return _IN_FIGURES.get(self.shown or self.unit, (self.pure_unit, 1.0))
 
     @property
     def described(self) -> str:

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from frames.results.assumption_checks import doubts_of
-from frames.results.peaks import peaks_of
-from frames.results.storage import as_text, save_groups, write_whole
+from frames.results.peaks import peaks_of, summary
+from frames.results.storage import csv_of, save_groups, write_whole
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -20,90 +17,36 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-@dataclass(frozen=True)
-class Row:
-    """One line: its text, the factor from SI, the format, the SI name, the quantity of `peaks`."""
-
-    text: str
-    factor: float
-    form: str
-    name: str
-    quantity: str
-
-
-_FLOORS = "floor acceleration in plan, mean"
 ROWS = (
-    Row(
-        "peak bearing displacement in plan [mm]",
-        1e3,
-        ".0f",
-        "peak_bearing_displacement_m",
-        "bearing displacement",
-    ),
-    Row(
-        "peak base shear in plan / weight [-]",
-        1.0,
-        ".3f",
-        "peak_base_shear_over_weight",
-        "base shear over weight",
-    ),
-    Row(
-        "peak storey drift in plan, mean [%]", 1e2, ".3f", "peak_storey_drift", "storey drift, mean"
-    ),
-    Row(
-        "peak floor acceleration in plan, mean [m/s2]",
-        1.0,
-        ".2f",
-        "peak_floor_acceleration_m_s2",
-        _FLOORS,
-    ),
-    Row("peak floor acceleration in plan, mean [g]", 1.0 / STANDARD_GRAVITY, ".2f", "", _FLOORS),
-    Row("largest interface slip [mm]", 1e3, ".1f", "largest_interface_slip_m", "interface slip"),
-    Row("largest rim force [kN]", 1e-3, ".0f", "largest_rim_force_N", "rim force"),
-    Row("maximum axial force [kN]", 1e-3, ".0f", "largest_axial_force_N", "axial force"),
-    Row("minimum axial force [kN]", 1e-3, ".0f", "smallest_axial_force_N", "minimum axial force"),
-    Row(
-        "residual displacement in plan [mm]",
-        1e3,
-        ".1f",
-        "residual_displacement_m",
-        "residual bearing displacement",
-    ),
-    Row(
-        "residual interface slip [mm]",
-        1e3,
-        ".1f",
-        "residual_interface_slip_m",
-        "residual interface slip",
-    ),
-    Row(
-        "energy balance: error / input [-]",
-        1.0,
-        ".1e",
-        "energy_error",
-        "energy balance: error over input",
-    ),
-    Row("run time, time loop [s]", 1.0, ".2f", "run_time_s", "seconds of the time loop"),
+    ("bearing displacement", "mm", ".0f"),
+    ("base shear over weight", "-", ".3f"),
+    ("storey drift, mean", "%", ".3f"),
+    ("floor acceleration in plan, mean", "m/s2", ".2f"),
+    ("floor acceleration in plan, mean", "g", ".2f"),
+    ("interface slip", "mm", ".1f"),
+    ("rim force", "kN", ".0f"),
+    ("axial force", "kN", ".0f"),
+    ("minimum axial force", "kN", ".0f"),
+    ("residual bearing displacement", "mm", ".1f"),
+    ("residual interface slip", "mm", ".1f"),
+    ("energy balance: error over input", "-", ".1e"),
+    ("seconds of the time loop", "s", ".2f"),
 )
-"""In plan: the size of the vector of both horizontal components, at one instant. Mean: of the nodes
-of a level."""
+"""Quantities of `peaks` with their unit and format."""
 
-
-def summary_of(data: xr.Dataset) -> dict[str, float]:
-    """Return the numbers of the summary by SI name (`ROWS`), from one result: those of `peaks`."""
-    found = {peak.quantity: peak.value for peak in peaks_of(data)}
-    return {row.name: found.get(row.quantity, math.nan) for row in ROWS if row.name}
+_FACTORS = {"mm": 1e3, "kN": 1e-3, "%": 1e2, "g": 1.0 / STANDARD_GRAVITY}
 
 
 def table_of(results: Mapping[str, xr.Dataset]) -> str:
     """Return the summary of all systems as text, a column each."""
-    numbers = {name: summary_of(data) for name, data in results.items()}
-    wide = max(len(row.text) for row in ROWS)
+    numbers = [{peak.quantity: peak.value for peak in peaks_of(data)} for data in results.values()]
+    heads = [f"{quantity} [{unit}]" for quantity, unit, _ in ROWS]
+    wide = max(map(len, heads))
     lines = [" " * wide + "".join(f"{name:>20}" for name in results)]
-    for row in ROWS:
-        key = row.name or "peak_floor_acceleration_m_s2"
-        cells = [_cell(row, values[key]) for values in numbers.values()]
-        lines.append(f"{row.text:<{wide}}" + "".join(f"{cell:>20}" for cell in cells))
+    for head, (quantity, unit, form) in zip(heads, ROWS, strict=True):
+        values = [_FACTORS.get(unit, 1.0) * each.get(quantity, math.nan) for each in numbers]
+        cells = [f"{value + 0.0:{form}}" if math.isfinite(value) else "-" for value in values]
+        lines.append(f"{head:<{wide}}" + "".join(f"{cell:>20}" for cell in cells))
     cells = [status_of(data) for data in results.values()]
     lines.append(f"{'status':<{wide}}" + "".join(f"{cell:>20}" for cell in cells))
     failed = {n: d.attrs["message"] for n, d in results.items() if "failed_at" in d.attrs}
@@ -114,22 +57,12 @@ def table_of(results: Mapping[str, xr.Dataset]) -> str:
 
 
 def write_results(results: Mapping[str, xr.Dataset], folder: Path) -> None:
-    """Write `results.nc`, a group for each system in single precision, and `summary.csv` (SI).
+    """Write `results.nc`, a group for each system in single precision, and `summary.csv`.
 
     What stood in either before is replaced once all of it is written.
     """
     save_groups({group_of(name): data for name, data in results.items()}, folder / "results.nc")
-    table = io.StringIO(newline="")
-    writer = csv.writer(table)
-    names = [row.name for row in ROWS if row.name]
-    writer.writerow(["system", "status", "failed_at_s", *names, "doubts"])
-    for name, data in results.items():
-        values = summary_of(data)
-        failed_at = data.attrs.get("failed_at", "")
-        cells = [f"{values[key]:.6g}" for key in names]
-        doubts = as_text("; ".join(doubts_of(data)))
-        writer.writerow([as_text(name), data.attrs["status"], failed_at, *cells, doubts])
-    write_whole(folder / "summary.csv", table.getvalue())
+    write_whole(folder / "summary.csv", csv_of(summary(results).T.rename_axis("system")))
 
 
 def group_of(name: str) -> str:
@@ -144,7 +77,3 @@ def status_of(data: xr.Dataset) -> str:
     if data.attrs["status"] != "ok":
         return str(data.attrs["status"])
     return "completed, warning" if doubts_of(data) else "completed"
-
-
-def _cell(row: Row, value: float) -> str:
-    return f"{row.factor * value + 0.0:{row.form}}" if math.isfinite(value) else "-"

@@ -10,12 +10,12 @@ from frames.assembly.assemble import assemble
 from frames.plots.plot_choice import choose_bearing, in_window
 from frames.recording.recovery import require_own
 from frames.results.assumption_checks import doubts_of
+from frames.results.measures import floor_acceleration, storey_drift
+from frames.results.quantities import QUANTITIES
 from frames.results.recorded import EVERY_STEP
 from frames.viewer.bearings import SLIPS, Movements, devices, movements, peaks_of
 from frames.viewer.instants import kept_steps, line_error
 from frames.viewer.packing import exact, scaled
-from frames.viewer.responses import Response, responses
-from frames.viewer.shapes import as_shapes
 from frames.viewer.structure import structure_of
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ SHAPE_ERROR = 1e-3
 
 _FEWEST = 200  # steps that are kept, however large the model
 _SHAPES = 40  # that a step is reckoned to have, before they are found
+_SNAPSHOTS = 800  # instants that shapes are found from, at most
 _ARM = 3.0  # m, by which rotations of nodes count
 
 
@@ -84,6 +85,46 @@ class Payload(NamedTuple):
     content: dict[str, object]
     kept: int
     recorded: int
+
+
+class Response(NamedTuple):
+    """Histories of one quantity.
+
+    Attributes
+    ----------
+    name, unit : str
+        What it is, and the unit that it is shown in.
+    factor : float
+        From SI to that unit.
+    places : tuple of str
+        Levels, storeys, or what else has one.
+    values : ndarray, (n_steps, n_places, 2)
+        Along x and y, SI.
+    """
+
+    name: str
+    unit: str
+    factor: float
+    places: tuple[str, ...]
+    values: FloatArray
+
+
+class Shapes(NamedTuple):
+    """Displacements over time as ``histories @ shapes``.
+
+    Attributes
+    ----------
+    histories : ndarray, (n_steps, r)
+        How much of each shape there is.
+    shapes : ndarray, (r, n)
+        The shapes [m, rad].
+    error : float
+        Largest difference from the displacements, rotations times the arm [m].
+    """
+
+    histories: FloatArray
+    shapes: FloatArray
+    error: float
 
 
 def payload_of(
@@ -211,3 +252,61 @@ def _require_finite(moved: Movements, shown: list[Response], nodes: FloatArray) 
                 f"cannot be drawn: view the part before it, data.isel(time=slice(0, {step}))"
             )
             raise ValueError(msg)
+
+
+def responses(data: xr.Dataset) -> list[Response]:
+    """Return the histories of floors and storeys that a result has, and of its base."""
+    found = []
+    levels = data.sizes.get("level", 0)
+    if levels and "node_acceleration" in data:
+        moves = floor_acceleration(data).sel(axis=["x", "y"])
+        found.append(_response("floor acceleration", "floor_plan", moves, "level"))
+    if levels > 1:
+        found.append(_response("storey drift", "drift", storey_drift(data), "storey"))
+    for variable, like, place in (
+        ("storey_shear", "storey_shear", "storey"),
+        ("base_shear", "base_shear", ""),
+        ("ground_acceleration", "floor_plan", ""),
+    ):
+        if variable in data and data[variable].size:
+            part = data[variable].sel(axis=["x", "y"])
+            found.append(_response(variable.replace("_", " "), like, part, place))
+    return found
+
+
+def _response(name: str, like: str, values: xr.DataArray, place: str) -> Response:
+    # In the unit of a quantity.
+    if not place:
+        values, place = values.expand_dims("place"), "place"
+    numbers = values.transpose("time", place, "axis").to_numpy().astype(np.float64)
+    named = place in values.coords
+    places = tuple(map(str, values[place].to_numpy())) if named else (name,)
+    return Response(name, *QUANTITIES[like].in_figures, places, numbers)
+
+
+def as_shapes(moves: FloatArray, arm: float, tolerance: float) -> Shapes:
+    """Return displacements of nodes as the fewest shapes that hold them (their proper modes).
+
+    Shapes: moves (n_steps, n_nodes, 6).
+    """
+    weights = np.array([1.0, 1.0, 1.0, arm, arm, arm])
+    table = (moves * weights).reshape(len(moves), -1)
+    every = -(-len(table) // _SNAPSHOTS)
+    sizes = np.abs(table).max(axis=1)
+    snapshots = np.vstack([table[::every], table[[int(sizes.argmax())]]])
+    basis = np.linalg.svd(snapshots, full_matrices=False)[2]
+    allowed = tolerance * float(sizes.max())
+    low, high = 0, len(basis)
+    while low < high:  # the fewest that are enough
+        middle = (low + high) // 2
+        if _error(table, basis[:middle]) <= allowed:
+            high = middle
+        else:
+            low = middle + 1
+    chosen = basis[:low]
+    shapes = (chosen.reshape(low, moves.shape[1], 6) / weights).reshape(chosen.shape)
+    return Shapes(table @ chosen.T, shapes, _error(table, chosen))
+
+
+def _error(table: FloatArray, basis: FloatArray) -> float:
+    return float(np.abs(table - (table @ basis.T) @ basis).max())

@@ -27,8 +27,7 @@ from frames.plots.drawn_device import device_of
 from frames.plots.model_geometry import member_lines
 from frames.viewer import write_view
 from frames.viewer.instants import kept_steps
-from frames.viewer.payload import SHAPE_ERROR
-from frames.viewer.shapes import as_shapes
+from frames.viewer.payload import SHAPE_ERROR, as_shapes
 from tests.viewed import BEARING, Judged, building, payload
 
 pytestmark = pytest.mark.meant("eccentricity|settles by|gap|slip")

@@ -15,6 +15,8 @@ from frames.design.histories.suite import (
     peaks_of_runs,
     stopped_in,
 )
+from frames.results.quantities import DEMANDS, Quantity
+from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -27,37 +29,9 @@ if TYPE_CHECKING:
     from frames.design.codes.history_rules import HistoryRules
     from frames.design.histories.suite import Suite
 
-COUNTED = {
-    "uplifts, all bearings": "uplifts",
-    "uplift duration": "time_lifted",
-    "maximum uplift": "gap",
-}
+COUNTED = {DEMANDS[name].demand for name in ("uplifts", "time_lifted", "gap")}
 """Rows of uplift, of which codes without uplift leave small gaps aside."""
 
-DEMANDS = (
-    ("isolator displacement", "displacement", "m", 1.0),
-    ("residual displacement", "displacement_left", "m", 1.0),
-    ("interface slip", "slip", "m", 1.0),
-    ("residual interface slip", "slip_left", "m", 1.0),
-    ("rim force", "rim_force", "N", 1.0),
-    ("maximum axial force", "axial_force", "N", 1.0),
-    ("minimum axial force", "axial_tension", "N", -1.0),
-    ("uplifts, all bearings", "uplifts", "-", 1.0),
-    ("uplift duration", "time_lifted", "s", 1.0),
-    ("maximum uplift", "gap", "m", 1.0),
-    ("base shear", "base_shear", "N", 1.0),
-    ("storey shear", "storey_shear", "N", 1.0),
-    ("storey drift ratio", "drift", "-", 1.0),
-    ("storey drift ratio, maximum at any column line", "line_drift", "-", 1.0),
-    ("floor acceleration in plan", "floor_plan", "m/s2", 1.0),
-)
-"""Rows of the table: title, quantity, unit, and the sign with which its extreme is the largest."""
-
-_NOTES = {
-    "storey drift ratio": "mean of the storey, in plan",
-    "storey drift ratio, maximum at any column line": "in plan",
-    "floor acceleration in plan": "mean of the level",
-}
 _ENDS = ("unit", "envelope", "where", "worst", "run", "note", "void", "level")
 
 
@@ -74,12 +48,12 @@ def demand_table(
     every = {bound: with_moved(data, beside.get(bound)) for bound, data in runs.items()}
     void = "; ".join(f"{b}: {s.void}" if b else s.void for b, s in suites.items() if s.void)
     rows = []
-    for title, name, unit, sign in DEMANDS:
-        there = {b: data for b, data in runs.items() if f"reached_{name}" in data}
+    for name, quantity in DEMANDS.items():
+        there = {b: data for b, data in runs.items() if REACHED + name in data}
         if there:
-            row: dict[str, Any] = {"quantity": title, "unit": unit}
-            row |= _numbers(there, every, suites, name, sign)
-            row |= {"note": _note(title, rules), "void": void}
+            row: dict[str, Any] = {"quantity": quantity.demand, "unit": quantity.pure_unit}
+            row |= _numbers(there, every, suites, name, quantity.sign)
+            row |= {"note": _note(quantity, rules), "void": void}
             rows.append(row)
     table = pd.DataFrame(rows).set_index("quantity")
     table.attrs = {
@@ -165,10 +139,10 @@ def reached_by(data: xr.Dataset, name: str) -> FloatArray:
     return values
 
 
-def _note(title: str, rules: HistoryRules) -> str:
-    if title in COUNTED and not rules.uplift_allowed:
+def _note(quantity: Quantity, rules: HistoryRules) -> str:
+    if quantity.demand in COUNTED and not rules.uplift_allowed:
         return f"of any gap; a run fails above {1e3 * rules.least_gap:g} mm ({rules.cited})"
-    return _NOTES.get(title, "")
+    return quantity.note
 
 
 def said(suite: Suite) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from frames.design.histories.suite import (
     peaks_of_runs,
     suite_of,
 )
+from frames.results.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -41,26 +42,11 @@ WAYS: Mapping[str, tuple[float, float]] = {
 WAY = "masses_moved"
 """Coordinate of runs that says which way the masses were moved."""
 
-_RAISED: tuple[tuple[str, str, Literal["factor", "difference"]], ...] = (
-    ("displacement", "m", "factor"),
-    ("force", "N", "factor"),
-    ("axial_force", "N", "factor"),
-    ("base_shear", "N", "factor"),
-    ("storey_shear", "N", "factor"),
-    ("drift", "-", "factor"),
-    ("line_drift", "-", "factor"),
-    ("floor_plan", "m/s2", "factor"),
-    ("slip", "m", "difference"),
-    ("rim_force", "N", "difference"),
-    ("rim_plastic", "m", "difference"),
-    ("eccentricity_loaded", "-", "difference"),
-    ("axial_tension", "N", "difference"),
-    ("displacement_left", "m", "difference"),
-    ("slip_left", "m", "difference"),
+_RAISED = sorted(
+    (name for name, quantity in QUANTITIES.items() if quantity.raised),
+    key=lambda name: (QUANTITIES[name].raised == "difference", QUANTITIES[name].kind == "final"),
 )
-"""Quantities that moved masses raise: by a factor, or, where what begins at a threshold may be
-nothing while the masses are where they are, by a difference. Of rims none of which yields nothing
-is said."""
+"""Quantities that moved masses raise. Of rims none of which yields nothing is said."""
 
 
 def raises_of(
@@ -70,7 +56,7 @@ def raises_of(
     table, failed = _each_way(data, moved, rules)
     found: dict[str, Amplification] = {}
     for (name, way), (centred, reached, motions) in table.items():
-        one = _raise(way, centred, reached, motions, dict(_KINDS)[name])
+        one = _raise(way, centred, reached, motions, QUANTITIES[name].raised)
         worst = found.get(name)
         if worst is None or (one.factor, one.added) > (worst.factor, worst.added):
             found[name] = one
@@ -86,20 +72,19 @@ def eccentricity_table(
     import pandas as pd
 
     rows: list[dict[str, Any]] = []
-    units = {name: unit for name, unit, _ in _RAISED}
     for level, each in moved.items():
         for bound, data in each.items():
             table, failed = _each_way(runs[level][bound], data, rules)
             for (name, way), (centred, reached, motions) in table.items():
-                one = _raise(way, centred, reached, motions, dict(_KINDS)[name])
-                factored = dict(_KINDS)[name] == "factor"
+                one = _raise(way, centred, reached, motions, QUANTITIES[name].raised)
+                factored = QUANTITIES[name].raised == "factor"
                 rows.append(
                     {
                         "level": level,
                         "bound": bound,
                         "masses": way,
                         "quantity": name.replace("_", " "),
-                        "unit": units[name],
+                        "unit": QUANTITIES[name].pure_unit,
                         "centred": centred,
                         "moved": reached,
                         "factor": one.factor if factored else math.nan,
@@ -160,8 +145,6 @@ _OF_SUITES = (
 )
 """What `suite_of` and `names_of` look at, beside the runs' coordinates."""
 
-_KINDS = tuple((name, kind) for name, _, kind in _RAISED)
-
 Pairs = dict[tuple[str, str], tuple[float, float, str]]
 """Largest values with the masses where they are and moved, and of which motions, by quantity and
 way."""
@@ -197,7 +180,7 @@ def added_by_moved(
 def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple[Pairs, str]:
     # Of each way the same motions are compared, as the code counts them together. To select runs
     # takes as long as there are variables, of which few are looked at.
-    wanted = (*(f"reached_{name}" for name, _, _ in _RAISED), *_OF_SUITES)
+    wanted = (*(f"reached_{name}" for name in _RAISED), *_OF_SUITES)
     data, moved = (part[[n for n in wanted if n in part.variables]] for part in (data, moved))
     found, failed = Pairs(), []
     for way, here, there in pairs_by_way(data, moved):
@@ -211,7 +194,7 @@ def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple
         if not whole:
             motions = ", ".join(motion_of(there, k) for k in range(there.sizes["run"]))
         compared = tuple(zip((here, there), suites, strict=True))
-        for name, _, _ in _RAISED:
+        for name in _RAISED:
             if f"reached_{name}" in data and f"reached_{name}" in there:
                 pair = [_largest(each, name, suite) for each, suite in compared]
                 if name == "rim_plastic" and not any(pair):

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design.histories.demand_table import (
-    DEMANDS,
     reached_by,
     values_for_design,
     worst_place,
 )
 from frames.design.histories.eccentricity import WAY, raised_suite
 from frames.design.histories.suite import names_of, suite_of
+from frames.results.quantities import JUDGED
+from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -25,13 +26,6 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.design.calculation.check import Bound
     from frames.design.codes.history_rules import HistoryRules
-
-QUANTITIES = (
-    *DEMANDS,
-    ("lateral force of a bearing", "force", "N", 1.0),
-    ("normalised eccentricity e/a", "eccentricity_loaded", "-", 1.0),
-)
-"""Columns: title, quantity, unit and sign; those of the demands, and what checks take besides."""
 
 KEYS = ("level", "bound", "masses moved", "motion", "scale", "status", "failed")
 """Columns that say of which run a row is."""
@@ -55,9 +49,10 @@ def demands_by_motion(
                 key: [value for one, _ in there for value in _key(one, key, rules)]
                 for key in KEYS[2:]
             }
-            for title, name, unit, sign in QUANTITIES:
-                if f"reached_{name}" not in data:
+            for name, quantity in JUDGED.items():
+                if REACHED + name not in data:
                     continue
+                title, unit, sign = quantity.heading, quantity.pure_unit, quantity.sign
                 k = worst_place(values_for_design(data, suite, name))
                 values = np.concatenate([reached_by(one, name) for one, _ in there])
                 cells[f"{title} [{unit}]"] = sign * values[:, k] + 0.0  # no -0

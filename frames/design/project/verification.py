@@ -13,6 +13,7 @@ from frames.design._errors import CheckError, ProjectError
 from frames.design.project.design_run import run_project
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.schema import bearing_table
+from frames.results.quantities import DEMANDS
 from lir_element.errors import AnalysisError
 
 if TYPE_CHECKING:
@@ -24,14 +25,7 @@ if TYPE_CHECKING:
     from frames.design.sizing.candidate import Candidate
     from lir_element import LIRBearing
 
-_DEMANDS = (
-    "isolator displacement",
-    "interface slip",
-    "rim force",
-    "base shear",
-    "storey drift ratio",
-    "floor acceleration in plan",
-)
+_DEMANDS = ("displacement", "slip", "rim_force", "base_shear", "drift", "floor_plan")
 
 
 class Verified(NamedTuple):
@@ -70,7 +64,7 @@ class Verified(NamedTuple):
             return found | {"fails": f"cannot be run: {self.reason}"}
         demands = self.run.demands
         own = demands[demands["level"] == self.run.rules.bearing_level]
-        for name in _DEMANDS:
+        for name in (DEMANDS[key].demand for key in _DEMANDS):
             if name in own.index:
                 found[f"{name} [{own.loc[name, 'unit']}]"] = float(own.loc[name, "envelope"])
         every = [data for each in self.run.runs.values() for data in each.values()]

@@ -11,6 +11,7 @@ from frames.design.project.comparison import BY_MOTION, OURS, PLAIN
 from frames.design.report.page import Picture, picture
 from frames.plots import bearing_sections, hysteresis, storey_profiles
 from frames.plots import plot_style as ps
+from frames.results.quantities import DEMANDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 _DEVICES = (OURS, PLAIN)
 _MARKERS = ("o", "s")
 _ASIDE = (-0.12, 0.12)  # of the number of the motion
-_SHOWN = {"m": ("mm", 1e3), "-": ("%", 1e2), "N": ("kN", 1e-3), "m/s2": ("m/s²", 1.0)}
 
 
 def by_motion(table: pd.DataFrame) -> Figure:
@@ -44,8 +44,8 @@ def by_motion(table: pd.DataFrame) -> Figure:
 
 
 def _panel(panel: Axes, table: pd.DataFrame, title: str) -> None:
-    name, _, unit = title.removesuffix("]").partition(" [")
-    shown, factor = _SHOWN[unit]
+    quantity = DEMANDS[BY_MOTION[title]]
+    shown, factor = quantity.in_figures
     motions = list(dict.fromkeys(table["motion"]))
     for k, device in enumerate(_DEVICES):
         rows = table[table["device"] == device].set_index("motion").loc[motions]
@@ -66,7 +66,7 @@ def _panel(panel: Axes, table: pd.DataFrame, title: str) -> None:
     panel.set_xticks(range(1, len(motions) + 1))
     panel.set_xlim(0.5, len(motions) + 0.5)
     panel.set_ylim(0.0, 1.2 * factor * float(np.nanmax(table[title])) or 1.0)
-    ps.caption(panel, x="number of the motion", y=f"{name} [{shown}]")
+    ps.caption(panel, x="number of the motion", y=f"{quantity.demand} [{shown}]")
 
 
 def comparison_pictures(

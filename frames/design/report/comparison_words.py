@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design.calculation.rendering import quantity, usual_unit
 from frames.design.project.comparison import OURS, PLAIN
+from frames.results.quantities import DEMANDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,18 +19,18 @@ if TYPE_CHECKING:
 ALIKE = 0.02
 """Difference of two numbers over the larger up to which they are called alike [-]."""
 
-PRICE = ("interface slip", "residual interface slip")
+PRICE = tuple(DEMANDS[name].demand for name in ("slip", "slip_left"))
 """Demands that a rigid slider cannot have: the price of the slider in two pieces."""
 
-MAIN = (
-    "isolator displacement",
-    "residual displacement",
-    "rim force",
-    "maximum uplift",
-    "base shear",
-    "storey drift ratio",
-    "floor acceleration in plan",
-)
+MAIN = [
+    "displacement",
+    "displacement_left",
+    "rim_force",
+    "gap",
+    "base_shear",
+    "drift",
+    "floor_plan",
+]
 """Demands that decide which device is called better: tables have the others as well."""
 
 
@@ -125,7 +126,7 @@ def _sorted(ours: pd.DataFrame, plain: pd.DataFrame) -> tuple[list[str], list[st
     lower: list[str] = []
     higher: list[str] = []
     alike: list[str] = []
-    for name in (name for name in MAIN if name in ours.index):
+    for name in (DEMANDS[key].demand for key in MAIN if DEMANDS[key].demand in ours.index):
         one, two = float(ours.loc[name, "envelope"]), float(plain.loc[name, "envelope"])
         if math.isnan(one) or math.isnan(two):
             continue

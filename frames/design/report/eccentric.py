@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from frames.design.calculation.standing import MEMORY
 from frames.design.codes.registry import code_named
-from frames.design.histories.motion_table import QUANTITIES
 from frames.design.report.columns import in_parts
 from frames.design.report.page import Table, page_table
+from frames.results.quantities import JUDGED
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from frames.design.project.design_run import ProjectRun
 
 
-_TITLES = {name.replace("_", " "): title for title, name, _, _ in QUANTITIES}
+_TITLES = {name.replace("_", " "): quantity.heading for name, quantity in JUDGED.items()}
 _TITLES |= {"axial tension": "maximum axial tension"}  # as the table has it, not its negative
 """What the demands call the quantities of ``eccentricity.csv``."""
 

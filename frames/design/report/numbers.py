@@ -16,6 +16,7 @@ from frames.design.histories.motion_table import demands_by_motion
 from frames.design.histories.suite import peaks_of_runs, stopped_in
 from frames.design.report.by_motion import BY_MOTION
 from frames.design.report.member_groups import member_groups, without_forces
+from frames.results.quantities import QUANTITIES
 from frames.statics.modes import modes
 
 if TYPE_CHECKING:
@@ -24,13 +25,13 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
 
 _REACHED = {
-    "displacement [m]": ("displacement", 1.0),
-    "slip [m]": ("slip", 1.0),
-    "rim force [N]": ("rim_force", 1.0),
-    "largest load [N]": ("axial_force", 1.0),
-    "least load [N]": ("axial_tension", -1.0),
+    "displacement [m]": "displacement",
+    "slip [m]": "slip",
+    "rim force [N]": "rim_force",
+    "largest load [N]": "axial_force",
+    "least load [N]": "axial_tension",
 }
-"""What each bearing reached in all runs at all bounds: the largest of a quantity, with a sign."""
+"""What each bearing reached in all runs at all bounds."""
 
 ECCENTRICITY = "eccentricity"
 """Name of the table of what moved masses raise."""
@@ -68,10 +69,10 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
     if len(set(run.types.values())) > 1:
         table.insert(0, "type", [run.types[name] for name in links])
     both = (*run.runs.values(), *run.moved.values())
-    for title, (name, sign) in _REACHED.items():
+    for title, name in _REACHED.items():
         every = (data for each in both for data in each.values())
         values = [peaks_of_runs(data, name).max(axis=0) for data in every]
-        table[title] = sign * np.max(values, axis=0)
+        table[title] = QUANTITIES[name].sign * np.max(values, axis=0)
     stopped = [stopped_in(data) for runs in both for data in runs.values()]
     if count := sum(int(each.sum()) for each in stopped):
         table["void"] = f"{count} of {sum(map(len, stopped))} runs failed"

@@ -15,6 +15,7 @@ from frames.design.histories.eccentricity import raised_suite
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.plots import plot_style as ps
 from frames.results.peak_response import largest
+from frames.results.quantities import JUDGED
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,14 +28,13 @@ if TYPE_CHECKING:
     from frames.design.project.design_run import ProjectRun
 
 _OF_BEARINGS = {
-    "isolator displacement": "displacement",
+    quantity.heading: name
+    for name, quantity in JUDGED.items()
+    if quantity.dims == ("bearing",) and quantity.kind == "peak" and name != "gap"
+} | {
     "slip over the overlap": "slip",
     "slip over its stable limit s*": "slip",
     "residual slip": "slip_left",
-    "rim force": "rim_force",
-    "normalised eccentricity e/a": "eccentricity_loaded",
-    "lateral force of a bearing": "force",
-    "maximum axial force": "axial_force",
 }
 """Checks whose demand is of one bearing, and the quantity that it is of."""
 
@@ -72,13 +72,10 @@ class Reached(NamedTuple):
     is_usable: bool
 
 
-def reached(run: ProjectRun, name: str, *, of_bearings: bool) -> list[Reached]:
+def reached(run: ProjectRun, name: str) -> list[Reached]:
     """Return what all motions reached of a quantity at each bound."""
-    level = next(
-        level.name
-        for level in run.rules.levels
-        if (level.judges_bearings if of_bearings else level.judges_structure)
-    )
+    of_bearings = JUDGED[name].dims == ("bearing",)
+    level = run.rules.bearing_level if of_bearings else _structure_level(run)
     found = []
     for bound, data in run.runs[level].items():
         if f"reached_{name}" not in data:
@@ -104,17 +101,16 @@ def reached(run: ProjectRun, name: str, *, of_bearings: bool) -> list[Reached]:
     return found
 
 
+def _structure_level(run: ProjectRun) -> str:
+    return next(level.name for level in run.rules.levels if level.judges_structure)
+
+
 def motions_figure(run: ProjectRun) -> Figure:
     """Draw displacement, slip and drift of every motion at every bound, and what counts of them."""
-    quantities = (
-        ("isolator displacement", "displacement", "mm", 1e3, True),
-        ("interface slip", "slip", "mm", 1e3, True),
-        ("storey drift ratio", "drift", "%", 1e2, False),
-    )
     shown = [
-        (title, unit, factor, found)
-        for title, name, unit, factor, of_bearings in quantities
-        if (found := reached(run, name, of_bearings=of_bearings))
+        (JUDGED[name].demand, *JUDGED[name].in_figures, found)
+        for name in ("displacement", "slip", "drift")
+        if (found := reached(run, name))
     ]
     figure, panels = ps.panels_of(len(shown), 1, 1.75, share=False)
     for panel, (title, unit, factor, found) in zip(panels, shown, strict=True):
@@ -173,7 +169,7 @@ def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
 
 def profiles_figure(run: ProjectRun) -> Figure | None:
     """Draw the drift of every storey in every motion, and what counts of it."""
-    level = next(level.name for level in run.rules.levels if level.judges_structure)
+    level = _structure_level(run)
     runs = {bound: data for bound, data in run.runs[level].items() if "reached_drift" in data}
     if not runs or peaks_of_runs(next(iter(runs.values())), "drift").shape[1:] < (2,):
         return None
