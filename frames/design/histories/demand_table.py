@@ -7,26 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames.design.histories.eccentricity import raised_suite, with_moved
-from frames.design.histories.suite import (
-    end_of,
-    motion_of,
-    names_of,
-    peaks_of_runs,
-    stopped_in,
-)
+from frames.design.histories.eccentricity import reached_by
+from frames.design.histories.suite import end_of, motion_of, names_of
 from frames.results.quantities import DEMANDS, Quantity
-from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     import pandas as pd
-    import xarray as xr
 
     from frames._types import FloatArray
-    from frames.design.calculation.check import Bound
     from frames.design.codes.history_rules import HistoryRules
+    from frames.design.histories.eccentricity import Case
     from frames.design.histories.suite import Suite
 
 COUNTED = {DEMANDS[name].demand for name in ("uplifts", "time_lifted", "gap")}
@@ -35,55 +27,43 @@ COUNTED = {DEMANDS[name].demand for name in ("uplifts", "time_lifted", "gap")}
 _ENDS = ("unit", "envelope", "where", "worst", "run", "note", "void", "level")
 
 
-def demand_table(
-    runs: Mapping[Bound, xr.Dataset],
-    rules: HistoryRules,
-    moved: Mapping[Bound, xr.Dataset] | None = None,
-) -> pd.DataFrame:
+def demand_table(cases: Sequence[Case]) -> pd.DataFrame:
     """Return what time histories give for design at each bound: see `history_demands`."""
     import pandas as pd
 
-    beside = moved or {}
-    suites = {bound: raised_suite(data, beside.get(bound), rules) for bound, data in runs.items()}
-    every = {bound: with_moved(data, beside.get(bound)) for bound, data in runs.items()}
+    suites = {case.bound: case.suite for case in cases}
     void = "; ".join(f"{b}: {s.void}" if b else s.void for b, s in suites.items() if s.void)
     rows = []
     for name, quantity in DEMANDS.items():
-        there = {b: data for b, data in runs.items() if REACHED + name in data}
+        there = [case for case in cases if case.keeps(name)]
         if there:
             row: dict[str, Any] = {"quantity": quantity.demand, "unit": quantity.pure_unit}
-            row |= _numbers(there, every, suites, name, quantity.sign)
-            row |= {"note": _note(quantity, rules), "void": void}
+            row |= _numbers(there, name, quantity.sign)
+            row |= {"note": _note(quantity, cases[0].rules), "void": void}
             rows.append(row)
     table = pd.DataFrame(rows).set_index("quantity")
     table.attrs = {
         "statistics": {bound or "value": said(suite) for bound, suite in suites.items()},
-        "runs": sum(data.sizes["run"] for data in every.values()),
+        "runs": sum(case.every.sizes["run"] for case in cases),
     }
     return table
 
 
-def _numbers(
-    runs: Mapping[Bound, xr.Dataset],
-    every: Mapping[Bound, xr.Dataset],
-    suites: Mapping[Bound, Suite],
-    name: str,
-    sign: float,
-) -> dict[str, Any]:
+def _numbers(cases: Sequence[Case], name: str, sign: float) -> dict[str, Any]:
     # The cells of a row, of what is worst at each bound, over the bounds, and of single runs.
     cells: dict[str, Any] = {}
     envelope, where, worst, run = -math.inf, "", -math.inf, ""
-    for bound, data in runs.items():
-        each = values_for_design(data, suites[bound], name)
+    for case in cases:
+        each = case.design(name)
         k = worst_place(each)
-        cells[bound or "value"] = sign * each[k] + 0.0  # no -0
+        cells[case.bound or "value"] = sign * each[k] + 0.0  # no -0
         if each[k] > envelope:
-            envelope, where = each[k], names_of(data, name)[k]
-        largest = np.nanmax(reached_by(every[bound], name), axis=1, initial=-math.inf)
+            envelope, where = each[k], names_of(case.data, name)[k]
+        largest = np.nanmax(reached_by(case.every, name), axis=1, initial=-math.inf)
         if largest.max() > worst:
             worst, one = float(largest.max()), int(largest.argmax())
-            named = f"{motion_of(every[bound], one)}{end_of(every[bound], one)}"
-            run = ", ".join(part for part in (named, bound) if part)
+            named = f"{motion_of(case.every, one)}{end_of(case.every, one)}"
+            run = ", ".join(part for part in (named, case.bound) if part)
     found = {"envelope": envelope, "worst": worst}
     known = {key: sign * v + 0.0 if math.isfinite(v) else math.nan for key, v in found.items()}
     return cells | {
@@ -94,49 +74,17 @@ def _numbers(
     }
 
 
-def largest_of_bounds(
-    runs: Mapping[Bound, xr.Dataset],
-    rules: HistoryRules,
-    name: str,
-    moved: Mapping[Bound, xr.Dataset] | None = None,
-) -> FloatArray:
-    """Return the largest of all bounds of `values_for_design`, of each bearing.
+def largest_of_bounds(cases: Sequence[Case], name: str) -> FloatArray:
+    """Return the largest values for design of all bounds, of each bearing.
 
     Shapes: result (n_bearings,).
     """
-    rows = []
-    for bound, data in runs.items():
-        suite = raised_suite(data, (moved or {}).get(bound), rules)
-        rows.append(values_for_design(data, suite, name))
-    return np.asarray(np.fmax.reduce(rows, axis=0), dtype=np.float64)
-
-
-def values_for_design(data: xr.Dataset, suite: Suite, name: str) -> FloatArray:
-    """Return what the runs of a bound give for design of a quantity at each of its places.
-
-    Shapes: result (m,).
-    """
-    columns = reached_by(data, name)
-    if suite.void and name.endswith("_left") and np.isnan(columns).any():
-        return np.full(columns.shape[1], math.nan)
-    return np.array([suite.value(column, name) for column in columns.T])
+    return np.asarray(np.fmax.reduce([case.design(name) for case in cases], axis=0))
 
 
 def worst_place(each: FloatArray) -> int:
-    """Return the place of the largest of `values_for_design`; what is not known is not worst."""
+    """Return the place of the largest value for design; what is not known is not worst."""
     return int(np.argmax(np.nan_to_num(each, nan=-math.inf)))
-
-
-def reached_by(data: xr.Dataset, name: str) -> FloatArray:
-    """Return what runs reached at each place of a quantity.
-
-    Shapes: result (n_runs, m).
-    """
-    values = peaks_of_runs(data, name)
-    values = values.reshape(len(values), -1).copy()
-    if name.endswith("_left"):
-        values[stopped_in(data)] = math.nan
-    return values
 
 
 def _note(quantity: Quantity, rules: HistoryRules) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from frames.design.histories.eccentricity import named_by_way
+from frames.design.histories.eccentricity import cases_of
 from frames.design.histories.suite import failures_of
 from lir_element.errors import RunStatus
 
@@ -57,19 +57,16 @@ def failed_runs(
 ) -> list[FailedRuns]:
     """Return the runs that failed, by level, bound and cause."""
     found = []
-    for level, each in runs.items():
-        for bound, data in each.items():
-            beside = (moved or {}).get(level, {}).get(bound)
-            parts = [data, *([] if beside is None else [named_by_way(beside)])]
-            every = [one for part in parts for one in failures_of(part, rules)]
-            causes: dict[str, list[Failure]] = {}
-            for one in every:
-                if one is not None:
-                    causes.setdefault(_cause(one), []).append(one)
-            found += [
-                FailedRuns(level, bound, len(ones), len(every), cause, _named(ones))
-                for cause, ones in causes.items()
-            ]
+    for case in cases_of(runs, rules, moved):
+        every = failures_of(case.every, rules)
+        causes: dict[str, list[Failure]] = {}
+        for one in every:
+            if one is not None:
+                causes.setdefault(_cause(one), []).append(one)
+        found += [
+            FailedRuns(case.level, case.bound, len(ones), len(every), cause, _named(ones))
+            for cause, ones in causes.items()
+        ]
     return found
 
 

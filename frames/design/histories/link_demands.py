@@ -7,13 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design.histories.demand_table import said
-from frames.design.histories.eccentricity import (
-    added_by_moved,
-    every_motion,
-    raised_suite,
-)
-from frames.design.histories.suite import peaks_of_runs
-from frames.results.recorded import REACHED
+from frames.design.histories.eccentricity import cases_of
+from frames.design.histories.suite import names_of, peaks_of_runs
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -34,34 +29,23 @@ def link_demands(runs: Runs, rules: HistoryRules, moved: Runs | None = None) -> 
     import pandas as pd
 
     tables = []
-    for level, each in runs.items():
-        for bound, data in each.items():
-            if f"{REACHED}link_force" not in data:
-                continue
-            beside = (moved or {}).get(level, {}).get(bound)
-            suite = raised_suite(data, beside, rules)
-            table = pd.DataFrame({"link": list(map(str, data["link"].to_numpy()))})
-            table = table.assign(bound=bound, statistic=said(suite))
-            for title, name in _COLUMNS.items():
-                value = suite.values(peaks_of_runs(data, name))
-                if not suite.void:
-                    more, _ = added_by_moved(
-                        data,
-                        beside,
-                        rules,
-                        lambda one, name=name: peaks_of_runs(one, name),  # type: ignore[misc]
-                    )
-                    value = value + more
-                table[title] = value
-            every = [data] if beside is None else [data, beside]
-            forces = np.concatenate([peaks_of_runs(one, "link_force") for one in every])
-            counts = np.full(len(forces), True)  # of those that failed none, if the others stand
-            counts[: len(suite.failed)] = not suite.is_usable or ~np.array(suite.failed)
-            known = np.where(counts[:, None], forces, -np.inf)
-            which = np.nan_to_num(known, nan=-np.inf).argmax(axis=0)
-            table["motion"] = np.array(every_motion(data, beside), dtype=object)[which]
-            table["its force [N]"] = forces[which, np.arange(len(which))]
-            tables.append(table.assign(void=suite.void, level=level))
+    for case in cases_of(runs, rules, moved):
+        if not case.keeps("link_force"):
+            continue
+        suite = case.suite
+        table = pd.DataFrame({"link": names_of(case.data, "link_force")})
+        table = table.assign(bound=case.bound, statistic=said(suite))
+        for title, name in _COLUMNS.items():
+            more, _ = case.added(lambda one, name=name: peaks_of_runs(one, name))  # type: ignore[misc]
+            table[title] = suite.values(peaks_of_runs(case.data, name)) + more
+        forces = case.all_runs(lambda one: peaks_of_runs(one, "link_force"))
+        counts = np.full(len(forces), True)  # of those that failed none, if the others stand
+        counts[: len(suite.failed)] = not suite.is_usable or ~np.array(suite.failed)
+        known = np.where(counts[:, None], forces, -np.inf)
+        which = np.nan_to_num(known, nan=-np.inf).argmax(axis=0)
+        table["motion"] = np.array(case.motions, dtype=object)[which]
+        table["its force [N]"] = forces[which, np.arange(len(which))]
+        tables.append(table.assign(void=suite.void, level=case.level))
     return pd.concat(tables).set_index("level") if tables else pd.DataFrame()
 
 

@@ -7,15 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.design.histories.demand_table import (
-    reached_by,
-    values_for_design,
-    worst_place,
-)
-from frames.design.histories.eccentricity import WAY, raised_suite
+from frames.design.histories.demand_table import worst_place
+from frames.design.histories.eccentricity import WAY, cases_of, reached_by
 from frames.design.histories.suite import names_of, suite_of
 from frames.results.quantities import JUDGED
-from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -40,30 +35,26 @@ def demands_by_motion(
     import pandas as pd
 
     parts = []
-    for level, each in runs.items():
-        for bound, data in each.items():
-            beside = (moved or {}).get(level, {}).get(bound)
-            there = [(data, ""), *([(beside, WAY)] if beside is not None else [])]
-            suite = raised_suite(data, beside, rules)
-            cells: dict[str, Sequence[object] | FloatArray] = {
-                key: [value for one, _ in there for value in _key(one, key, rules)]
-                for key in KEYS[2:]
-            }
-            for name, quantity in JUDGED.items():
-                if REACHED + name not in data:
-                    continue
-                title, unit, sign = quantity.heading, quantity.pure_unit, quantity.sign
-                k = worst_place(values_for_design(data, suite, name))
-                values = np.concatenate([reached_by(one, name) for one, _ in there])
-                cells[f"{title} [{unit}]"] = sign * values[:, k] + 0.0  # no -0
-                where = names_of(data, name)
-                if where != ("",):
-                    cells[f"{title}, at"] = [where[k]] * len(values)
-                    cells[f"{title}, farthest [{unit}]"] = sign * _farthest(values) + 0.0
-            part = pd.DataFrame(cells)
-            part.insert(0, "level", level)
-            part.insert(1, "bound", bound)
-            parts.append(part)
+    for case in cases_of(runs, rules, moved):
+        there = [case.data, *([] if case.moved is None else [case.moved])]
+        cells: dict[str, Sequence[object] | FloatArray] = {
+            key: [value for one in there for value in _key(one, key, rules)] for key in KEYS[2:]
+        }
+        for name, quantity in JUDGED.items():
+            if not case.keeps(name):
+                continue
+            title, unit, sign = quantity.heading, quantity.pure_unit, quantity.sign
+            k = worst_place(case.design(name))
+            values = case.all_runs(lambda one, name=name: reached_by(one, name))  # type: ignore[misc]
+            cells[f"{title} [{unit}]"] = sign * values[:, k] + 0.0  # no -0
+            where = names_of(case.data, name)
+            if where != ("",):
+                cells[f"{title}, at"] = [where[k]] * len(values)
+                cells[f"{title}, farthest [{unit}]"] = sign * _farthest(values) + 0.0
+        part = pd.DataFrame(cells)
+        part.insert(0, "level", case.level)
+        part.insert(1, "bound", case.bound)
+        parts.append(part)
     return pd.concat(parts, ignore_index=True)
 
 

@@ -105,24 +105,10 @@ class Suite:
 
         Shapes: values (n_runs,).
         """
-        if not self.is_usable:
-            known = values[np.isfinite(values)]
-            if not len(known):
-                return math.nan
-            return float(known.mean() if self.statistic == "mean" else known.max())
-        value = self._of_suite(values)
-        more = self.raised.get(of)
-        return value if more is None else more.factor * value + more.added
+        return float(self.values(values, of))
 
-    def _of_suite(self, values: FloatArray) -> float:
-        good = values[~np.array(self.failed)]
-        if self.statistic != "mean":
-            return float(good.max())
-        mean = float(good.mean())
-        return max(mean, self.median_factor * self._median(values)) if any(self.failed) else mean
-
-    def values(self, values: FloatArray) -> FloatArray:
-        """Return the values for design of many quantities at once: `value` of each.
+    def values(self, values: FloatArray, of: str = "") -> FloatArray:
+        """Return the values for design of many places at once, each with what raises `of`.
 
         Shapes: values (n_runs, ...).
         """
@@ -132,16 +118,14 @@ class Suite:
             known = np.where(gone, 0.0, known)
             of_all = np.nanmean if self.statistic == "mean" else np.nanmax
             return np.asarray(np.where(gone, math.nan, of_all(known, axis=0)))
-        failed = np.array(self.failed)
+        failed, more = np.array(self.failed), self.raised.get(of)
         good = values[~failed]
-        if self.statistic != "mean":
-            return np.asarray(good.max(axis=0))
-        mean = good.mean(axis=0)
-        if not failed.any():
-            return np.asarray(mean)
-        above = failed.reshape(-1, *(1,) * (values.ndim - 1))
-        median = np.median(np.where(above, math.inf, values), axis=0)
-        return np.asarray(np.maximum(mean, self.median_factor * median))
+        found = good.mean(axis=0) if self.statistic == "mean" else good.max(axis=0)
+        if self.statistic == "mean" and failed.any():
+            above = failed.reshape(-1, *(1,) * (values.ndim - 1))
+            median = np.median(np.where(above, math.inf, values), axis=0)
+            found = np.maximum(found, self.median_factor * median)
+        return np.asarray(found if more is None else more.factor * found + more.added)
 
     def enter(
         self,

@@ -11,8 +11,8 @@ import xarray as xr
 
 from frames.design.calculation.check import Checks
 from frames.design.codes.prototype_programme import ProgrammeDemands
-from frames.design.histories.demand_table import largest_of_bounds
-from frames.design.histories.histories import history_demands
+from frames.design.histories.demand_table import demand_table, largest_of_bounds, void_said
+from frames.design.histories.eccentricity import Case, cases_of
 from frames.design.histories.impacts import rim_engagement
 from frames.design.project import moat_checks as moat_checks  # which it registers
 from frames.design.project import run_checks as run_checks  # which it registers
@@ -30,7 +30,7 @@ from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     from frames.batch.cases import BatchProgress
@@ -178,7 +178,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
     moved = histories.moved
     demands = demands_at_levels(runs, rules, moved)
     level = rules.bearing_level
-    types = _types(parts, known, runs[level], moved.get(level, {}))
+    types = _types(parts, known, cases_of({level: runs[level]}, rules, moved))
     asked = _of_all(types)
     run = RunToCheck(
         code=parts.code(),
@@ -236,14 +236,12 @@ def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:
 def _types(
     parts: ProjectInputs,
     known: Preliminary,
-    runs: Mapping[Bound, xr.Dataset],
-    moved: Mapping[Bound, xr.Dataset],
+    cases: Sequence[Case],
 ) -> dict[str, TypeOfBearing]:
     # Of each type of bearing what combinations and histories ask, those at the level of bearings.
-    rules, found = parts.rules(), {}
-    void = next((str(why) for why in history_demands(runs, rules, moved=moved)["void"] if why), "")
+    found, rules, void = {}, parts.rules(), void_said(demand_table(cases))
     values = {
-        name: largest_of_bounds(runs, rules, name, moved)
+        name: largest_of_bounds(cases, name)
         for name in ("axial_force", "axial_tension", "slip", "displacement")
     }
     loads = np.array(

@@ -11,7 +11,8 @@ from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
-from frames.design.histories.eccentricity import raised_suite
+from frames.design.histories.demand_table import worst_place
+from frames.design.histories.eccentricity import Case, cases_of, reached_by
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.plots import plot_style as ps
 from frames.results.peak_response import largest
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
 
     from frames._types import BoolArray, FloatArray
     from frames.design.calculation.check import Check
-    from frames.design.histories.suite import Suite
     from frames.design.project.design_run import ProjectRun
 
 _OF_BEARINGS = {
@@ -77,28 +77,28 @@ def reached(run: ProjectRun, name: str) -> list[Reached]:
     of_bearings = JUDGED[name].dims == ("bearing",)
     level = run.rules.bearing_level if of_bearings else _structure_level(run)
     found = []
-    for bound, data in run.runs[level].items():
-        if f"reached_{name}" not in data:
+    for case in _cases(run, level):
+        if not case.keeps(name):
             continue
-        values = peaks_of_runs(data, name)
-        values = values.reshape(len(values), -1)
-        suite = raised_suite(data, run.moved.get(level, {}).get(bound), run.rules)
-        design = [suite.value(column, name) for column in values.T]
-        k = int(np.argmax(np.nan_to_num(design, nan=-math.inf)))
-        motions = tuple(map(str, data["motion"].to_numpy()))
+        values, suite, design = reached_by(case.data, name), case.suite, case.design(name)
+        k = worst_place(design)
         found.append(
             Reached(
-                bound,
-                motions,
+                case.bound,
+                tuple(map(str, case.data["motion"].to_numpy())),
                 values[:, k],
                 design[k],
                 suite.statistic + (", raised by moved masses" if suite.raised else ""),
-                names_of(data, name)[k],
+                names_of(case.data, name)[k],
                 np.array(suite.failed),
                 suite.is_usable,
             )
         )
     return found
+
+
+def _cases(run: ProjectRun, level: str) -> list[Case]:
+    return cases_of({level: run.runs[level]}, run.rules, run.moved)
 
 
 def _structure_level(run: ProjectRun) -> str:
@@ -169,33 +169,29 @@ def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
 
 def profiles_figure(run: ProjectRun) -> Figure | None:
     """Draw the drift of every storey in every motion, and what counts of it."""
-    level = _structure_level(run)
-    runs = {bound: data for bound, data in run.runs[level].items() if "reached_drift" in data}
-    if not runs or peaks_of_runs(next(iter(runs.values())), "drift").shape[1:] < (2,):
+    cases = [case for case in _cases(run, _structure_level(run)) if case.keeps("drift")]
+    if not cases or len(names_of(cases[0].data, "drift")) < 2:
         return None
-    figure, panels = ps.panels_of(len(runs), len(runs), 3.0)
-    usable: list[bool] = []
-    for k, (panel, (bound, data)) in enumerate(zip(panels, runs.items(), strict=True)):
-        suite = raised_suite(data, run.moved.get(level, {}).get(bound), run.rules)
-        _profile(panel, data, suite, ps.PALETTE[k])
-        ps.caption(panel, x="storey drift ratio [%]", title=bound or "runs")
-        usable.append(suite.is_usable)
+    figure, panels = ps.panels_of(len(cases), len(cases), 3.0)
+    for k, (panel, case) in enumerate(zip(panels, cases, strict=True)):
+        _profile(panel, case, ps.PALETTE[k])
+        ps.caption(panel, x="storey drift ratio [%]", title=case.bound or "runs")
     panels[0].set_xlim(left=0.0)
     title = "Storey drift of all motions, and what counts of it"
-    ps.add_legend(figure, [], title=title if all(usable) else VOID_TITLE)
+    usable = all(case.suite.is_usable for case in cases)
+    ps.add_legend(figure, [], title=title if usable else VOID_TITLE)
     return figure
 
 
-def _profile(panel: Axes, data: xr.Dataset, suite: Suite, colour: str) -> None:
-    values = 1e2 * peaks_of_runs(data, "drift")
-    design = np.array([suite.value(column, "drift") for column in values.T])
+def _profile(panel: Axes, case: Case, colour: str) -> None:
+    values, design = 1e2 * peaks_of_runs(case.data, "drift"), 1e2 * case.design("drift")
     edges = np.arange(values.shape[1] + 1)
     look: dict[str, Any] = {"orientation": "horizontal", "baseline": None}
-    for motion, failed in zip(values, suite.failed, strict=True):
+    for motion, failed in zip(values, case.suite.failed, strict=True):
         line = ":" if failed else "-"
         panel.stairs(motion, edges, color=ps.GREY, linewidth=0.5, linestyle=line, **look)
     panel.stairs(design, edges, color=colour, linewidth=1.8, **look)
-    panel.set_yticks(edges[:-1] + 0.5, names_of(data, "drift"))
+    panel.set_yticks(edges[:-1] + 0.5, names_of(case.data, "drift"))
 
 
 def typical_bearing(data: xr.Dataset) -> str:
@@ -216,9 +212,7 @@ def utilisation(run: ProjectRun) -> tuple[Check, FloatArray] | None:
         return None
     check = max(of_one, key=lambda c: c.ratio)
     level, name = check.level or run.rules.bearing_level, _OF_BEARINGS[check.title]
-    data = run.runs[level][check.bound]
-    suite = raised_suite(data, run.moved.get(level, {}).get(check.bound), run.rules)
-    each = np.array([suite.value(column, name) for column in peaks_of_runs(data, name).T])
+    each = next(case.design(name) for case in _cases(run, level) if case.bound == check.bound)
     if check.symbol == "D_d":
         each = run.rules.displacement_factor * each
         least = check.trace.value("D_least") if "D_least" in check.trace else 0.0
