@@ -12,13 +12,11 @@ from frames.kernels.integration import record
 from frames.nonlinear_data import part_sizes
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.force_rows import force_maps
-from frames.recording.force_tracking import ForceTracker
-from frames.recording.nonlinear_tracking import PartGauge
 from frames.recording.peak_tracking import PeakTracker, can_track, devices_of, places_of, shape_of
 from frames.recording.recording import require_known
 from frames.recording.reduction import Findings, judgeable_of, reduced, with_other_findings
 from frames.recording.size import bytes_of_step, bytes_over_time
-from frames.recording.strain_tracking import StrainGauge
+from frames.recording.trackers import ForceTracker, PartGauge, StrainGauge
 from frames.results.peak_response import Extreme
 from frames.statics.fresh_runs import restart, with_own_arrays
 from frames.statics.gravity import gravity

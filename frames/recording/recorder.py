@@ -10,8 +10,6 @@ from frames.kernels.integration import record
 from frames.nonlinear_data import part_sizes
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.force_rows import force_maps
-from frames.recording.force_tracking import ForceTracker
-from frames.recording.nonlinear_tracking import PartGauge
 from frames.recording.peak_tracking import PeakTracker, can_track, devices_of, places_of, shape_of
 from frames.recording.recording import require_known
 from frames.recording.reduction import (
@@ -28,7 +26,7 @@ from frames.recording.size import (
     require_memory,
     require_room,
 )
-from frames.recording.strain_tracking import StrainGauge
+from frames.recording.trackers import ForceTracker, PartGauge, StrainGauge
 from frames.results.formulas import in_plan
 from frames.results.peak_response import largest, with_exceeded
 from frames.statics.fresh_runs import once

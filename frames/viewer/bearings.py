@@ -7,8 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames.plots.bearing_geometry import plane_height, rim_face, rim_height, surface_reach
-from frames.plots.bearing_movement import movement
+from frames.plots.bearing_geometry import (
+    movement,
+    plane_height,
+    rim_face,
+    rim_height,
+    surface_reach,
+)
 from frames.plots.drawn_device import device_of
 from frames.plots.plot_choice import need
 from frames.results.measures import uplift_gap

@@ -15,8 +15,7 @@ from frames.results.quantities import QUANTITIES
 from frames.results.recorded import EVERY_STEP
 from frames.viewer.bearings import SLIPS, Movements, devices, movements, peaks_of
 from frames.viewer.instants import kept_steps, line_error
-from frames.viewer.packing import exact, scaled
-from frames.viewer.structure import structure_of
+from frames.viewer.structure import exact, scaled, structure_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

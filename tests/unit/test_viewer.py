@@ -21,8 +21,7 @@ from frames import (
     uplift_gap,
 )
 from frames.assembly.assemble import assemble
-from frames.plots.bearing_geometry import rim_face
-from frames.plots.bearing_movement import movement
+from frames.plots.bearing_geometry import movement, rim_face
 from frames.plots.drawn_device import device_of
 from frames.plots.model_geometry import member_lines
 from frames.viewer import write_view

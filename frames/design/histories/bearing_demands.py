@@ -16,8 +16,8 @@ from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.overlap import liner_pressure, pressure
 from frames.design.histories.governing import Calculation, Governing
-from frames.design.histories.level_margins import doubted, level_errors
 from frames.design.histories.suite import names_of, peaks_of_runs
+from frames.design.histories.suite_notes import doubted, level_errors
 from frames.peak_data import LOADED, PRESSED
 from frames.results.assumption_checks import IMPACT
 from frames.results.level_doubts import DOUBTED

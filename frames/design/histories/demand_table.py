@@ -1,4 +1,4 @@
-"""Table of what time histories give for design: one statistic a column, and it is named."""
+"""Tables of what time histories give for design: demands, single motions, links."""
 
 from __future__ import annotations
 
@@ -7,19 +7,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames.design.histories.eccentricity import reached_by
-from frames.design.histories.suite import end_of, motion_of, names_of
-from frames.results.quantities import DEMANDS, Quantity
+from frames.design.histories.eccentricity import WAY, cases_of, reached_by
+from frames.design.histories.suite import end_of, motion_of, names_of, peaks_of_runs, suite_of
+from frames.results.quantities import DEMANDS, JUDGED, Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     import pandas as pd
+    import xarray as xr
 
     from frames._types import FloatArray
+    from frames.design.calculation.check import Bound
     from frames.design.codes.history_rules import HistoryRules
     from frames.design.histories.eccentricity import Case
     from frames.design.histories.suite import Suite
+
+    Runs = Mapping[str, Mapping[Bound, xr.Dataset]]
+
 
 COUNTED = {DEMANDS[name].demand for name in ("uplifts", "time_lifted", "gap")}
 """Rows of uplift, of which codes without uplift leave small gaps aside."""
@@ -179,3 +184,92 @@ def envelope_said(table: pd.DataFrame) -> str:
         if len(found) == 1
         else "; ".join(f"{bound}: {words}" for bound, words in table.attrs["statistics"].items())
     )
+
+
+_COLUMNS = {"deformation [m]": "link_deformation", "force [N]": "link_force"}
+
+
+def link_demands(runs: Runs, rules: HistoryRules, moved: Runs | None = None) -> pd.DataFrame:
+    """Return how far links are deformed and which forces they exert, for design."""
+    import pandas as pd
+
+    tables = []
+    for case in cases_of(runs, rules, moved):
+        if not case.keeps("link_force"):
+            continue
+        suite = case.suite
+        table = pd.DataFrame({"link": names_of(case.data, "link_force")})
+        table = table.assign(bound=case.bound, statistic=said(suite))
+        for title, name in _COLUMNS.items():
+            more, _ = case.added(lambda one, name=name: peaks_of_runs(one, name))  # type: ignore[misc]
+            table[title] = suite.values(peaks_of_runs(case.data, name)) + more
+        forces = case.all_runs(lambda one: peaks_of_runs(one, "link_force"))
+        counts = np.full(len(forces), True)  # of those that failed none, if the others stand
+        counts[: len(suite.failed)] = not suite.is_usable or ~np.array(suite.failed)
+        known = np.where(counts[:, None], forces, -np.inf)
+        which = np.nan_to_num(known, nan=-np.inf).argmax(axis=0)
+        table["motion"] = np.array(case.motions, dtype=object)[which]
+        table["its force [N]"] = forces[which, np.arange(len(which))]
+        tables.append(table.assign(void=suite.void, level=case.level))
+    return pd.concat(tables).set_index("level") if tables else pd.DataFrame()
+
+
+def largest_of_links(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the row of each link and level whose force is largest of all bounds."""
+    if table.empty:
+        return table
+    rows = table.reset_index()
+    force = rows["force [N]"].fillna(-np.inf)
+    return rows.loc[force.groupby([rows["level"], rows["link"]]).idxmax()].sort_index()
+
+
+KEYS = ("level", "bound", "masses moved", "motion", "scale", "status", "failed")
+"""Columns that say of which run a row is."""
+
+
+def demands_by_motion(
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+    rules: HistoryRules,
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
+) -> pd.DataFrame:
+    """Return what each motion gave of each quantity that means or largest values are taken of."""
+    import pandas as pd
+
+    parts = []
+    for case in cases_of(runs, rules, moved):
+        there = [case.data, *([] if case.moved is None else [case.moved])]
+        cells: dict[str, Sequence[object] | FloatArray] = {
+            key: [value for one in there for value in _key(one, key, rules)] for key in KEYS[2:]
+        }
+        for name, quantity in JUDGED.items():
+            if not case.keeps(name):
+                continue
+            title, unit, sign = quantity.heading, quantity.pure_unit, quantity.sign
+            k = worst_place(case.design(name))
+            values = case.all_runs(lambda one, name=name: reached_by(one, name))  # type: ignore[misc]
+            cells[f"{title} [{unit}]"] = sign * values[:, k] + 0.0  # no -0
+            where = names_of(case.data, name)
+            if where != ("",):
+                cells[f"{title}, at"] = [where[k]] * len(values)
+                cells[f"{title}, farthest [{unit}]"] = sign * _farthest(values) + 0.0
+        part = pd.DataFrame(cells)
+        part.insert(0, "level", case.level)
+        part.insert(1, "bound", case.bound)
+        parts.append(part)
+    return pd.concat(parts, ignore_index=True)
+
+
+def _farthest(values: FloatArray) -> FloatArray:
+    # Of each run; NaN where nothing is known.
+    known = np.where(np.isnan(values), -math.inf, values).max(axis=1)
+    return np.where(np.isfinite(known), known, math.nan)
+
+
+def _key(data: xr.Dataset, key: str, rules: HistoryRules) -> Sequence[object]:
+    # A column that says of which run a row is.
+    if key == "masses moved":
+        own = data[WAY].to_numpy() if WAY in data.coords else [""] * data.sizes["run"]
+        return [str(way) for way in own]
+    if key == "failed":
+        return ["yes" if failed else "no" for failed in suite_of(data, rules).failed]
+    return list(data[key].to_numpy()) if key == "scale" else list(map(str, data[key].to_numpy()))
