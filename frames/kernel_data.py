@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.assembly.basis import bearing_rows
+from frames.peak_data import ENERGY_TERMS
 from frames.shared_data import order_of, shared_coordinates, tangent_arrays
 from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
 from lir_element.device.features import apply
@@ -25,25 +26,6 @@ if TYPE_CHECKING:
 
 MOST_HALVINGS = 14
 """Largest number of halvings of a step: a step of 0.005 s down to 0.3 microseconds."""
-
-ENERGY_TERMS = (
-    "input",
-    "gravity",
-    "kinetic",
-    "elastic",
-    "damping",
-    "low_friction_bottom",
-    "low_friction_top",
-    "high_friction",
-    "friction_elastic",
-    "rims",
-    "contact",
-    "sliders",
-    "yielding",
-    "dampers",
-    "stops",
-    "numerical",
-)
 
 CLOCK_FIELDS = (
     Field("time", "s", "t", "time of the committed state"),

@@ -10,7 +10,7 @@ import numpy as np
 
 from frames.batch.batch_dataset import NUMBERS, Layout, RunResult, reached_row
 from frames.batch.workspace import PeakRecorder, Structure, Workspace, set_up
-from frames.kernel_data import ENERGY_TERMS
+from frames.peak_data import ENERGY_TERMS
 from frames.recording.recorder import Recorder
 from frames.recording.recording import Recording
 from frames.recording.reduction import judgeable_of

@@ -9,7 +9,6 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
-from frames.kernel_data import ENERGY_TERMS
 from frames.kernels.quantities import (
     balance_gap,
     closing_speed,
@@ -17,7 +16,7 @@ from frames.kernels.quantities import (
     size,
     sliding_power,
 )
-from frames.peak_data import LOOSE
+from frames.peak_data import ENERGY_TERMS, LOOSE
 from lir_element.kernels.derived import in_plan
 from lir_element.kernels.friction_law import lowered
 from lir_element.kernels.sampling import ground_acceleration

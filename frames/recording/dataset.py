@@ -9,8 +9,9 @@ import xarray as xr
 
 from frames.assembly.assemble import node_geometric_stiffness
 from frames.assembly.basis import bearing_rows
-from frames.kernel_data import ENERGY_TERMS, device_records
+from frames.kernel_data import device_records
 from frames.model.components import DOFS
+from frames.peak_data import ENERGY_TERMS
 from frames.recording.nonlinear_results import part_variables
 from frames.recording.section_cuts import storey_rows
 from frames.statics.fresh_runs import once

@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 
 from frames._jit import on_arrays
-from frames.kernel_data import ENERGY_TERMS
 from frames.kernels.quantities import by_tilt, open_gap
 from frames.motion.spectra import response_spectrum
+from frames.peak_data import ENERGY_TERMS
 from frames.results.recorded import (
     largest_kept,
     noted,

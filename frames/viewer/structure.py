@@ -1,4 +1,4 @@
-"""What a page shows of the model: nodes, lines, floors, bearings, supports; how arrays are packed."""
+"""What a page shows of the model: nodes, lines, floors, bearings; how arrays are packed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the notes of checks say of runs: small gaps, doubts, what was left out, margins of levels."""
+"""What notes of checks say of runs: small gaps, doubts, what was left out, margins of levels."""
 
 from __future__ import annotations
 
