@@ -29,27 +29,16 @@ BODIES = ("bottom plate", "bottom slider", "top slider", "top plate")
 
 @dataclass(frozen=True)
 class Posture:
-    """A bearing's bodies in the plane of the section.
+    """A bearing's bodies in the plane of the section."""
 
-    Attributes
-    ----------
-    axis : ndarray, shape (2,)
-        Unit vector n of the slider, upwards.
-    plate_axis : ndarray, shape (2,)
-        Unit vector of the top plate e_j, upwards; that of the bottom plate is (0, 1).
-    slip : float
-        Interface slip of the top slider on the bottom one, along `across` [m].
-    lift : float
-        Gap that has opened between the top slider and the top plate, along `axis` [m].
-    aside : float
-        How far the top plate of a bearing that has lifted has gone on without the slider, along
-        `across` [m].
-    """
-
-    axis: FloatArray
+    axis: FloatArray  # (2,) unit vector n of the slider, upwards
+    # (2,) unit vector of the top plate e_j, upwards; that of the bottom plate is (0, 1)
     plate_axis: FloatArray
-    slip: float
+    slip: float  # interface slip of the top slider on the bottom one, along `across` [m]
+    # gap that has opened between the top slider and the top plate, along `axis` [m]
     lift: float = 0.0
+    # how far the top plate of a bearing that has lifted has gone on without the slider, along
+    # `across` [m]
     aside: float = 0.0
 
     @property
@@ -233,22 +222,13 @@ def _plate(bearing: Geometry, now: Posture, surface: int, reach: float | None) -
 
 
 class Movement(NamedTuple):
-    """A bearing's bodies over time, in space.
+    """A bearing's bodies over time, in space."""
 
-    Attributes
-    ----------
-    axis, plate_axis : ndarray, shape (n_steps, 3)
-        Unit vectors of the slider n and of the top plate e_j, upwards.
-    slip : ndarray, shape (n_steps, 3)
-        Interface slip of the top slider on the bottom one [m].
-    opening : ndarray, shape (n_steps, 3)
-        Where the top plate of a bearing that has lifted is, against its place on the slider [m];
-        0 where the contact is closed.
-    """
-
-    axis: FloatArray
-    plate_axis: FloatArray
-    slip: FloatArray
+    axis: FloatArray  # (n_steps, 3) unit vectors of the slider n and of the top plate e_j, upwards
+    plate_axis: FloatArray  # (n_steps, 3)
+    slip: FloatArray  # (n_steps, 3) interface slip of the top slider on the bottom one [m]
+    # (n_steps, 3) where the top plate of a bearing that has lifted is, against its place on the
+    # slider [m]; 0 where the contact is closed
     opening: FloatArray
 
     @property

@@ -64,28 +64,15 @@ class ForceKind(NamedTuple):
 
 
 class ForceMaps(NamedTuple):
-    """Forces at sections: ``rows @ (q, beyond, forces of bearings) + rest``, six a section.
+    """Forces at sections: ``rows @ (q, beyond, forces of bearings) + rest``, six a section."""
 
-    Attributes
-    ----------
-    kinds : tuple of ForceKind
-        The sections.
-    rows : csr_array, (6 n_sections, n_q + m + 12 n_bearings)
-        Over those displacements that are needed, forces of nonlinear parts besides the elastic
-        ones, and forces of bearings on nodes i and j.
-    rest : ndarray, (6 n_sections,)
-        Of loads along members [N, N m].
-    expand : ndarray, (n_q, n_x)
-        These displacements over ``x = (b, eta, beyond)``.
-    offset : ndarray, (n_q,)
-        And their constant.
-    """
-
-    kinds: tuple[ForceKind, ...]
+    kinds: tuple[ForceKind, ...]  # the sections
+    # over those displacements that are needed, forces of nonlinear parts besides the elastic
+    # ones, and forces of bearings on nodes i and j
     rows: SparseMatrix
-    rest: FloatArray
-    expand: FloatArray
-    offset: FloatArray
+    rest: FloatArray  # (6 n_sections,) of loads along members [N, N m]
+    expand: FloatArray  # (n_q, n_x) these displacements over ``x = (b, eta, beyond)``
+    offset: FloatArray  # (n_q,) and their constant
 
     def of(self, out: Output, states: Records, rows: slice) -> FloatArray:
         """Return the forces at recorded steps.

@@ -168,13 +168,7 @@ def nothing_reached(bearings: int, shape: Shape | None) -> Reached:
 
 
 class PeakTracker:
-    """Keeps what a run reached.
-
-    Parameters
-    ----------
-    devices, shape : Devices, Shape or None
-        Of the structure; without a shape what is above the bearings is left aside.
-    """
+    """Keeps what a run reached."""
 
     def __init__(self, devices: Devices, shape: Shape | None = None) -> None:
         own = ("x", "u", "x_rate", "a")  # scratch of this one alone

@@ -57,23 +57,6 @@ _OVERLAP = 2  # steps that stay for what is formed over neighbours
 class Recorder:
     """What a run records into, and the result made of it.
 
-    Parameters
-    ----------
-    model : Frame
-        The model.
-    motion : GroundMotion
-        The motion as it was given.
-    state : GravityState
-        The state from which the run starts, and the run.
-    ground : Ground
-        The motion as the loop integrates it.
-    steps : int
-        Base steps of the run.
-    recording : Recording
-        What to keep.
-    maps : ForceMaps, optional
-        Of the structure, where the recording keeps forces; made here if None.
-
     Raises
     ------
     ValueError

@@ -29,15 +29,7 @@ _PICKED = (0, 4, 5)  # N, My, Mz
 
 
 class StrainGauge:
-    """Keeps the largest strains over their limits; of a structure without such members, nothing.
-
-    Parameters
-    ----------
-    model : Frame
-        The structure.
-    state : GravityState
-        Its equilibrium.
-    """
+    """Keeps the largest strains over their limits; of a structure without such members, nothing."""
 
     def __init__(self, model: FrameData, state: GravityState) -> None:
         known = {k: v for p in model.superelements.values() for k, v in p.elements.strains.items()}
@@ -104,13 +96,7 @@ _PLACES = {"member": "component", "storey": "storey_component", "reaction": "rea
 
 
 class ForceTracker:
-    """Keeps the extremes of forces, each with the five others at its instant.
-
-    Parameters
-    ----------
-    maps : ForceMaps
-        How forces follow from what is recorded.
-    """
+    """Keeps the extremes of forces, each with the five others at its instant."""
 
     def __init__(self, maps: ForceMaps) -> None:
         self._maps = maps
@@ -183,15 +169,7 @@ class ForceTracker:
 
 
 class PartGauge:
-    """Keeps what nonlinear parts reached; of a structure without any, nothing.
-
-    Parameters
-    ----------
-    state : GravityState
-        Of the structure.
-    model : Frame
-        The structure.
-    """
+    """Keeps what nonlinear parts reached; of a structure without any, nothing."""
 
     def __init__(self, state: GravityState, model: FrameData) -> None:
         found = state.system.parts

@@ -71,59 +71,29 @@ class ShownCheck(Protocol):
 
 
 class Payload(NamedTuple):
-    """What the page holds, and how many steps of how many.
+    """What the page holds, and how many steps of how many."""
 
-    Attributes
-    ----------
-    content : dict
-        As JSON takes it.
-    kept, recorded : int
-        Numbers of steps.
-    """
-
-    content: dict[str, object]
-    kept: int
+    content: dict[str, object]  # as JSON takes it
+    kept: int  # numbers of steps
     recorded: int
 
 
 class Response(NamedTuple):
-    """Histories of one quantity.
+    """Histories of one quantity."""
 
-    Attributes
-    ----------
-    name, unit : str
-        What it is, and the unit that it is shown in.
-    factor : float
-        From SI to that unit.
-    places : tuple of str
-        Levels, storeys, or what else has one.
-    values : ndarray, (n_steps, n_places, 2)
-        Along x and y, SI.
-    """
-
-    name: str
+    name: str  # what it is, and the unit that it is shown in
     unit: str
-    factor: float
-    places: tuple[str, ...]
-    values: FloatArray
+    factor: float  # from SI to that unit
+    places: tuple[str, ...]  # levels, storeys, or what else has one
+    values: FloatArray  # (n_steps, n_places, 2) along x and y, SI
 
 
 class Shapes(NamedTuple):
-    """Displacements over time as ``histories @ shapes``.
+    """Displacements over time as ``histories @ shapes``."""
 
-    Attributes
-    ----------
-    histories : ndarray, (n_steps, r)
-        How much of each shape there is.
-    shapes : ndarray, (r, n)
-        The shapes [m, rad].
-    error : float
-        Largest difference from the displacements, rotations times the arm [m].
-    """
-
-    histories: FloatArray
-    shapes: FloatArray
-    error: float
+    histories: FloatArray  # (n_steps, r) how much of each shape there is
+    shapes: FloatArray  # (r, n) the shapes [m, rad]
+    error: float  # largest difference from the displacements, rotations times the arm [m]
 
 
 def payload_of(

@@ -79,32 +79,15 @@ def devices_of(data: xr.Dataset, frame: Frame) -> dict[str, LIRBearing]:
 
 @dataclass(frozen=True)
 class BearingDemands:
-    """Makes checks of bearings from what runs reached.
+    """Makes checks of bearings from what runs reached."""
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs.
-    suite : Suite
-        How they are taken together.
-    bearings : mapping of str to LIRBearing
-        The bearings as they were in these runs.
-    limits : DesignLimits
-        What they may be asked for.
-    bound : {"lower", "nominal", "upper", ""}
-        Bound of their properties.
-    note : str
-        Goes with each check.
-    factor : float
-        On the displacement [-]: where that is beyond the rims, the slip is at least the rest.
-    """
-
-    data: xr.Dataset
-    suite: Suite
-    bearings: Mapping[str, LIRBearing]
-    limits: DesignLimits
-    bound: Bound
-    note: str = ""
+    data: xr.Dataset  # the runs
+    suite: Suite  # how they are taken together
+    bearings: Mapping[str, LIRBearing]  # the bearings as they were in these runs
+    limits: DesignLimits  # what they may be asked for
+    bound: Bound  # bound of their properties
+    note: str = ""  # goes with each check
+    # on the displacement [-]: where that is beyond the rims, the slip is at least the rest
     factor: float = 1.0
 
     def displacement(self, clause: str, standing: Standing, least: float = 0.0) -> list[Check]:

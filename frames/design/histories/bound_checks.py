@@ -54,27 +54,13 @@ _DRIFTS = {
 
 @dataclass(frozen=True)
 class BoundChecks:
-    """Makes the checks of the runs at one bound.
+    """Makes the checks of the runs at one bound."""
 
-    Parameters
-    ----------
-    case : Case
-        The runs, and those with moved masses; of uplift the worst of all counts.
-    frame : Frame
-        The structure at that bound.
-    limits : DesignLimits
-        What bearings and structure may be asked for.
-    equivalent : EquivalentLinear, optional
-        Analysis that has least values.
-    level : ActionLevel
-        Of the seismic action, and what is judged at it.
-    """
-
-    case: Case
-    frame: Frame
-    limits: DesignLimits
-    equivalent: EquivalentLinear | None
-    level: ActionLevel
+    case: Case  # the runs, and those with moved masses; of uplift the worst of all counts
+    frame: Frame  # the structure at that bound
+    limits: DesignLimits  # what bearings and structure may be asked for
+    equivalent: EquivalentLinear | None  # analysis that has least values
+    level: ActionLevel  # of the seismic action, and what is judged at it
 
     def checks(self) -> list[Check]:
         """Return all of them."""

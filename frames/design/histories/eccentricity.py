@@ -54,24 +54,13 @@ _RAISED = sorted(
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """Runs of a level and bound, those with moved masses beside them, and how they count.
+    """Runs of a level and bound, those with moved masses beside them, and how they count."""
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs.
-    moved : xarray.Dataset or None
-        Runs of motions among these with the floors' masses moved: accidental eccentricity.
-    rules : HistoryRules
-        The code's.
-    level, bound : str
-        Of the seismic action, and of the properties.
-    """
-
-    data: xr.Dataset
+    data: xr.Dataset  # the runs
+    # runs of motions among these with the floors' masses moved: accidental eccentricity
     moved: xr.Dataset | None
-    rules: HistoryRules
-    level: str = ""
+    rules: HistoryRules  # the code's
+    level: str = ""  # of the seismic action, and of the properties
     bound: Bound = ""
 
     @cached_property

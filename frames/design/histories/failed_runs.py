@@ -23,26 +23,14 @@ _NAMED = 4
 
 
 class FailedRuns(NamedTuple):
-    """The runs of a level and bound that failed for one cause.
+    """The runs of a level and bound that failed for one cause."""
 
-    Attributes
-    ----------
-    level, bound : str
-        Level of the seismic action, and bound of the properties.
-    failed, of : int
-        Number of runs that failed, and of all runs of this level and bound.
-    cause : str
-        The cause in words.
-    motions : str
-        Motions with time and place of the failure.
-    """
-
-    level: str
+    level: str  # level of the seismic action, and bound of the properties
     bound: str
-    failed: int
+    failed: int  # number of runs that failed, and of all runs of this level and bound
     of: int
-    cause: str
-    motions: str
+    cause: str  # the cause in words
+    motions: str  # motions with time and place of the failure
 
     def __str__(self) -> str:
         """Return the runs and their cause on one line."""

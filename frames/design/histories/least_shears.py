@@ -23,19 +23,12 @@ LEAST = "least one, of the equivalent-linear analysis"
 
 
 class Raise(NamedTuple):
-    """Factors on the earthquake's part of forces and drifts, 1 at least.
+    """Factors on the earthquake's part of forces and drifts, 1 at least."""
 
-    Attributes
-    ----------
-    above : float
-        Above the isolation: the larger ratio of least shear to that of the runs, of the lowest
-        storey and at the base.
-    isolation : float
-        Of what bearings exert, and below: that at the base.
-    """
-
+    # above the isolation: the larger ratio of least shear to that of the runs, of the lowest
+    # storey and at the base
     above: float = 1.0
-    isolation: float = 1.0
+    isolation: float = 1.0  # of what bearings exert, and below: that at the base
 
 
 def shear_checks(case: Case, known: BoundResult, storey: str = "", note: str = "") -> list[Check]:

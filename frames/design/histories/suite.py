@@ -22,28 +22,15 @@ if TYPE_CHECKING:
 
 
 class Amplification(NamedTuple):
-    """What the way that is worst does to the largest of a quantity: accidental eccentricity.
+    """What the way that is worst does to the largest of a quantity: accidental eccentricity."""
 
-    Attributes
-    ----------
-    way : str
-        Which way the masses are moved, "+x".
-    centred, moved : float
-        The largest over bearings, storeys or levels with the masses where they are, and moved.
-    factor : float
-        Moved over centred, 1 at least; 1 of a quantity that differences raise.
-    added : float
-        Moved less centred, 0 at least; 0 of a quantity that factors raise.
-    motions : str
-        Of which motions.
-    """
-
-    way: str
+    way: str  # which way the masses are moved, "+x"
+    # the largest over bearings, storeys or levels with the masses where they are, and moved
     centred: float
     moved: float
-    factor: float
-    added: float
-    motions: str
+    factor: float  # moved over centred, 1 at least; 1 of a quantity that differences raise
+    added: float  # moved less centred, 0 at least; 0 of a quantity that factors raise
+    motions: str  # of which motions
 
     @property
     def said(self) -> str:
@@ -53,35 +40,18 @@ class Amplification(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Suite:
-    """How runs are taken together.
+    """How runs are taken together."""
 
-    Attributes
-    ----------
-    statistic : {"mean", "largest", "single"}
-        Mean of the runs' largest values, the largest of them, or that of one run.
-    failed : tuple of bool, (n_runs,)
-        Runs whose values must not count.
-    allowed : int
-        How many of them the mean of the others may stand for.
-    median_factor : float
-        Then on the median, of all runs, below which the mean must not lie.
-    reason : str
-        Which runs failed, in words.
-    source : str
-        Clause of the statistic.
-    raised : mapping of str to Amplification
-        By what accidental eccentricity raises quantities, by their names.
-    moved_failed : str
-        Which runs with moved masses failed, in words: then nothing is a value for design.
-    """
-
+    # mean of the runs' largest values, the largest of them, or that of one run
     statistic: Literal["mean", "largest", "single"]
-    failed: tuple[bool, ...]
-    allowed: int = 0
-    median_factor: float = 1.2
-    reason: str = ""
-    source: str = ""
+    failed: tuple[bool, ...]  # runs whose values must not count
+    allowed: int = 0  # how many of them the mean of the others may stand for
+    median_factor: float = 1.2  # then on the median, of all runs, below which the mean must not lie
+    reason: str = ""  # which runs failed, in words
+    source: str = ""  # clause of the statistic
+    # by what accidental eccentricity raises quantities, by their names
     raised: Mapping[str, Amplification] = field(default_factory=dict)
+    # which runs with moved masses failed, in words: then nothing is a value for design
     moved_failed: str = ""
 
     @property
@@ -213,24 +183,12 @@ def names_of(data: xr.Dataset, name: str) -> tuple[str, ...]:
 
 
 class Failure(NamedTuple):
-    """A run that failed.
+    """A run that failed."""
 
-    Attributes
-    ----------
-    motion : str
-        The motion and its scale.
-    status : str
-        The status of the run; "ok" of a complete run in which a bearing lifted off.
-    at : float
-        Time of the failure [s]; NaN if it is not known.
-    where : str
-        The bearing or degree of freedom.
-    """
-
-    motion: str
-    status: str
-    at: float
-    where: str
+    motion: str  # the motion and its scale
+    status: str  # the status of the run; "ok" of a complete run in which a bearing lifted off
+    at: float  # time of the failure [s]; NaN if it is not known
+    where: str  # the bearing or degree of freedom
 
     def __str__(self) -> str:
         """Return motion, cause, time and place."""

@@ -38,24 +38,13 @@ _LEAST_SLIP = 1e-4  # m: what an interface that holds gives way elastically is l
 
 
 class Verdict(NamedTuple):
-    """What the numbers of one level of the seismic action say.
+    """What the numbers of one level of the seismic action say."""
 
-    Attributes
-    ----------
-    level : str
-        Level of the seismic action.
-    head : str
-        The verdict in a sentence.
-    is_ours : bool or None
-        Whether the LIR-DCFP is the better device; None where neither is, or none can be named.
-    details : tuple of str
-        Sentences with the numbers.
-    """
-
-    level: str
-    head: str
+    level: str  # level of the seismic action
+    head: str  # the verdict in a sentence
+    # whether the LIR-DCFP is the better device; None where neither is, or none can be named
     is_ours: bool | None
-    details: tuple[str, ...]
+    details: tuple[str, ...]  # sentences with the numbers
 
 
 def verdicts(found: Comparison) -> list[Verdict]:

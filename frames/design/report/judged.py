@@ -20,46 +20,25 @@ _ZERO = {0.0}  # exact: as it was given
 
 
 class Line(NamedTuple):
-    """A line of a calculation as the report shows it.
+    """A line of a calculation as the report shows it."""
 
-    Attributes
-    ----------
-    formula : str
-        As MathML.
-    source, note : str
-        Clause, equation or table; what else a reader should know.
-    is_given : bool
-        Whether it has a value alone, no formula: on paper several such stand beside each other.
-    """
-
-    formula: str
-    source: str
+    formula: str  # as MathML
+    source: str  # clause, equation or table; what else a reader should know
     note: str
+    # whether it has a value alone, no formula: on paper several such stand beside each other
     is_given: bool
 
 
 class Judged(NamedTuple):
-    """A check as the report shows it.
-
-    Attributes
-    ----------
-    check : Check
-        The check.
-    demand, sign, limit, ratio : str
-        As text, with units.
-    statistic : str
-        Of which runs the demand is.
-    steps : list of Line
-        Its calculation.
-    """
+    """A check as the report shows it."""
 
     check: Check
-    demand: str
+    demand: str  # as text, with units
     sign: str
     limit: str
     ratio: str
-    statistic: str
-    steps: list[Line]
+    statistic: str  # of which runs the demand is
+    steps: list[Line]  # its calculation
 
 
 def judged(check: Check) -> Judged:
@@ -116,36 +95,18 @@ _SCALE = 1.25  # ratio at the end of the axis, at least
 
 
 class Bar(NamedTuple):
-    """A bar of what governs.
-
-    Attributes
-    ----------
-    check : Check
-        The check.
-    length : float
-        Of its bar, over that of the axis [-].
-    ratio : str
-        Its ratio, as words where there is none.
-    """
+    """A bar of what governs."""
 
     check: Check
-    length: float
-    ratio: str
+    length: float  # of its bar, over that of the axis [-]
+    ratio: str  # its ratio, as words where there is none
 
 
 class Governing(NamedTuple):
-    """What governs.
+    """What governs."""
 
-    Attributes
-    ----------
-    bars : list of Bar
-        Highest ratio first.
-    limit : float
-        Place of the ratio 1 on the axis [-].
-    """
-
-    bars: list[Bar]
-    limit: float
+    bars: list[Bar]  # highest ratio first
+    limit: float  # place of the ratio 1 on the axis [-]
 
 
 def what_governs(checks: Iterable[Check]) -> Governing:

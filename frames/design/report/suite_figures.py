@@ -40,36 +40,16 @@ _OF_BEARINGS = {
 
 
 class Reached(NamedTuple):
-    """What the motions reached at one bound, at the place that governs there.
-
-    Attributes
-    ----------
-    bound : str
-        The bound.
-    motions : tuple of str
-        Names.
-    values : ndarray, (n_runs,)
-        Of each motion.
-    design : float
-        What the code makes of them: mean or largest.
-    statistic : str
-        Which of the two, and whether accidental eccentricity raises it.
-    where : str
-        Bearing or storey.
-    failed : ndarray of bool, (n_runs,)
-        Runs whose values must not count.
-    is_usable : bool
-        Whether `design` is a value for design, and not what runs reached alone.
-    """
+    """What the motions reached at one bound, at the place that governs there."""
 
     bound: str
-    motions: tuple[str, ...]
-    values: FloatArray
-    design: float
-    statistic: str
-    where: str
-    failed: BoolArray
-    is_usable: bool
+    motions: tuple[str, ...]  # names
+    values: FloatArray  # (n_runs,) of each motion
+    design: float  # what the code makes of them: mean or largest
+    statistic: str  # which of the two, and whether accidental eccentricity raises it
+    where: str  # bearing or storey
+    failed: BoolArray  # (n_runs,) runs whose values must not count
+    is_usable: bool  # whether `design` is a value for design, and not what runs reached alone
 
 
 def reached(run: ProjectRun, name: str) -> list[Reached]:
