@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from markupsafe import Markup
 
 from frames.design.codes.registry import code_named
-from frames.design.histories.failed_runs import failed_runs
+from frames.design.histories.demand_table import failed_runs
 from frames.design.report.judged import Judged, judged
 from frames.design.report.page import Table
 from lir_element._version import package_version
