@@ -15,11 +15,6 @@ if TYPE_CHECKING:
 class Factors:
     """A symmetric matrix, factorised in an order that keeps it sparse, its diagonal as pivots.
 
-    Parameters
-    ----------
-    matrix : csr_array, (n, n)
-        Symmetric; stable where it is positive definite, or nearly so.
-
     Raises
     ------
     RuntimeError

@@ -22,22 +22,15 @@ FACADE = "D"
 
 
 class Pressures(NamedTuple):
-    """Loads of a building's floors, downwards.
+    """Loads of a building's floors, downwards."""
 
-    Attributes
-    ----------
-    floors, roof, base, open_base : mapping of str to float
-        Load by load case [N/m2], >= 0, of fields with a floor above, of those without, and of
-        the same at the base.
-    facade : float
-        Along the outer edges of every floor above the base [N/m], >= 0.
-    """
-
+    # load by load case [N/m2], >= 0, of fields with a floor above, of those without, and of the
+    # same at the base
     floors: Mapping[str, float]
     roof: Mapping[str, float]
     base: Mapping[str, float]
     open_base: Mapping[str, float]
-    facade: float = 0.0
+    facade: float = 0.0  # along the outer edges of every floor above the base [N/m], >= 0
 
     def of_field(self, level: int, *, covered: bool) -> Mapping[str, float]:
         """Return the loads of a field at a level, with a floor above it or without."""

@@ -12,115 +12,57 @@ if TYPE_CHECKING:
 
 
 class ColumnPart(NamedTuple):
-    """A column over one storey.
+    """A column over one storey."""
 
-    Attributes
-    ----------
-    line : str
-        The line in plan that it stands on.
-    storey : int
-        1 is the one on the base.
-    section : Section
-        Its section.
-    up : tuple of 3 floats, optional
-        As in `Frame.add_member`; None has the depth of the section along global x.
-    """
-
-    line: str
-    storey: int
+    line: str  # the line in plan that it stands on
+    storey: int  # 1 is the one on the base
     section: Section
+    # as in `Frame.add_member`; None has the depth of the section along global x
     up: Vector | None = None
 
 
 class BeamPart(NamedTuple):
-    """A beam between two lines at a level.
+    """A beam between two lines at a level."""
 
-    Attributes
-    ----------
-    name : str
-        What its name begins with, "beam-x" or "beam".
-    level : int
-        0 is the base, k the floor on storey k.
-    start, end : str
-        Its lines in plan.
-    section : Section
-        Its section.
-    """
-
-    name: str
-    level: int
-    start: str
+    name: str  # what its name begins with, "beam-x" or "beam"
+    level: int  # 0 is the base, k the floor on storey k
+    start: str  # its lines in plan
     end: str
     section: Section
 
 
 class BracePart(NamedTuple):
-    """A rod across one storey, hinged at both ends.
+    """A rod across one storey, hinged at both ends."""
 
-    Attributes
-    ----------
-    start, end : str
-        The line in plan at its foot, and at its head.
-    storey : int
-        The storey.
-    section : Section
-        Its section.
-    """
-
-    start: str
+    start: str  # the line in plan at its foot, and at its head
     end: str
     storey: int
     section: Section
 
 
 class WallPart(NamedTuple):
-    """A wall between two lines from the base up, as a column on its axis with rigid arms.
+    """A wall between two lines from the base up, as a column on its axis with rigid arms."""
 
-    Attributes
-    ----------
-    start, end : str
-        Its ends in plan; bearings stand under them.
-    last : int
-        The storey that it ends with.
-    section : Section
-        Its section: local z along the wall, local y across.
-    """
-
-    start: str
+    start: str  # its ends in plan; bearings stand under them
     end: str
-    last: int
-    section: Section
+    last: int  # the storey that it ends with
+    section: Section  # its section: local z along the wall, local y across
 
 
 @dataclass(frozen=True, kw_only=True)
 class BuildingPlan:
-    """What a building is made of.
+    """What a building is made of."""
 
-    Parameters
-    ----------
-    lines : mapping of str to (float, float)
-        Lines in plan on which columns stand, by name: x and y [m].
-    heights : tuple of float
-        Height of each storey, the lowest first [m].
-    columns : tuple of ColumnPart
-        A bearing stands under each column of the first storey, and at both ends of a wall.
-    beams : tuple of BeamPart
-        Those of the base, level 0, among them; one within a wall goes into its arms.
-    braces : tuple of BracePart
-        Rods.
-    walls : tuple of WallPart
-        Walls.
-    flexible : frozenset of int
-        Levels whose floor is no rigid diaphragm.
-    """
-
+    # lines in plan on which columns stand, by name: x and y [m]
     lines: Mapping[str, tuple[float, float]]
-    heights: tuple[float, ...]
+    heights: tuple[float, ...]  # height of each storey, the lowest first [m]
+    # a bearing stands under each column of the first storey, and at both ends of a wall
     columns: tuple[ColumnPart, ...]
+    # those of the base, level 0, among them; one within a wall goes into its arms
     beams: tuple[BeamPart, ...]
     braces: tuple[BracePart, ...] = ()
     walls: tuple[WallPart, ...] = ()
-    flexible: frozenset[int] = frozenset()
+    flexible: frozenset[int] = frozenset()  # levels whose floor is no rigid diaphragm
 
     def standing(self, storey: int) -> list[ColumnPart]:
         """Return the columns of a storey."""

@@ -15,17 +15,11 @@ _STRAIGHT = 1e-6
 
 
 class Fields(NamedTuple):
-    """Fields of a floor.
+    """Fields of a floor."""
 
-    Attributes
-    ----------
-    corners : tuple of tuple of str
-        Corners of each field anticlockwise, those on straight edges left out.
-    outer : tuple of (str, str)
-        Pieces of beams along the outer edges of the floor: on one side of them is no field.
-    """
-
+    # corners of each field anticlockwise, those on straight edges left out
     corners: tuple[tuple[str, ...], ...]
+    # pieces of beams along the outer edges of the floor: on one side of them is no field
     outer: tuple[tuple[str, str], ...]
 
 

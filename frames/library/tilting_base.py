@@ -24,21 +24,11 @@ _UZ, _RX, _RY = 2, 3, 4
 
 
 class GridPlan(NamedTuple):
-    """A regular grid of bearings under a base.
+    """A regular grid of bearings under a base."""
 
-    Attributes
-    ----------
-    bays : tuple of two ints
-        Numbers of bays along x and y.
-    width : tuple of two floats
-        Their widths [m].
-    nodes : dict of (ix, iy) to str
-        Nodes of the base over the bearings.
-    """
-
-    bays: tuple[int, int]
-    width: tuple[float, float]
-    nodes: dict[tuple[int, int], str]
+    bays: tuple[int, int]  # numbers of bays along x and y
+    width: tuple[float, float]  # their widths [m]
+    nodes: dict[tuple[int, int], str]  # nodes of the base over the bearings
 
     @property
     def side(self) -> tuple[float, float]:

@@ -15,18 +15,10 @@ _AZIMUTHS = _NORTH | {"E": 90.0, "EW": 90.0, "EAST": 90.0, "W": 270.0, "WEST": 2
 
 
 class Component(NamedTuple):
-    """One component of a record.
+    """One component of a record."""
 
-    Attributes
-    ----------
-    direction : str
-        As the file names it.
-    trace : AccelerationTrace
-        Accelerations [m/s2] and time step [s].
-    """
-
-    direction: str
-    trace: AccelerationTrace
+    direction: str  # as the file names it
+    trace: AccelerationTrace  # accelerations [m/s2] and time step [s]
 
     @property
     def vertical(self) -> bool:

@@ -30,24 +30,13 @@ _WITH_P_DELTA = ("PDelta", "Corot")  # beginnings of names of transformations
 
 
 class Geometry(NamedTuple):
-    """Elements in axes of the frame, in the model's unit of length.
+    """Elements in axes of the frame, in the model's unit of length."""
 
-    Attributes
-    ----------
-    axes : ndarray, (n, 3, 3)
-        Rows are local x, y, z as OpenSees has them; of bars those of members.
-    length : ndarray, (n,)
-        Between the ends.
-    arms : ndarray, (n, 2, 3)
-        From nodes to ends, in local axes.
-    put : ndarray, (12, 2 ndf)
-        Displacements of two nodes from the model's axes to the frame's.
-    """
-
+    # (n, 3, 3) rows are local x, y, z as OpenSees has them; of bars those of members
     axes: FloatArray
-    length: FloatArray
-    arms: FloatArray
-    put: FloatArray
+    length: FloatArray  # (n,) between the ends
+    arms: FloatArray  # (n, 2, 3) from nodes to ends, in local axes
+    put: FloatArray  # (12, 2 ndf) displacements of two nodes from the model's axes to the frame's
 
     def local(self) -> FloatArray:
         """Return what turns displacements of two nodes to local axes, (n, 12, 12)."""

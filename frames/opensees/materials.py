@@ -45,15 +45,10 @@ _EXPONENT = re.compile(r"^\s*Alpha: (\S+)", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Printed:
-    """The model as OpenSees prints it, by tag; entries that it does not print well are left out.
+    """The model as OpenSees prints it, by tag; entries that it does not print well are left out."""
 
-    Attributes
-    ----------
-    uniaxial, solid, sections, transformations, elements : mapping
-        Uniaxial materials, those of continua, sections, coordinate transformations and elements:
-        their entries by tag.
-    """
-
+    # uniaxial materials, those of continua, sections, coordinate transformations and elements:
+    # their entries by tag
     uniaxial: Mapping[str, dict[str, Any]]
     solid: Mapping[str, dict[str, Any]]
     sections: Mapping[str, dict[str, Any]]

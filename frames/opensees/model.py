@@ -48,40 +48,22 @@ class OpenSeesModel:
     """A model of OpenSees in its own axes and units, supports not applied.
 
     Displacements are all those of the first node, then of the second, and so on.
-
-    Attributes
-    ----------
-    tags : tuple of int, (n,)
-        Nodes.
-    coordinates : ndarray, (n, ndm)
-        Where they are before the loads.
-    ndf : int
-        Displacements of a node.
-    mass, damping, stiffness : csr_array, (n ndf, n ndf)
-        Matrices in the present state.
-    initial : csr_array, (n ndf, n ndf)
-        Stiffness of the elements before any load.
-    fixed : ndarray of bool, (n ndf,)
-        What single-point constraints hold.
-    equations : csr_array, (m, n ndf)
-        What multi-point constraints ask for, ``equations @ u = 0``; some may repeat others.
-    unbalance : ndarray, (n ndf,)
-        Applied loads less resisting forces in the present state; minus the reactions at supports.
-    elements : tuple of ElementEntry
-        All elements.
     """
 
-    tags: tuple[int, ...]
-    coordinates: FloatArray
-    ndf: int
-    mass: SparseMatrix
+    tags: tuple[int, ...]  # nodes
+    coordinates: FloatArray  # (n, ndm) where they are before the loads
+    ndf: int  # displacements of a node
+    mass: SparseMatrix  # matrices in the present state
     damping: SparseMatrix
     stiffness: SparseMatrix
-    initial: SparseMatrix
-    fixed: BoolArray
+    initial: SparseMatrix  # stiffness of the elements before any load
+    fixed: BoolArray  # (n ndf,) what single-point constraints hold
+    # what multi-point constraints ask for, ``equations @ u = 0``; some may repeat others
     equations: SparseMatrix
+    # (n ndf,) applied loads less resisting forces in the present state; minus the reactions at
+    # supports
     unbalance: FloatArray
-    elements: tuple[ElementEntry, ...]
+    elements: tuple[ElementEntry, ...]  # all elements
 
 
 def read_model() -> OpenSeesModel:

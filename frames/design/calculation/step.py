@@ -18,24 +18,12 @@ from frames.design.calculation.rendering import (
 
 
 class Quantity(NamedTuple):
-    """A value by its symbol.
+    """A value by its symbol."""
 
-    Attributes
-    ----------
-    symbol : str
-        Its name, as formulas have it.
-    value : float or tuple of float
-        In `unit`; a tuple for what there are several of.
-    unit : str
-        Unit it is kept in, "-" for a pure number.
-    shown : str
-        Unit it is shown in.
-    """
-
-    symbol: str
-    value: Value
-    unit: str
-    shown: str
+    symbol: str  # its name, as formulas have it
+    value: Value  # in `unit`; a tuple for what there are several of
+    unit: str  # unit it is kept in, "-" for a pure number
+    shown: str  # unit it is shown in
 
     def __str__(self) -> str:
         """Return value and unit, as people read them."""
@@ -44,27 +32,13 @@ class Quantity(NamedTuple):
 
 @dataclass(frozen=True)
 class Step:
-    """A line of a calculation: what was given, looked up, or follows by a formula.
+    """A line of a calculation: what was given, looked up, or follows by a formula."""
 
-    Attributes
-    ----------
-    result : Quantity
-        What it gives.
-    formula : str
-        The formula that was evaluated; empty for what was given or looked up.
-    entered : tuple of Quantity
-        What entered it.
-    source : str
-        Clause, equation or table.
-    note : str
-        What else a reader should know.
-    """
-
-    result: Quantity
-    formula: str = ""
-    entered: tuple[Quantity, ...] = ()
-    source: str = ""
-    note: str = ""
+    result: Quantity  # what it gives
+    formula: str = ""  # the formula that was evaluated; empty for what was given or looked up
+    entered: tuple[Quantity, ...] = ()  # what entered it
+    source: str = ""  # clause, equation or table
+    note: str = ""  # what else a reader should know
 
     @property
     def symbol(self) -> str:

@@ -22,53 +22,25 @@ if TYPE_CHECKING:
 
 
 class Compared(NamedTuple):
-    """What the page says of devices.
+    """What the page says of devices."""
 
-    Attributes
-    ----------
-    sizes, ratios, margins : Table
-        As the page has them.
-    collapse : str
-        What counts as collapse, in words.
-    considered : str
-        The maximum considered earthquake, in words.
-    pictures : list of Picture
-        A figure of curves and one of responses for each kind of rims.
-    files : dict of str to pandas.DataFrame
-        Tables in SI units, by the end of their name.
-    """
-
-    sizes: Table
+    sizes: Table  # as the page has them
     ratios: Table
     margins: Table
-    collapse: str
-    considered: str
-    pictures: list[Picture]
-    files: dict[str, pd.DataFrame]
+    collapse: str  # what counts as collapse, in words
+    considered: str  # the maximum considered earthquake, in words
+    pictures: list[Picture]  # a figure of curves and one of responses for each kind of rims
+    files: dict[str, pd.DataFrame]  # tables in SI units, by the end of their name
 
 
 class Fitted(NamedTuple):
-    """Curves of a campaign.
+    """Curves of a campaign."""
 
-    Attributes
-    ----------
-    runs : mapping of str to IntensityRuns
-        By structure, over the measure of the curves.
-    by_factor : mapping of str to IntensityRuns
-        The same over the factor on the motions.
-    limits : sequence of LimitState
-        What was fitted.
-    curves : mapping
-        By limit state and structure.
-    table : pandas.DataFrame
-        A row a structure and limit state; "no curve" says why there is none.
-    """
-
-    runs: Mapping[str, IntensityRuns]
-    by_factor: Mapping[str, IntensityRuns]
-    limits: Sequence[LimitState]
-    curves: Mapping[str, Mapping[str, Fragility]]
-    table: pd.DataFrame
+    runs: Mapping[str, IntensityRuns]  # by structure, over the measure of the curves
+    by_factor: Mapping[str, IntensityRuns]  # the same over the factor on the motions
+    limits: Sequence[LimitState]  # what was fitted
+    curves: Mapping[str, Mapping[str, Fragility]]  # by limit state and structure
+    table: pd.DataFrame  # a row a structure and limit state; "no curve" says why there is none
 
 
 def compared(
