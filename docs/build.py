@@ -36,12 +36,12 @@ from frames import (
     time_history,
     uplift_gap,
 )
+from frames.demo import table_of
 from frames.design.codes.builtin import BUILT_IN
 from frames.design.codes.provisions import NEEDS, OF_BEARINGS, Provision
 from frames.laws import Bilinear, PlasticHinge
 from frames.results.quantities import QUANTITIES
 from frames.results.recorded import REACHED
-from frames.results.summary import table_of
 from lir_element import (
     AnalysisWarning,
     BackupSupport,

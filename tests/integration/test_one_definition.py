@@ -20,12 +20,12 @@ from frames import (
     time_histories,
     time_history,
 )
+from frames.demo import table_of
 from frames.design import HISTORY_RULES, history_demands
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.design.report.numbers import bearing_table
 from frames.plots import storey_profiles
 from frames.results.quantities import DEMANDS
-from frames.results.summary import table_of
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
 
 TIME = np.arange(0.0, 4.0, 0.01)

