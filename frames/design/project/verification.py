@@ -29,21 +29,11 @@ _DEMANDS = ("displacement", "slip", "rim_force", "base_shear", "drift", "floor_p
 
 
 class Verified(NamedTuple):
-    """A candidate after the time histories of its project.
+    """A candidate after the time histories of its project."""
 
-    Attributes
-    ----------
-    candidate : Candidate
-        Which.
-    run : ProjectRun or None
-        Its runs, demands and checks; None where it could not be run.
-    reason : str
-        Why it could not be run; empty where it was.
-    """
-
-    candidate: Candidate
-    run: ProjectRun | None
-    reason: str = ""
+    candidate: Candidate  # which
+    run: ProjectRun | None  # its runs, demands and checks; None where it could not be run
+    reason: str = ""  # why it could not be run; empty where it was
 
     @property
     def passed(self) -> bool:
