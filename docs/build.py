@@ -36,13 +36,12 @@ from frames import (
     time_history,
     uplift_gap,
 )
+from frames.demo import table_of
 from frames.design.codes.builtin import BUILT_IN
 from frames.design.codes.provisions import NEEDS, OF_BEARINGS, Provision
 from frames.laws import Bilinear, PlasticHinge
-from frames.results.quantities import LEFT, QUANTITIES
+from frames.results.quantities import QUANTITIES
 from frames.results.recorded import REACHED
-from frames.results.summary import table_of
-from frames.results.totals import TOTALS
 from lir_element import (
     AnalysisWarning,
     BackupSupport,
@@ -332,14 +331,8 @@ def derived(model: Frame, history: xr.Dataset) -> list[str]:
 def reached() -> list[str]:
     """Return the table of what a recording keeps of all steps."""
     rows = []
-    for name, (dims, unit, meaning, *_) in QUANTITIES.items():
-        text = meaning if meaning.startswith("1:") else f"largest {meaning}"
-        rows.append([code(REACHED + name), ", ".join(dims) or "-", unit, text])
-    for name in LEFT:
-        dims, unit, meaning = QUANTITIES[name][:3]
-        rows.append([code(f"{REACHED}{name}_left"), ", ".join(dims), unit, f"{meaning}, left"])
-    for name, (dims, unit, meaning, _) in TOTALS.items():
-        rows.append([code(REACHED + name), ", ".join(dims) or "-", unit, meaning])
+    for name, each in QUANTITIES.items():
+        rows.append([code(REACHED + name), ", ".join(each.dims) or "-", each.unit, each.described])
     rows += [
         [code(f"{REACHED}until"), "-", "s", "time of the last base step"],
         [code(f"{REACHED}line_storey"), "line", "-", "storey of a line of nodes"],
@@ -424,7 +417,7 @@ def demo_table() -> str:
             name: time_history(moment_frame(bearing=bearings, name=name), motion, **options)
             for name, bearings in demo.systems_of(demo.design()).items()
         }
-    lines = [line for line in table_of(results).splitlines() if not line.startswith("run time")]
+    lines = [line for line in table_of(results).splitlines() if not line.startswith("seconds")]
     return "\n".join(["```text", *lines, "```"])
 
 

@@ -27,13 +27,7 @@ _SPAN = 1e-6  # in squared period, of a group of modes that is resolved at once
 
 
 class UnstableError(ValueError):
-    """The stiffness is not positive definite.
-
-    Attributes
-    ----------
-    direction : ndarray, (n,)
-        Displacements in which it is least, as large as their own stiffness lets them be.
-    """
+    """The stiffness is not positive definite."""
 
     def __init__(self, direction: FloatArray) -> None:
         super().__init__("the stiffness is not positive definite")

@@ -40,20 +40,6 @@ _NEW = 1e-6  # of a vector's size: what must be left of it beside those before, 
 class RitzSpace:
     """Load-dependent vectors of a structure over its held bearings, as many as are asked for.
 
-    Parameters
-    ----------
-    system : System
-        Matrices over the free degrees of freedom.
-    geometric : csr_array, (n_free, n_free)
-        Geometric stiffness of the members.
-    damping : Damping or None
-        Damping of the structure, as in `build_basis`.
-
-    Attributes
-    ----------
-    most : int
-        How many modes there are at all.
-
     Raises
     ------
     ModelError

@@ -52,11 +52,6 @@ def solve_positive(
 class Factors:
     """A symmetric matrix, factorised in an order that keeps it sparse, its diagonal as pivots.
 
-    Parameters
-    ----------
-    matrix : csr_array, (n, n)
-        Symmetric; stable where it is positive definite, or nearly so.
-
     Raises
     ------
     RuntimeError

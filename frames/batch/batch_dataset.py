@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from frames.bundles.run_data import ENERGY_TERMS
+from frames.bundles.peak_data import ENERGY_TERMS
 from frames.results.peak_response import with_exceeded
 from frames.results.recorded import REACHED
 from lir_element.results.dataset import labelled

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames.batch.batch_dataset import NUMBERS, Layout, RunResult, layout_of, reached_row
-from frames.bundles.run_data import ENERGY_TERMS
+from frames.bundles.peak_data import ENERGY_TERMS
 from frames.recording.force_tracking import ForceTracker
 from frames.recording.recording import Recording, require_known
 from frames.recording.reduction import reduced

@@ -9,6 +9,26 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[Any]
 
+ENERGY_TERMS = (
+    "input",
+    "gravity",
+    "kinetic",
+    "elastic",
+    "damping",
+    "low_friction_bottom",
+    "low_friction_top",
+    "high_friction",
+    "friction_elastic",
+    "rims",
+    "contact",
+    "sliders",
+    "yielding",
+    "dampers",
+    "stops",
+    "numerical",
+)
+"""Terms of the energy balance, in the order of `Output.energy`."""
+
 PRESSED = 0.05
 """Axial force over the static one below which eccentricities are left to uplift."""
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from frames.bundles.peak_data import ENERGY_TERMS
 from lir_element.bundles.contact_data import Contacts, as_rows
 from lir_element.element import heat_parts, initial_state
 from lir_element.layout import BODIES, STATE, WORK, Field, dtype_of
@@ -20,25 +21,6 @@ if TYPE_CHECKING:
 
 MOST_HALVINGS = 14
 """Largest number of halvings of a step: a step of 0.005 s down to 0.3 microseconds."""
-
-ENERGY_TERMS = (
-    "input",
-    "gravity",
-    "kinetic",
-    "elastic",
-    "damping",
-    "low_friction_bottom",
-    "low_friction_top",
-    "high_friction",
-    "friction_elastic",
-    "rims",
-    "contact",
-    "sliders",
-    "yielding",
-    "dampers",
-    "stops",
-    "numerical",
-)
 
 _SECANTS = 8  # corrections of Newton's method that are remembered within a step
 

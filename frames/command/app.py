@@ -225,8 +225,7 @@ def _said_to_be_kept(unfinished: Path) -> None:
 
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
-    from frames.design.histories.demand_table import tables_of_levels
-    from frames.design.histories.failed_runs import failed_runs
+    from frames.design.histories.demand_table import failed_runs, tables_of_levels
 
     for level, statistics, table in tables_of_levels(found.demands):
         _frame_table(f"Demands, level {level}" if level else "Demands", table)

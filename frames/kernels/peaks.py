@@ -9,8 +9,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
-from frames.bundles.peak_data import LOOSE
-from frames.bundles.run_data import ENERGY_TERMS
+from frames.bundles.peak_data import ENERGY_TERMS, LOOSE
 from frames.kernels.quantities import (
     balance_gap,
     closing_speed,

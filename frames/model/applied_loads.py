@@ -34,17 +34,10 @@ class SpanLoad(NamedTuple):
 
 
 class AppliedLoads(NamedTuple):
-    """What floor panels and tapered loads come to.
+    """What floor panels and tapered loads come to."""
 
-    Attributes
-    ----------
-    nodes : list of NodeLoad
-        Of floor panels, on the rigid end zones of members.
-    spans : list of SpanLoad
-        Of floor panels and tapered loads; uniform loads are in `Frame.uniform_loads`.
-    """
-
-    nodes: list[NodeLoad]
+    nodes: list[NodeLoad]  # of floor panels, on the rigid end zones of members
+    # of floor panels and tapered loads; uniform loads are in `Frame.uniform_loads`
     spans: list[SpanLoad]
 
 

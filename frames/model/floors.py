@@ -25,17 +25,10 @@ _AXES = {"x": (1.0, 0.0), "y": (0.0, 1.0)}
 
 
 class PanelLoads(NamedTuple):
-    """What a panel's load comes to.
+    """What a panel's load comes to."""
 
-    Attributes
-    ----------
-    members : list of (str, TaperedLoad)
-        Loads along members.
-    nodes : list of (str, ndarray (6,))
-        Loads on their rigid end zones, as forces and moments on the nodes [N, N m].
-    """
-
-    members: list[tuple[str, TaperedLoad]]
+    members: list[tuple[str, TaperedLoad]]  # loads along members
+    # (6,) on their rigid end zones, as forces and moments on the nodes [N, N m]
     nodes: list[tuple[str, FloatArray]]
 
 

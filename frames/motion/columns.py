@@ -39,39 +39,18 @@ ORDERS = ("columns", "rows", "pairs")
 
 
 class ColumnLayout(NamedTuple):
-    """How a text file of numbers is written.
+    """How a text file of numbers is written."""
 
-    Attributes
-    ----------
-    unit : str
-        Unit of the accelerations, one of `UNITS`.
-    time : int or None
-        Column of the times [s], counted from 0; they must be evenly spaced.
-    dt : float or None
-        Time step [s] of a file without times.
-    skip : int
-        Number of header lines that no comment sign marks.
-    comments : str
-        What starts a comment.
-    delimiter : str or None
-        What separates the numbers; None for white space, or semicolons.
-    order : {"columns", "rows", "pairs"}
-        A history down each column, one history row by row, or times and values in turn.
-    decimal : {".", ","}
-        The decimal sign.
-    width : int or None
-        Characters of each number, of files without separators.
-    """
-
-    unit: str
-    time: int | None = None
-    dt: float | None = None
-    skip: int = 0
+    unit: str  # unit of the accelerations, one of `UNITS`
+    time: int | None = None  # column of the times [s], counted from 0; they must be evenly spaced
+    dt: float | None = None  # time step [s] of a file without times
+    skip: int = 0  # number of header lines that no comment sign marks
     comments: str = "#"
-    delimiter: str | None = None
+    delimiter: str | None = None  # what separates the numbers; None for white space, or semicolons
+    # a history down each column, one history row by row, or times and values in turn
     order: str = "columns"
-    decimal: str = "."
-    width: int | None = None
+    decimal: str = "."  # the decimal sign
+    width: int | None = None  # characters of each number, of files without separators
 
 
 def read_columns(path: PathLike, column: int | None, layout: ColumnLayout) -> AccelerationTrace:

@@ -8,61 +8,34 @@ _F = r"([-+]?\d*\.?\d+(?:[Ee][-+]?\d+)?)"
 
 
 class Format(NamedTuple):
-    """A format of records; patterns are looked for in the header of each component, line by line.
+    """A format of records; patterns are looked for in each component's header, line by line."""
 
-    Attributes
-    ----------
-    name : str
-        Networks that write it.
-    mark : str
-        Pattern of the first lines of a file, by which it is recognised.
-    first : str or int
-        Pattern of the last line of a header, or its number of lines.
-    parts : str
-        Pattern of a line with which the next component begins; empty if a file has one header.
-    after : int
-        Lines between the one that `first` finds and the numbers.
-    size, length : str
-        Pattern of the number of samples; of the duration [s], if that is said instead or besides.
-    step, rate : str
-        Pattern of the time step [s]; of the samples a second.
-    unit : str
-        Pattern of the unit of the numbers; two groups are acceleration and counts [gal].
-    fixed_unit : str
-        The unit of the format, if its header names none.
-    direction : str
-        Pattern of the direction; of a table of several components, of the titles of its columns.
-    peak, peak_unit : str
-        Pattern of the largest acceleration that the header names; its unit, if that is not the
-        second group of the pattern.
-    order : str
-        "rows", "pairs" (of time and value), "columns", or "rows or pairs" by their number.
-    width : int
-        Characters of a number where numbers touch; 0 if the header says so or they do not touch.
-    mean : bool
-        Whether the mean is taken off: raw counts about an offset.
-    whole : bool
-        Whether the numbers run to the end of the file, or of the part.
-    """
-
-    name: str
-    mark: str
-    first: str | int
+    name: str  # networks that write it
+    mark: str  # pattern of the first lines of a file, by which it is recognised
+    first: str | int  # pattern of the last line of a header, or its number of lines
+    # pattern of a line with which the next component begins; empty if a file has one header
     parts: str = ""
-    after: int = 0
+    after: int = 0  # lines between the one that `first` finds and the numbers
+    # pattern of the number of samples; of the duration [s], if that is said instead or besides
     size: str = ""
     length: str = ""
-    step: str = ""
+    step: str = ""  # pattern of the time step [s]; of the samples a second
     rate: str = ""
+    # pattern of the unit of the numbers; two groups are acceleration and counts [gal]
     unit: str = ""
-    fixed_unit: str = ""
+    fixed_unit: str = ""  # the unit of the format, if its header names none
+    # pattern of the direction; of a table of several components, of the titles of its columns
     direction: str = ""
+    # pattern of the largest acceleration that the header names; its unit, if that is not the
+    # second group of the pattern
     peak: str = ""
     peak_unit: str = ""
+    # "rows", "pairs" (of time and value), "columns", or "rows or pairs" by their number
     order: str = "rows"
+    # characters of a number where numbers touch; 0 if the header says so or they do not touch
     width: int = 0
-    mean: bool = False
-    whole: bool = True
+    mean: bool = False  # whether the mean is taken off: raw counts about an offset
+    whole: bool = True  # whether the numbers run to the end of the file, or of the part
 
 
 _POINTS = r"^\s*(\d+)\s+(?:points of accel|accelerogram points|acceleration pts|raw accel)"

@@ -14,8 +14,8 @@ from frames._errors import MotionError, MotionWarning
 from frames._types import FloatArray
 from frames.motion.baseline import Drift, drift_of, left_at_end
 from frames.motion.components import AXES, checked_component, checked_step, equal_lengths
-from frames.motion.description import facts_of
 from lir_element.tables import html_table
+from lir_element.units import STANDARD_GRAVITY
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -143,3 +143,18 @@ class MotionData:
         """Return the components that are given, in the order x, y, z."""
         pairs = zip(AXES, (self.x, self.y, self.z), strict=True)
         return {axis: values for axis, values in pairs if values is not None}
+
+
+def facts_of(given: Mapping[str, FloatArray], dt: float) -> dict[str, str]:
+    """Return facts about components by axis [m/s2], in words by name."""
+    count = len(next(iter(given.values())))
+    found = {"motion": f"{count} samples, dt = {dt:g} s, duration {(count - 1) * dt:g} s"}
+    for axis, values in given.items():
+        left, peak = drift_of(values, dt), float(np.abs(values).max())
+        found[axis] = (
+            f"peak {peak:.3f} m/s2 ({peak / STANDARD_GRAVITY:.3f} g), "
+            f"{left.peak_velocity:.3f} m/s, {left.peak_displacement:.3f} m; at its end "
+            f"{round(left.velocity, 3) + 0.0:.3f} m/s, "
+            f"{round(left.displacement, 3) + 0.0:.3f} m"
+        )
+    return found

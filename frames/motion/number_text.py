@@ -41,20 +41,12 @@ Lines = Sequence[tuple[int, str]]
 
 
 class Writing(NamedTuple):
-    """How numbers are written in a line.
+    """How numbers are written in a line."""
 
-    Attributes
-    ----------
-    delimiter : str or None
-        What separates them; None for white space, or semicolons where there are some.
-    decimal : str
-        The decimal sign, "." or ",".
-    width : int or None
-        Characters of each number, of files without separators; None if they are separated.
-    """
-
+    # what separates them; None for white space, or semicolons where there are some
     delimiter: str | None = None
-    decimal: str = "."
+    decimal: str = "."  # the decimal sign, "." or ","
+    # characters of each number, of files without separators; None if they are separated
     width: int | None = None
 
 

@@ -46,18 +46,10 @@ _UNITS = "G, G/10, CM/S/S, CM/S2, GAL, M/S/S, M/S2, MM/S2"
 
 
 class AccelerationTrace(NamedTuple):
-    """One recorded component.
+    """One recorded component."""
 
-    Attributes
-    ----------
-    acceleration : ndarray, shape (n,)
-        Accelerations [m/s2].
-    dt : float
-        Time step [s].
-    """
-
-    acceleration: FloatArray
-    dt: float
+    acceleration: FloatArray  # (n,) accelerations [m/s2]
+    dt: float  # time step [s]
 
 
 def read_at2(path: PathLike) -> AccelerationTrace:

@@ -45,25 +45,14 @@ class Geometry(Protocol):
 
 @dataclass(frozen=True)
 class Device:
-    """A bearing's geometry, read off a Dataset.
+    """A bearing's geometry, read off a Dataset."""
 
-    Attributes
-    ----------
-    radii : (float, float)
-        Radius of the bottom and of the top surface [m].
-    slider_height, slider_radius : float
-        Of the whole slider, on its axis and in plan [m].
-    rim_displacement : (float, float)
-        Sliding at which each rim is met [m]; infinite without rims.
-    is_dcfp : bool
-        Whether the slider is rigid.
-    """
-
-    radii: tuple[float, float]
-    slider_height: float
+    radii: tuple[float, float]  # radius of the bottom and of the top surface [m]
+    slider_height: float  # of the whole slider, on its axis and in plan [m]
     slider_radius: float
+    # sliding at which each rim is met [m]; infinite without rims
     rim_displacement: tuple[float, float]
-    is_dcfp: bool
+    is_dcfp: bool  # whether the slider is rigid
 
     @property
     def lateral_capacity(self) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +10,9 @@ import xarray as xr
 
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
-from frames.results.measures import floor_acceleration
+from frames.results.formulas import in_plan, values_of
+from frames.results.quantities import QUANTITIES as TABLE
+from frames.results.quantities import Quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -84,7 +86,7 @@ def histories(
     for name in names:
         for data in found.values():
             pick.need(data, _NEEDS.get(name, (name,)), f"leave the quantity {name!r} out")
-    traces = {name: [QUANTITIES[name](data, bearing) for data in found.values()] for name in names}
+    traces = {name: [_trace(data, name, bearing) for data in found.values()] for name in names}
     if quantities is None:
         moving = {n: t for n, t in traces.items() if ps.peak_of(x.to_numpy() for x in t) > 0.0}
         traces = moving or traces
@@ -147,59 +149,37 @@ def _until(trace: xr.DataArray, other: xr.DataArray) -> FloatArray:
     return trace.to_numpy()[: len(other)]
 
 
-def _size_in_plan(values: xr.DataArray, long_name: str, units: str) -> xr.DataArray:
-    plane = values.sel(axis=list(ps.PLANE))
-    size = xr.DataArray(
-        np.linalg.norm(plane.to_numpy(), axis=-1), {"time": values["time"]}, ("time",)
-    )
-    return size.assign_attrs(long_name=long_name, units=units)
+def _trace(data: xr.Dataset, name: str, bearing: str) -> xr.DataArray:
+    # Of a bearing, of the highest level or of the whole structure.
+    key, label = QUANTITIES[name]
+    quantity = TABLE.get(key, _GROUND)
+    values = quantity.of(data)
+    if quantity.dims == ("bearing",):
+        values = values[:, list(map(str, data["bearing"].to_numpy())).index(bearing)]
+    elif quantity.dims == ("level",):
+        values = values[:, -1]
+    attrs = {"long_name": label, "units": quantity.unit}
+    if key == "base_shear":
+        values, attrs["units"] = values / float(data["weight"]), "1"
+    return xr.DataArray(values, {"time": data["time"]}, ("time",), attrs=attrs)
 
 
-def _displacement(data: xr.Dataset, bearing: str) -> xr.DataArray:
-    values = data["bearing_displacement"]
-    return _size_in_plan(values.sel(bearing=bearing), "displacement\nin plan", values.units)
-
-
-def _base_shear(data: xr.Dataset, bearing: str) -> xr.DataArray:
-    return _size_in_plan(data["base_shear"] / data["weight"], "base shear\n/ weight", "1")
-
-
-def _interface_slip(data: xr.Dataset, bearing: str) -> xr.DataArray:
-    values = data["interface_slip_size"]
-    return values.sel(bearing=bearing).assign_attrs(long_name="interface\nslip")
-
-
-def _axial_force(data: xr.Dataset, bearing: str) -> xr.DataArray:
-    values = data["axial_force"]
-    return values.sel(bearing=bearing).assign_attrs(long_name="axial\nforce")
-
-
-def _rim_force(data: xr.Dataset, bearing: str) -> xr.DataArray:
-    values = data["rim_force"]
-    largest = values.sel(bearing=bearing).max("surface")
-    return largest.assign_attrs(long_name="larger\nrim force", units=values.units)
-
-
-def _roof_acceleration(data: xr.Dataset, bearing: str) -> xr.DataArray:
-    values = floor_acceleration(data)
-    return _size_in_plan(values.isel(level=-1), "roof acc.\nin plan", values.units)
-
-
-def _ground_acceleration(data: xr.Dataset, bearing: str) -> xr.DataArray:
-    values = data["ground_acceleration"]
-    return _size_in_plan(values, "ground acc.\nin plan", values.units)
-
-
-QUANTITIES: dict[str, Callable[[xr.Dataset, str], xr.DataArray]] = {
-    "displacement": _displacement,
-    "base_shear": _base_shear,
-    "interface_slip": _interface_slip,
-    "axial_force": _axial_force,
-    "rim_force": _rim_force,
-    "roof_acceleration": _roof_acceleration,
-    "ground_acceleration": _ground_acceleration,
+_GROUND = Quantity(
+    (),
+    "m/s2",
+    "ground acceleration in plan",
+    lambda d: in_plan(values_of(d, "ground_acceleration", "time", "axis")),
+)
+QUANTITIES = {
+    "displacement": ("displacement", "displacement\nin plan"),
+    "base_shear": ("base_shear", "base shear\n/ weight"),
+    "interface_slip": ("slip", "interface\nslip"),
+    "axial_force": ("axial_force", "axial\nforce"),
+    "rim_force": ("rim_force", "larger\nrim force"),
+    "roof_acceleration": ("floor_plan", "roof acc.\nin plan"),
+    "ground_acceleration": ("ground", "ground acc.\nin plan"),
 }
-"""Histories by name, as functions of the Dataset and a bearing."""
+"""Histories by name: the quantity of each, and its axis."""
 
 _NEEDS = {
     "displacement": ("bearing_displacement",),

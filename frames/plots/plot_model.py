@@ -14,8 +14,14 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 from frames.assembly.assemble import assemble
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
-from frames.plots.model_geometry import member_lines, shell_corners
-from frames.plots.part_marks import HINGES, draw_links, hinge_places, part_handles
+from frames.plots.model_geometry import (
+    HINGES,
+    draw_links,
+    hinge_places,
+    member_lines,
+    part_handles,
+    shell_corners,
+)
 from frames.recording.recovery import require_own
 from frames.results.recorded import require_recorded, require_steps
 from frames.statics.modes import modes

@@ -10,7 +10,7 @@ import xarray as xr
 from frames.assembly.assemble import node_geometric_stiffness
 from frames.assembly.basis import bearing_rows
 from frames.bundles.model_data import device_records
-from frames.bundles.run_data import ENERGY_TERMS
+from frames.bundles.peak_data import ENERGY_TERMS
 from frames.model.components import DOFS
 from frames.recording.nonlinear_results import part_coordinates, part_variables
 from frames.recording.section_cuts import storey_rows

@@ -9,10 +9,10 @@ import xarray as xr
 
 from frames.recording.recording import Recording
 from frames.results.envelopes import EXTREMES
+from frames.results.formulas import rims_met
 from frames.results.peak_response import Extreme, extreme_of, later, storeys_of_lines
-from frames.results.quantities import LEFT, QUANTITIES, rims_met
+from frames.results.quantities import LEFT, PEAKS, QUANTITIES, TOTALS
 from frames.results.recorded import REACHED
-from frames.results.totals import TOTALS
 from lir_element.results.dataset import labelled
 
 if TYPE_CHECKING:
@@ -61,16 +61,15 @@ def with_peak_state(data: xr.Dataset, found: PeakState) -> xr.Dataset:
     """Return a result without histories with what its run reached, as the check reads it."""
     variables: dict[str, xr.Variable] = {}
     for name, most in found.reached.items():
-        dims, unit, meaning = QUANTITIES[name][:3]
-        text = meaning if meaning.startswith("1:") else f"largest {meaning}"
+        (dims, unit, *_), text = QUANTITIES[name], QUANTITIES[name].described
         variables[REACHED + name] = labelled(dims, most.values, unit, text)
         variables[f"{REACHED}{name}_at"] = labelled(dims, most.at, "s", f"time of: {text}")
     for name, value in found.totals.items():
-        dims, unit, meaning, _ = TOTALS[name]
+        dims, unit, meaning = QUANTITIES[name][:3]
         variables[REACHED + name] = labelled(dims, value, unit, meaning)
     for name, value in found.left.items():
-        dims, unit, meaning = QUANTITIES[name][:3]
-        variables[f"{REACHED}{name}_left"] = labelled(dims, value, unit, f"{meaning}, left")
+        dims, unit, meaning = QUANTITIES[f"{name}_left"][:3]
+        variables[f"{REACHED}{name}_left"] = labelled(dims, value, unit, meaning)
     variables[UNTIL] = labelled((), found.until, "s", "time of the last base step")
     coordinates: dict[str, Any] = {}
     if "line_drift" in found.reached:
@@ -279,8 +278,8 @@ def present_quantities(piece: xr.Dataset) -> list[str]:
         lacking |= {"temperature"}
     for part in ("link", "hinge"):
         if part not in piece.dims:
-            lacking |= {name for name, each in QUANTITIES.items() if part in each.dims}
-    return [name for name in QUANTITIES if name not in lacking]
+            lacking |= {name for name, each in PEAKS.items() if part in each.dims}
+    return [name for name in PEAKS if name not in lacking]
 
 
 def _regular(step: IntArray, every: int | None) -> BoolArray:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from frames.results.hinge_extremes import can_yield
+from frames.results.formulas import can_yield
 from frames.results.peak_response import largest, left, remaining
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from frames._jit import on_arrays
-from frames.bundles.run_data import ENERGY_TERMS
+from frames.bundles.peak_data import ENERGY_TERMS
 from frames.kernels.quantities import by_tilt, open_gap
 from frames.motion.spectra import response_spectrum
 from frames.results.recorded import (

@@ -16,10 +16,10 @@ import numpy as np
 from frames.results.measures import lines_of
 from frames.results.quantities import QUANTITIES
 from frames.results.recorded import REACHED, largest_kept
-from frames.results.totals import TOTALS
 
 if TYPE_CHECKING:
     import xarray as xr
+    from numpy.typing import NDArray
 
     from frames._types import FloatArray
 
@@ -77,7 +77,7 @@ def total(data: xr.Dataset, name: str) -> FloatArray:
     """Return a sum over the steps of a time history: one of `TOTALS`."""
     if REACHED + name in data.variables:
         return data.variables[REACHED + name].to_numpy()
-    return TOTALS[name].of(data, 0, data.sizes["time"])
+    return QUANTITIES[name].of(data, 0, data.sizes["time"])
 
 
 def left(data: xr.Dataset, name: str) -> FloatArray:
@@ -92,6 +92,29 @@ def remaining(data: xr.Dataset, name: str) -> FloatArray:
     # one that was interrupted has no time of failure
     ended = data.attrs["status"] in {"ok", "bearing_lost"}
     return left(data, name) * (1.0 if ended else math.nan)
+
+
+def reached(data: xr.Dataset, name: str) -> FloatArray:
+    """Return a quantity of a time history, whichever its kind."""
+    kind = QUANTITIES[name].kind
+    if kind == "peak":
+        return largest(data, name).values
+    return total(data, name) if kind == "sum" else left(data, name.removesuffix("_left"))
+
+
+def places_of(data: xr.Dataset, name: str) -> NDArray[np.str_]:
+    """Return the names of what a quantity is reached by: bearings, levels, storeys, lines.
+
+    None where the structure has none; one without a name of a quantity of the whole structure.
+    """
+    dim = next(iter(QUANTITIES[name].dims), "")
+    if not dim:
+        return np.array([""])
+    if dim == "line" and "run" not in data.dims:
+        return np.array(storeys_of_lines(data)[0], dtype=str)
+    if dim == "storey" and dim not in data.coords:
+        return data["level"].to_numpy()[1:].astype(str)
+    return data.variables[dim].to_numpy().astype(str) if dim in data.variables else np.array([])
 
 
 def computed_until(data: xr.Dataset) -> float:

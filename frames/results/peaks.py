@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -11,12 +11,13 @@ import pandas as pd
 import xarray as xr
 
 from frames.results.findings import doubts_of
-from frames.results.hinge_extremes import can_yield
+from frames.results.formulas import can_yield
 from frames.results.measures import energy_error, lateral_capacity
 from frames.results.peak_response import (
     Extreme,
     computed_until,
     largest,
+    places_of,
     remaining,
     storeys_of_lines,
     total,
@@ -25,9 +26,7 @@ from frames.results.quantities import QUANTITIES
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from frames._types import BoolArray
+    from frames._types import BoolArray, FloatArray
 
 
 _STILL = 1e-9
@@ -86,8 +85,8 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
 
 def peaks_of(data: xr.Dataset) -> list[Peak]:
     """Return the rows of `peaks`."""
-    parts = _of_bearings, _of_heat, _of_uplift, _of_structure, _of_yielding, _of_run
-    return [row for part in parts for row in part(data)]
+    titled = (name for name, quantity in QUANTITIES.items() if quantity.title)
+    return [*(row for name in titled for row in _rows(data, name)), *_of_run(data)]
 
 
 def summary(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
@@ -153,26 +152,48 @@ def _peak(quantity: str, unit: str, found: Extreme, names: Any = ()) -> Peak:
     return Peak(quantity, value, unit, float(at[k]), str(names[k]))
 
 
-def _of_bearings(data: xr.Dataset) -> Iterator[Peak]:
-    names, end = data.variables["bearing"].to_numpy(), computed_until(data)
-    u, slip = largest(data, "displacement"), largest(data, "slip")
-    over = Extreme(u.values / lateral_capacity(data), u.at)
-    overlap = Extreme(slip.values / data.variables["slip_capacity"].to_numpy(), slip.at)
-    left_over = {name: float(remaining(data, name).max()) for name in ("displacement", "slip")}
-    yield _peak("bearing displacement", "m", u, names)
-    yield _peak("bearing displacement over capacity", "1", over, names)
-    yield Peak("residual bearing displacement", left_over["displacement"], "m", end)
-    yield _peak("interface slip", "m", slip, names)
-    yield _peak("interface slip over overlap", "1", overlap, names)
-    yield Peak("residual interface slip", left_over["slip"], "m", end)
-    for name, quantity in QUANTITIES.items():
-        if quantity.row:
-            yield _peak(quantity.row, quantity.unit, largest(data, name), names)
-    least = _peak("minimum axial force", "N", largest(data, "axial_tension"), names)
-    yield least._replace(value=0.0 - least.value)
+def _rows(data: xr.Dataset, name: str) -> Iterator[Peak]:
+    # Of a quantity, and what is formed of it.
+    _, unit, _, _, kind, _, title, *_ = quantity = QUANTITIES[name]
+    if kind == "final":
+        left_over = remaining(data, name.removesuffix("_left"))
+        yield Peak(title, float(left_over.max()), unit, computed_until(data))
+    elif kind == "sum":
+        values = total(data, name)
+        worst = int(np.argmax(values))
+        there = values.ndim and values[worst] > 0.0
+        where = str(data.variables["bearing"].to_numpy()[worst]) if there else ""
+        yield Peak(title, float(values.max()), unit, where=where)
+    elif name in _OF_SEVERAL:
+        yield from _OF_SEVERAL[name](data, title)
+    elif quantity.dims == ():
+        yield from _with_share(data, name, largest(data, name), ())
+    else:
+        names = places_of(data, name)
+        which = _SHOWN[name](data) if name in _SHOWN and len(names) else np.full(len(names), True)
+        if which.any():
+            found = Extreme(*(part[which] for part in largest(data, name)))
+            yield from _with_share(data, name, found, names[which])
 
 
-def _of_heat(data: xr.Dataset) -> Iterator[Peak]:
+def _with_share(data: xr.Dataset, name: str, found: Extreme, names: Any) -> Iterator[Peak]:
+    title, unit = QUANTITIES[name].title, QUANTITIES[name].unit
+    row = _peak(title, unit, found, names)
+    yield row._replace(value=QUANTITIES[name].sign * row.value + 0.0)  # no -0
+    if name in _SHARES:
+        of, whole = _SHARES[name]
+        yield _peak(f"{title} over {of}", "1", Extreme(found.values / whole(data), found.at), names)
+
+
+_SHARES: dict[str, tuple[str, Callable[[xr.Dataset], FloatArray]]] = {
+    "displacement": ("capacity", lateral_capacity),
+    "slip": ("overlap", lambda d: d.variables["slip_capacity"].to_numpy()),
+    "base_shear": ("weight", lambda d: d.variables["weight"].to_numpy()),
+}
+"""What a peak is given over, too."""
+
+
+def _of_heat(data: xr.Dataset, title: str) -> Iterator[Peak]:
     # Of bearings that are heated.
     if "contact" not in data.dims:
         return
@@ -183,93 +204,55 @@ def _of_heat(data: xr.Dataset) -> Iterator[Peak]:
         if heated.any():
             places = np.repeat(names, len(contacts))
             each = Extreme(*(part[heated][:, contacts].ravel() for part in found))
-            yield _peak(f"temperature of {text}", "degC", each, places)
+            yield _peak(f"{title} {text}", "degC", each, places)
 
 
-def _of_uplift(data: xr.Dataset) -> Iterator[Peak]:
-    names = data.variables["bearing"].to_numpy()
-    yield Peak("uplifts, all bearings", float(total(data, "uplifts")), "1")
-    lasts = total(data, "time_lifted")
-    worst = int(np.argmax(lasts))
-    where = str(names[worst]) if lasts[worst] > 0.0 else ""
-    yield Peak("uplift duration", float(lasts[worst]), "s", where=where)
-    yield _peak("maximum uplift", "m", largest(data, "gap"), names)
-
-
-def _of_structure(data: xr.Dataset) -> Iterator[Peak]:
-    shear = largest(data, "base_shear")
-    yield _peak("base shear", "N", shear)
-    over = Extreme(shear.values / float(data.variables["weight"].to_numpy()), shear.at)
-    yield _peak("base shear over weight", "1", over)
-    if data.sizes["level"] > 0:
-        levels = data.variables["level"].to_numpy()
-        plan, vertical = (largest(data, f"floor_{way}") for way in ("plan", "vertical"))
-        yield _peak("floor acceleration in plan, mean", "m/s2", plan, levels)
-        yield _peak("floor acceleration, vertical, mean", "m/s2", vertical, levels)
-        on = data.variables["level_node"].to_numpy() >= 0
-        nodes = data.variables["node"].to_numpy()[on]
-        for text, name in ((" in plan", "node_plan"), (", vertical", "node_vertical")):
-            if not on.any():  # none of them was recorded
-                continue
-            each = largest(data, name)
-            those = Extreme(each.values[on], each.at[on])
-            yield _peak(f"acceleration{text}, worst node", "m/s2", those, nodes)
-    if data.sizes["level"] > 1:
-        storeys = data.variables["storey"].to_numpy()
-        yield _peak("storey shear", "N", largest(data, "storey_shear"), storeys)
-        yield from _of_drifts(data)
-
-
-def _of_drifts(data: xr.Dataset) -> Iterator[Peak]:
-    storeys = [str(name) for name in data.variables["level"].to_numpy()[1:]]
-    mean = largest(data, "drift")
-    yield _peak("storey drift, mean", "1", mean, storeys)
-    names, storey_of = storeys_of_lines(data)
+def _of_lines(data: xr.Dataset, title: str) -> Iterator[Peak]:
+    names, storey_of = storeys_of_lines(data) if data.sizes["level"] > 1 else ([], [])
     if not names:
         return
-    each = largest(data, "line_drift")
-    yield _peak("storey drift, maximum at any column line", "1", each, names)
-    own = {name: k for k, name in enumerate(storeys)}
+    each, mean = largest(data, "line_drift"), largest(data, "drift")
+    yield _peak(title, "1", each, names)
+    own = {str(name): k for k, name in enumerate(places_of(data, "drift"))}
     of = np.array([own[name] for name in storey_of])
     over = each.values / np.maximum(mean.values[of], _STILL)
     ratios = np.where(each.values > _STILL, over, 1.0)
     worst = int(np.argmax(ratios))
-    where = names[worst]
-    yield Peak(
-        "torsion: maximum at any column line over mean drift",
-        float(ratios[worst]),
-        "1",
-        where=where,
-    )
+    twist = "torsion: maximum at any column line over mean drift"
+    yield Peak(twist, float(ratios[worst]), "1", where=names[worst])
 
 
-def _of_yielding(data: xr.Dataset) -> Iterator[Peak]:
-    # Of links and hinges, where a structure has them.
-    links = data.variables["link"].to_numpy() if "link" in data.dims else np.array([], dtype=str)
-    yields = can_yield(data) if len(links) else np.array([], dtype=bool)
-    if yields.any():
-        yield _peak("link ductility", "1", _chosen(data, "link_ductility", yields), links[yields])
-    if "hinge" in data.dims:
-        hinges = data.variables["hinge"].to_numpy()
-        yield _peak("plastic rotation of hinges", "rad", largest(data, "hinge_rotation"), hinges)
-    if yields.any() or "hinge" in data.dims:
+def _of_work(data: xr.Dataset, title: str) -> Iterator[Peak]:
+    if "hinge" in data.dims or ("link" in data.dims and can_yield(data).any()):
         work, given = (float(largest(data, f"energy_{of}").values) for of in ("yielding", "input"))
-        share = work / given if given > 0.0 else math.nan
-        yield Peak("work of yielding over input", share, "1")
-    walls = _walls(data) if len(links) else yields
-    if walls.any():
-        yield _peak("force of a wall", "N", _chosen(data, "link_force", walls), links[walls])
+        yield Peak(title, work / given if given > 0.0 else math.nan, "1")
 
 
-def _chosen(data: xr.Dataset, name: str, which: BoolArray) -> Extreme:
-    found = largest(data, name)
-    return Extreme(found.values[which], found.at[which])
+_OF_SEVERAL: dict[str, Callable[[xr.Dataset, str], Iterator[Peak]]] = {
+    "temperature": _of_heat,
+    "line_drift": _of_lines,
+    "energy_yielding": _of_work,
+}
+"""Rows that are formed of several quantities, or several rows of one."""
 
 
 def _walls(data: xr.Dataset) -> BoolArray:
     # Stops have no deformation at yield, as dampers, but they never pull.
     unlimited = np.isnan(data.variables["link_yield_deformation"].to_numpy())
     return np.asarray(unlimited & (largest(data, "link_reversal").values <= 0.0))
+
+
+def _on_levels(data: xr.Dataset) -> BoolArray:
+    return np.asarray(data.variables["level_node"].to_numpy() >= 0)
+
+
+_SHOWN: dict[str, Callable[[xr.Dataset], BoolArray]] = {
+    "node_plan": _on_levels,
+    "node_vertical": _on_levels,
+    "link_ductility": can_yield,
+    "link_force": _walls,
+}
+"""Which places of a quantity count, where not all do."""
 
 
 def _of_run(data: xr.Dataset) -> Iterator[Peak]:

@@ -1,216 +1,126 @@
-"""The quantities of a time history whose largest values count: the table that declares them.
+"""The quantities of time histories: the one table that says what is known of each.
 
-A column of results is added by its row here and its formula in `frames.kernels.quantities`
+A quantity is added by its row here and its formula in `frames.kernels.quantities`
 (docs/architecture.md).
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from functools import partial
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from frames._jit import on_arrays
 from frames.bundles.peak_data import LOADED, PRESSED
 from frames.kernels.quantities import (
-    balance_gap,
-    closing_speed,
-    either,
-    interface_share,
     is_lifted,
     opposite,
-    over_static,
-    pressed_eccentricity,
-    presses,
     size,
     slips,
     vertical_change,
 )
-from frames.results.hinge_extremes import hinge_rotation, link_ductility, of_hinges, of_links
+from frames.results import formulas
+from frames.results.formulas import (
+    formed,
+    in_plan,
+    of_bearings,
+    of_hinges,
+    of_links,
+    values_of,
+)
 from frames.results.measures import (
-    ABSORBED,
     centre_shift,
     drift_by_line,
-    floor_acceleration,
     storey_drift,
     uplift_gap,
 )
 from frames.results.recorded import standing
-from lir_element.kernels import derived
-from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    import xarray as xr
-
     from frames._types import FloatArray
 
-VIOLENT = 50.0 * STANDARD_GRAVITY
-"""Acceleration of a node from which on it is looked at [m/s2]."""
+
+_IN_FIGURES = {"m": ("mm", 1e3), "N": ("kN", 1e-3), "m/s2": ("m/s²", 1.0), "%": ("%", 1e2)}
 
 
 class Quantity(NamedTuple):
-    """A derived history (time, ...) of which the largest value counts: declared here, and once."""
+    """A number of a time history: what it is, and what tables, checks and figures say of it."""
 
     dims: tuple[str, ...]
     unit: str
     meaning: str
-    of: Callable[[xr.Dataset], FloatArray]
+    of: Callable[..., FloatArray]
+    """Its history (time, ...) of a Dataset; of a sum what steps first <= k < last add."""
+    kind: Literal["peak", "final", "sum"] = "peak"
+    """Largest value, value at the last step, or sum over steps."""
     by_step: bool = False
     """Whether compiled code fills it, of each bearing at each step (`show_bearing`)."""
-    row: str = ""
-    """Its row in the table of peaks; of a quantity of each bearing alone."""
+    title: str = ""
+    """Its row in the table of peaks."""
+    demand: str = ""
+    """Its title among demands and checks."""
+    checked: str = ""
+    """Its title among checks, where tables of demands leave it out."""
+    note: str = ""
+    """Said beside the demand."""
+    sign: float = 1.0
+    """With which tables show it."""
+    shown: str = ""
+    """Unit of figures, where that is not the usual one."""
+    raised: Literal["", "factor", "difference"] = ""
+    """How moved masses raise it. What begins at a threshold may be nothing while the masses are
+    where they are: a difference raises it."""
+    limit: str = ""
+    """Field of `DesignLimits` that it is held against."""
+    symbol: str = ""
+    """Of that check."""
 
+    @property
+    def in_figures(self) -> tuple[str, float]:
+        """Its unit in figures, and the factor to it."""
+        return _IN_FIGURES.get(self.shown or self.unit, (self.pure_unit, 1.0))
 
-def in_plan(values: FloatArray) -> FloatArray:
-    """Return the sizes of the horizontal parts of vectors (..., 3) or (..., 2)."""
-    vectors = np.asarray(values)
-    return np.asarray(on_arrays(derived.in_plan)(vectors[..., 0], vectors[..., 1]))
+    @property
+    def described(self) -> str:
+        """What the variable that keeps it is."""
+        whole = self.kind != "peak" or self.meaning.startswith("1:")
+        return self.meaning if whole else f"largest {self.meaning}"
 
+    @property
+    def heading(self) -> str:
+        """Its title among checks, and in tables of single motions."""
+        return self.demand or self.checked
 
-def vertical_force(data: xr.Dataset) -> FloatArray:
-    """Return the axial force of the bearings (time, bearing), compression positive [N].
-
-    Where vertical coupling is left out: that of the vertical springs, and what lifting the static
-    load along the pendulum's path would have added, ``W / g`` times the acceleration of
-    ``L - sqrt(L^2 - U^2)``.
-
-    Shapes: result (n_steps, n_bearings).
-    """
-    axial: FloatArray = data.variables["axial_force"].to_numpy()
-    if "vertical_coupling" not in left_out(data):
-        return axial
-    spring = -data["bearing_force"].sel(axis="z").to_numpy()
-    time = data["time"].to_numpy()
-    if len(time) < 2:
-        return np.asarray(spring)
-    u = data["bearing_displacement"].sel(axis=["x", "y"]).to_numpy()
-    v = data["bearing_velocity"].sel(axis=["x", "y"]).to_numpy()
-    length = data["length"].to_numpy()
-    depth = np.sqrt(np.maximum(length**2 - (u**2).sum(axis=-1), 0.01 * length**2))
-    rising = np.gradient((u * v).sum(axis=-1) / depth, time, axis=0)
-    return np.asarray(
-        spring + data.variables["static_axial_force"].to_numpy() / STANDARD_GRAVITY * rising
-    )
-
-
-def left_out(data: xr.Dataset) -> tuple[str, ...]:
-    """Return the names of the features that a run left out."""
-    text = str(data.attrs["features_left_out"])
-    return () if text == "none" else tuple(text.split(", "))
-
-
-def rims_met(data: xr.Dataset) -> FloatArray:
-    """Return 1 where a bearing's slider presses on a rim, else 0 (time, bearing)."""
-    return formed(presses, _rim_force(data))
-
-
-def closing(data: xr.Dataset) -> FloatArray:
-    """Return the closing speed of the axial contact at the first step of rim contacts [m/s]."""
-    found = np.zeros((data.sizes["time"], data.sizes["bearing"]))
-    met, time = rims_met(data), data["time"].to_numpy()
-    slip = of_bearings(data, "interface_slip", "axis")[:-1]
-    way = np.diff(of_bearings(data, "bearing_displacement", "axis"), axis=0)
-    speeds = formed(
-        closing_speed,
-        *(slip[..., 0], slip[..., 1], way[..., 0], way[..., 1]),
-        np.diff(time)[:, None],
-        known(data, "length"),
-    )
-    found[1:] = speeds * (met[1:] > met[:-1])
-    return found
-
-
-def of_bearings(data: xr.Dataset, name: str, *last: str) -> FloatArray:
-    """Return the history of a variable of bearings (time, bearing, ...)."""
-    return _values(data, name, "time", "bearing", *last)
-
-
-def _values(data: xr.Dataset, name: str, *dims: str) -> FloatArray:
-    # A variable in an order of its dimensions, without the coordinates that would cost time.
-    return np.asarray(data.variables[name].transpose(*dims).to_numpy())
-
-
-def formed(formula: Callable[..., float], *of: FloatArray) -> FloatArray:
-    """Return what a formula of kernels makes of whole histories."""
-    return np.asarray(on_arrays(formula)(*of))
-
-
-def known(data: xr.Dataset, name: str) -> FloatArray:
-    """Return a number of each bearing, or of each of its surfaces."""
-    return np.asarray(data.variables[name].to_numpy())
-
-
-def _rim_force(data: xr.Dataset) -> FloatArray:
-    both = of_bearings(data, "rim_force", "surface")
-    return formed(either, both[..., 0], both[..., 1])
-
-
-def _interface_share(data: xr.Dataset) -> FloatArray:
-    return formed(
-        interface_share,
-        of_bearings(data, "interface_force"),
-        of_bearings(data, "axial_force"),
-        known(data, "static_axial_force"),
-        known(data, "interface_friction"),
-    )
-
-
-def _vertical_ratio(data: xr.Dataset) -> FloatArray:
-    return formed(over_static, vertical_force(data), known(data, "static_axial_force"))
-
-
-def _eccentricity(data: xr.Dataset, share: float) -> FloatArray:
-    return formed(
-        pressed_eccentricity,
-        of_bearings(data, "interface_eccentricity"),
-        known(data, "slider_radius"),
-        of_bearings(data, "axial_force"),
-        known(data, "static_axial_force"),
-        np.array(share),
-    )
-
-
-def _violence(data: xr.Dataset) -> FloatArray:
-    moves = np.linalg.norm(_node_acceleration(data)[..., :3], axis=-1)
-    heavy = data.variables["node_mass"].to_numpy().max(axis=1) > 0.0
-    return np.where((moves > VIOLENT) & heavy, moves, 0.0)
-
-
-def _floor(data: xr.Dataset) -> FloatArray:
-    return floor_acceleration(data).transpose("time", "level", "axis").to_numpy()
-
-
-def _node_acceleration(data: xr.Dataset) -> FloatArray:
-    return _values(data, "node_acceleration", "time", "node", "dof")
-
-
-def _term(data: xr.Dataset, term: str) -> FloatArray:
-    return formed(size, data["energy"].sel(term=term).to_numpy())
-
-
-def _gap(data: xr.Dataset) -> FloatArray:
-    energy = data["energy"]
-    both = energy.sel(term="input"), energy.sel(term=list(ABSORBED)).sum("term")
-    return formed(balance_gap, *(each.to_numpy() for each in both))
-
-
-def _tilt(data: xr.Dataset) -> FloatArray:
-    turn = data["body_rotation"].transpose("time", "bearing", "body", "axis")
-    turns = turn.sel(body=["bottom_slider", "top_slider"]).to_numpy()
-    tilts = np.hypot(turns[..., 0], turns[..., 1])  # NaN without contact points
-    return np.asarray(tilts.max(axis=-1))
+    @property
+    def pure_unit(self) -> str:
+        """Its unit in tables of design: "-" of a pure number."""
+        return "-" if self.unit == "1" else self.unit
 
 
 _B, _L, _H = ("bearing",), ("link",), ("hinge",)
+_stepped = partial(Quantity, _B, by_step=True)  # of each bearing at each step
 QUANTITIES: dict[str, Quantity] = {
-    "displacement": Quantity(
-        _B,
+    "displacement": _stepped(
         "m",
         "bearing displacement in plan",
-        lambda d: in_plan(of_bearings(d, "bearing_displacement", "axis")),
-        by_step=True,
+        formulas.displacement,
+        title="bearing displacement",
+        demand="isolator displacement",
+        raised="factor",
+    ),
+    "displacement_left": Quantity(
+        _B,
+        "m",
+        "bearing displacement in plan, left",
+        formulas.displacement,
+        "final",
+        title="residual bearing displacement",
+        demand="residual displacement",
+        raised="difference",
+        limit="displacement_left",
+        symbol="D_left",
     ),
     "displacement_along": Quantity(
         ("axis",),
@@ -218,65 +128,89 @@ QUANTITIES: dict[str, Quantity] = {
         "bearing displacement along each axis",
         lambda d: formed(size, of_bearings(d, "bearing_displacement", "axis")).max(axis=1),
     ),
-    "rim_force": Quantity(_B, "N", "force of a rim", _rim_force, by_step=True, row="rim force"),
-    "rims_met": Quantity(_B, "1", "1: a rim was met, first then", rims_met, by_step=True),
-    "closing": Quantity(
-        _B,
-        "m/s",
-        "speed along the slider's axis at which a rim was met with a slip",
-        closing,
-        by_step=True,
+    "slip": _stepped(
+        "m",
+        "interface slip",
+        lambda d: of_bearings(d, "interface_slip_size"),
+        title="interface slip",
+        demand="interface slip",
+        raised="difference",
     ),
-    "force": Quantity(
+    "slip_left": Quantity(
         _B,
+        "m",
+        "interface slip, left",
+        lambda d: of_bearings(d, "interface_slip_size"),
+        "final",
+        title="residual interface slip",
+        demand="residual interface slip",
+        raised="difference",
+    ),
+    "rim_force": _stepped(
+        "N",
+        "force of a rim",
+        formulas.rim_force,
+        title="rim force",
+        demand="rim force",
+        raised="difference",
+        limit="rim_strength",
+        symbol="P",
+    ),
+    "rim_plastic": Quantity(
+        _B,
+        "m",
+        "largest plastic deformation of a rim; infinite once it is broken",
+        formulas.rim_plastic,
+        "sum",
+        raised="difference",
+    ),
+    "rims_met": _stepped("1", "1: a rim was met, first then", formulas.rims_met),
+    "closing": _stepped(
+        "m/s", "speed along the slider's axis at which a rim was met with a slip", formulas.closing
+    ),
+    "force": _stepped(
         "N",
         "bearing force in plan",
         lambda d: in_plan(of_bearings(d, "bearing_force", "axis")),
-        by_step=True,
-        row="bearing force in plan",
+        title="bearing force in plan",
+        checked="lateral force of a bearing",
+        raised="factor",
+        limit="lateral_force",
+        symbol="H",
     ),
-    "axial_force": Quantity(
-        _B,
+    "axial_force": _stepped(
         "N",
         "axial force",
         lambda d: of_bearings(d, "axial_force"),
-        by_step=True,
-        row="axial force",
+        title="axial force",
+        demand="maximum axial force",
+        raised="factor",
+        limit="axial_force",
+        symbol="N",
     ),
-    "axial_tension": Quantity(
-        _B,
+    "axial_tension": _stepped(
         "N",
         "negative of the minimum axial force",
         lambda d: formed(opposite, of_bearings(d, "axial_force")),
-        by_step=True,
+        title="minimum axial force",
+        demand="minimum axial force",
+        sign=-1.0,
+        raised="difference",
     ),
-    "vertical_tension": Quantity(
-        _B,
+    "vertical_tension": _stepped(
         "1",
         "negative of the least vertical force over the static one",
-        lambda d: formed(opposite, _vertical_ratio(d)),
-        by_step=True,
+        lambda d: formed(opposite, formulas.vertical_ratio(d)),
     ),
-    "vertical_change": Quantity(
-        _B,
+    "vertical_change": _stepped(
         "1",
         "change of the vertical force over the static one",
-        lambda d: formed(vertical_change, _vertical_ratio(d)),
-        by_step=True,
+        lambda d: formed(vertical_change, formulas.vertical_ratio(d)),
     ),
-    "lifted": Quantity(
-        _B,
+    "lifted": _stepped(
         "1",
         "1: lifted off, first then",
-        lambda d: standing(d) * formed(is_lifted, _vertical_ratio(d)),
-        by_step=True,
-    ),
-    "gap": Quantity(
-        _B,
-        "m",
-        "gap of the axial contact",
-        lambda d: uplift_gap(d).transpose("time", "bearing").to_numpy(),
-        by_step=True,
+        lambda d: standing(d) * formed(is_lifted, formulas.vertical_ratio(d)),
     ),
     "sliding": Quantity(
         (*_B, "surface"),
@@ -285,125 +219,170 @@ QUANTITIES: dict[str, Quantity] = {
         lambda d: in_plan(of_bearings(d, "slider_displacement", "surface", "axis")),
         by_step=True,
     ),
-    "slip": Quantity(
-        _B, "m", "interface slip", lambda d: of_bearings(d, "interface_slip_size"), by_step=True
+    "interface_share": _stepped(
+        "1", "force of the interface over what its friction holds", formulas.share_of_interface
     ),
-    "interface_share": Quantity(
-        _B,
-        "1",
-        "force of the interface over what its friction holds",
-        _interface_share,
-        by_step=True,
-    ),
-    "slipped": Quantity(
-        _B,
+    "slipped": _stepped(
         "1",
         "1: the interface slipped, first then",
-        lambda d: formed(slips, _interface_share(d)),
-        by_step=True,
+        lambda d: formed(slips, formulas.share_of_interface(d)),
     ),
-    "eccentricity": Quantity(
+    "slip_loose": Quantity(
         _B,
+        "m",
+        "growth of the interface slip while the axial force was at most 1 % of that at rest",
+        formulas.slip_loose,
+        "sum",
+    ),
+    "eccentricity": _stepped(
         "1",
         "interface eccentricity over slider radius, while pressed",
-        lambda d: _eccentricity(d, PRESSED),
-        by_step=True,
+        lambda d: formulas.eccentricity(d, PRESSED),
     ),
-    "eccentricity_loaded": Quantity(
-        _B,
+    "eccentricity_loaded": _stepped(
         "1",
         "interface eccentricity over slider radius, while half of the load at rest presses",
-        lambda d: _eccentricity(d, LOADED),
-        by_step=True,
+        lambda d: formulas.eccentricity(d, LOADED),
+        checked="normalised eccentricity e/a",
+        raised="difference",
+        limit="eccentricity",
+        symbol="epsilon",
     ),
-    "spin": Quantity(
-        _B,
-        "rad",
-        "spin of the sliders",
-        lambda d: formed(size, of_bearings(d, "slider_spin")),
-        by_step=True,
+    "spin": _stepped(
+        "rad", "spin of the sliders", lambda d: formed(size, of_bearings(d, "slider_spin"))
     ),
-    "centre_shift": Quantity(
-        _B,
+    "centre_shift": _stepped(
         "m",
         "shift of the spheres' centres by tilt of the plates",
         lambda d: in_plan(centre_shift(d)),
-        by_step=True,
     ),
-    "tilt": Quantity(_B, "rad", "tilt of a slider with contact points", _tilt),
+    "tilt": Quantity(_B, "rad", "tilt of a slider with contact points", formulas.tilt),
     "temperature": Quantity(
         (*_B, "contact"),
         "degC",
         "temperature of what each contact slides on",
         lambda d: of_bearings(d, "temperature", "contact"),
+        title="temperature of",
+    ),
+    "uplifts": Quantity(
+        (),
+        "1",
+        "how often bearings lifted off",
+        formulas.uplifts,
+        "sum",
+        title="uplifts, all bearings",
+        demand="uplifts, all bearings",
+    ),
+    "time_lifted": Quantity(
+        _B,
+        "s",
+        "uplift duration",
+        formulas.time_lifted,
+        "sum",
+        title="uplift duration",
+        demand="uplift duration",
+    ),
+    "gap": _stepped(
+        "m",
+        "gap of the axial contact",
+        lambda d: uplift_gap(d).transpose("time", "bearing").to_numpy(),
+        title="maximum uplift",
+        demand="maximum uplift",
+        limit="uplift_gap",
+        symbol="g",
     ),
     "base_shear": Quantity(
         (),
         "N",
         "base shear in plan",
-        lambda d: in_plan(_values(d, "base_shear", "time", "axis")),
-    ),
-    "storey_shear": Quantity(
-        ("storey",),
-        "N",
-        "storey shear in plan",
-        lambda d: in_plan(_values(d, "storey_shear", "time", "storey", "axis")),
+        lambda d: in_plan(values_of(d, "base_shear", "time", "axis")),
+        title="base shear",
+        demand="base shear",
+        raised="factor",
+        limit="base_shear",
+        symbol="V",
     ),
     "floor_plan": Quantity(
         ("level",),
         "m/s2",
         "floor acceleration in plan, mean of the level",
-        lambda d: in_plan(_floor(d)),
+        lambda d: in_plan(formulas.of_levels(d)),
+        title="floor acceleration in plan, mean",
+        demand="floor acceleration in plan",
+        note="mean of the level",
+        raised="factor",
+        limit="floor_acceleration",
+        symbol="A",
     ),
     "floor_vertical": Quantity(
         ("level",),
         "m/s2",
         "floor acceleration, vertical, mean of the level",
-        lambda d: formed(size, _floor(d)[..., 2]),
+        lambda d: formed(size, formulas.of_levels(d)[..., 2]),
+        title="floor acceleration, vertical, mean",
     ),
     "node_plan": Quantity(
         ("node",),
         "m/s2",
         "acceleration of a node in plan",
-        lambda d: in_plan(_node_acceleration(d)),
+        lambda d: in_plan(formulas.of_nodes(d)),
+        title="acceleration in plan, worst node",
     ),
     "node_vertical": Quantity(
         ("node",),
         "m/s2",
         "acceleration of a node, vertical",
-        lambda d: formed(size, _node_acceleration(d)[..., 2]),
+        lambda d: formed(size, formulas.of_nodes(d)[..., 2]),
+        title="acceleration, vertical, worst node",
     ),
     "violence": Quantity(
-        ("node",), "m/s2", "acceleration of a node with mass, 0 up to 50 g", _violence
+        ("node",), "m/s2", "acceleration of a node with mass, 0 up to 50 g", formulas.violence
     ),
-    "imbalance": Quantity(
-        ("resultant",),
-        "1",
-        "sum of all forces, or their moments, over the weight",
-        lambda d: np.abs(_values(d, "imbalance", "time", "resultant")),
+    "storey_shear": Quantity(
+        ("storey",),
+        "N",
+        "storey shear in plan",
+        lambda d: in_plan(values_of(d, "storey_shear", "time", "storey", "axis")),
+        title="storey shear",
+        demand="storey shear",
+        raised="factor",
     ),
     "drift": Quantity(
-        ("storey",), "1", "storey drift", lambda d: in_plan(storey_drift(d).to_numpy())
+        ("storey",),
+        "1",
+        "storey drift",
+        lambda d: in_plan(storey_drift(d).to_numpy()),
+        title="storey drift, mean",
+        demand="storey drift ratio",
+        note="mean of the storey, in plan",
+        shown="%",
+        raised="factor",
+        limit="drift",
+        symbol="theta",
     ),
     "line_drift": Quantity(
-        ("line",), "1", "drift of a line of nodes", lambda d: in_plan(drift_by_line(d).to_numpy())
+        ("line",),
+        "1",
+        "drift of a line of nodes",
+        lambda d: in_plan(drift_by_line(d).to_numpy()),
+        title="storey drift, maximum at any column line",
+        demand="storey drift ratio, maximum at any column line",
+        note="in plan",
+        shown="%",
+        raised="factor",
+        limit="drift",
+        symbol="theta",
     ),
-    "energy_input": Quantity(
-        (), "J", "work of the ground motion, absolute", lambda d: _term(d, "input")
+    "link_ductility": Quantity(
+        _L,
+        "1",
+        "deformation of a link over that at yield",
+        formulas.link_ductility,
+        title="link ductility",
     ),
-    "energy_numerical": Quantity(
-        (), "J", "work that the time integration leaves over", lambda d: _term(d, "numerical")
-    ),
-    "energy_gap": Quantity((), "J", "gap of the energy balance", _gap),
-    "energy_yielding": Quantity(
-        (), "J", "work that yielding took up", lambda d: _term(d, "yielding")
-    ),
-    "link_ductility": Quantity(_L, "1", "deformation of a link over that at yield", link_ductility),
-    "link_deformation": Quantity(
-        _L, "m, rad", "deformation of a link", lambda d: np.abs(of_links(d, "link_deformation"))
-    ),
-    "link_force": Quantity(
-        _L, "N, N m", "force of a link", lambda d: np.abs(of_links(d, "link_force"))
+    "link_deformation": Quantity(_L, "m, rad", "deformation of a link", formulas.link_deformation),
+    "link_deformation_left": Quantity(
+        _L, "m, rad", "deformation of a link, left", formulas.link_deformation, "final"
     ),
     "link_reversal": Quantity(
         _L,
@@ -414,15 +393,105 @@ QUANTITIES: dict[str, Quantity] = {
     "link_work": Quantity(
         _L, "J", "work that a link has taken up", lambda d: of_links(d, "link_work")
     ),
-    "hinge_rotation": Quantity(_H, "rad", "plastic rotation of a hinge", hinge_rotation),
+    "link_work_left": Quantity(
+        _L, "J", "work that a link has taken up, left", lambda d: of_links(d, "link_work"), "final"
+    ),
+    "hinge_rotation": Quantity(
+        _H,
+        "rad",
+        "plastic rotation of a hinge",
+        formulas.hinge_rotation,
+        title="plastic rotation of hinges",
+    ),
+    "hinge_rotation_left": Quantity(
+        _H, "rad", "plastic rotation of a hinge, left", formulas.hinge_rotation, "final"
+    ),
     "hinge_turn": Quantity(
         _H, "rad", "plastic rotation run through", lambda d: of_hinges(d, "hinge_turn")
     ),
     "hinge_work": Quantity(
         _H, "J", "work that a hinge has dissipated", lambda d: of_hinges(d, "hinge_work")
     ),
+    "hinge_work_left": Quantity(
+        _H,
+        "J",
+        "work that a hinge has dissipated, left",
+        lambda d: of_hinges(d, "hinge_work"),
+        "final",
+    ),
+    "energy_input": Quantity(
+        (),
+        "J",
+        "work of the ground motion, absolute",
+        lambda d: formulas.energy_term(d, "input"),
+    ),
+    "energy_yielding": Quantity(
+        (),
+        "J",
+        "work that yielding took up",
+        lambda d: formulas.energy_term(d, "yielding"),
+        title="work of yielding over input",
+    ),
+    "energy_numerical": Quantity(
+        (),
+        "J",
+        "work that the time integration leaves over",
+        lambda d: formulas.energy_term(d, "numerical"),
+    ),
+    "energy_gap": Quantity((), "J", "gap of the energy balance", formulas.energy_gap),
+    "link_force": Quantity(
+        _L,
+        "N, N m",
+        "force of a link",
+        lambda d: np.abs(of_links(d, "link_force")),
+        title="force of a wall",
+    ),
+    "imbalance": Quantity(
+        ("resultant",),
+        "1",
+        "sum of all forces, or their moments, over the weight",
+        lambda d: np.abs(values_of(d, "imbalance", "time", "resultant")),
+    ),
+    "sliding_work": Quantity(
+        (),
+        "N m/s",
+        "sum over steps and surfaces: load, friction at high speed, speed",
+        formulas.sliding_work,
+        "sum",
+    ),
+    "sliding_work_lower": Quantity(
+        (),
+        "N m/s",
+        "the same with what friction is below that at high speed",
+        formulas.sliding_work_lower,
+        "sum",
+    ),
+    "sliding_work_pressed": Quantity(
+        (),
+        "N m/s",
+        "the same with what the pressure changes of that",
+        formulas.sliding_work_pressed,
+        "sum",
+    ),
+    "sliding_work_heated": Quantity(
+        (),
+        "N m/s",
+        "the same with what the temperature changes of that",
+        formulas.sliding_work_heated,
+        "sum",
+    ),
 }
-"""Derived histories by name; what begins with "1:" is 0 before it happens."""
+"""All of them by name, in the order of tables; what begins with "1:" is 0 before it happens."""
 
-LEFT = ("displacement", "slip", "link_deformation", "link_work", "hinge_rotation", "hinge_work")
+PEAKS = {name: each for name, each in QUANTITIES.items() if each.kind == "peak"}
+TOTALS = {name: each for name, each in QUANTITIES.items() if each.kind == "sum"}
+LEFT = tuple(
+    name.removesuffix("_left") for name, each in QUANTITIES.items() if each.kind == "final"
+)
 """Quantities of which the value at the last step is kept, too."""
+
+DEMANDS = {name: each for name, each in QUANTITIES.items() if each.demand}
+"""Rows of tables of demands."""
+
+JUDGED = DEMANDS | {name: each for name, each in QUANTITIES.items() if each.checked}
+"""The same, and what checks take besides."""

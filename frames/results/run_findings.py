@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.results.findings import Finding, finding, remark
+from frames.results.formulas import VIOLENT
 from frames.results.peak_response import largest
-from frames.results.quantities import VIOLENT
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

@@ -9,7 +9,8 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.assembly.basis import bearing_rows
-from frames.bundles.run_data import ENERGY_TERMS, Ground, Output, output_arrays
+from frames.bundles.peak_data import ENERGY_TERMS
+from frames.bundles.run_data import Ground, Output, output_arrays
 from frames.recording.dataset import build_dataset, common_of, ground_at, peak_velocity
 from frames.recording.recording import Recording, require_known
 from frames.recording.reduction import reduced

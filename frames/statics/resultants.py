@@ -22,8 +22,8 @@ from scipy.sparse import csgraph
 from frames.assembly.basis import bearing_rows
 from frames.assembly.solvers import Factors
 from frames.model.components import bearing_axial_stiffness
+from frames.results.formulas import VIOLENT
 from frames.results.peak_response import Extreme, extreme_of, later
-from frames.results.quantities import VIOLENT
 from frames.statics.springs import spring_matrix
 
 if TYPE_CHECKING:

@@ -7,8 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames.plots.bearing_geometry import plane_height, rim_face, rim_height, surface_reach
-from frames.plots.bearing_movement import movement
+from frames.plots.bearing_geometry import (
+    movement,
+    plane_height,
+    rim_face,
+    rim_height,
+    surface_reach,
+)
 from frames.plots.drawn_device import device_of
 from frames.plots.plot_choice import need
 from frames.results.measures import uplift_gap
@@ -38,39 +43,21 @@ _NEEDED = (
 
 
 class Movements(NamedTuple):
-    """Histories of all bearings, each (n_steps, n_bearings, ...).
+    """Histories of all bearings, each (n_steps, n_bearings, ...)."""
 
-    Attributes
-    ----------
-    displacement : ndarray, (..., 3)
-        Of node j against node i [m].
-    force : ndarray, (..., 2)
-        Horizontal force on node j [N].
-    axial_force : ndarray
-        Compression positive [N].
-    slider_axis, plate_axis : ndarray, (..., 2)
-        Horizontal parts of the unit vectors of the slider and of the top plate.
-    slip : ndarray, (..., 3)
-        Interface slip [m].
-    gap : ndarray
-        Gap of uplift [m].
-    opening : ndarray, (..., 3)
-        Where the top plate of a bearing that has lifted is, against its place on the slider [m].
-    rim_force : ndarray, (..., 2)
-        Of the bottom and the top rim [N].
-    contacts : ndarray of uint8
-        Sum of `RIM_BOTTOM`, `RIM_TOP`, `SLIPS` and `LIFTED` where that is so.
-    """
-
-    displacement: FloatArray
-    force: FloatArray
-    axial_force: FloatArray
+    displacement: FloatArray  # (..., 3) of node j against node i [m]
+    force: FloatArray  # (..., 2) horizontal force on node j [N]
+    axial_force: FloatArray  # compression positive [N]
+    # (..., 2) horizontal parts of the unit vectors of the slider and of the top plate
     slider_axis: FloatArray
-    plate_axis: FloatArray
-    slip: FloatArray
-    gap: FloatArray
+    plate_axis: FloatArray  # (..., 2)
+    slip: FloatArray  # (..., 3) interface slip [m]
+    gap: FloatArray  # gap of uplift [m]
+    # (..., 3) where the top plate of a bearing that has lifted is, against its place on the
+    # slider [m]
     opening: FloatArray
-    rim_force: FloatArray
+    rim_force: FloatArray  # (..., 2) of the bottom and the top rim [N]
+    # sum of `RIM_BOTTOM`, `RIM_TOP`, `SLIPS` and `LIFTED` where that is so
     contacts: npt.NDArray[np.uint8]
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import heapq
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
@@ -10,27 +12,27 @@ from frames.assembly.assemble import assemble
 from frames.plots.plot_choice import choose_bearing, in_window
 from frames.recording.recovery import require_own
 from frames.results.findings import doubts_of
+from frames.results.measures import floor_acceleration, storey_drift
+from frames.results.quantities import QUANTITIES
 from frames.results.recorded import EVERY_STEP
 from frames.viewer.bearings import SLIPS, Movements, devices, movements, peaks_of
-from frames.viewer.instants import kept_steps, line_error
-from frames.viewer.packing import exact, scaled
-from frames.viewer.responses import Response, responses
-from frames.viewer.shapes import as_shapes
-from frames.viewer.structure import structure_of
+from frames.viewer.structure import exact, scaled, structure_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     import xarray as xr
 
-    from frames._types import FloatArray, IntArray
+    from frames._types import BoolArray, FloatArray, IntArray
     from frames.frame import Frame
+
 
 SHAPE_ERROR = 1e-3
 """Allowed error of nodal displacements by their shapes, over the largest displacement [-]."""
 
 _FEWEST = 200  # steps that are kept, however large the model
 _SHAPES = 40  # that a step is reckoned to have, before they are found
+_SNAPSHOTS = 800  # instants that shapes are found from, at most
 _ARM = 3.0  # m, by which rotations of nodes count
 
 
@@ -71,19 +73,29 @@ class ShownCheck(Protocol):
 
 
 class Payload(NamedTuple):
-    """What the page holds, and how many steps of how many.
+    """What the page holds, and how many steps of how many."""
 
-    Attributes
-    ----------
-    content : dict
-        As JSON takes it.
-    kept, recorded : int
-        Numbers of steps.
-    """
-
-    content: dict[str, object]
-    kept: int
+    content: dict[str, object]  # as JSON takes it
+    kept: int  # numbers of steps
     recorded: int
+
+
+class Response(NamedTuple):
+    """Histories of one quantity."""
+
+    name: str  # what it is, and the unit that it is shown in
+    unit: str
+    factor: float  # from SI to that unit
+    places: tuple[str, ...]  # levels, storeys, or what else has one
+    values: FloatArray  # (n_steps, n_places, 2) along x and y, SI
+
+
+class Shapes(NamedTuple):
+    """Displacements over time as ``histories @ shapes``."""
+
+    histories: FloatArray  # (n_steps, r) how much of each shape there is
+    shapes: FloatArray  # (r, n) the shapes [m, rad]
+    error: float  # largest difference from the displacements, rotations times the arm [m]
 
 
 def payload_of(
@@ -211,3 +223,131 @@ def _require_finite(moved: Movements, shown: list[Response], nodes: FloatArray) 
                 f"cannot be drawn: view the part before it, data.isel(time=slice(0, {step}))"
             )
             raise ValueError(msg)
+
+
+def responses(data: xr.Dataset) -> list[Response]:
+    """Return the histories of floors and storeys that a result has, and of its base."""
+    found = []
+    levels = data.sizes.get("level", 0)
+    if levels and "node_acceleration" in data:
+        moves = floor_acceleration(data).sel(axis=["x", "y"])
+        found.append(_response("floor acceleration", "floor_plan", moves, "level"))
+    if levels > 1:
+        found.append(_response("storey drift", "drift", storey_drift(data), "storey"))
+    for variable, like, place in (
+        ("storey_shear", "storey_shear", "storey"),
+        ("base_shear", "base_shear", ""),
+        ("ground_acceleration", "floor_plan", ""),
+    ):
+        if variable in data and data[variable].size:
+            part = data[variable].sel(axis=["x", "y"])
+            found.append(_response(variable.replace("_", " "), like, part, place))
+    return found
+
+
+def _response(name: str, like: str, values: xr.DataArray, place: str) -> Response:
+    # In the unit of a quantity.
+    if not place:
+        values, place = values.expand_dims("place"), "place"
+    numbers = values.transpose("time", place, "axis").to_numpy().astype(np.float64)
+    named = place in values.coords
+    places = tuple(map(str, values[place].to_numpy())) if named else (name,)
+    return Response(name, *QUANTITIES[like].in_figures, places, numbers)
+
+
+def as_shapes(moves: FloatArray, arm: float, tolerance: float) -> Shapes:
+    """Return displacements of nodes as the fewest shapes that hold them (their proper modes).
+
+    Shapes: moves (n_steps, n_nodes, 6).
+    """
+    weights = np.array([1.0, 1.0, 1.0, arm, arm, arm])
+    table = (moves * weights).reshape(len(moves), -1)
+    every = -(-len(table) // _SNAPSHOTS)
+    sizes = np.abs(table).max(axis=1)
+    snapshots = np.vstack([table[::every], table[[int(sizes.argmax())]]])
+    basis = np.linalg.svd(snapshots, full_matrices=False)[2]
+    allowed = tolerance * float(sizes.max())
+    low, high = 0, len(basis)
+    while low < high:  # the fewest that are enough
+        middle = (low + high) // 2
+        if _error(table, basis[:middle]) <= allowed:
+            high = middle
+        else:
+            low = middle + 1
+    chosen = basis[:low]
+    shapes = (chosen.reshape(low, moves.shape[1], 6) / weights).reshape(chosen.shape)
+    return Shapes(table @ chosen.T, shapes, _error(table, chosen))
+
+
+def _error(table: FloatArray, basis: FloatArray) -> float:
+    return float(np.abs(table - (table @ basis.T) @ basis).max())
+
+
+CONTACT = 4.0
+"""How many times as much an error counts where a rim is touched or a bearing has lifted."""
+
+WINDOW = 0.02
+"""Time before and after it in which that holds [s]."""
+
+
+def kept_steps(time: FloatArray, curves: FloatArray, contact: BoolArray, count: int) -> IntArray:
+    """Return the steps between which straight lines follow the curves best.
+
+    The first and the last step and the extremes of each curve are kept. Then, again and again,
+    the step that lies farthest off the line between its kept neighbours.
+
+    Shapes: time (n_steps,), curves (n_steps, m), contact (n_steps,).
+    """
+    if count >= len(time):
+        return np.arange(len(time))
+    weights = np.where(_widened(time, contact), CONTACT, 1.0)
+    kept = set(_extremes(curves).tolist())
+    order = sorted(kept)
+    heap = [_farthest(time, curves, weights, *ends) for ends in pairwise(order)]
+    heapq.heapify(heap)
+    while heap and len(kept) < count:
+        error, first, step, last = heapq.heappop(heap)
+        if not error < 0.0:
+            break
+        kept.add(step)
+        for ends in ((first, step), (step, last)):
+            heapq.heappush(heap, _farthest(time, curves, weights, *ends))
+    return np.array(sorted(kept), dtype=np.int64)
+
+
+def line_error(time: FloatArray, curves: FloatArray, kept: IntArray) -> float:
+    """Return the largest distance of recorded curves (n_steps, m) from lines between kept steps."""
+    place = np.searchsorted(kept, np.arange(len(time)), side="right").clip(1, len(kept) - 1)
+    first, last = kept[place - 1], kept[place]
+    share = ((time - time[first]) / (time[last] - time[first]))[:, None]
+    return float(np.abs(curves - (1.0 - share) * curves[first] - share * curves[last]).max())
+
+
+def _extremes(curves: FloatArray) -> IntArray:
+    ends = np.array([0, len(curves) - 1])
+    return np.unique(np.concatenate([ends, curves.argmax(axis=0), curves.argmin(axis=0)]))
+
+
+def _widened(time: FloatArray, where: BoolArray) -> BoolArray:
+    # Also what is less than the window away from a step that is marked.
+    at = time[where]
+    if not len(at):
+        return where
+    after = np.searchsorted(at, time - WINDOW)
+    nearest = at[after.clip(max=len(at) - 1)]
+    return np.asarray(np.abs(nearest - time) <= WINDOW) | where
+
+
+def _farthest(
+    time: FloatArray, curves: FloatArray, weights: FloatArray, first: int, last: int
+) -> tuple[float, int, int, int]:
+    # Minus the largest weighed error between two kept steps, and the step that has it: heaps give
+    # the smallest.
+    if last - first < 2:
+        return 0.0, first, first, last
+    inside = slice(first + 1, last)
+    share = ((time[inside] - time[first]) / (time[last] - time[first]))[:, None]
+    line = curves[first] + share * (curves[last] - curves[first])
+    errors = np.abs(curves[inside] - line).max(axis=1) * weights[inside]
+    step = int(errors.argmax())
+    return -float(errors[step]), first, first + 1 + step, last

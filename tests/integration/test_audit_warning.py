@@ -19,10 +19,10 @@ from frames import (
     time_history,
 )
 from frames.batch.time_histories import _warn_of_runs
+from frames.demo import status_of, table_of, write_results
 from frames.plots import histories
 from frames.results.assumption_checks import needed_level
 from frames.results.findings import Findings, remark
-from frames.results.summary import status_of, table_of, write_results
 from lir_element import Features
 from validation.cases import EXAMPLE_MASS, example_bearing
 

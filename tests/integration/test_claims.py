@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from frames.plots.bearing_movement import slider_axis
+from frames.plots.bearing_geometry import slider_axis
 from validation.articulated import Articulated
 from validation.body_motion import body_motion
 from validation.cases import LEVELS_HISTORY, LEVELS_STATIC, example_bearing

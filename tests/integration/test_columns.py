@@ -82,15 +82,15 @@ COLUMN = {
     ),
     "frames/results/quantities.py": (
         '    "tilt": Quantity(',
-        '    "pressed_in": Quantity(\n'
-        "        _B,\n"
+        '    "pressed_in": _stepped(\n'
         '        "m",\n'
         '        "deformation of a rim",\n'
-        "        lambda d: formed(\n"
-        '            either, *np.moveaxis(of_bearings(d, "rim_closure", "surface"), -1, 0)\n'
-        "        ),\n"
-        "        by_step=True,\n"
-        '        row="rim deformation",\n'
+        '        lambda d: of_bearings(d, "rim_closure", "surface").max(axis=-1),\n'
+        '        title="rim deformation",\n'
+        '        demand="rim deformation",\n'
+        '        raised="difference",\n'
+        '        limit="slip_left",\n'
+        '        symbol="g_in",\n'
         "    ),\n"
         '    "tilt": Quantity(',
     ),
@@ -102,6 +102,7 @@ import warnings
 import numpy as np
 from docs.build import reached
 from frames import GroundMotion, Recording, lumped_mass, peaks, time_histories, time_history
+from frames.design import DesignLimits, history_checks, history_demands
 from lir_element import CoulombFriction, LIRBearing
 
 warnings.simplefilter("ignore")
@@ -119,6 +120,14 @@ for other in (few, batch):
 for table in (peaks(data), peaks(few)):
     assert table.loc["rim deformation", "value"] == value
 assert "rim deformation" in batch["quantity"].to_numpy()
+assert history_demands(batch, "ASCE 7-22").loc["rim deformation", "value"] == value
+checks = history_checks(batch, model, "ASCE 7-22", limits=DesignLimits(slip_left=0.01))
+[check] = [check for check in checks if check.title == "rim deformation"]
+assert (check.symbol, check.demand, check.limit) == ("g_in", value, 0.01)
+moved = batch.assign_coords(masses_moved=("run", ["+x"]))
+moved = moved.assign(reached_pressed_in=1.5 * moved["reached_pressed_in"])
+raised = history_demands(batch, "ASCE 7-22", moved=moved)
+assert raised.loc["rim deformation", "value"] == 1.5 * value
 [row] = [row for row in reached() if "pressed_in" in row]
 assert row == "| `reached_pressed_in` | bearing | m | largest deformation of a rim |"
 print(value)

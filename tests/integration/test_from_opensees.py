@@ -16,7 +16,7 @@ from frames import (
     moment_frame,
     storey_drift,
 )
-from frames.results.summary import table_of
+from frames.demo import table_of
 from frames.solve import run as transient
 from frames.statics import gravity as static
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction

@@ -10,7 +10,7 @@ import xarray as xr
 
 from frames import Frame, GroundMotion, lumped_mass, shear_building, time_histories
 from frames.design import Check, CheckError, Checks, DesignLimits, history_checks, overlap_area
-from frames.design.histories.level_margins import doubted
+from frames.design.histories.suite_notes import doubted
 from frames.plots.bearing_geometry import _RIM_SHARE, rim_height
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 

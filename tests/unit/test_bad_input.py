@@ -22,7 +22,7 @@ from frames.design.hazard.sanity_checks import twins
 from frames.design.project.quantities import si
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
-from frames.motion.sanity_checks import record_doubts
+from frames.motion.record_motions import record_doubts
 from lir_element import CoulombFriction, LIRBearing
 from lir_element._version import package_version
 

@@ -16,7 +16,7 @@ import pytest
 from numba.core.dispatcher import Dispatcher
 
 import lir_element
-from frames.bundles.run_data import ENERGY_TERMS
+from frames.bundles.peak_data import ENERGY_TERMS
 from lir_element._compile import cache
 from lir_element._compile.jit import kernels_of
 from lir_element._compile.sources import compiled_sources

@@ -28,8 +28,7 @@ from frames.design.project.comparison import (
 )
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
-from frames.design.report.comparison_figures import by_motion
-from frames.design.report.comparison_page import write_comparison
+from frames.design.report.comparison_page import by_motion, write_comparison
 from frames.design.report.comparison_words import verdicts
 from tests.unit.test_project import ASCE
 

@@ -13,7 +13,7 @@ pytest.importorskip("pint")
 
 from frames import Frame, GroundMotion, time_histories, time_history
 from frames.design import HISTORY_RULES, ProjectError
-from frames.design.histories.link_demands import largest_of_links, link_demands
+from frames.design.histories.demand_table import largest_of_links, link_demands
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.reading import read_project

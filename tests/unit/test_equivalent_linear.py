@@ -27,6 +27,7 @@ from frames.design import (
     with_property_bounds,
 )
 from frames.design.histories.bound_checks import BoundChecks
+from frames.design.histories.eccentricity import Case
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
 G = 9.81
@@ -841,10 +842,8 @@ def test_drifts_that_ask_for_p_delta_say_so() -> None:
     least = 0.010 / 1.875
     for drift, members, said in ((0.99, {}, ""), (1.01, {}, "springs do not"), (2, {1: 1}, "have")):
         made = BoundChecks(
-            data=None,
+            case=Case(None, None, HISTORY_RULES["ASCE 7-22"], bound="lower"),
             frame=SimpleNamespace(members=members),
-            rules=HISTORY_RULES["ASCE 7-22"],
-            bound="lower",
             limits=None,
             equivalent=known,
             level=None,

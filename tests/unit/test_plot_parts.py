@@ -18,8 +18,8 @@ from frames import (
     time_history,
 )
 from frames.laws import Bilinear, Gap, PlasticHinge, Tie, ViscousDamper
-from frames.plots.part_marks import HINGES, KINDS, SHARE
-from frames.plots.plot_hinges import COLOURS
+from frames.plots.model_geometry import HINGES, KINDS, SHARE
+from frames.plots.plot_parts import COLOURS
 from frames.plots.plot_summaries import ENERGY_GROUPS
 from lir_element import CoulombFriction, LIRBearing
 

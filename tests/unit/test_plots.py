@@ -23,8 +23,8 @@ from frames.plots.bearing_geometry import (
     rim_face,
     rim_gap,
     rim_height,
+    slider_axis,
 )
-from frames.plots.bearing_movement import slider_axis
 from frames.plots.drawn_device import device_of
 from frames.plots.plot_choice import as_systems, label_of, worst_bearing
 from frames.plots.plot_style import PALETTE, engineering, wrapped

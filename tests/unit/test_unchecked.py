@@ -43,8 +43,8 @@ from frames.design.project.level_runs import histories_at_levels
 from frames.design.project.preliminary import Preliminary, preliminary
 from frames.design.project.reading import read_project
 from frames.design.project.unchecked import from_memory, provisions_of
+from frames.design.report.figures import VOID_TITLE, motions_figure
 from frames.design.report.numbers import run_tables
-from frames.design.report.suite_figures import VOID_TITLE, motions_figure
 from frames.design.report.words import Words
 
 CODES = {

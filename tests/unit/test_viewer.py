@@ -21,14 +21,11 @@ from frames import (
     uplift_gap,
 )
 from frames.assembly.assemble import assemble
-from frames.plots.bearing_geometry import rim_face
-from frames.plots.bearing_movement import movement
+from frames.plots.bearing_geometry import movement, rim_face
 from frames.plots.drawn_device import device_of
 from frames.plots.model_geometry import member_lines
 from frames.viewer import write_view
-from frames.viewer.instants import kept_steps
-from frames.viewer.payload import SHAPE_ERROR
-from frames.viewer.shapes import as_shapes
+from frames.viewer.payload import SHAPE_ERROR, as_shapes, kept_steps
 from tests.viewed import BEARING, Judged, building, payload
 
 pytestmark = pytest.mark.meant("eccentricity|settles by|gap|slip")

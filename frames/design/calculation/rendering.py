@@ -11,18 +11,10 @@ from frames.design.calculation.formula import Value, call
 
 
 class Style(NamedTuple):
-    """How a formula is written.
+    """How a formula is written."""
 
-    Attributes
-    ----------
-    show : callable
-        What stands for a name: its symbol, or its number.
-    dots : bool
-        Whether products have a dot, as between numbers.
-    """
-
-    show: Callable[[str], str]
-    dots: bool
+    show: Callable[[str], str]  # what stands for a name: its symbol, or its number
+    dots: bool  # whether products have a dot, as between numbers
 
 
 _GREEK = {

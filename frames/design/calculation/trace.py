@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from html import escape
+from typing import NamedTuple
 
 from frames.design._errors import CheckError
 from frames.design.calculation.formula import RESERVED, Value, evaluate, names, parse
-from frames.design.calculation.rendering import scale, usual_unit
-from frames.design.calculation.step import Quantity, Step
+from frames.design.calculation.rendering import (
+    Style,
+    mathml,
+    quantity,
+    scale,
+    symbol_mathml,
+    symbol_text,
+    text,
+    usual_unit,
+)
 
 
 class Trace:
@@ -261,3 +271,77 @@ def _several(step: Step) -> tuple[float, ...]:
         msg = f"{step.symbol} has one value: call the calculation itself for it"
         raise CheckError(msg)
     return step.value
+
+
+class Quantity(NamedTuple):
+    """A value by its symbol."""
+
+    symbol: str  # its name, as formulas have it
+    value: Value  # in `unit`; a tuple for what there are several of
+    unit: str  # unit it is kept in, "-" for a pure number
+    shown: str  # unit it is shown in
+
+    def __str__(self) -> str:
+        """Return value and unit, as people read them."""
+        return quantity(self.value, self.unit, self.shown)
+
+
+@dataclass(frozen=True)
+class Step:
+    """A line of a calculation: what was given, looked up, or follows by a formula."""
+
+    result: Quantity  # what it gives
+    formula: str = ""  # the formula that was evaluated; empty for what was given or looked up
+    entered: tuple[Quantity, ...] = ()  # what entered it
+    source: str = ""  # clause, equation or table
+    note: str = ""  # what else a reader should know
+
+    @property
+    def symbol(self) -> str:
+        """Its symbol."""
+        return self.result.symbol
+
+    @property
+    def value(self) -> Value:
+        """Its value, in `unit`."""
+        return self.result.value
+
+    @property
+    def unit(self) -> str:
+        """Unit of its value."""
+        return self.result.unit
+
+    def text(self) -> str:
+        """Return the line as text: symbol, formula, numbers, value and unit."""
+        if not self.formula:
+            at = ", ".join(f"{symbol_text(e.symbol)} = {e}" for e in self.entered)
+            return f"{symbol_text(self.symbol)} = {self.result}{f' at {at}' if at else ''}"
+        tree = parse(self.formula)
+        parts = {e.symbol: e for e in self.entered}
+        units = any(e.shown != e.unit for e in (*self.entered, self.result))
+
+        def shown(name: str) -> str:
+            e = parts[name]
+            if isinstance(e.value, tuple):
+                return symbol_text(name)
+            return quantity(e.value, e.unit, e.shown, units=units)
+
+        lines = [symbol_text(self.symbol), text(tree, Style(symbol_text, False))]
+        lines += [text(tree, Style(shown, True)), str(self.result)]
+        if all(isinstance(e.value, tuple) for e in self.entered):
+            del lines[2]
+        return " = ".join(dict.fromkeys(lines))
+
+    def mathml(self) -> str:
+        """Return symbol, formula and value as a `math` element of MathML Core."""
+        parts = [symbol_mathml(self.symbol)]
+        if self.formula:
+            parts.append(f"<mrow>{mathml(parse(self.formula))}</mrow>")
+        parts.append(f"<mtext>{escape(str(self.result))}</mtext>")
+        return f"<math>{'<mo>=</mo>'.join(parts)}</math>"
+
+    @property
+    def said(self) -> str:
+        """Its source and note in brackets, empty if it has none."""
+        said = "; ".join(part for part in (self.source, self.note) if part)
+        return f"[{said}]" if said else ""

@@ -68,27 +68,14 @@ NCH433_ZONE = {1: 0.20, 2: 0.30, 3: 0.40}
 
 
 class Shape(NamedTuple):
-    """How a family of spectra is computed.
+    """How a family of spectra is computed."""
 
-    Attributes
-    ----------
-    curve : callable
-        Pseudo-accelerations [m/s2] of periods (n,) [s], a damping factor B, parameters, points.
-    amplitudes : tuple of str
-        Parameters that grow with the spectrum.
-    corners : tuple of str
-        Parameters that are periods where the formula changes.
-    source : str
-        Where the code has it.
-    standing : Standing
-        How well it is known.
-    """
-
+    # pseudo-accelerations [m/s2] of periods (n,) [s], a damping factor B, parameters, points
     curve: Callable[[FloatArray, float, Parameters, Points], FloatArray]
-    amplitudes: tuple[str, ...]
-    corners: tuple[str, ...]
-    source: str
-    standing: Standing = MEMORY
+    amplitudes: tuple[str, ...]  # parameters that grow with the spectrum
+    corners: tuple[str, ...]  # parameters that are periods where the formula changes
+    source: str  # where the code has it
+    standing: Standing = MEMORY  # how well it is known
 
 
 def _where(period: FloatArray, limit: float) -> FloatArray:

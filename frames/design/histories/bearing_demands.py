@@ -17,10 +17,11 @@ from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.overlap import liner_pressure, pressure
 from frames.design.histories.governing import Calculation, Governing
-from frames.design.histories.level_margins import doubted, level_errors
 from frames.design.histories.suite import names_of, peaks_of_runs
+from frames.design.histories.suite_notes import doubted, level_errors
 from frames.results.bearing_findings import IMPACT
 from frames.results.level_doubts import DOUBTED
+from frames.results.quantities import JUDGED
 from frames.results.recorded import REACHED
 from lir_element.units import STANDARD_GRAVITY
 
@@ -78,32 +79,15 @@ def devices_of(data: xr.Dataset, frame: Frame) -> dict[str, LIRBearing]:
 
 @dataclass(frozen=True)
 class BearingDemands:
-    """Makes checks of bearings from what runs reached.
+    """Makes checks of bearings from what runs reached."""
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs.
-    suite : Suite
-        How they are taken together.
-    bearings : mapping of str to LIRBearing
-        The bearings as they were in these runs.
-    limits : DesignLimits
-        What they may be asked for.
-    bound : {"lower", "nominal", "upper", ""}
-        Bound of their properties.
-    note : str
-        Goes with each check.
-    factor : float
-        On the displacement [-]: where that is beyond the rims, the slip is at least the rest.
-    """
-
-    data: xr.Dataset
-    suite: Suite
-    bearings: Mapping[str, LIRBearing]
-    limits: DesignLimits
-    bound: Bound
-    note: str = ""
+    data: xr.Dataset  # the runs
+    suite: Suite  # how they are taken together
+    bearings: Mapping[str, LIRBearing]  # the bearings as they were in these runs
+    limits: DesignLimits  # what they may be asked for
+    bound: Bound  # bound of their properties
+    note: str = ""  # goes with each check
+    # on the displacement [-]: where that is beyond the rims, the slip is at least the rest
     factor: float = 1.0
 
     def displacement(self, clause: str, standing: Standing, least: float = 0.0) -> list[Check]:
@@ -178,20 +162,13 @@ class BearingDemands:
 
     def forces(self) -> list[Check]:
         """Return the checks of rim force, eccentricity and pressures, where they have limits."""
-        found, limits = list[Check](), self.limits
-        found += self._against("rim force", "rim_force", "P", "rim_strength", "N")
-        found += self._bent_rims()
-        title = "normalised eccentricity e/a"
-        found += self._against(
-            title, "eccentricity_loaded", "epsilon", "eccentricity", "-", note=self._of_resultants
-        )
-        title = "lateral force of a bearing"
-        impacts = note_of_impacts(self.data, self.bearings)
-        found += self._against(title, "force", "H", "lateral_force", "N", note=impacts)
-        name = "displacement_left"
-        found += self._against("residual displacement", name, "D_left", name, "m", "mm")
-        title = "maximum axial force"
-        found += self._against(title, "axial_force", "N", "axial_force", "N", note=impacts)
+        limits, impacts = self.limits, note_of_impacts(self.data, self.bearings)
+        notes = {"force": impacts, "axial_force": impacts}
+        notes["eccentricity_loaded"] = self._of_resultants
+        found = self._bent_rims()
+        for name, quantity in JUDGED.items():
+            if quantity.limit and quantity.dims == ("bearing",) and name != "gap":
+                found += self._against(name, notes.get(name, ""))
         title = "pressure on the sliders' overlap"
         found += self._pressure(title, limits.interface_pressure, self._on_overlap)
         title = "pressure on the liner around its resultant"
@@ -255,18 +232,11 @@ class BearingDemands:
         else:
             t.given("p", math.inf, "Pa", note=t["p_1"].note or t["p_2"].note)
 
-    def _against(
-        self,
-        title: str,
-        name: str,
-        symbol: str,
-        given: str,
-        unit: str,
-        shown: str = "",
-        note: str = "",
-    ) -> list[Check]:
-        # Against a limit of the project by its name; none where it is not given.
-        limit = getattr(self.limits, given)
+    def _against(self, name: str, note: str) -> list[Check]:
+        # Against a limit of the project; none where it is not given.
+        quantity = JUDGED[name]
+        limit, symbol = getattr(self.limits, quantity.limit), quantity.symbol
+        unit, shown = quantity.pure_unit, "mm" if quantity.unit == "m" else ""
         if limit is None:
             return []
         values = peaks_of_runs(self.data, name)
@@ -277,8 +247,8 @@ class BearingDemands:
             t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
             return Calculation(t, symbol, f"{symbol}_lim")
 
-        clause = self.limits.clause_of(given)
-        found = self._worst(clause, title, fill, self._all, note=note)
+        clause = self.limits.clause_of(quantity.limit)
+        found = self._worst(clause, quantity.heading, fill, self._all, note=note)
         return self._doubted(found, _QUANTITIES.get(name, ""))
 
     def _doubted(self, checks: list[Check], quantity: str) -> list[Check]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.check import Check
 from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
@@ -24,7 +24,7 @@ from frames.design.histories.bearing_demands import (
     devices_of,
     note_of_impacts,
 )
-from frames.design.histories.eccentricity import named_by_way, raised_suite, with_moved
+from frames.design.histories.eccentricity import Case, named_by_way, reached_by
 from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.least_shears import LEAST, raise_of, shear_checks
 from frames.design.histories.suite import (
@@ -36,17 +36,14 @@ from frames.design.histories.suite import (
 )
 from frames.design.histories.suite_notes import audit_notes, contact_notes, left_out_checks
 from frames.design.histories.uplift import Uplift
+from frames.results.quantities import QUANTITIES
 from frames.statics.overturning import unknown_axial_forces
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from frames._types import FloatArray
-    from frames.design.codes.history_rules import HistoryRules
     from frames.design.codes.levels import ActionLevel
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.devices.limits import DesignLimits
-    from frames.design.histories.suite import Suite
     from frames.frame import Frame
 
 _DRIFTS = {
@@ -57,42 +54,20 @@ _DRIFTS = {
 
 @dataclass(frozen=True)
 class BoundChecks:
-    """Makes the checks of the runs at one bound.
+    """Makes the checks of the runs at one bound."""
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs.
-    frame : Frame
-        The structure at that bound.
-    rules : HistoryRules
-        The code's.
-    bound : {"lower", "nominal", "upper", ""}
-        The bound.
-    limits : DesignLimits
-        What bearings and structure may be asked for.
-    equivalent : EquivalentLinear, optional
-        Analysis that has least values.
-    level : ActionLevel
-        Of the seismic action, and what is judged at it.
-    moved : xarray.Dataset, optional
-        Runs with the floors' masses moved, for accidental eccentricity.
-    """
-
-    data: xr.Dataset
-    frame: Frame
-    rules: HistoryRules
-    bound: Bound
-    limits: DesignLimits
-    equivalent: EquivalentLinear | None
-    level: ActionLevel
-    moved: xr.Dataset | None = None
+    case: Case  # the runs, and those with moved masses; of uplift the worst of all counts
+    frame: Frame  # the structure at that bound
+    limits: DesignLimits  # what bearings and structure may be asked for
+    equivalent: EquivalentLinear | None  # analysis that has least values
+    level: ActionLevel  # of the seismic action, and what is judged at it
 
     def checks(self) -> list[Check]:
         """Return all of them."""
-        doubts = list(map(str, self.data["doubts"].to_numpy()))
+        doubts = list(map(str, self.case.data["doubts"].to_numpy()))
         found = [self._motions(), self._failed(), *self._moved_failed()]
-        found += left_out_checks(self.data, doubts, self.bound, stopped_runs(self.data))
+        data, bound = self.case.data, self.case.bound
+        found += left_out_checks(data, doubts, bound, stopped_runs(data))
         if self.level.judges_bearings:
             found += self._of_bearings()
         if self.level.judges_structure:
@@ -101,7 +76,7 @@ class BoundChecks:
         return [replace(check, level=self.level.name) for check in found]
 
     def _of_bearings(self) -> list[Check]:
-        rules, bearings = self.rules, self._bearings
+        rules, bearings = self.case.rules, self._bearings
         clause = self._clause(rules.displacement_clause)
         moved = bearings.displacement(clause, MEMORY, self._least("D_TM_dyn"))
         found = [
@@ -114,66 +89,57 @@ class BoundChecks:
         return [*not_evaluated(found, unknown_axial_forces(self.frame), OF_AXIAL_FORCES)]
 
     @cached_property
-    def _suite(self) -> Suite:
-        return raised_suite(self.data, self.moved, self.rules)
-
-    @cached_property
-    def _every(self) -> xr.Dataset:
-        # What single runs reached, those with moved masses among them: of uplift the worst counts.
-        return with_moved(self.data, self.moved)
-
-    @cached_property
     def _audit(self) -> str:
-        return audit_notes(self.data)
+        return audit_notes(self.case.data)
 
     @cached_property
     def _small_gaps(self) -> str:
-        allowed = self.rules.uplift_allowed
-        return "" if allowed else contact_notes(self.data, self.rules.least_gap)
+        allowed = self.case.rules.uplift_allowed
+        return "" if allowed else contact_notes(self.case.data, self.case.rules.least_gap)
 
     @property
     def _note(self) -> str:
         # With each check: which runs failed if they may, or that there is more to read.
-        marked = sum(bool(str(d)) for d in self.data["doubts"].to_numpy())
+        marked = sum(bool(str(d)) for d in self.case.data["doubts"].to_numpy())
         more = (
             f"assumption checks of {marked} runs mark something: see the check of runs"
             if marked
             else ""
         )
-        failed = sum(self._suite.failed)
-        allowed = "" if self._suite.void or not failed else f"{failed} runs failed: as many may"
+        failed = sum(self.case.suite.failed)
+        allowed = "" if self.case.suite.void or not failed else f"{failed} runs failed: as many may"
         return "; ".join(part for part in (allowed, more) if part)
 
     @property
     def _bearings(self) -> BearingDemands:
-        devices = devices_of(self.data, self.frame)
+        devices = devices_of(self.case.data, self.frame)
         return BearingDemands(
-            self.data,
-            self._suite,
+            self.case.data,
+            self.case.suite,
             devices,
             self.limits,
-            self.bound,
+            self.case.bound,
             self._note,
-            self.rules.displacement_factor,
+            self.case.rules.displacement_factor,
         )
 
     def _motions(self) -> Check:
         t = Trace()
-        t.given("n", float(self.data.sizes["run"]), note="motions")
-        t.given("n_least", float(self.rules.least))
-        clause = self._clause(self.rules.statistic_clause)
-        judge = CheckBuilder(t, self.bound, self._known("number of motions", "least"))
-        note = f"{self._suite.statistic} of the motions counts; {self._eccentricity}"
+        t.given("n", float(self.case.data.sizes["run"]), note="motions")
+        t.given("n_least", float(self.case.rules.least))
+        clause = self._clause(self.case.rules.statistic_clause)
+        judge = CheckBuilder(t, self.case.bound, self._known("number of motions", "least"))
+        note = f"{self.case.suite.statistic} of the motions counts; {self._eccentricity}"
         return judge(clause, "number of motions", "n", ">=", "n_least", note=note)
 
     @property
     def _eccentricity(self) -> str:
         # How accidental eccentricity counts.
-        if self.moved is not None:
-            share = 100.0 * self.rules.accidental_eccentricity
+        if self.case.moved is not None:
+            share = 100.0 * self.case.rules.accidental_eccentricity
             return f"masses moved by {share:g} % of the plan each way raise the demands"
-        code = HISTORY_RULES.get(self.rules.code)
-        asked = self.rules if code is None else code
+        code = HISTORY_RULES.get(self.case.rules.code)
+        asked = self.case.rules if code is None else code
         if not asked.accidental_eccentricity:
             return "without accidental eccentricity"
         share = 100.0 * asked.accidental_eccentricity
@@ -182,39 +148,41 @@ class BoundChecks:
 
     def _failed(self) -> Check:
         t = Trace()
-        t.given("n_failed", float(sum(self._suite.failed)), note="runs that failed")
-        allowed = self.rules.unacceptable_allowed if self._suite.statistic == "mean" else 0
+        t.given("n_failed", float(sum(self.case.suite.failed)), note="runs that failed")
+        allowed = self.case.rules.unacceptable_allowed if self.case.suite.statistic == "mean" else 0
         t.given("n_allowed", float(allowed))
-        clause = self._clause(self.rules.statistic_clause)
-        judge = CheckBuilder(t, self.bound, MEMORY)
-        said = (self._suite.reason, self._small_gaps, self._audit)
+        clause = self._clause(self.case.rules.statistic_clause)
+        judge = CheckBuilder(t, self.case.bound, MEMORY)
+        said = (self.case.suite.reason, self._small_gaps, self._audit)
         note = "; ".join(part for part in said if part)
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
 
     def _moved_failed(self) -> list[Check]:
         # Runs with the masses moved: none may fail, for each stands for all motions.
-        if self.moved is None:
+        if self.case.moved is None:
             return []
         t = Trace()
-        count = float(sum(suite_of(self.moved, self.rules).failed))
-        t.given("n_failed", count, note=f"of {self.moved.sizes['run']} runs")
+        count = float(sum(suite_of(self.case.moved, self.case.rules).failed))
+        t.given("n_failed", count, note=f"of {self.case.moved.sizes['run']} runs")
         t.given("n_allowed", 0.0)
-        audit = audit_notes(named_by_way(self.moved))
-        note = "; ".join(part for part in (self._suite.moved_failed, audit) if part)
-        clause = self._clause(self.rules.eccentricity_clause)
-        judge = CheckBuilder(t, self.bound, self._known("moved masses", "accidental_eccentricity"))
+        audit = audit_notes(named_by_way(self.case.moved))
+        note = "; ".join(part for part in (self.case.suite.moved_failed, audit) if part)
+        clause = self._clause(self.case.rules.eccentricity_clause)
+        judge = CheckBuilder(
+            t, self.case.bound, self._known("moved masses", "accidental_eccentricity")
+        )
         title = "runs with moved masses that failed"
         return [judge(clause, title, "n_failed", "<=", "n_allowed", note=note)]
 
     def _engagement(self, moved: list[Check]) -> list[Check]:
         # At the displacement that the runs ask bearings to allow, by the code's rule for rims.
-        code, least = self.rules.code, self.rules.engagement
+        code, least = self.case.rules.code, self.case.rules.engagement
         if code not in HISTORY_RULES or not moved or moved[0].void:
             return []  # the check of the displacement tells why
         bearing = self.frame.bearings[moved[0].subject].bearing
         found = engagement_checks(
             bearing,
-            {self.bound: moved[0].demand},
+            {self.case.bound: moved[0].demand},
             least=least,
             code=code,
             agreed=self.limits.rim_engagement,
@@ -224,33 +192,36 @@ class BoundChecks:
 
     def _uplift(self) -> list[Check]:
         found = []
-        if not self.rules.uplift_allowed:
-            t, gap = Trace(), f"{1e3 * self.rules.least_gap:g} mm"
-            every = self._every
+        if not self.case.rules.uplift_allowed:
+            t, gap = Trace(), f"{1e3 * self.case.rules.least_gap:g} mm"
+            every = self.case.every
             lasts = np.nan_to_num(peaks_of_runs(every, "time_lifted"), nan=math.inf)
-            open_ = parted(every, self.rules.least_gap) | np.isinf(lasts)
+            open_ = parted(every, self.case.rules.least_gap) | np.isinf(lasts)
             longest = float(np.where(open_, lasts, 0.0).max())
             t.given("t_up", longest, "s", note=f"longest of a bearing in a run, gap above {gap}")
             t.given("t_allowed", 0.0, "s")
             stopped = stopped_runs(every)  # also where the code lets the others stand
-            void = stopped and (self._suite.void or stopped)
-            judge = CheckBuilder(t, self.bound, self._known("uplift", "uplift_allowed"), void=void)
-            clause, title = self._clause(self.rules.force_clause), f"uplift duration above {gap}"
+            void = stopped and (self.case.suite.void or stopped)
+            judge = CheckBuilder(
+                t, self.case.bound, self._known("uplift", "uplift_allowed"), void=void
+            )
+            clause = self._clause(self.case.rules.force_clause)
+            title = f"uplift duration above {gap}"
             note = self._small_gaps
             found.append(judge(clause, title, "t_up", "<=", "t_allowed", note=note))
-        rules = self.rules
+        rules = self.case.rules
         clause = self._clause(rules.uplift_clause) if rules.uplift_clause else ""
-        devices = devices_of(self.data, self.frame)
+        devices = devices_of(self.case.data, self.frame)
         more = "" if clause else self._uplift_by_the_project
-        failed = (self._suite.reason, self._suite.moved_failed)
+        failed = (self.case.suite.reason, self.case.suite.moved_failed)
         reason = "; ".join(part for part in failed if part)
-        made = Uplift(self._every, devices, self.limits, self.bound, clause, more, reason)
+        made = Uplift(self.case.every, devices, self.limits, self.case.bound, clause, more, reason)
         return found + made.checks()
 
     @property
     def _uplift_by_the_project(self) -> str:
-        code = HISTORY_RULES.get(self.rules.code)
-        if code is None or code.uplift_allowed or not self.rules.uplift_allowed:
+        code = HISTORY_RULES.get(self.case.rules.code)
+        if code is None or code.uplift_allowed or not self.case.rules.uplift_allowed:
             return ""
         return f"runs with uplift count by the project, not by {code.cited}: to be agreed"
 
@@ -261,17 +232,15 @@ class BoundChecks:
 
         def fill(values: FloatArray) -> Trace:
             t = Trace()
-            self._suite.enter(t, "V", values, "N", of="base_shear")
+            self.case.suite.enter(t, "V", values, "N", of="base_shear")
             if least > 0.0:
                 t.given("V_least", least, "N", note=LEAST)
-                self._suite.form(t, "V_d", "max(V, V_least)", "N", of="V")
+                self.case.suite.form(t, "V_d", "max(V, V_least)", "N", of="V")
             return t
 
         symbol = "V_d" if least > 0.0 else "V"
-        impacts = note_of_impacts(self.data, self._bearings.bearings)
-        return self._worst(
-            "", "base shear", "base_shear", symbol, "N", limit, fill=fill, of=impacts
-        )
+        impacts = note_of_impacts(self.case.data, self._bearings.bearings)
+        return self._worst("", "base_shear", limit, symbol, fill=fill, of=impacts)
 
     @cached_property
     def _least_shears(self) -> list[Check]:
@@ -279,16 +248,16 @@ class BoundChecks:
         if self.equivalent is None or not self._least("V_s_dyn"):
             return []
         storey = self.frame.levels[1].name if len(self.frame.levels) > 1 else ""
-        known = self.equivalent.bounds[self.bound]
-        return shear_checks(self.data, self._suite, known, self.rules, storey, self._note)
+        known = self.equivalent.bounds[self.case.bound]
+        return shear_checks(self.case, known, storey, self._note)
 
     def _drift(self) -> list[Check]:
         # That of the code, and that of the project beside it.
         own, found = self.limits.drift, list[Check]()
         if len(self.frame.levels) < 2:
             return found
-        if self.rules.drift is not None:
-            for check in self._drift_within(self.rules.drift, self.rules.drift_clause):
+        if self.case.rules.drift is not None:
+            for check in self._drift_within(self.case.rules.drift, self.case.rules.drift_clause):
                 said = (check.note, self._gravity(check), self._elements)
                 note = "; ".join(part for part in said if part)
                 found.append(replace(check, note=note))
@@ -300,21 +269,21 @@ class BoundChecks:
 
     def _gravity(self, check: Check) -> str:
         # Whether the drift asks for P-Delta in the analysis, and whether it is there.
-        known = None if self.equivalent is None else self.equivalent.bounds.get(self.bound)
-        if self.rules.second_order is None or known is None or "R_I" not in known.trace:
+        known = None if self.equivalent is None else self.equivalent.bounds.get(self.case.bound)
+        if self.case.rules.second_order is None or known is None or "R_I" not in known.trace:
             return ""
-        least = self.rules.second_order / known.trace.value("R_I")
+        least = self.case.rules.second_order / known.trace.value("R_I")
         if not check.demand > least:
             return ""
-        clause = self._clause(self.rules.drift_clause)
+        clause = self._clause(self.case.rules.drift_clause)
         there = "the members have it" if self.frame.members else "springs do not have it"
         return f"above {100.0 * least:.3g} % P-Delta must be in the analysis ({clause}): {there}"
 
     @property
     def _elements(self) -> str:
         # Which non-structural elements the code's limit is of, where it has several kinds.
-        limits = dict(self.rules.drift_classes)
-        kinds = [kind for kind, limit in limits.items() if limit == self.rules.drift]
+        limits = dict(self.case.rules.drift_classes)
+        kinds = [kind for kind, limit in limits.items() if limit == self.case.rules.drift]
         if not kinds:
             return ""
         others = (f"{kind} {100.0 * v:g} %" for kind, v in limits.items() if kind not in kinds)
@@ -322,82 +291,75 @@ class BoundChecks:
 
     def _beside(self) -> str:
         # How the project's limit of drifts is to that of the code.
-        own, code = self.limits.drift, self.rules.drift
+        own, code = self.limits.drift, self.case.rules.drift
         if own is None or code is None:
             return ""
-        code /= self.rules.drift_factor
+        code /= self.case.rules.drift_factor
         word = "laxer" if own > code else "not laxer"
-        clause = self._clause(self.rules.drift_clause)
+        clause = self._clause(self.case.rules.drift_clause)
         return f"{word} than {100.0 * code:g} % of {clause}, which is checked beside it"
 
     def _drift_within(self, limit: float, clause: str) -> list[Check]:
         least = self._least_shears
-        nu = self.rules.drift_factor if clause else 1.0
+        nu = self.case.rules.drift_factor if clause else 1.0
 
         def fill(values: FloatArray, of: str) -> Trace:
             t = Trace()
-            self._suite.enter(t, "theta", values, "-", "%", of=of)
+            self.case.suite.enter(t, "theta", values, "-", "%", of=of)
             if least:
                 more = "least shear over that of the runs, as its own check has it; 1 at least"
                 t.given("f_V", raise_of(least).above, note=more)
-                self._suite.form(t, "theta_d", "f_V * theta", "-", "%", of="theta")
+                self.case.suite.form(t, "theta_d", "f_V * theta", "-", "%", of="theta")
             if nu < 1.0:
                 t.given("nu", nu, note="of the earthquake of damage limitation")
-                self._suite.form(t, "theta_nu", "nu * theta", "-", "%", of="theta")
+                self.case.suite.form(t, "theta_nu", "nu * theta", "-", "%", of="theta")
             return t
 
-        title = "storey drift ratio"
         symbol = "theta_d" if least else "theta_nu" if nu < 1.0 else "theta"
         found: list[Check] = []
         for name, of in _DRIFTS.items():
-            if f"reached_{name}" in self.data:
+            if f"reached_{name}" in self.case.data:
                 filled = partial(fill, of=name)
-                found += self._worst(
-                    clause, title, name, symbol, "-", limit, shown="%", fill=filled, of=of
-                )
+                found += self._worst(clause, name, limit, symbol, fill=filled, of=of)
         return [max(found, key=lambda check: check.compared)] if found else []
 
     def _acceleration(self) -> list[Check]:
         limit = self.limits.floor_acceleration
         if limit is None or not self.frame.levels:
             return []
-        title = "floor acceleration in plan"
-        return self._worst("", title, "floor_plan", "A", "m/s2", limit)
+        return self._worst("", "floor_plan", limit)
 
     def _worst(
         self,
         clause: str,
-        title: str,
         name: str,
-        symbol: str,
-        unit: str,
         limit: float,
+        symbol: str = "",
         *,
-        shown: str = "",
         fill: Callable[[FloatArray], Trace] | None = None,
         of: str = "",
     ) -> list[Check]:
         # The worst of what a quantity is reached by; `of`: which of several it is, in words.
         note = "; ".join(part for part in (of, self._note) if part)
-        values = peaks_of_runs(self.data, name)
-        values = values.reshape(len(values), -1)
-        each = {}
-        for k, label in enumerate(names_of(self.data, name)):
+        values, each, quantity = reached_by(self.case.data, name), {}, QUANTITIES[name]
+        symbol, unit, shown = symbol or quantity.symbol, quantity.pure_unit, quantity.shown
+        for k, label in enumerate(names_of(self.case.data, name)):
             t = Trace() if fill is None else fill(values[:, k])
             if fill is None:
-                self._suite.enter(t, symbol, values[:, k], unit, shown, of=name)
+                self.case.suite.enter(t, symbol, values[:, k], unit, shown, of=name)
             t.given(f"{symbol}_lim", limit, unit, shown=shown)
             each[label] = Calculation(t, symbol, f"{symbol}_lim")
         where = self._clause(clause) if clause else PROJECT_LIMIT
         standing = self._known("history drift", "drift") if clause else OWN
-        return Governing(self.bound, standing, note, self._suite.void)(where, title, each)
+        title = QUANTITIES["drift" if name in _DRIFTS else name].demand
+        return Governing(self.case.bound, standing, note, self.case.suite.void)(where, title, each)
 
     def _least(self, symbol: str) -> float:
         # A minimum of the equivalent-linear analysis at this bound, 0 where there is none.
-        if self.equivalent is None or self.bound not in self.equivalent.bounds:
+        if self.equivalent is None or self.case.bound not in self.equivalent.bounds:
             return 0.0
-        trace = self.equivalent.bounds[self.bound].trace
-        if not self.rules.has_minima or symbol not in trace:
+        trace = self.equivalent.bounds[self.case.bound].trace
+        if not self.case.rules.has_minima or symbol not in trace:
             msg = (
                 f"equivalent has no minima of time histories ({symbol}): give that of a code "
                 "that has them, as ASCE 7-22, with a superstructure, or leave it out"
@@ -407,9 +369,9 @@ class BoundChecks:
 
     def _known(self, value: str, field: str) -> Standing:
         # How well a value of the code is known; of one that the project changed nothing is.
-        own = HISTORY_RULES.get(self.rules.code)
-        same = own is not None and getattr(self.rules, field) == getattr(own, field)
-        return standing_in(self.rules.code, value) if same else MEMORY
+        own = HISTORY_RULES.get(self.case.rules.code)
+        same = own is not None and getattr(self.case.rules, field) == getattr(own, field)
+        return standing_in(self.case.rules.code, value) if same else MEMORY
 
     def _clause(self, clause: str) -> str:
-        return f"{self.rules.cited} {clause}".strip()
+        return f"{self.case.rules.cited} {clause}".strip()

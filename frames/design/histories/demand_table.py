@@ -1,23 +1,26 @@
-"""Table of what time histories give for design: one statistic a column, and it is named."""
+"""Tables of what time histories give for design: demands, single motions, links."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.design.histories.eccentricity import raised_suite, with_moved
+from frames.design.histories.eccentricity import WAY, cases_of, reached_by
 from frames.design.histories.suite import (
     end_of,
+    failures_of,
     motion_of,
     names_of,
     peaks_of_runs,
-    stopped_in,
+    suite_of,
 )
+from frames.results.quantities import DEMANDS, JUDGED, Quantity
+from lir_element.errors import RunStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     import pandas as pd
     import xarray as xr
@@ -25,91 +28,55 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.design.calculation.check import Bound
     from frames.design.codes.history_rules import HistoryRules
-    from frames.design.histories.suite import Suite
+    from frames.design.histories.eccentricity import Case
+    from frames.design.histories.suite import Failure, Suite
 
-COUNTED = {
-    "uplifts, all bearings": "uplifts",
-    "uplift duration": "time_lifted",
-    "maximum uplift": "gap",
-}
+    Runs = Mapping[str, Mapping[Bound, xr.Dataset]]
+
+
+COUNTED = {DEMANDS[name].demand for name in ("uplifts", "time_lifted", "gap")}
 """Rows of uplift, of which codes without uplift leave small gaps aside."""
 
-DEMANDS = (
-    ("isolator displacement", "displacement", "m", 1.0),
-    ("residual displacement", "displacement_left", "m", 1.0),
-    ("interface slip", "slip", "m", 1.0),
-    ("residual interface slip", "slip_left", "m", 1.0),
-    ("rim force", "rim_force", "N", 1.0),
-    ("maximum axial force", "axial_force", "N", 1.0),
-    ("minimum axial force", "axial_tension", "N", -1.0),
-    ("uplifts, all bearings", "uplifts", "-", 1.0),
-    ("uplift duration", "time_lifted", "s", 1.0),
-    ("maximum uplift", "gap", "m", 1.0),
-    ("base shear", "base_shear", "N", 1.0),
-    ("storey shear", "storey_shear", "N", 1.0),
-    ("storey drift ratio", "drift", "-", 1.0),
-    ("storey drift ratio, maximum at any column line", "line_drift", "-", 1.0),
-    ("floor acceleration in plan", "floor_plan", "m/s2", 1.0),
-)
-"""Rows of the table: title, quantity, unit, and the sign with which its extreme is the largest."""
-
-_NOTES = {
-    "storey drift ratio": "mean of the storey, in plan",
-    "storey drift ratio, maximum at any column line": "in plan",
-    "floor acceleration in plan": "mean of the level",
-}
 _ENDS = ("unit", "envelope", "where", "worst", "run", "note", "void", "level")
 
 
-def demand_table(
-    runs: Mapping[Bound, xr.Dataset],
-    rules: HistoryRules,
-    moved: Mapping[Bound, xr.Dataset] | None = None,
-) -> pd.DataFrame:
+def demand_table(cases: Sequence[Case]) -> pd.DataFrame:
     """Return what time histories give for design at each bound: see `history_demands`."""
     import pandas as pd
 
-    beside = moved or {}
-    suites = {bound: raised_suite(data, beside.get(bound), rules) for bound, data in runs.items()}
-    every = {bound: with_moved(data, beside.get(bound)) for bound, data in runs.items()}
+    suites = {case.bound: case.suite for case in cases}
     void = "; ".join(f"{b}: {s.void}" if b else s.void for b, s in suites.items() if s.void)
     rows = []
-    for title, name, unit, sign in DEMANDS:
-        there = {b: data for b, data in runs.items() if f"reached_{name}" in data}
+    for name, quantity in DEMANDS.items():
+        there = [case for case in cases if case.keeps(name)]
         if there:
-            row: dict[str, Any] = {"quantity": title, "unit": unit}
-            row |= _numbers(there, every, suites, name, sign)
-            row |= {"note": _note(title, rules), "void": void}
+            row: dict[str, Any] = {"quantity": quantity.demand, "unit": quantity.pure_unit}
+            row |= _numbers(there, name, quantity.sign)
+            row |= {"note": _note(quantity, cases[0].rules), "void": void}
             rows.append(row)
     table = pd.DataFrame(rows).set_index("quantity")
     table.attrs = {
         "statistics": {bound or "value": said(suite) for bound, suite in suites.items()},
-        "runs": sum(data.sizes["run"] for data in every.values()),
+        "runs": sum(case.every.sizes["run"] for case in cases),
     }
     return table
 
 
-def _numbers(
-    runs: Mapping[Bound, xr.Dataset],
-    every: Mapping[Bound, xr.Dataset],
-    suites: Mapping[Bound, Suite],
-    name: str,
-    sign: float,
-) -> dict[str, Any]:
+def _numbers(cases: Sequence[Case], name: str, sign: float) -> dict[str, Any]:
     # The cells of a row, of what is worst at each bound, over the bounds, and of single runs.
     cells: dict[str, Any] = {}
     envelope, where, worst, run = -math.inf, "", -math.inf, ""
-    for bound, data in runs.items():
-        each = values_for_design(data, suites[bound], name)
+    for case in cases:
+        each = case.design(name)
         k = worst_place(each)
-        cells[bound or "value"] = sign * each[k] + 0.0  # no -0
+        cells[case.bound or "value"] = sign * each[k] + 0.0  # no -0
         if each[k] > envelope:
-            envelope, where = each[k], names_of(data, name)[k]
-        largest = np.nanmax(reached_by(every[bound], name), axis=1, initial=-math.inf)
+            envelope, where = each[k], names_of(case.data, name)[k]
+        largest = np.nanmax(reached_by(case.every, name), axis=1, initial=-math.inf)
         if largest.max() > worst:
             worst, one = float(largest.max()), int(largest.argmax())
-            named = f"{motion_of(every[bound], one)}{end_of(every[bound], one)}"
-            run = ", ".join(part for part in (named, bound) if part)
+            named = f"{motion_of(case.every, one)}{end_of(case.every, one)}"
+            run = ", ".join(part for part in (named, case.bound) if part)
     found = {"envelope": envelope, "worst": worst}
     known = {key: sign * v + 0.0 if math.isfinite(v) else math.nan for key, v in found.items()}
     return cells | {
@@ -120,55 +87,23 @@ def _numbers(
     }
 
 
-def largest_of_bounds(
-    runs: Mapping[Bound, xr.Dataset],
-    rules: HistoryRules,
-    name: str,
-    moved: Mapping[Bound, xr.Dataset] | None = None,
-) -> FloatArray:
-    """Return the largest of all bounds of `values_for_design`, of each bearing.
+def largest_of_bounds(cases: Sequence[Case], name: str) -> FloatArray:
+    """Return the largest values for design of all bounds, of each bearing.
 
     Shapes: result (n_bearings,).
     """
-    rows = []
-    for bound, data in runs.items():
-        suite = raised_suite(data, (moved or {}).get(bound), rules)
-        rows.append(values_for_design(data, suite, name))
-    return np.asarray(np.fmax.reduce(rows, axis=0), dtype=np.float64)
-
-
-def values_for_design(data: xr.Dataset, suite: Suite, name: str) -> FloatArray:
-    """Return what the runs of a bound give for design of a quantity at each of its places.
-
-    Shapes: result (m,).
-    """
-    columns = reached_by(data, name)
-    if suite.void and name.endswith("_left") and np.isnan(columns).any():
-        return np.full(columns.shape[1], math.nan)
-    return np.array([suite.value(column, name) for column in columns.T])
+    return np.asarray(np.fmax.reduce([case.design(name) for case in cases], axis=0))
 
 
 def worst_place(each: FloatArray) -> int:
-    """Return the place of the largest of `values_for_design`; what is not known is not worst."""
+    """Return the place of the largest value for design; what is not known is not worst."""
     return int(np.argmax(np.nan_to_num(each, nan=-math.inf)))
 
 
-def reached_by(data: xr.Dataset, name: str) -> FloatArray:
-    """Return what runs reached at each place of a quantity.
-
-    Shapes: result (n_runs, m).
-    """
-    values = peaks_of_runs(data, name)
-    values = values.reshape(len(values), -1).copy()
-    if name.endswith("_left"):
-        values[stopped_in(data)] = math.nan
-    return values
-
-
-def _note(title: str, rules: HistoryRules) -> str:
-    if title in COUNTED and not rules.uplift_allowed:
+def _note(quantity: Quantity, rules: HistoryRules) -> str:
+    if quantity.demand in COUNTED and not rules.uplift_allowed:
         return f"of any gap; a run fails above {1e3 * rules.least_gap:g} mm ({rules.cited})"
-    return _NOTES.get(title, "")
+    return quantity.note
 
 
 def said(suite: Suite) -> str:
@@ -257,3 +192,149 @@ def envelope_said(table: pd.DataFrame) -> str:
         if len(found) == 1
         else "; ".join(f"{bound}: {words}" for bound, words in table.attrs["statistics"].items())
     )
+
+
+_COLUMNS = {"deformation [m]": "link_deformation", "force [N]": "link_force"}
+
+
+def link_demands(runs: Runs, rules: HistoryRules, moved: Runs | None = None) -> pd.DataFrame:
+    """Return how far links are deformed and which forces they exert, for design."""
+    import pandas as pd
+
+    tables = []
+    for case in cases_of(runs, rules, moved):
+        if not case.keeps("link_force"):
+            continue
+        suite = case.suite
+        table = pd.DataFrame({"link": names_of(case.data, "link_force")})
+        table = table.assign(bound=case.bound, statistic=said(suite))
+        for title, name in _COLUMNS.items():
+            more, _ = case.added(lambda one, name=name: peaks_of_runs(one, name))  # type: ignore[misc]
+            table[title] = suite.values(peaks_of_runs(case.data, name)) + more
+        forces = case.all_runs(lambda one: peaks_of_runs(one, "link_force"))
+        counts = np.full(len(forces), True)  # of those that failed none, if the others stand
+        counts[: len(suite.failed)] = not suite.is_usable or ~np.array(suite.failed)
+        known = np.where(counts[:, None], forces, -np.inf)
+        which = np.nan_to_num(known, nan=-np.inf).argmax(axis=0)
+        table["motion"] = np.array(case.motions, dtype=object)[which]
+        table["its force [N]"] = forces[which, np.arange(len(which))]
+        tables.append(table.assign(void=suite.void, level=case.level))
+    return pd.concat(tables).set_index("level") if tables else pd.DataFrame()
+
+
+def largest_of_links(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the row of each link and level whose force is largest of all bounds."""
+    if table.empty:
+        return table
+    rows = table.reset_index()
+    force = rows["force [N]"].fillna(-np.inf)
+    return rows.loc[force.groupby([rows["level"], rows["link"]]).idxmax()].sort_index()
+
+
+KEYS = ("level", "bound", "masses moved", "motion", "scale", "status", "failed")
+"""Columns that say of which run a row is."""
+
+
+def demands_by_motion(
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+    rules: HistoryRules,
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
+) -> pd.DataFrame:
+    """Return what each motion gave of each quantity that means or largest values are taken of."""
+    import pandas as pd
+
+    parts = []
+    for case in cases_of(runs, rules, moved):
+        there = [case.data, *([] if case.moved is None else [case.moved])]
+        cells: dict[str, Sequence[object] | FloatArray] = {
+            key: [value for one in there for value in _key(one, key, rules)] for key in KEYS[2:]
+        }
+        for name, quantity in JUDGED.items():
+            if not case.keeps(name):
+                continue
+            title, unit, sign = quantity.heading, quantity.pure_unit, quantity.sign
+            k = worst_place(case.design(name))
+            values = case.all_runs(lambda one, name=name: reached_by(one, name))  # type: ignore[misc]
+            cells[f"{title} [{unit}]"] = sign * values[:, k] + 0.0  # no -0
+            where = names_of(case.data, name)
+            if where != ("",):
+                cells[f"{title}, at"] = [where[k]] * len(values)
+                cells[f"{title}, farthest [{unit}]"] = sign * _farthest(values) + 0.0
+        part = pd.DataFrame(cells)
+        part.insert(0, "level", case.level)
+        part.insert(1, "bound", case.bound)
+        parts.append(part)
+    return pd.concat(parts, ignore_index=True)
+
+
+def _farthest(values: FloatArray) -> FloatArray:
+    # Of each run; NaN where nothing is known.
+    known = np.where(np.isnan(values), -math.inf, values).max(axis=1)
+    return np.where(np.isfinite(known), known, math.nan)
+
+
+def _key(data: xr.Dataset, key: str, rules: HistoryRules) -> Sequence[object]:
+    # A column that says of which run a row is.
+    if key == "masses moved":
+        own = data[WAY].to_numpy() if WAY in data.coords else [""] * data.sizes["run"]
+        return [str(way) for way in own]
+    if key == "failed":
+        return ["yes" if failed else "no" for failed in suite_of(data, rules).failed]
+    return list(data[key].to_numpy()) if key == "scale" else list(map(str, data[key].to_numpy()))
+
+
+_NAMED = 4
+"""Number of failed runs of one cause that are named; the table of all motions has the others."""
+
+
+class FailedRuns(NamedTuple):
+    """The runs of a level and bound that failed for one cause."""
+
+    level: str  # level of the seismic action, and bound of the properties
+    bound: str
+    failed: int  # number of runs that failed, and of all runs of this level and bound
+    of: int
+    cause: str  # the cause in words
+    motions: str  # motions with time and place of the failure
+
+    def __str__(self) -> str:
+        """Return the runs and their cause on one line."""
+        where = ", ".join(part for part in (self.level, self.bound) if part)
+        return f"{where}: {self.failed} of {self.of} runs failed: {self.cause}: {self.motions}"
+
+
+def failed_runs(
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+    rules: HistoryRules,
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
+) -> list[FailedRuns]:
+    """Return the runs that failed, by level, bound and cause."""
+    found = []
+    for case in cases_of(runs, rules, moved):
+        every = failures_of(case.every, rules)
+        causes: dict[str, list[Failure]] = {}
+        for one in every:
+            if one is not None:
+                causes.setdefault(_cause(one), []).append(one)
+        found += [
+            FailedRuns(case.level, case.bound, len(ones), len(every), cause, _named(ones))
+            for cause, ones in causes.items()
+        ]
+    return found
+
+
+def _cause(one: Failure) -> str:
+    if one.status == "ok":
+        return "a bearing lifted off"
+    return RunStatus[one.status.upper()].meaning.partition(":")[0]
+
+
+def _named(ones: list[Failure]) -> str:
+    said = []
+    for one in ones[:_NAMED]:
+        at = f"{one.at:.2f} s" if math.isfinite(one.at) else ""
+        where = one.where.removeprefix("bearing ").strip('"')
+        there = ", ".join(part for part in (at, where) if part)
+        said.append(f"{one.motion} ({there})" if there else one.motion)
+    more = len(ones) - len(said)
+    return "; ".join(said) + (f"; {more} more" if more else "")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,8 +17,11 @@ from frames.design.histories.suite import (
     motion_of,
     names_of,
     peaks_of_runs,
+    stopped_in,
     suite_of,
 )
+from frames.results.quantities import QUANTITIES
+from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -41,40 +45,122 @@ WAYS: Mapping[str, tuple[float, float]] = {
 WAY = "masses_moved"
 """Coordinate of runs that says which way the masses were moved."""
 
-_RAISED: tuple[tuple[str, str, Literal["factor", "difference"]], ...] = (
-    ("displacement", "m", "factor"),
-    ("force", "N", "factor"),
-    ("axial_force", "N", "factor"),
-    ("base_shear", "N", "factor"),
-    ("storey_shear", "N", "factor"),
-    ("drift", "-", "factor"),
-    ("line_drift", "-", "factor"),
-    ("floor_plan", "m/s2", "factor"),
-    ("slip", "m", "difference"),
-    ("rim_force", "N", "difference"),
-    ("rim_plastic", "m", "difference"),
-    ("eccentricity_loaded", "-", "difference"),
-    ("axial_tension", "N", "difference"),
-    ("displacement_left", "m", "difference"),
-    ("slip_left", "m", "difference"),
+_RAISED = sorted(
+    (name for name, quantity in QUANTITIES.items() if quantity.raised),
+    key=lambda name: (QUANTITIES[name].raised == "difference", QUANTITIES[name].kind == "final"),
 )
-"""Quantities that moved masses raise: by a factor, or, where what begins at a threshold may be
-nothing while the masses are where they are, by a difference. Of rims none of which yields nothing
-is said."""
+"""Quantities that moved masses raise. Of rims none of which yields nothing is said."""
 
 
-def raises_of(
-    data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules
-) -> tuple[dict[str, Amplification], str]:
-    """Return by what moved masses raise each quantity, the worst way each."""
-    table, failed = _each_way(data, moved, rules)
-    found: dict[str, Amplification] = {}
-    for (name, way), (centred, reached, motions) in table.items():
-        one = _raise(way, centred, reached, motions, dict(_KINDS)[name])
-        worst = found.get(name)
-        if worst is None or (one.factor, one.added) > (worst.factor, worst.added):
-            found[name] = one
-    return found, failed
+@dataclass(frozen=True, eq=False)
+class Case:
+    """Runs of a level and bound, those with moved masses beside them, and how they count."""
+
+    data: xr.Dataset  # the runs
+    # runs of motions among these with the floors' masses moved: accidental eccentricity
+    moved: xr.Dataset | None
+    rules: HistoryRules  # the code's
+    level: str = ""  # of the seismic action, and of the properties
+    bound: Bound = ""
+
+    @cached_property
+    def suite(self) -> Suite:
+        """How the runs are taken together, accidental eccentricity with them."""
+        suite = suite_of(self.data, self.rules)
+        if self.moved is None:
+            return suite
+        table, failed = _each_way(self.data, self.moved, self.rules)
+        found: dict[str, Amplification] = {}
+        for (name, _), one in table.items():
+            worst = found.get(name)
+            if worst is None or (one.factor, one.added) > (worst.factor, worst.added):
+                found[name] = one
+        return replace(suite, raised=found, moved_failed=failed)
+
+    @cached_property
+    def every(self) -> xr.Dataset:
+        """The runs and those with moved masses one after the other: what single runs reached."""
+        import xarray as xr
+
+        if self.moved is None:
+            return self.data
+        beside = named_by_way(self.moved)
+        own = [name for name, each in self.data.variables.items() if each.dims[:1] == ("run",)]
+        own = [name for name in own if name in beside.variables]
+        timed = {"time", "step"}
+        own = [n for n in own if not timed & {*self.data[n].dims, *beside[n].dims}]
+        parts = [part[own].drop_vars(WAY, errors="ignore") for part in (self.data, beside)]
+        found = xr.concat(parts, "run", data_vars="minimal", coords="minimal", compat="override")
+        return found.assign_attrs(self.data.attrs)
+
+    @property
+    def motions(self) -> list[str]:
+        """The motions of all runs, those with moved masses last and with their way."""
+        every = [self.data] if self.moved is None else [self.data, named_by_way(self.moved)]
+        return [motion_of(one, k) for one in every for k in range(one.sizes["run"])]
+
+    def keeps(self, name: str) -> bool:
+        """Return whether the runs have a quantity."""
+        return REACHED + name in self.data.variables
+
+    def design(self, name: str) -> FloatArray:
+        """Return the values for design of a quantity at each of its places.
+
+        Shapes: result (m,).
+        """
+        columns = reached_by(self.data, name)
+        if self.suite.void and QUANTITIES[name].kind == "final" and np.isnan(columns).any():
+            return np.full(columns.shape[1], math.nan)
+        return self.suite.values(columns, name)
+
+    def all_runs(self, values_of: Callable[[xr.Dataset], FloatArray]) -> FloatArray:
+        """Return values of the runs, then of those with moved masses."""
+        both = [self.data] if self.moved is None else [self.data, self.moved]
+        return np.concatenate([values_of(one) for one in both])
+
+    def added(
+        self, values_of: Callable[[xr.Dataset], FloatArray]
+    ) -> tuple[FloatArray, NDArray[np.object_]]:
+        """Return what moved masses add to many values, each by the way that adds most to it.
+
+        Nothing where runs failed: then values are what runs reached.
+        """
+        shape = values_of(self.data.isel(run=[0])).shape[1:]
+        most, way_of = np.zeros(shape), np.full(shape, "", dtype=object)
+        if self.moved is None or self.suite.void:
+            return most, way_of
+        for way, here, there in pairs_by_way(self.data, self.moved):
+            pair = (suite_of(one, self.rules).values(values_of(one)) for one in (here, there))
+            more = -np.subtract(*pair)
+            larger = more > most
+            most, way_of = np.where(larger, more, most), np.where(larger, way, way_of)
+        return most, way_of
+
+
+def cases_of(
+    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+    rules: HistoryRules,
+    moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
+) -> list[Case]:
+    """Return the runs of each level and bound, moved ones beside them."""
+    beside = moved or {}
+    return [
+        Case(data, beside.get(level, {}).get(bound), rules, level, bound)
+        for level, each in runs.items()
+        for bound, data in each.items()
+    ]
+
+
+def reached_by(data: xr.Dataset, name: str) -> FloatArray:
+    """Return what runs reached at each place of a quantity.
+
+    Shapes: result (n_runs, m).
+    """
+    values = peaks_of_runs(data, name)
+    values = values.reshape(len(values), -1).copy()
+    if QUANTITIES[name].kind == "final":
+        values[stopped_in(data)] = math.nan
+    return values
 
 
 def eccentricity_table(
@@ -86,53 +172,28 @@ def eccentricity_table(
     import pandas as pd
 
     rows: list[dict[str, Any]] = []
-    units = {name: unit for name, unit, _ in _RAISED}
-    for level, each in moved.items():
-        for bound, data in each.items():
-            table, failed = _each_way(runs[level][bound], data, rules)
-            for (name, way), (centred, reached, motions) in table.items():
-                one = _raise(way, centred, reached, motions, dict(_KINDS)[name])
-                factored = dict(_KINDS)[name] == "factor"
-                rows.append(
-                    {
-                        "level": level,
-                        "bound": bound,
-                        "masses": way,
-                        "quantity": name.replace("_", " "),
-                        "unit": units[name],
-                        "centred": centred,
-                        "moved": reached,
-                        "factor": one.factor if factored else math.nan,
-                        "added": math.nan if factored else one.added,
-                        "motions": motions,
-                        "void": failed,
-                    }
-                )
+    for case in cases_of(runs, rules, moved):
+        if case.moved is None:
+            continue
+        table, failed = _each_way(case.data, case.moved, rules)
+        for (name, way), one in table.items():
+            factored = QUANTITIES[name].raised == "factor"
+            rows.append(
+                {
+                    "level": case.level,
+                    "bound": case.bound,
+                    "masses": way,
+                    "quantity": name.replace("_", " "),
+                    "unit": QUANTITIES[name].pure_unit,
+                    "centred": one.centred,
+                    "moved": one.moved,
+                    "factor": one.factor if factored else math.nan,
+                    "added": math.nan if factored else one.added,
+                    "motions": one.motions,
+                    "void": failed,
+                }
+            )
     return pd.DataFrame(rows)
-
-
-def with_moved(data: xr.Dataset, moved: xr.Dataset | None) -> xr.Dataset:
-    """Return runs and those with moved masses one after the other: what single runs reached."""
-    import xarray as xr
-
-    if moved is None:
-        return data
-    beside = named_by_way(moved)
-    own = [name for name, each in data.variables.items() if each.dims[:1] == ("run",)]
-    own = [name for name in own if name in beside.variables]
-    own = [name for name in own if not {"time", "step"} & {*data[name].dims, *beside[name].dims}]
-    parts = [part[own].drop_vars(WAY, errors="ignore") for part in (data, beside)]
-    found = xr.concat(parts, "run", data_vars="minimal", coords="minimal", compat="override")
-    return found.assign_attrs(data.attrs)
-
-
-def raised_suite(data: xr.Dataset, moved: xr.Dataset | None, rules: HistoryRules) -> Suite:
-    """Return how the runs of one bound are taken together, accidental eccentricity with them."""
-    suite = suite_of(data, rules)
-    if moved is None:
-        return suite
-    raised, failed = raises_of(data, moved, rules)
-    return replace(suite, raised=raised, moved_failed=failed)
 
 
 def named_by_way(moved: xr.Dataset) -> xr.Dataset:
@@ -142,12 +203,6 @@ def named_by_way(moved: xr.Dataset) -> xr.Dataset:
         for motion, way in zip(moved["motion"].to_numpy(), moved[WAY].to_numpy(), strict=True)
     ]
     return moved.assign_coords(motion=("run", named))
-
-
-def every_motion(data: xr.Dataset, moved: xr.Dataset | None) -> list[str]:
-    """Return the motions of all runs, those with moved masses last and with their way."""
-    every = [data] if moved is None else [data, named_by_way(moved)]
-    return [motion_of(one, k) for one in every for k in range(one.sizes["run"])]
 
 
 _OF_SUITES = (
@@ -160,12 +215,6 @@ _OF_SUITES = (
 )
 """What `suite_of` and `names_of` look at, beside the runs' coordinates."""
 
-_KINDS = tuple((name, kind) for name, _, kind in _RAISED)
-
-Pairs = dict[tuple[str, str], tuple[float, float, str]]
-"""Largest values with the masses where they are and moved, and of which motions, by quantity and
-way."""
-
 
 def pairs_by_way(
     data: xr.Dataset, moved: xr.Dataset
@@ -177,29 +226,15 @@ def pairs_by_way(
         yield way, data.isel(run=[_place(data, there, k) for k in range(there.sizes["run"])]), there
 
 
-def added_by_moved(
-    data: xr.Dataset,
-    moved: xr.Dataset | None,
-    rules: HistoryRules,
-    values_of: Callable[[xr.Dataset], FloatArray],
-) -> tuple[FloatArray, NDArray[np.object_]]:
-    """Return what moved masses add to many values, each by the way that adds most to it."""
-    shape = values_of(data.isel(run=[0])).shape[1:]
-    most, way_of = np.zeros(shape), np.full(shape, "", dtype=object)
-    for way, here, there in () if moved is None else pairs_by_way(data, moved):
-        more = suite_of(there, rules).values(values_of(there))
-        more = more - suite_of(here, rules).values(values_of(here))
-        larger = more > most
-        most, way_of = np.where(larger, more, most), np.where(larger, way, way_of)
-    return most, way_of
-
-
-def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple[Pairs, str]:
-    # Of each way the same motions are compared, as the code counts them together. To select runs
-    # takes as long as there are variables, of which few are looked at.
-    wanted = (*(f"reached_{name}" for name, _, _ in _RAISED), *_OF_SUITES)
+def _each_way(
+    data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules
+) -> tuple[dict[tuple[str, str], Amplification], str]:
+    # By what each way raises each quantity, and which runs failed. Of each way the same motions
+    # are compared, as the code counts them together. To select runs takes as long as there are
+    # variables, of which few are looked at.
+    wanted = (*(f"reached_{name}" for name in _RAISED), *_OF_SUITES)
     data, moved = (part[[n for n in wanted if n in part.variables]] for part in (data, moved))
-    found, failed = Pairs(), []
+    found, failed = dict[tuple[str, str], Amplification](), []
     for way, here, there in pairs_by_way(data, moved):
         suites = suite_of(here, rules), suite_of(there, rules)
         if any(suites[1].failed):
@@ -211,12 +246,11 @@ def _each_way(data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules) -> tuple
         if not whole:
             motions = ", ".join(motion_of(there, k) for k in range(there.sizes["run"]))
         compared = tuple(zip((here, there), suites, strict=True))
-        for name, _, _ in _RAISED:
+        for name in _RAISED:
             if f"reached_{name}" in data and f"reached_{name}" in there:
-                pair = [_largest(each, name, suite) for each, suite in compared]
-                if name == "rim_plastic" and not any(pair):
-                    continue
-                found[name, way] = (pair[0], pair[1], motions)
+                centred, reached = (_largest(each, name, suite) for each, suite in compared)
+                if name != "rim_plastic" or centred or reached:
+                    found[name, way] = _raise(way, centred, reached, motions, name)
     return found, "; ".join(dict.fromkeys(failed))
 
 
@@ -237,14 +271,13 @@ def _place(data: xr.Dataset, moved: xr.Dataset, k: int) -> int:
 
 def _largest(data: xr.Dataset, name: str, suite: Suite) -> float:
     values = peaks_of_runs(data, name)
-    values = values.reshape(len(values), -1)
-    each = [suite.value(column) for column in values.T]
-    known = [value for value in each if math.isfinite(value)]
-    return max(known, default=0.0) if len(names_of(data, name)) else 0.0
+    each = suite.values(values.reshape(len(values), -1))
+    known = each[np.isfinite(each)]
+    return float(known.max()) if len(known) else 0.0
 
 
-def _raise(way: str, centred: float, moved: float, motions: str, kind: str) -> Amplification:
-    factor = added = 0.0
+def _raise(way: str, centred: float, moved: float, motions: str, name: str) -> Amplification:
+    factor, added, kind = 0.0, 0.0, QUANTITIES[name].raised
     if kind == "factor" and centred > 0.0:
         factor = moved / centred
     elif kind == "difference":

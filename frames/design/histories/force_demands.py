@@ -8,17 +8,16 @@ import numpy as np
 
 from frames.design._errors import CheckError
 from frames.design.histories.demand_table import said
-from frames.design.histories.eccentricity import added_by_moved, every_motion, raised_suite
+from frames.design.histories.eccentricity import Case, cases_of
 from frames.design.histories.least_shears import Raise
 from frames.design.histories.suite import peaks_of_runs
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     import pandas as pd
     import xarray as xr
-    from numpy.typing import NDArray
 
     from frames._types import BoolArray, FloatArray, IntArray
     from frames.design.calculation.check import Bound
@@ -58,20 +57,18 @@ def force_demands(
 
     found: dict[str, pd.DataFrame] = {}
     known = raises or {}
+    cases = cases_of(runs, rules, moved)
     for name, kind in _KINDS.items():
         parts = []
-        for level, each in runs.items():
+        for level in runs:
             tables = []
-            for bound, data in each.items():
-                if REACHED + kind.variable not in data:
-                    continue
-                beside = (moved or {}).get(level, {}).get(bound)
-                case = _Case(data, beside, rules, raised_suite(data, beside, rules))
-                more = known.get((level, bound), Raise())
-                table = _of_bound(case, kind, _factors(data, name, kind, more))
-                if name == "storeys":
-                    table = pd.concat([table, _drifts(case, more.above)])
-                tables.append(table.assign(level=level, bound=bound))
+            for case in cases:
+                if case.level == level and case.keeps(kind.variable):
+                    more = known.get((level, case.bound), Raise())
+                    table = _of_bound(case, kind, _factors(case.data, name, kind, more))
+                    if name == "storeys":
+                        table = pd.concat([table, _drifts(case, more.above)])
+                    tables.append(table.assign(level=level, bound=case.bound))
             parts += _with_governing(tables, [*kind.columns.values(), "force", "extreme"])
         if parts:
             table = pd.concat(parts, ignore_index=True)
@@ -91,26 +88,6 @@ def _factors(data: xr.Dataset, name: str, kind: _Kind, more: Raise) -> FloatArra
     return factors.ravel()
 
 
-class _Case(NamedTuple):
-    # The runs of a bound, with and without moved masses, and how they count.
-    data: xr.Dataset
-    moved: xr.Dataset | None
-    rules: HistoryRules
-    suite: Suite
-
-    def all(self, values_of: Callable[[xr.Dataset], FloatArray]) -> FloatArray:
-        # Of the runs, then of those with moved masses.
-        own = values_of(self.data)
-        return own if self.moved is None else np.concatenate([own, values_of(self.moved)])
-
-    def added(
-        self, values_of: Callable[[xr.Dataset], FloatArray]
-    ) -> tuple[FloatArray, NDArray[np.object_]]:
-        # By moved masses; nothing where runs failed: then values are what runs reached.
-        moved = None if self.suite.void else self.moved
-        return added_by_moved(self.data, moved, self.rules, values_of)
-
-
 def _acting(data: xr.Dataset, kind: _Kind) -> FloatArray:
     # All six forces of each section, (run, section, force, extreme, at once).
     name, six = REACHED + kind.variable, kind.forces
@@ -123,7 +100,7 @@ def _acting(data: xr.Dataset, kind: _Kind) -> FloatArray:
     return data[name].transpose(*order).to_numpy().reshape(data.sizes["run"], -1, 6, 2, 6)
 
 
-def _of_bound(case: _Case, kind: _Kind, factors: FloatArray) -> pd.DataFrame:
+def _of_bound(case: Case, kind: _Kind, factors: FloatArray) -> pd.DataFrame:
     import pandas as pd
 
     data, suite = case.data, case.suite
@@ -137,7 +114,7 @@ def _of_bound(case: _Case, kind: _Kind, factors: FloatArray) -> pd.DataFrame:
         times = runs[f"{REACHED}{kind.variable}_at"].transpose(*order).to_numpy()
         return times.reshape(runs.sizes["run"], -1, 6, 2)
 
-    together, times = case.all(lambda runs: _acting(runs, kind)), case.all(at)
+    together, times = case.all_runs(lambda runs: _acting(runs, kind)), case.all_runs(at)
     rest = data[f"{REACHED}{kind.variable}_at_rest"].transpose(*order[:-1]).to_numpy()[0]
     own = np.einsum("rscwc->rscw", together)
     value, which = _counted(own * _SIGN, case)
@@ -186,15 +163,15 @@ def _void(suite: Suite) -> str:
     return "; ".join(part for part in (own, moved) if part)
 
 
-def _drifts(case: _Case, factor: float) -> pd.DataFrame:
+def _drifts(case: Case, factor: float) -> pd.DataFrame:
     # Of the means of the storeys' lines.
     import pandas as pd
 
     data, suite = case.data, case.suite
-    if f"{REACHED}drift" not in data:
+    if not case.keeps("drift"):
         return pd.DataFrame()
     each, times = (
-        case.all(lambda runs, name=name: peaks_of_runs(runs, name))  # type: ignore[misc]
+        case.all_runs(lambda runs, name=name: peaks_of_runs(runs, name))  # type: ignore[misc]
         for name in ("drift", "drift_at")
     )
     value, which = _counted(each, case)
@@ -212,7 +189,7 @@ def _drifts(case: _Case, factor: float) -> pd.DataFrame:
     )
 
 
-def _counted(values: FloatArray, case: _Case) -> tuple[FloatArray, IntArray]:
+def _counted(values: FloatArray, case: Case) -> tuple[FloatArray, IntArray]:
     # The value for design of those of the runs where the masses are, and the run that is farthest
     # out of all that count.
     suite, own = case.suite, case.data.sizes["run"]
@@ -224,8 +201,8 @@ def _counted(values: FloatArray, case: _Case) -> tuple[FloatArray, IntArray]:
     return suite.values(values[:own]), which
 
 
-def _with_motions(table: pd.DataFrame, case: _Case, which: IntArray) -> pd.DataFrame:
-    motions = np.array(every_motion(case.data, case.moved), dtype=object)
+def _with_motions(table: pd.DataFrame, case: Case, which: IntArray) -> pd.DataFrame:
+    motions = np.array(case.motions, dtype=object)
     return table.assign(statistic=said(case.suite), motion=motions[which])
 
 

@@ -25,24 +25,12 @@ class Calculation(NamedTuple):
 
 @dataclass(frozen=True)
 class Governing:
-    """Makes the check of what is worst.
+    """Makes the check of what is worst."""
 
-    Parameters
-    ----------
-    bound : {"lower", "nominal", "upper", ""}
-        Properties of the bearings that it is for.
-    standing : Standing
-        Of its checks.
-    note : str
-        Goes with its checks.
-    void : str
-        Why its demands are no values for design.
-    """
-
-    bound: Bound
-    standing: Standing
-    note: str = ""
-    void: str = ""
+    bound: Bound  # properties of the bearings that it is for
+    standing: Standing  # of its checks
+    note: str = ""  # goes with its checks
+    void: str = ""  # why its demands are no values for design
 
     def __call__(self, clause: str, title: str, each: Mapping[str, Calculation]) -> list[Check]:
         """Return the check of the largest ratio."""

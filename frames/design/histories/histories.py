@@ -18,7 +18,7 @@ from frames.design.codes.registry import code_named
 from frames.design.devices.limits import DesignLimits
 from frames.design.histories.bound_checks import BoundChecks
 from frames.design.histories.demand_table import demand_table
-from frames.design.histories.eccentricity import refuse_unlike
+from frames.design.histories.eccentricity import cases_of, refuse_unlike
 from lir_element.argument_checks import require_choice
 
 if TYPE_CHECKING:
@@ -176,13 +176,11 @@ def history_checks(
     level = rules.level(action_level)
     found: list[Check] = []
     own = _by_bound(runs)
-    beside = _moved_by_bound(own, moved)
-    for bound, data in own.items():
-        model = (
-            frame if bounds is None or bound == "" else with_property_bounds(frame, bound, bounds)
-        )
-        chosen = limits or DesignLimits()
-        made = BoundChecks(data, model, rules, bound, chosen, equivalent, level, beside.get(bound))
+    for case in cases_of({"": own}, rules, {"": _moved_by_bound(own, moved)}):
+        model = frame
+        if bounds is not None and case.bound:
+            model = with_property_bounds(frame, case.bound, bounds)
+        made = BoundChecks(case, model, limits or DesignLimits(), equivalent, level)
         found += made.checks()
     return Checks(found)
 
@@ -244,7 +242,7 @@ def history_demands(
     'm'
     """
     own = _by_bound(runs)
-    return demand_table(own, _rules(code), _moved_by_bound(own, moved))
+    return demand_table(cases_of({"": own}, _rules(code), {"": _moved_by_bound(own, moved)}))
 
 
 def _rules(code: str | HistoryRules) -> HistoryRules:

@@ -10,8 +10,10 @@ import pandas as pd
 
 from frames.design._errors import CheckError
 from frames.motion.ground_motion import GroundMotion
-from frames.results.measures import floor_acceleration, storey_drift, uplift_gap
-from frames.results.quantities import in_plan, rims_met
+from frames.results.formulas import displacement, in_plan, of_bearings, rims_met
+from frames.results.measures import uplift_gap
+from frames.results.peak_response import places_of
+from frames.results.quantities import QUANTITIES
 from frames.results.recorded import require_recorded, require_steps
 from lir_element.argument_checks import require_between, require_non_negative
 
@@ -57,11 +59,11 @@ def rim_engagement(data: xr.Dataset) -> pd.DataFrame:
     require_recorded(data, "rim_engagement", "rim_force", "bearing_displacement")
     require_steps(data, "rim_engagement")
     time = data["time"].to_numpy()
-    force = data["rim_force"].transpose("time", "bearing", "surface").to_numpy()
-    moved = in_plan(data["bearing_displacement"].transpose("time", "bearing", "axis").to_numpy())
+    force = of_bearings(data, "rim_force", "surface")
+    moved = displacement(data)
     speed = np.full(moved.shape, np.nan)
     if "bearing_velocity" in data.variables:
-        speed = in_plan(data["bearing_velocity"].transpose("time", "bearing", "axis").to_numpy())
+        speed = in_plan(of_bearings(data, "bearing_velocity", "axis"))
     rows = []
     for b, name in enumerate(data["bearing"].to_numpy()):
         for s, surface in enumerate(data["surface"].to_numpy()):
@@ -162,7 +164,7 @@ def uplift_events(data: xr.Dataset, after: float = 0.1) -> pd.DataFrame:
     require_steps(data, "uplift_events")
     require_non_negative("after", after, "s")
     time = data["time"].to_numpy()
-    force = data["axial_force"].transpose("time", "bearing").to_numpy()
+    force = of_bearings(data, "axial_force")
     gap, met = uplift_gap(data).to_numpy(), rims_met(data) > 0.0
     rows = []
     for b, name in enumerate(data["bearing"].to_numpy()):
@@ -228,8 +230,8 @@ def slips_of_events(data: xr.Dataset, ends: tuple[float, ...]) -> pd.DataFrame:
         msg = f"ends = {ends}: give rising times of the events' ends [s]"
         raise CheckError(msg)
     time = data["time"].to_numpy()
-    slip = data["interface_slip_size"].transpose("time", "bearing").to_numpy()
-    moved = in_plan(data["bearing_displacement"].transpose("time", "bearing", "axis").to_numpy())
+    slip = of_bearings(data, "interface_slip_size")
+    moved = displacement(data)
     step = float(np.diff(time).max(initial=0.0))
     rows = []
     for k, (begin, end) in enumerate(zip((0.0, *ends[:-1]), ends, strict=True)):
@@ -302,16 +304,12 @@ def near(met: BoolArray, time: FloatArray, after: float) -> BoolArray:
 
 
 def _felt(data: xr.Dataset) -> list[tuple[str, str, FloatArray]]:
-    shear = in_plan(data["base_shear"].transpose("time", "axis").to_numpy())
-    found = [("base shear", "N", shear)]
-    if data.sizes["level"] > 0:
-        moves = in_plan(floor_acceleration(data).to_numpy())
-        names = data["level"].to_numpy()
-        found += [(f"acceleration of {n}", "m/s2", moves[:, k]) for k, n in enumerate(names)]
-    if data.sizes["level"] > 1:
-        drift = in_plan(storey_drift(data).to_numpy())
-        names = data["level"].to_numpy()[1:]
-        found += [(f"drift of {n}", "-", drift[:, k]) for k, n in enumerate(names)]
+    found = [("base shear", "N", QUANTITIES["base_shear"].of(data))]
+    for word, name in (("acceleration", "floor_plan"), ("drift", "drift")):
+        places = places_of(data, name)
+        if len(places):
+            values, unit = QUANTITIES[name].of(data), QUANTITIES[name].pure_unit
+            found += [(f"{word} of {at}", unit, values[:, k]) for k, at in enumerate(places)]
     return found
 
 

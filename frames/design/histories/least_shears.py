@@ -9,17 +9,13 @@ from frames.design.calculation.trace import Trace
 from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.histories.suite import peaks_of_runs
-from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    import xarray as xr
-
     from frames.design.calculation.check import Check
-    from frames.design.codes.history_rules import HistoryRules
     from frames.design.codes.outcome import BoundResult
-    from frames.design.histories.suite import Suite
+    from frames.design.histories.eccentricity import Case
 
 BASE = "base shear of time histories"
 STOREY = "storey shear of time histories"
@@ -27,33 +23,20 @@ LEAST = "least one, of the equivalent-linear analysis"
 
 
 class Raise(NamedTuple):
-    """Factors on the earthquake's part of forces and drifts, 1 at least.
+    """Factors on the earthquake's part of forces and drifts, 1 at least."""
 
-    Attributes
-    ----------
-    above : float
-        Above the isolation: the larger ratio of least shear to that of the runs, of the lowest
-        storey and at the base.
-    isolation : float
-        Of what bearings exert, and below: that at the base.
-    """
-
+    # above the isolation: the larger ratio of least shear to that of the runs, of the lowest
+    # storey and at the base
     above: float = 1.0
-    isolation: float = 1.0
+    isolation: float = 1.0  # of what bearings exert, and below: that at the base
 
 
-def shear_checks(
-    data: xr.Dataset,
-    suite: Suite,
-    known: BoundResult,
-    rules: HistoryRules,
-    storey: str = "",
-    note: str = "",
-) -> list[Check]:
+def shear_checks(case: Case, known: BoundResult, storey: str = "", note: str = "") -> list[Check]:
     """Return the shears of runs against their least values, at the base and over it.
 
     Less is no failure: it is the shear to design for, and the ratio the factor on the forces.
     """
+    data, suite, rules = case.data, case.suite, case.rules
     clause = f"{rules.cited} {rules.force_clause}".strip()
 
     def judged(t: Trace, title: str, symbol: str, subject: str, what: str) -> Check:
@@ -72,7 +55,7 @@ def shear_checks(
     found = [judged(t, BASE, "V", "", "forces and drifts")]
     if not storey:
         return found
-    if f"{REACHED}storey_shear" not in data:
+    if not case.keeps("storey_shear"):
         msg = "runs have no storey shears (reached_storey_shear): compute them anew"
         raise CheckError(msg)
     t = Trace()

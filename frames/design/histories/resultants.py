@@ -9,7 +9,7 @@ import pandas as pd
 
 from frames.bundles.peak_data import PRESSED
 from frames.design._errors import CheckError
-from frames.results.quantities import in_plan
+from frames.results.formulas import in_plan, of_bearings
 from frames.results.recorded import require_recorded, require_steps
 from lir_element.argument_checks import require_between, require_positive
 
@@ -77,14 +77,14 @@ def resultant_offsets(
     require_recorded(data, "resultant_offsets", *_NEEDED)
     require_steps(data, "resultant_offsets")
     time = data["time"].to_numpy()
-    load = data["axial_force"].transpose("time", "bearing").to_numpy()
+    load = of_bearings(data, "axial_force")
     load = load / data["static_axial_force"].to_numpy()
-    offset = data["interface_eccentricity"].transpose("time", "bearing").to_numpy()
+    offset = of_bearings(data, "interface_eccentricity")
     offset = np.where(load > least_load, offset / data["slider_radius"].to_numpy(), 0.0)
-    met = data["rim_force"].transpose("time", "bearing", "surface").to_numpy() > 0.0
-    slid = data["slider_displacement"].transpose("time", "bearing", "surface", "axis").to_numpy()
+    met = of_bearings(data, "rim_force", "surface") > 0.0
+    slid = of_bearings(data, "slider_displacement", "surface", "axis")
     clear = data["rim_displacement"].transpose("bearing", "surface").to_numpy() - in_plan(slid)
-    slip = data["interface_slip_size"].transpose("time", "bearing").to_numpy()
+    slip = of_bearings(data, "interface_slip_size")
     lasts = np.diff(time, append=time[-1])
     words = [*data["surface"].to_numpy(), "both"]
     rows = []

@@ -26,6 +26,7 @@ from frames.design.histories.suite import Suite
 from frames.design.histories.suite_notes import left_out_checks
 from frames.design.histories.uplift import Uplift
 from frames.results.findings import doubts_of
+from frames.results.quantities import QUANTITIES, Quantity
 from frames.statics.overturning import unknown_axial_forces
 from lir_element.argument_checks import require_positive
 
@@ -184,27 +185,24 @@ def _complete(data: xr.Dataset, bound: Bound) -> Check:
 
 
 def _structure(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]:
-    wanted = {
-        "base shear": ("V", "N", "", limits.base_shear),
-        "acceleration": ("A", "m/s2", "", limits.floor_acceleration),
-        "drift": ("theta", "-", "%", limits.drift),
-    }
-    if all(limit is None for *_, limit in wanted.values()):
+    wanted = {"base shear": "base_shear", "acceleration": "floor_plan", "drift": "drift"}
+    given = {kind: getattr(limits, QUANTITIES[name].limit) for kind, name in wanted.items()}
+    if all(limit is None for limit in given.values()):
         return []
     table, found = impact_demand(data), []
-    for kind, (symbol, unit, shown, limit) in wanted.items():
+    for kind, limit in given.items():
         rows = table[table.index.str.startswith(kind)] if len(table) else table
         if limit is not None:
             each = {
-                label.partition(" of ")[2]: _felt(row, symbol, unit, shown, limit)
+                label.partition(" of ")[2]: _felt(row, QUANTITIES[wanted[kind]], limit)
                 for label, row in rows.iterrows()
             }
             found += Governing(bound, OWN)(PROJECT_LIMIT, f"{kind} at an impact", each)
     return found
 
 
-def _felt(row: pd.Series, symbol: str, unit: str, shown: str, limit: float) -> Calculation:
-    t = Trace()
+def _felt(row: pd.Series, quantity: Quantity, limit: float) -> Calculation:
+    t, symbol, unit, shown = Trace(), quantity.symbol, quantity.pure_unit, quantity.shown
     note = f"t = {row['time']:.4g} s; {row['ratio']:.3g} times the largest before impacts"
     t.given(symbol, float(row["at_impact"]), unit, shown=shown, note=note)
     t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")

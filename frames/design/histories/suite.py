@@ -11,10 +11,8 @@ import numpy as np
 
 from frames.design._errors import CheckError
 from frames.design.calculation.trace import Trace
-from frames.results.peak_response import largest, left, storeys_of_lines, total
-from frames.results.quantities import LEFT, QUANTITIES
+from frames.results.peak_response import places_of, reached
 from frames.results.recorded import REACHED
-from frames.results.totals import TOTALS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,28 +22,15 @@ if TYPE_CHECKING:
 
 
 class Amplification(NamedTuple):
-    """What the way that is worst does to the largest of a quantity: accidental eccentricity.
+    """What the way that is worst does to the largest of a quantity: accidental eccentricity."""
 
-    Attributes
-    ----------
-    way : str
-        Which way the masses are moved, "+x".
-    centred, moved : float
-        The largest over bearings, storeys or levels with the masses where they are, and moved.
-    factor : float
-        Moved over centred, 1 at least; 1 of a quantity that differences raise.
-    added : float
-        Moved less centred, 0 at least; 0 of a quantity that factors raise.
-    motions : str
-        Of which motions.
-    """
-
-    way: str
+    way: str  # which way the masses are moved, "+x"
+    # the largest over bearings, storeys or levels with the masses where they are, and moved
     centred: float
     moved: float
-    factor: float
-    added: float
-    motions: str
+    factor: float  # moved over centred, 1 at least; 1 of a quantity that differences raise
+    added: float  # moved less centred, 0 at least; 0 of a quantity that factors raise
+    motions: str  # of which motions
 
     @property
     def said(self) -> str:
@@ -55,35 +40,18 @@ class Amplification(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Suite:
-    """How runs are taken together.
+    """How runs are taken together."""
 
-    Attributes
-    ----------
-    statistic : {"mean", "largest", "single"}
-        Mean of the runs' largest values, the largest of them, or that of one run.
-    failed : tuple of bool, (n_runs,)
-        Runs whose values must not count.
-    allowed : int
-        How many of them the mean of the others may stand for.
-    median_factor : float
-        Then on the median, of all runs, below which the mean must not lie.
-    reason : str
-        Which runs failed, in words.
-    source : str
-        Clause of the statistic.
-    raised : mapping of str to Amplification
-        By what accidental eccentricity raises quantities, by their names.
-    moved_failed : str
-        Which runs with moved masses failed, in words: then nothing is a value for design.
-    """
-
+    # mean of the runs' largest values, the largest of them, or that of one run
     statistic: Literal["mean", "largest", "single"]
-    failed: tuple[bool, ...]
-    allowed: int = 0
-    median_factor: float = 1.2
-    reason: str = ""
-    source: str = ""
+    failed: tuple[bool, ...]  # runs whose values must not count
+    allowed: int = 0  # how many of them the mean of the others may stand for
+    median_factor: float = 1.2  # then on the median, of all runs, below which the mean must not lie
+    reason: str = ""  # which runs failed, in words
+    source: str = ""  # clause of the statistic
+    # by what accidental eccentricity raises quantities, by their names
     raised: Mapping[str, Amplification] = field(default_factory=dict)
+    # which runs with moved masses failed, in words: then nothing is a value for design
     moved_failed: str = ""
 
     @property
@@ -107,24 +75,10 @@ class Suite:
 
         Shapes: values (n_runs,).
         """
-        if not self.is_usable:
-            known = values[np.isfinite(values)]
-            if not len(known):
-                return math.nan
-            return float(known.mean() if self.statistic == "mean" else known.max())
-        value = self._of_suite(values)
-        more = self.raised.get(of)
-        return value if more is None else more.factor * value + more.added
+        return float(self.values(values, of))
 
-    def _of_suite(self, values: FloatArray) -> float:
-        good = values[~np.array(self.failed)]
-        if self.statistic != "mean":
-            return float(good.max())
-        mean = float(good.mean())
-        return max(mean, self.median_factor * self._median(values)) if any(self.failed) else mean
-
-    def values(self, values: FloatArray) -> FloatArray:
-        """Return the values for design of many quantities at once: `value` of each.
+    def values(self, values: FloatArray, of: str = "") -> FloatArray:
+        """Return the values for design of many places at once, each with what raises `of`.
 
         Shapes: values (n_runs, ...).
         """
@@ -134,16 +88,14 @@ class Suite:
             known = np.where(gone, 0.0, known)
             of_all = np.nanmean if self.statistic == "mean" else np.nanmax
             return np.asarray(np.where(gone, math.nan, of_all(known, axis=0)))
-        failed = np.array(self.failed)
+        failed, more = np.array(self.failed), self.raised.get(of)
         good = values[~failed]
-        if self.statistic != "mean":
-            return np.asarray(good.max(axis=0))
-        mean = good.mean(axis=0)
-        if not failed.any():
-            return np.asarray(mean)
-        above = failed.reshape(-1, *(1,) * (values.ndim - 1))
-        median = np.median(np.where(above, math.inf, values), axis=0)
-        return np.asarray(np.maximum(mean, self.median_factor * median))
+        found = good.mean(axis=0) if self.statistic == "mean" else good.max(axis=0)
+        if self.statistic == "mean" and failed.any():
+            above = failed.reshape(-1, *(1,) * (values.ndim - 1))
+            median = np.median(np.where(above, math.inf, values), axis=0)
+            found = np.maximum(found, self.median_factor * median)
+        return np.asarray(found if more is None else more.factor * found + more.added)
 
     def enter(
         self,
@@ -222,49 +174,21 @@ def peaks_of_runs(data: xr.Dataset, name: str) -> FloatArray:
             msg = f"the runs keep no {name!r}, an earlier version made them: run them again"
             raise CheckError(msg)
         return data.variables[REACHED + name].transpose("run", ...).to_numpy()
-    if name in QUANTITIES:
-        return largest(data, name).values[None]
-    if name in TOTALS:
-        return total(data, name)[None]
-    return left(data, name.removesuffix("_left"))[None]
+    return reached(data, name)[None]
 
 
 def names_of(data: xr.Dataset, name: str) -> tuple[str, ...]:
     """Return the names of what a quantity is reached by: bearings, levels, storeys, lines."""
-    kind = name.removesuffix("_left")
-    if kind in LEFT and kind != name:
-        dims = QUANTITIES[kind].dims
-    else:
-        dims = (QUANTITIES if name in QUANTITIES else TOTALS)[name].dims
-    if dims == ():
-        return ("",)
-    dim = dims[0]
-    if "run" not in data.dims and dim == "line":
-        return tuple(storeys_of_lines(data)[0])
-    if dim == "storey" and dim not in data.coords:
-        return tuple(map(str, data["level"].to_numpy()[1:]))
-    return tuple(map(str, data[dim].to_numpy()))
+    return tuple(map(str, places_of(data, name)))
 
 
 class Failure(NamedTuple):
-    """A run that failed.
+    """A run that failed."""
 
-    Attributes
-    ----------
-    motion : str
-        The motion and its scale.
-    status : str
-        The status of the run; "ok" of a complete run in which a bearing lifted off.
-    at : float
-        Time of the failure [s]; NaN if it is not known.
-    where : str
-        The bearing or degree of freedom.
-    """
-
-    motion: str
-    status: str
-    at: float
-    where: str
+    motion: str  # the motion and its scale
+    status: str  # the status of the run; "ok" of a complete run in which a bearing lifted off
+    at: float  # time of the failure [s]; NaN if it is not known
+    where: str  # the bearing or degree of freedom
 
     def __str__(self) -> str:
         """Return motion, cause, time and place."""

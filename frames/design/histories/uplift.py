@@ -39,33 +39,16 @@ _FREE_SHARE = 0.5  # of the height that has place for a rim, where its height is
 
 @dataclass(frozen=True)
 class Uplift:
-    """Makes the checks of bearings that lift off: the worst run counts, never a mean.
+    """Makes the checks of bearings that lift off: the worst run counts, never a mean."""
 
-    Parameters
-    ----------
-    data : xarray.Dataset
-        The runs, or one.
-    bearings : mapping of str to LIRBearing
-        The bearings as they were in these runs.
-    limits : DesignLimits
-        What they may be asked for.
-    bound : {"lower", "nominal", "upper", ""}
-        Bound of their properties.
-    clause : str
-        Clause of the code that asks for stability after uplift; empty where it has none.
-    note : str
-        Goes with each check.
-    reason : str
-        Which runs failed, in words; goes with each check where some did.
-    """
-
-    data: xr.Dataset
-    bearings: Mapping[str, LIRBearing]
-    limits: DesignLimits
-    bound: Bound
+    data: xr.Dataset  # the runs, or one
+    bearings: Mapping[str, LIRBearing]  # the bearings as they were in these runs
+    limits: DesignLimits  # what they may be asked for
+    bound: Bound  # bound of their properties
+    # clause of the code that asks for stability after uplift; empty where it has none
     clause: str = ""
-    note: str = ""
-    reason: str = ""
+    note: str = ""  # goes with each check
+    reason: str = ""  # which runs failed, in words; goes with each check where some did
 
     def checks(self) -> list[Check]:
         """Return the checks of gap and landing."""

@@ -20,6 +20,7 @@ from frames.design.project.level_runs import (
     moved_at_levels,
 )
 from frames.design.project.preliminary import preliminary
+from frames.results.quantities import DEMANDS
 from frames.solve.time_history import time_history
 from lir_element.errors import AnalysisWarning
 
@@ -37,10 +38,8 @@ if TYPE_CHECKING:
 OURS, PLAIN = "LIR-DCFP", "DCFP"
 
 BY_MOTION = {
-    "isolator displacement [m]": "displacement",
-    "storey drift ratio [-]": "drift",
-    "floor acceleration in plan [m/s2]": "floor_plan",
-    "rim force [N]": "rim_force",
+    f"{DEMANDS[name].demand} [{DEMANDS[name].pure_unit}]": name
+    for name in ("displacement", "drift", "floor_plan", "rim_force")
 }
 """What is compared motion by motion, with the name of its column."""
 

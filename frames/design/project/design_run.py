@@ -11,8 +11,8 @@ import xarray as xr
 
 from frames.design.calculation.check import Checks
 from frames.design.codes.prototype_programme import ProgrammeDemands
-from frames.design.histories.demand_table import largest_of_bounds
-from frames.design.histories.histories import history_demands
+from frames.design.histories.demand_table import demand_table, largest_of_bounds, void_said
+from frames.design.histories.eccentricity import Case, cases_of
 from frames.design.histories.impacts import rim_engagement
 from frames.design.project import moat_checks as moat_checks  # which it registers
 from frames.design.project import run_checks as run_checks  # which it registers
@@ -30,7 +30,7 @@ from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     from frames.batch.cases import BatchProgress
@@ -50,100 +50,51 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ProjectRun:
-    """What a project's run gives.
+    """What a project's run gives."""
 
-    Attributes
-    ----------
-    frame : Frame
-        The structure on its bearings, friction nominal.
-    spectrum : Spectrum
-        The design spectrum.
-    motions : MotionSet
-        As they were run, scaled.
-    equivalent : EquivalentLinear
-        Equivalent-linear analysis at both bounds.
-    runs : mapping of str to mapping of str to xarray.Dataset
-        Time histories by level of the seismic action, then by bound; a row a motion.
-    demands : pandas.DataFrame
-        What the time histories give for design, with the level of each row.
-    checks : Checks
-        Of the time histories, the bearing, and what of the equivalent-linear analysis they do
-        not replace.
-    bounds : PropertyBounds
-        Lower and upper bound friction properties.
-    model : ModelCheck
-        Totals of the structure.
-    loads : tuple of float, (n_bearings,)
-        Axial loads of the average combination [N].
-    governing : xarray.Dataset
-        Histories of the run that displaces a bearing most.
-    governing_case : str
-        Which that is: motion, bound and level.
-    inputs : mapping of str to str
-        Digests of what the time histories depend on, by section of the file.
-    programme : pandas.DataFrame
-        Tests that prove the bearings.
-    rules : HistoryRules
-        How the time histories counted, and at which levels.
-    types : mapping of str to str
-        Type of each bearing: "standard", or of ``[bearings.<type>]``.
-    about : ProjectTable
-        ``[project]`` of the file: its name, client, engineer, checker, revision, date.
-    moved : mapping of str to mapping of str to xarray.Dataset
-        Time histories with the floors' masses moved, in the way of `runs`.
-    doubts : tuple of str
-        What of the input was warned of.
-    structure : tuple of (str, str)
-        What the structure is, in words.
-    provisions : tuple of ProvisionState
-        Provisions of the code: checked, not checked and why, or the engineer's.
-    tables : mapping of str to bytes
-        Tables that the file names, which are kept with the results, as they were read.
-    """
-
-    frame: Frame
-    spectrum: Spectrum
-    motions: MotionSet
-    equivalent: EquivalentLinear
+    frame: Frame  # the structure on its bearings, friction nominal
+    spectrum: Spectrum  # the design spectrum
+    motions: MotionSet  # as they were run, scaled
+    equivalent: EquivalentLinear  # equivalent-linear analysis at both bounds
+    # time histories by level of the seismic action, then by bound; a row a motion
     runs: Mapping[str, Mapping[Bound, xr.Dataset]]
-    demands: pd.DataFrame
+    demands: pd.DataFrame  # what the time histories give for design, with the level of each row
+    # of the time histories, the bearing, and what of the equivalent-linear analysis they do not
+    # replace
     checks: Checks
-    bounds: PropertyBounds
-    model: ModelCheck
-    loads: tuple[float, ...]
-    governing: xr.Dataset
-    governing_case: str
+    bounds: PropertyBounds  # lower and upper bound friction properties
+    model: ModelCheck  # totals of the structure
+    loads: tuple[float, ...]  # axial loads of the average combination [N]
+    governing: xr.Dataset  # histories of the run that displaces a bearing most
+    governing_case: str  # which that is: motion, bound and level
+    # digests of what the time histories depend on, by section of the file
     inputs: Mapping[str, str]
-    programme: pd.DataFrame
-    rules: HistoryRules
+    programme: pd.DataFrame  # tests that prove the bearings
+    rules: HistoryRules  # how the time histories counted, and at which levels
+    # ``[project]`` of the file: its name, client, engineer, checker, revision, date
     about: ProjectTable
+    # type of each bearing: "standard", or of ``[bearings.<type>]``
     types: Mapping[str, str] = field(default_factory=dict)
+    # time histories with the floors' masses moved, in the way of `runs`
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
-    doubts: tuple[str, ...] = ()
-    structure: tuple[tuple[str, str], ...] = ()
+    doubts: tuple[str, ...] = ()  # what of the input was warned of
+    structure: tuple[tuple[str, str], ...] = ()  # what the structure is, in words
+    # provisions of the code: checked, not checked and why, or the engineer's
     provisions: tuple[ProvisionState, ...] = ()
+    # tables that the file names, which are kept with the results, as they were read
     tables: Mapping[str, bytes] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Histories:
-    """The time histories of a project.
+    """The time histories of a project."""
 
-    Attributes
-    ----------
-    runs : mapping of str to mapping of str to xarray.Dataset
-        By level of the seismic action, then by bound; a row a motion.
-    governing : xarray.Dataset
-        Histories of the run that displaces a bearing most, in single precision as they are kept.
-    governing_case : str
-        Which that is.
-    moved : mapping of str to mapping of str to xarray.Dataset
-        Runs with the floors' masses moved, in the same way; empty without accidental eccentricity.
-    """
-
+    # by level of the seismic action, then by bound; a row a motion
     runs: Mapping[str, Mapping[Bound, xr.Dataset]]
+    # histories of the run that displaces a bearing most, in single precision as they are kept
     governing: xr.Dataset
-    governing_case: str
+    governing_case: str  # which that is
+    # runs with the floors' masses moved, in the same way; empty without accidental eccentricity
     moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
 
 
@@ -178,7 +129,7 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
     moved = histories.moved
     demands = demands_at_levels(runs, rules, moved)
     level = rules.bearing_level
-    types = _types(parts, known, runs[level], moved.get(level, {}))
+    types = _types(parts, known, cases_of({level: runs[level]}, rules, moved))
     asked = _of_all(types)
     run = RunToCheck(
         code=parts.code(),
@@ -236,14 +187,12 @@ def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:
 def _types(
     parts: ProjectInputs,
     known: Preliminary,
-    runs: Mapping[Bound, xr.Dataset],
-    moved: Mapping[Bound, xr.Dataset],
+    cases: Sequence[Case],
 ) -> dict[str, TypeOfBearing]:
     # Of each type of bearing what combinations and histories ask, those at the level of bearings.
-    rules, found = parts.rules(), {}
-    void = next((str(why) for why in history_demands(runs, rules, moved=moved)["void"] if why), "")
+    found, rules, void = {}, parts.rules(), void_said(demand_table(cases))
     values = {
-        name: largest_of_bounds(runs, rules, name, moved)
+        name: largest_of_bounds(cases, name)
         for name in ("axial_force", "axial_tension", "slip", "displacement")
     }
     loads = np.array(

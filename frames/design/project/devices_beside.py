@@ -63,21 +63,11 @@ def _add_moat(frame: Frame, given: MoatTable) -> None:
 
 
 class Walls(NamedTuple):
-    """Moat walls that a structure has.
+    """Moat walls that a structure has."""
 
-    Attributes
-    ----------
-    gap : float
-        Clear distance to them [m].
-    sides : tuple of str
-        Along which sides of the base they stand, "x+".
-    links : tuple of str
-        Names of the links that they are.
-    """
-
-    gap: float
-    sides: tuple[str, ...]
-    links: tuple[str, ...]
+    gap: float  # clear distance to them [m]
+    sides: tuple[str, ...]  # along which sides of the base they stand, "x+"
+    links: tuple[str, ...]  # names of the links that they are
 
 
 def walls_of(frame: Frame) -> Walls | None:

@@ -9,6 +9,7 @@ from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.suite import stopped_in
 from frames.recording.recording import Recording
 from frames.results.peak_response import largest
+from frames.results.quantities import QUANTITIES
 from frames.results.storage import as_packed
 from frames.solve.step_sensitivity import NOISE, SENSITIVE
 from frames.solve.time_history import time_history
@@ -25,13 +26,8 @@ if TYPE_CHECKING:
     from frames.design.project.level_runs import LevelRuns
     from frames.frame import Frame
 
-_WATCHED = {
-    "displacement": "bearing displacement",
-    "base_shear": "base shear",
-    "rim_force": "rim force",
-    "slip": "interface slip",
-}
-"""Quantities that noise is compared in, and their names."""
+_WATCHED = ("displacement", "base_shear", "rim_force", "slip")
+"""Quantities that noise is compared in."""
 
 _ATTRIBUTE = "noise_"  # begins the attributes that keep the differences
 
@@ -63,7 +59,7 @@ def governing_run(
 def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
     """Return what noise says of the peaks of the governing run."""
     found = {
-        name: float(data.attrs.get(f"{_ATTRIBUTE}{key}", 0.0)) for key, name in _WATCHED.items()
+        QUANTITIES[key].title: float(data.attrs.get(f"{_ATTRIBUTE}{key}", 0.0)) for key in _WATCHED
     }
     large = {name: share for name, share in found.items() if share > SENSITIVE}
     if not large:

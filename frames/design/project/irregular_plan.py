@@ -29,13 +29,7 @@ _CLOSE = 0.05
 
 
 class SectionsByName:
-    """Sections of a building by the names that its tables have.
-
-    Parameters
-    ----------
-    tables : mapping of str to SectionTable
-        Those of the file; other names are rolled shapes of the catalogue.
-    """
+    """Sections of a building by the names that its tables have."""
 
     def __init__(self, tables: Mapping[str, SectionTable]) -> None:
         self._tables = tables

@@ -18,21 +18,12 @@ T = TypeVar("T", bound=ColumnsTable | BeamsTable)
 
 
 class NamedSection(NamedTuple):
-    """A section of a member with its name for people.
+    """A section of a member with its name for people."""
 
-    Attributes
-    ----------
-    section : Section
-        The section; of columns its depth lies along x or y.
-    up : tuple of 3 floats, optional
-        What fixes local axes of a column: None has its depth along global x.
-    said : str
-        Shape, material and stiffness in words.
-    """
-
-    section: Section
+    section: Section  # the section; of columns its depth lies along x or y
+    # what fixes local axes of a column: None has its depth along global x
     up: tuple[float, float, float] | None
-    said: str
+    said: str  # shape, material and stiffness in words
 
 
 def named_section(given: SectionTable, *, column: bool) -> NamedSection:

@@ -10,8 +10,7 @@ from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
-from frames.design.histories.demand_table import largest_of_bounds
-from frames.design.histories.eccentricity import raised_suite, with_moved
+from frames.design.histories.eccentricity import Case, cases_of
 from frames.design.histories.suite import motion_of, peaks_of_runs, stopped_runs
 from frames.design.project.check_register import RunToCheck, register_check
 from frames.design.project.devices_beside import walls_of
@@ -19,7 +18,6 @@ from frames.design.project.devices_beside import walls_of
 if TYPE_CHECKING:
     import xarray as xr
 
-    from frames.design.calculation.check import Bound
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.codes.registry import DesignCode
     from frames.frame import Frame
@@ -38,9 +36,8 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
     gap, level = run.limits.moat_gap, run.rules.bearing_level
     found = clearance_checks(run.code, run.equivalent, run.limits, run.frame)
     if gap is not None:
-        for bound, data in run.runs[level].items():
-            moved = run.moved.get(level, {}).get(bound)
-            found += _of_histories(run, bound, data, moved, gap)
+        for case in cases_of({level: run.runs[level]}, run.rules, run.moved):
+            found += _of_histories(run.frame, case, gap)
     return [replace(check, level=level) for check in found]
 
 
@@ -63,27 +60,23 @@ def clearance_checks(
     return [replace(check, level=level) for check in found]
 
 
-def _of_histories(
-    run: RunToCheck, bound: Bound, data: xr.Dataset, moved: xr.Dataset | None, gap: float
-) -> list[Check]:
-    beside = None if moved is None else {bound: moved}
-    reached = largest_of_bounds({bound: data}, run.rules, "displacement", beside)
-    void = raised_suite(data, moved, run.rules).void
+def _of_histories(frame: Frame, case: Case, gap: float) -> list[Check]:
     t = _with_gap(gap)
-    t.given("D", float(reached.max()), "m", shown="mm", note="of the histories, as the code counts")
-    t.given("gamma_x", run.rules.displacement_factor)
+    reached = float(case.design("displacement").max())
+    t.given("D", reached, "m", shown="mm", note="of the histories, as the code counts")
+    t.given("gamma_x", case.rules.displacement_factor)
     t("D_d", "gamma_x * D", "m", shown="mm")
-    judge = CheckBuilder(t, bound, OWN, void=void)
+    judge = CheckBuilder(t, case.bound, OWN, void=case.suite.void)
     title = "clearance to the moat wall"
-    every = with_moved(data, moved)
-    told = _told_of_walls(run.frame, every)
+    every = case.every
+    told = _told_of_walls(frame, every)
     note = f"{_AT_BEARINGS}{told.holds}"
     first = judge(PROJECT_LIMIT, title, "D_d", "<=", "g_moat", note=note)
     largest = peaks_of_runs(every, "displacement").max(axis=1)
     k = int(largest.argmax())
     t = _with_gap(gap)
     t.given("D_max", float(largest[k]), "m", shown="mm", note=motion_of(every, k))
-    judge = CheckBuilder(t, bound, OWN, void=stopped_runs(every))
+    judge = CheckBuilder(t, case.bound, OWN, void=stopped_runs(every))
     title = "moat wall is not met in any run"
     return [first, judge(PROJECT_LIMIT, title, "D_max", "<=", "g_moat", note=told.model)]
 

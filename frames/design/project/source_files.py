@@ -20,15 +20,7 @@ if TYPE_CHECKING:
 
 
 class SourceFiles:
-    """Digests of the files of a project or a campaign, and what is kept of them with the results.
-
-    Parameters
-    ----------
-    file : WholeFile
-        The project's file, or the campaign's.
-    folder : Path
-        Its folder: other files are found from there.
-    """
+    """Digests of the files of a project or a campaign, and what results keep of them."""
 
     def __init__(self, file: WholeFile, folder: Path) -> None:
         given: Any = file  # either has a structure and motions

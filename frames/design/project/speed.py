@@ -27,35 +27,18 @@ _COMPARED = ("bearing displacement", "base shear", "acceleration in plan, worst 
 
 
 class Way(NamedTuple):
-    """A way to run a model, and what came of it.
+    """A way to run a model, and what came of it."""
 
-    Attributes
-    ----------
-    dt : float
-        Step [s]; NaN where the program controls its error.
-    level : str
-        Of the bearings.
-    steps : int
-        Taken, refinements included.
-    seconds : float
-        In the loop, median of the repeats [s].
-    share : float
-        Of that over the duration of the motion [-].
-    displacement, base_shear, acceleration : float
-        Differences of the peaks from those of the finest run [-]; NaN where it stopped early.
-    status : str
-        As in the results.
-    """
-
-    dt: float
-    level: str
-    steps: int
-    seconds: float
-    share: float
+    dt: float  # step [s]; NaN where the program controls its error
+    level: str  # of the bearings
+    steps: int  # taken, refinements included
+    seconds: float  # in the loop, median of the repeats [s]
+    share: float  # of that over the duration of the motion [-]
+    # differences of the peaks from those of the finest run [-]; NaN where it stopped early
     displacement: float
     base_shear: float
     acceleration: float
-    status: str
+    status: str  # as in the results
 
 
 def ways_to_run(

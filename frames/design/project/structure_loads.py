@@ -16,18 +16,10 @@ if TYPE_CHECKING:
 
 
 class BuildingLoads(NamedTuple):
-    """Loads of a building, and which of them is mass.
+    """Loads of a building, and which of them is mass."""
 
-    Attributes
-    ----------
-    table : LoadsTable
-        The section of the file.
-    mass : mapping of str to float
-        Share of each load case, "D", "L", "S", that is mass [-].
-    """
-
-    table: LoadsTable
-    mass: Mapping[str, float]
+    table: LoadsTable  # the section of the file
+    mass: Mapping[str, float]  # share of each load case, "D", "L", "S", that is mass [-]
 
 
 def loads_of(table: LoadsTable | None, rule: LoadRule) -> BuildingLoads | None:

@@ -46,24 +46,12 @@ _DEFAULTS: dict[str, tuple[Section, str]] = {
 
 
 class MemberSections(NamedTuple):
-    """Sections of a regular frame.
+    """Sections of a regular frame."""
 
-    Attributes
-    ----------
-    columns : list of NamedSection
-        By storey.
-    beams : dict of str to list of NamedSection
-        By direction, "x" and "y", then by floor.
-    base_beams : dict of str to NamedSection
-        By direction.
-    assumed : tuple of str
-        Keys that are not in the file, whose sections are assumed.
-    """
-
-    columns: list[NamedSection]
-    beams: dict[str, list[NamedSection]]
-    base_beams: dict[str, NamedSection]
-    assumed: tuple[str, ...]
+    columns: list[NamedSection]  # by storey
+    beams: dict[str, list[NamedSection]]  # by direction, "x" and "y", then by floor
+    base_beams: dict[str, NamedSection]  # by direction
+    assumed: tuple[str, ...]  # keys that are not in the file, whose sections are assumed
 
 
 def sections_of(given: MomentFrame) -> MemberSections:

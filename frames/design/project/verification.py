@@ -13,6 +13,7 @@ from frames.design._errors import CheckError, ProjectError
 from frames.design.project.design_run import run_project
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.schema import bearing_table
+from frames.results.quantities import DEMANDS
 from lir_element.errors import AnalysisError
 
 if TYPE_CHECKING:
@@ -24,32 +25,15 @@ if TYPE_CHECKING:
     from frames.design.sizing.candidate import Candidate
     from lir_element import LIRBearing
 
-_DEMANDS = (
-    "isolator displacement",
-    "interface slip",
-    "rim force",
-    "base shear",
-    "storey drift ratio",
-    "floor acceleration in plan",
-)
+_DEMANDS = ("displacement", "slip", "rim_force", "base_shear", "drift", "floor_plan")
 
 
 class Verified(NamedTuple):
-    """A candidate after the time histories of its project.
+    """A candidate after the time histories of its project."""
 
-    Attributes
-    ----------
-    candidate : Candidate
-        Which.
-    run : ProjectRun or None
-        Its runs, demands and checks; None where it could not be run.
-    reason : str
-        Why it could not be run; empty where it was.
-    """
-
-    candidate: Candidate
-    run: ProjectRun | None
-    reason: str = ""
+    candidate: Candidate  # which
+    run: ProjectRun | None  # its runs, demands and checks; None where it could not be run
+    reason: str = ""  # why it could not be run; empty where it was
 
     @property
     def passed(self) -> bool:
@@ -70,7 +54,7 @@ class Verified(NamedTuple):
             return found | {"fails": f"cannot be run: {self.reason}"}
         demands = self.run.demands
         own = demands[demands["level"] == self.run.rules.bearing_level]
-        for name in _DEMANDS:
+        for name in (DEMANDS[key].demand for key in _DEMANDS):
             if name in own.index:
                 found[f"{name} [{own.loc[name, 'unit']}]"] = float(own.loc[name, "envelope"])
         every = [data for each in self.run.runs.values() for data in each.values()]

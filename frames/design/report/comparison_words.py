@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design.calculation.rendering import quantity, usual_unit
 from frames.design.project.comparison import OURS, PLAIN
+from frames.results.quantities import DEMANDS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,18 +19,18 @@ if TYPE_CHECKING:
 ALIKE = 0.02
 """Difference of two numbers over the larger up to which they are called alike [-]."""
 
-PRICE = ("interface slip", "residual interface slip")
+PRICE = tuple(DEMANDS[name].demand for name in ("slip", "slip_left"))
 """Demands that a rigid slider cannot have: the price of the slider in two pieces."""
 
-MAIN = (
-    "isolator displacement",
-    "residual displacement",
-    "rim force",
-    "maximum uplift",
-    "base shear",
-    "storey drift ratio",
-    "floor acceleration in plan",
-)
+MAIN = [
+    "displacement",
+    "displacement_left",
+    "rim_force",
+    "gap",
+    "base_shear",
+    "drift",
+    "floor_plan",
+]
 """Demands that decide which device is called better: tables have the others as well."""
 
 
@@ -37,24 +38,13 @@ _LEAST_SLIP = 1e-4  # m: what an interface that holds gives way elastically is l
 
 
 class Verdict(NamedTuple):
-    """What the numbers of one level of the seismic action say.
+    """What the numbers of one level of the seismic action say."""
 
-    Attributes
-    ----------
-    level : str
-        Level of the seismic action.
-    head : str
-        The verdict in a sentence.
-    is_ours : bool or None
-        Whether the LIR-DCFP is the better device; None where neither is, or none can be named.
-    details : tuple of str
-        Sentences with the numbers.
-    """
-
-    level: str
-    head: str
+    level: str  # level of the seismic action
+    head: str  # the verdict in a sentence
+    # whether the LIR-DCFP is the better device; None where neither is, or none can be named
     is_ours: bool | None
-    details: tuple[str, ...]
+    details: tuple[str, ...]  # sentences with the numbers
 
 
 def verdicts(found: Comparison) -> list[Verdict]:
@@ -125,7 +115,7 @@ def _sorted(ours: pd.DataFrame, plain: pd.DataFrame) -> tuple[list[str], list[st
     lower: list[str] = []
     higher: list[str] = []
     alike: list[str] = []
-    for name in (name for name in MAIN if name in ours.index):
+    for name in (DEMANDS[key].demand for key in MAIN if DEMANDS[key].demand in ours.index):
         one, two = float(ours.loc[name, "envelope"]), float(plain.loc[name, "envelope"])
         if math.isnan(one) or math.isnan(two):
             continue

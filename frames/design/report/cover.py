@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from markupsafe import Markup
 
 from frames.design.codes.registry import code_named
-from frames.design.histories.failed_runs import failed_runs
+from frames.design.histories.demand_table import failed_runs
 from frames.design.report.judged import Judged, judged
 from frames.design.report.page import Table
 from lir_element._version import package_version
@@ -27,33 +27,16 @@ _SHORT = 12  # letters of a digest in the foot of a page
 
 
 class Cover(NamedTuple):
-    """What stands on the cover and in the margins.
+    """What stands on the cover and in the margins."""
 
-    Attributes
-    ----------
-    people : list of (str, str)
-        Client, engineer, checker; empty where they are to sign.
-    issue : list of (str, str)
-        Revision and date; empty where they were left out.
-    codes : list of (str, str, str)
-        Code and title.
-    programs : list of (str, str)
-        Program and main libraries with their versions, Python, system.
-    digest : str
-        SHA-256 of the project's file.
-    motions : str
-        Digest of the accelerations as they were run.
-    written : str
-        When.
-    """
-
-    people: list[tuple[str, str]]
-    issue: list[tuple[str, str]]
-    codes: list[tuple[str, str, str]]
+    people: list[tuple[str, str]]  # client, engineer, checker; empty where they are to sign
+    issue: list[tuple[str, str]]  # revision and date; empty where they were left out
+    codes: list[tuple[str, str, str]]  # code and title
+    # program and main libraries with their versions, Python, system
     programs: list[tuple[str, str]]
-    digest: str
-    motions: str
-    written: str
+    digest: str  # SHA-256 of the project's file
+    motions: str  # digest of the accelerations as they were run
+    written: str  # when
 
     @property
     def short(self) -> str:
@@ -86,31 +69,18 @@ def cover_of(run: ProjectRun, source: str) -> Cover:
 
 
 class Verdict(NamedTuple):
-    """The verdict of a run: two short lists, and each cause once.
+    """The verdict of a run: two short lists, and each cause once."""
 
-    Attributes
-    ----------
-    by_value : int
-        Number of checks that fail on their value; counts of failed runs are not among them.
-    worst : list of (Judged, str)
-        Of each title and level the worst of these, and the other bounds at which it fails.
-    without_value : int
-        Number of checks that have no valid value, because runs failed.
-    beyond, within : list of str
-        Titles of these: beyond the limit before the failure already, and not beyond it.
-    failures : Table
-        Runs that failed, by level, bound and cause.
-    failed, doubtful, runs : int
-        Number of runs that failed, that the assumption checks mark, and of all runs.
-    """
-
+    # number of checks that fail on their value; counts of failed runs are not among them
     by_value: int
+    # of each title and level the worst of these, and the other bounds at which it fails
     worst: list[tuple[Judged, str]]
-    without_value: int
+    without_value: int  # number of checks that have no valid value, because runs failed
+    # titles of these: beyond the limit before the failure already, and not beyond it
     beyond: list[str]
     within: list[str]
-    failures: Table
-    failed: int
+    failures: Table  # runs that failed, by level, bound and cause
+    failed: int  # number of runs that failed, that the assumption checks mark, and of all runs
     doubtful: int
     runs: int
 

@@ -1,19 +1,23 @@
-"""Figures of a report, drawn from results and kept inside the file."""
+"""Figures of a report: of all runs of a project, of the governing one, and the bearings in plan."""
 
 from __future__ import annotations
 
+import math
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle
 
 from frames.design.hazard.plot_hazard import motion_spectra
+from frames.design.histories.demand_table import worst_place
+from frames.design.histories.eccentricity import Case, cases_of, reached_by
+from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.design.report.numbers import devices_by_type
 from frames.design.report.page import Picture, picture
-from frames.design.report.suite_figures import (
-    motions_figure,
-    plan_figure,
-    profiles_figure,
-    typical_bearing,
-)
 from frames.plots import (
     bearing_dimensions,
     bearing_plan,
@@ -25,18 +29,231 @@ from frames.plots import (
     storey_profiles,
     worst_bearing,
 )
+from frames.plots import plot_style as ps
+from frames.results.peak_response import largest
+from frames.results.quantities import JUDGED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from typing import TypeAlias
 
+    import xarray as xr
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from frames._types import BoolArray, FloatArray
+    from frames.design.calculation.check import Check
     from frames.design.project.design_run import ProjectRun
     from frames.design.report.words import Words
 
     Plan: TypeAlias = tuple[str, Callable[[], Figure | None]]
     """Title of a figure, and what draws it; None where there is nothing to draw."""
+
+
+_OF_BEARINGS = {
+    quantity.heading: name
+    for name, quantity in JUDGED.items()
+    if quantity.dims == ("bearing",) and quantity.kind == "peak" and name != "gap"
+} | {
+    "slip over the overlap": "slip",
+    "slip over its stable limit s*": "slip",
+    "residual slip": "slip_left",
+}
+"""Checks whose demand is of one bearing, and the quantity that it is of."""
+
+
+class Reached(NamedTuple):
+    """What the motions reached at one bound, at the place that governs there."""
+
+    bound: str
+    motions: tuple[str, ...]  # names
+    values: FloatArray  # (n_runs,) of each motion
+    design: float  # what the code makes of them: mean or largest
+    statistic: str  # which of the two, and whether accidental eccentricity raises it
+    where: str  # bearing or storey
+    failed: BoolArray  # (n_runs,) runs whose values must not count
+    is_usable: bool  # whether `design` is a value for design, and not what runs reached alone
+
+
+def reached(run: ProjectRun, name: str) -> list[Reached]:
+    """Return what all motions reached of a quantity at each bound."""
+    of_bearings = JUDGED[name].dims == ("bearing",)
+    level = run.rules.bearing_level if of_bearings else _structure_level(run)
+    found = []
+    for case in _cases(run, level):
+        if not case.keeps(name):
+            continue
+        values, suite, design = reached_by(case.data, name), case.suite, case.design(name)
+        k = worst_place(design)
+        found.append(
+            Reached(
+                case.bound,
+                tuple(map(str, case.data["motion"].to_numpy())),
+                values[:, k],
+                design[k],
+                suite.statistic + (", raised by moved masses" if suite.raised else ""),
+                names_of(case.data, name)[k],
+                np.array(suite.failed),
+                suite.is_usable,
+            )
+        )
+    return found
+
+
+def _cases(run: ProjectRun, level: str) -> list[Case]:
+    return cases_of({level: run.runs[level]}, run.rules, run.moved)
+
+
+def _structure_level(run: ProjectRun) -> str:
+    return next(level.name for level in run.rules.levels if level.judges_structure)
+
+
+def motions_figure(run: ProjectRun) -> Figure:
+    """Draw displacement, slip and drift of every motion at every bound, and what counts of them."""
+    shown = [
+        (JUDGED[name].demand, *JUDGED[name].in_figures, found)
+        for name in ("displacement", "slip", "drift")
+        if (found := reached(run, name))
+    ]
+    figure, panels = ps.panels_of(len(shown), 1, 1.75, share=False)
+    for panel, (title, unit, factor, found) in zip(panels, shown, strict=True):
+        _motions(panel, found, factor)
+        where = ", ".join(
+            dict.fromkeys(
+                f"{each.where} at {each.bound}" if each.bound else each.where for each in found
+            )
+        )
+        ps.caption(panel, y=f"[{unit}]", title=f"{title}: {where}")
+    motions = shown[0][3][0].motions
+    for panel in panels:
+        panel.set_xticks(range(len(motions)), motions if panel is panels[-1] else [], rotation=90)
+    statistics = sorted({each.statistic for *_, found in shown for each in found})
+    handles = [
+        Line2D(
+            [],
+            [],
+            color=ps.PALETTE[k],
+            marker="o^v"[k % 3],
+            linestyle="-",
+            label=each.bound or "runs",
+        )
+        for k, each in enumerate(shown[0][3])
+    ]
+    title = f"All motions; lines: the {' or the '.join(statistics)}, at the place that governs"
+    every = [each for *_, found in shown for each in found]
+    if any(each.failed.any() for each in every):
+        handles.append(_cross(label="run that failed"))
+    if not all(each.is_usable for each in every):
+        title = VOID_TITLE
+    ps.add_legend(figure, handles, title=title)
+    return figure
+
+
+VOID_TITLE = "All motions; runs failed: lines are what runs reached, no values for design"
+"""Title of a figure whose lines are no values for design."""
+
+
+def _cross(**more: Any) -> Line2D:
+    return Line2D([], [], color=ps.GREY, marker="x", linestyle="none", **more)
+
+
+def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
+    for k, each in enumerate(found):
+        shift = 0.18 * (k - 0.5 * (len(found) - 1))
+        places = np.arange(len(each.values)) + shift
+        for which, mark in ((~each.failed, "o^v"[k % 3]), (each.failed, "x")):
+            if which.any():
+                values = factor * each.values[which]
+                panel.plot(places[which], values, mark, color=ps.PALETTE[k], markersize=4.0)
+        if math.isfinite(each.design):
+            panel.axhline(factor * each.design, color=ps.PALETTE[k], linewidth=1.0)
+    panel.set_ylim(bottom=0.0)
+
+
+def profiles_figure(run: ProjectRun) -> Figure | None:
+    """Draw the drift of every storey in every motion, and what counts of it."""
+    cases = [case for case in _cases(run, _structure_level(run)) if case.keeps("drift")]
+    if not cases or len(names_of(cases[0].data, "drift")) < 2:
+        return None
+    figure, panels = ps.panels_of(len(cases), len(cases), 3.0)
+    for k, (panel, case) in enumerate(zip(panels, cases, strict=True)):
+        _profile(panel, case, ps.PALETTE[k])
+        ps.caption(panel, x="storey drift ratio [%]", title=case.bound or "runs")
+    panels[0].set_xlim(left=0.0)
+    title = "Storey drift of all motions, and what counts of it"
+    usable = all(case.suite.is_usable for case in cases)
+    ps.add_legend(figure, [], title=title if usable else VOID_TITLE)
+    return figure
+
+
+def _profile(panel: Axes, case: Case, colour: str) -> None:
+    values, design = 1e2 * peaks_of_runs(case.data, "drift"), 1e2 * case.design("drift")
+    edges = np.arange(values.shape[1] + 1)
+    look: dict[str, Any] = {"orientation": "horizontal", "baseline": None}
+    for motion, failed in zip(values, case.suite.failed, strict=True):
+        line = ":" if failed else "-"
+        panel.stairs(motion, edges, color=ps.GREY, linewidth=0.5, linestyle=line, **look)
+    panel.stairs(design, edges, color=colour, linewidth=1.8, **look)
+    panel.set_yticks(edges[:-1] + 0.5, names_of(case.data, "drift"))
+
+
+def typical_bearing(data: xr.Dataset) -> str:
+    """Return the bearing whose largest displacement in a run is the median of all."""
+    values = largest(data, "displacement").values
+    order = np.argsort(values, kind="stable")
+    return str(data["bearing"].to_numpy()[order[(len(order) - 1) // 2]])
+
+
+def utilisation(run: ProjectRun) -> tuple[Check, FloatArray] | None:
+    """Return how far each bearing is used by the check of bearings that governs.
+
+    Shapes: result (n_bearings,).
+    """
+    alike = len({link.bearing for link in run.frame.bearings.values()}) == 1
+    of_one = [c for c in run.checks if c.title in _OF_BEARINGS and c.subject and not c.void]
+    if not alike or not of_one:
+        return None
+    check = max(of_one, key=lambda c: c.ratio)
+    level, name = check.level or run.rules.bearing_level, _OF_BEARINGS[check.title]
+    each = next(case.design(name) for case in _cases(run, level) if case.bound == check.bound)
+    if check.symbol == "D_d":
+        each = run.rules.displacement_factor * each
+        least = check.trace.value("D_least") if "D_least" in check.trace else 0.0
+        each = np.maximum(each, least)
+    return check, each / check.limit
+
+
+def plan_figure(run: ProjectRun) -> Figure | None:
+    """Draw the bearings in plan by how far the check that governs uses them."""
+    found = utilisation(run)
+    if found is None:
+        return None
+    check, shares = found
+    links = run.frame.bearings
+    spots = np.array([[run.frame.nodes[k.j].x, run.frame.nodes[k.j].y] for k in links.values()])
+    gaps = np.linalg.norm(spots[:, None] - spots[None], axis=-1)
+    apart = float(gaps[gaps > 0.0].min()) if (gaps > 0.0).any() else 1.0
+    low, high = spots.min(axis=0) - 0.7 * apart, spots.max(axis=0) + 0.7 * apart
+    width = ps.PAGE_WIDTH
+    tall = float(np.clip(width * (high[1] - low[1]) / (high[0] - low[0]), 2.4, 4.6))
+    figure = ps.new_figure(tall)
+    panel = ps.grid_of(figure, 1, 1)[0][0]
+    colours = ScalarMappable(Normalize(0.0, max(1.0, float(shares.max()))), "YlOrRd")
+    for name, (x, y), share in zip(links, spots, shares, strict=True):
+        panel.add_patch(
+            Circle((x, y), 0.2 * apart, facecolor=colours.to_rgba(share), edgecolor=ps.GREY)
+        )
+        text = f"{name}\n{share:.2f}"
+        panel.annotate(text, (x, y - 0.23 * apart), ha="center", va="top", fontsize=ps.SMALL)
+    panel.set_aspect("equal")
+    panel.set_xlim(low[0], high[0])
+    panel.set_ylim(low[1], high[1])
+    ps.caption(panel, x="x [m]", y="y [m]")
+    bar = figure.colorbar(colours, ax=panel, shrink=0.8)
+    bar.set_label("ratio to the limit [-]", fontsize=ps.LABEL)
+    bar.ax.tick_params(labelsize=ps.SMALL)
+    ps.add_legend(figure, [], title=f"{check.title}, {check.bound}")
+    return figure
 
 
 def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:

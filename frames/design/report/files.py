@@ -13,8 +13,7 @@ import pandas as pd
 from frames.design._errors import ProjectError
 from frames.design.histories.demand_table import headed
 from frames.design.project.design_run import Histories
-from frames.design.report.by_motion import BY_MOTION
-from frames.design.report.numbers import ECCENTRICITY, TABLES_OF_FORCES, run_tables
+from frames.design.report.numbers import BY_MOTION, ECCENTRICITY, TABLES_OF_FORCES, run_tables
 from frames.design.report.writing import report_html
 from frames.results.storage import csv_of, load, make_folder, save, write_whole
 from lir_element._version import package_version

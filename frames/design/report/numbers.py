@@ -2,35 +2,41 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 
 from frames.design.codes.bounds import with_property_bounds
+from frames.design.histories.demand_table import demands_by_motion, link_demands
 from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands
 from frames.design.histories.least_shears import raises_by_case
-from frames.design.histories.link_demands import link_demands
-from frames.design.histories.motion_table import demands_by_motion
 from frames.design.histories.suite import peaks_of_runs, stopped_in
-from frames.design.report.by_motion import BY_MOTION
-from frames.design.report.member_groups import member_groups, without_forces
+from frames.library.building import ARM
+from frames.recording.force_rows import MEMBER_FORCES
+from frames.results.quantities import QUANTITIES
 from frames.statics.modes import modes
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import BoundName
     from frames.design.project.design_run import ProjectRun
+    from frames.frame import Frame
     from lir_element import LIRBearing
 
+
 _REACHED = {
-    "displacement [m]": ("displacement", 1.0),
-    "slip [m]": ("slip", 1.0),
-    "rim force [N]": ("rim_force", 1.0),
-    "largest load [N]": ("axial_force", 1.0),
-    "least load [N]": ("axial_tension", -1.0),
+    "displacement [m]": "displacement",
+    "slip [m]": "slip",
+    "rim force [N]": "rim_force",
+    "largest load [N]": "axial_force",
+    "least load [N]": "axial_tension",
 }
-"""What each bearing reached in all runs at all bounds: the largest of a quantity, with a sign."""
+"""What each bearing reached in all runs at all bounds."""
+
+BY_MOTION = "demands-by-motion"
+"""Name of the table of what each motion gave."""
 
 ECCENTRICITY = "eccentricity"
 """Name of the table of what moved masses raise."""
@@ -68,10 +74,10 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
     if len(set(run.types.values())) > 1:
         table.insert(0, "type", [run.types[name] for name in links])
     both = (*run.runs.values(), *run.moved.values())
-    for title, (name, sign) in _REACHED.items():
+    for title, name in _REACHED.items():
         every = (data for each in both for data in each.values())
         values = [peaks_of_runs(data, name).max(axis=0) for data in every]
-        table[title] = sign * np.max(values, axis=0)
+        table[title] = QUANTITIES[name].sign * np.max(values, axis=0)
     stopped = [stopped_in(data) for runs in both for data in runs.values()]
     if count := sum(int(each.sum()) for each in stopped):
         table["void"] = f"{count} of {sum(map(len, stopped))} runs failed"
@@ -134,3 +140,63 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         **forces,
         ECCENTRICITY: eccentricity_table(run.runs, run.moved, run.rules),
     }
+
+
+_ROUND_OFF = 1e-6  # of the largest force, or moment, below which a row is left out
+
+
+def member_groups(run: ProjectRun, forces: pd.DataFrame | None) -> pd.DataFrame:
+    """Return the extremes of the members' forces by group, over bounds and stations.
+
+    Members of the same kind of name at the same heights are a group.
+    """
+    if forces is None:
+        return pd.DataFrame()
+    judged = [level.name for level in run.rules.levels if level.judges_structure]
+    governing = forces[(forces["governs"] == "yes") & forces.index.isin(judged)].reset_index()
+    governing = governing[~governing["member"].str.startswith(ARM)]  # rigid: nothing to design
+    names = group_names(run.frame)
+    order = {name: k for k, name in enumerate(dict.fromkeys(names.values()))}
+    group = governing["member"].map(names)
+    parts = dict(iter(governing.groupby([group, "force"])))
+    rows, void = [], governing["void"].any()
+    for name, force in sorted(parts, key=lambda key: (order[key[0]], MEMBER_FORCES.index(key[1]))):
+        part = parts[name, force]
+        row = {"group": name, "members": part["member"].nunique(), "force": force}
+        row["unit"] = part["unit"].iloc[0]
+        for extreme, title, sign in (("min", "smallest", -1.0), ("max", "largest", 1.0)):
+            those = part[part["extreme"] == extreme]
+            worst = those.iloc[int(np.argmax(sign * those["value"].to_numpy()))]
+            row[title] = float(worst["value"])
+            row[f"member of {title}"] = f"{worst['member']} {worst['station']}, {worst['bound']}"
+        if void:
+            row["void"] = "; ".join(dict.fromkeys(why for why in part["void"] if why))
+        rows.append(row)
+    table = pd.DataFrame(rows).set_index("group")
+    size = table[["smallest", "largest"]].abs().max(axis=1)
+    return table[size > _ROUND_OFF * size.groupby(table["unit"]).transform("max")]
+
+
+def without_forces(frame: Frame) -> pd.DataFrame:
+    """Return the elements of superelements that the tables of member forces leave out."""
+    rows = [
+        {"kind": one.kind, "elements": one.number, "which": one.which, "why": one.why}
+        for part in frame.superelements.values()
+        for one in part.elements.without
+    ]
+    return pd.DataFrame(rows).set_index("kind") if rows else pd.DataFrame()
+
+
+def group_names(frame: Frame) -> dict[str, str]:
+    """Return the group of each member and line element: its kind of name, and its heights."""
+    ends = {name: (member.i, member.j) for name, member in frame.members.items()}
+    for part in frame.superelements.values():
+        ends |= dict(zip(part.elements.names, part.elements.nodes, strict=True))
+    found = {}
+    for name, nodes in ends.items():
+        heights = " to ".join(
+            f"{height:g}" for height in sorted({round(frame.nodes[node].z, 6) for node in nodes})
+        )
+        kind = re.sub(r"[-_ ]*\d+", "", name)
+        found[name] = f"{kind} at {heights} m"
+    return found

@@ -21,18 +21,10 @@ _DOTS = 110  # per inch
 
 
 class Picture(NamedTuple):
-    """A figure of a page.
+    """A figure of a page."""
 
-    Attributes
-    ----------
-    title : str
-        What it shows.
-    source : str
-        A data URI of a PNG file.
-    """
-
-    title: str
-    source: str
+    title: str  # what it shows
+    source: str  # a data URI of a PNG file
 
 
 def page_template(

@@ -51,20 +51,6 @@ _IN_MATH = re.compile(r"(?<=<mn>)[^<]*|(?<=<mtext>)[^<]*")
 class Words:
     """Says texts of a report in a language.
 
-    Parameters
-    ----------
-    language : {"en", "es"}
-        The language.
-    decimal : {".", ","}
-        Decimal sign.
-    names : iterable of str
-        What is never translated: bearings, motions, floors.
-
-    Attributes
-    ----------
-    missing : set of str
-        Texts that were asked for and that the language has not; they stay English.
-
     Raises
     ------
     ProjectError

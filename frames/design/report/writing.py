@@ -2,35 +2,39 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from frames.design.calculation.standing import LEGEND, standing_of
+from frames.design.calculation.standing import LEGEND, MEMORY, standing_of
 from frames.design.codes.provisions import left_to_the_engineer
 from frames.design.codes.registry import code_named
-from frames.design.histories.demand_table import tables_of_levels
-from frames.design.histories.link_demands import largest_of_links
-from frames.design.report.by_motion import BY_MOTION, motion_tables
-from frames.design.report.columns import in_parts
+from frames.design.histories.demand_table import largest_of_links, tables_of_levels
 from frames.design.report.cover import cover_of, css_string, verdict_of
-from frames.design.report.eccentric import eccentricity_said, raised_tables
 from frames.design.report.figures import pictures
-from frames.design.report.governs import what_governs
-from frames.design.report.judged import factor_steps, judged
-from frames.design.report.numbers import ECCENTRICITY, LINKS, WITHOUT_FORCES, devices_by_type
+from frames.design.report.judged import factor_steps, judged, what_governs
+from frames.design.report.numbers import (
+    BY_MOTION,
+    ECCENTRICITY,
+    LINKS,
+    WITHOUT_FORCES,
+    devices_by_type,
+)
 from frames.design.report.page import Table, page_table, page_template
-from frames.design.report.tables import in_mm_and_kn
+from frames.design.report.tables import in_mm_and_kn, in_parts
 from frames.design.report.terms import device_table, loads_table, model_table
 from frames.design.report.words import Words
 from frames.design.testing.programme import OWN_RULES
 from frames.results.findings import findings_of
+from frames.results.quantities import JUDGED
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from frames.design.codes.registry import DesignCode
     from frames.design.project.design_run import ProjectRun
+
 
 SECTIONS = (
     ("summary", "What governs"),
@@ -219,3 +223,62 @@ def _notes(tests: pd.DataFrame) -> list[tuple[str, str]]:
         (", ".join(map(str, group.index)), str(note))
         for note, group in noted.groupby("note", sort=False)
     ]
+
+
+_TITLES = {name.replace("_", " "): quantity.heading for name, quantity in JUDGED.items()}
+_TITLES |= {"axial tension": "maximum axial tension"}  # as the table has it, not its negative
+"""What the demands call the quantities of ``eccentricity.csv``."""
+
+
+def raised_tables(table: pd.DataFrame) -> list[Table]:
+    """Return the way that raises each quantity most at each bound; none without moved runs."""
+    if table.empty:
+        return []
+    size = table["factor"].fillna(0.0) + table["added"].fillna(0.0)
+    worst = table.loc[size.groupby([table["level"], table["bound"], table["quantity"]]).idxmax()]
+    worst["quantity"] = worst["quantity"].replace(_TITLES)
+    worst = worst.sort_index().set_index("quantity")
+    worst.loc[worst["void"] != "", ["factor", "added"]] = math.nan  # of what failed runs reached
+    worst["factor"] = worst["factor"].map(_factor)  # a pure number, whatever unit its row has
+    order = ["level", "bound", "masses", "unit", "centred", "moved", "factor", "added", "motions"]
+    if worst["level"].nunique() == 1:
+        order.remove("level")
+    return in_parts(page_table(worst[order], "largest"))
+
+
+def _factor(value: float) -> str:
+    return "-" if math.isnan(value) else f"{value:.4g}"
+
+
+def eccentricity_said(run: ProjectRun) -> str:
+    """Return what of accidental eccentricity is in the demands, in words."""
+    asked = code_named(run.equivalent.code).histories
+    clause = MEMORY.cited(f"{asked.cited} {asked.eccentricity_clause}".strip())
+    asked_for = asked.accidental_eccentricity > 0.0
+    share = 100.0 * run.rules.accidental_eccentricity
+    if not run.moved:
+        said = f"; {clause} asks {100.0 * asked.accidental_eccentricity:g} % of the plan's sides"
+        return f"Accidental eccentricity is not in these demands{said if asked_for else ''}."
+    every = [data for each in run.moved.values() for data in each.values()]
+    count, seconds = sum(d.sizes["run"] for d in every), float(every[0].attrs["seconds"])
+    return (
+        f"Accidental eccentricity ({clause}): the masses of all floors moved by {share:g} % of the "
+        f"plan's sides each way, {count} time histories more in {seconds:.3g} s. The factor of the "
+        "way that is worst multiplies what the suite gives; slip, rim force, eccentricity of the "
+        "sliders' resultant and lost axial force, which begin at a threshold, grow by the "
+        "difference."
+    )
+
+
+def motion_tables(table: pd.DataFrame) -> list[Table]:
+    """Return the columns that means are taken of, a row a run, in parts that fit a page."""
+    keys = ["motion", "bound"]
+    for key, usual in (("level", None), ("masses moved", ""), ("scale", 1.0), ("failed", "no")):
+        values = table[key]
+        if values.nunique() > 1 or (usual is not None and (values != usual).any()):
+            keys.append(key)
+    values = [
+        title for title in table.columns if "[" in title and not title.partition(", farthest")[1]
+    ]
+    shown = in_mm_and_kn(table[[*keys, *values]].set_index("motion"))
+    return in_parts(page_table(shown, "motion"), keep=len(keys))

@@ -54,45 +54,22 @@ class Place(NamedTuple):
 
 
 class OneMass(NamedTuple):
-    """How a candidate is tried: a rigid building, its motions and its bounds.
+    """How a candidate is tried: a rigid building, its motions and its bounds."""
 
-    Attributes
-    ----------
-    motions : callable
-        Motions scaled for an equivalent-linear analysis, whose periods make the range.
-    spectrum : Spectrum
-        The target of their scaling.
-    rules : HistoryRules
-        Levels of the seismic action, and how runs count.
-    bounds : PropertyBounds
-        Lower and upper bound friction properties.
-    at : sequence of str
-        Bounds that are run.
-    progress : callable or bool, optional
-        As for `frames.time_histories`.
-    """
-
+    # motions scaled for an equivalent-linear analysis, whose periods make the range
     motions: Callable[[EquivalentLinear], MotionSet]
-    spectrum: Spectrum
-    rules: HistoryRules
-    bounds: PropertyBounds
-    at: Sequence[BoundName]
-    progress: Callable[[BatchProgress], None] | bool | None = None
+    spectrum: Spectrum  # the target of their scaling
+    rules: HistoryRules  # levels of the seismic action, and how runs count
+    bounds: PropertyBounds  # lower and upper bound friction properties
+    at: Sequence[BoundName]  # bounds that are run
+    progress: Callable[[BatchProgress], None] | bool | None = None  # as for `frames.time_histories`
 
 
 class Excess(NamedTuple):
-    """Mean spectrum of the motions over the target, at the effective period.
+    """Mean spectrum of the motions over the target, at the effective period."""
 
-    Attributes
-    ----------
-    period : float
-        Effective period at the bound with the largest displacement [s].
-    ratio, asked : float
-        Mean over target, and the least that the rule of scaling asks for [-].
-    """
-
-    period: float
-    ratio: float
+    period: float  # effective period at the bound with the largest displacement [s]
+    ratio: float  # mean over target, and the least that the rule of scaling asks for [-]
     asked: float
 
     def __str__(self) -> str:
@@ -104,30 +81,15 @@ class Excess(NamedTuple):
 
 
 class Trial(NamedTuple):
-    """A candidate that was tried on one mass.
+    """A candidate that was tried on one mass."""
 
-    Attributes
-    ----------
-    tried, sized : Candidate
-        By the formula, and as it was made larger.
-    runs : mapping of Place to xarray.Dataset
-        Of the sized one, with its rims.
-    free : float
-        Displacement without rims for design, torsion and the code's factor included [m].
-    failed : mapping of Place to int
-        Number of runs that failed.
-    excess : Excess
-        Of the motions.
-    larger_lacks : tuple of str
-        Why it was made no larger, though a run fails or goes farther; empty where none does.
-    """
-
-    tried: Candidate
+    tried: Candidate  # by the formula, and as it was made larger
     sized: Candidate
-    runs: dict[Place, xr.Dataset]
-    free: float
-    failed: dict[Place, int]
-    excess: Excess
+    runs: dict[Place, xr.Dataset]  # of the sized one, with its rims
+    free: float  # displacement without rims for design, torsion and the code's factor included [m]
+    failed: dict[Place, int]  # number of runs that failed
+    excess: Excess  # of the motions
+    # why it was made no larger, though a run fails or goes farther; empty where none does
     larger_lacks: tuple[str, ...]
 
     def failures(self, factor: float) -> int:

@@ -61,30 +61,15 @@ class Reference(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Work:
-    """All that computes batches, wherever that is.
+    """All that computes batches, wherever that is."""
 
-    Parameters
-    ----------
-    plan : Plan
-        The rows.
-    models : mapping of str to Frame or callable
-        The structures, or functions of a set of parameters that give one.
-    motions : mapping of str to GroundMotion
-        The motions.
-    options : mapping
-        Of `time_histories`.
-    record : Recording or None
-        Which histories are kept.
-    measures : mapping of str to Measure
-        Own measures by name.
-    """
-
-    plan: Plan
+    plan: Plan  # the rows
+    # the structures, or functions of a set of parameters that give one
     models: Mapping[str, Frame | Builder]
-    motions: Mapping[str, GroundMotion]
-    options: Mapping[str, Any]
-    record: Recording | None
-    measures: Mapping[str, Measure] = field(default_factory=dict)
+    motions: Mapping[str, GroundMotion]  # the motions
+    options: Mapping[str, Any]  # of `time_histories`
+    record: Recording | None  # which histories are kept
+    measures: Mapping[str, Measure] = field(default_factory=dict)  # own measures by name
 
     @property
     def read(self) -> Recording | None:

@@ -24,25 +24,14 @@ Strength = float | Literal["unbreakable"]
 
 @dataclass(frozen=True, kw_only=True)
 class ComparedDevices:
-    """Which devices are compared.
+    """Which devices are compared."""
 
-    Attributes
-    ----------
-    others : sequence of str
-        Of `OTHERS`.
-    rims : sequence of float or "unbreakable"
-        Strengths of the rims over the design load, each of which all devices with rims have; empty:
-        the rims of the bearing.
-    slider_radius : float or None
-        Of the DCFP of the same plan [m].
-    larger : float or None
-        Capacity of the larger DCFP [m]; None: it has no rims.
-    """
-
-    others: Sequence[str]
+    others: Sequence[str]  # of `OTHERS`
+    # strengths of the rims over the design load, each of which all devices with rims have; empty:
+    # the rims of the bearing
     rims: Sequence[Strength] = ()
-    slider_radius: float | None = None
-    larger: float | None = None
+    slider_radius: float | None = None  # of the DCFP of the same plan [m]
+    larger: float | None = None  # capacity of the larger DCFP [m]; None: it has no rims
 
     def frames(self, frame: Frame) -> dict[str, Frame]:
         """Return the structure on each device."""

@@ -53,28 +53,16 @@ def filling_intensity(bearing: LIRBearing, period: float) -> float:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DeviceComparison:
-    """What a campaign says of devices under the same records.
+    """What a campaign says of devices under the same records."""
 
-    Attributes
-    ----------
-    frames : mapping of str to Frame
-        The structure on each device.
-    groups : mapping of str to sequence of str
-        Devices with the same rims, the LIR-DCFP first, by their rims.
-    collapse : LimitState
-        What counts as collapse.
-    considered : float or None
-        Intensity of the maximum considered earthquake, in the unit of the curves; None: it is not
-        known, and there are no margins.
-    filling : bool
-        Whether that is the one that fills the capacity, and none that was given.
-    """
-
-    frames: Mapping[str, Frame]
+    frames: Mapping[str, Frame]  # the structure on each device
+    # devices with the same rims, the LIR-DCFP first, by their rims
     groups: Mapping[str, Sequence[str]]
-    collapse: LimitState
+    collapse: LimitState  # what counts as collapse
+    # intensity of the maximum considered earthquake, in the unit of the curves; None: it is not
+    # known, and there are no margins
     considered: float | None
-    filling: bool
+    filling: bool  # whether that is the one that fills the capacity, and none that was given
 
     def ratios(
         self, curves: Mapping[str, Mapping[str, Fragility]], confidence: float

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
 import pandas as pd
+from matplotlib.lines import Line2D
 
 from frames.design.report.page import Picture, Table, page_table, picture
 from frames.design.report.tables import in_mm_and_kn
+from frames.plots import plot_style as ps
 from frames.risk.campaign.compared_devices import LIR
-from frames.risk.campaign.plot_comparison import device_curves
 from frames.risk.campaign.plot_response import response_by_factor
+from frames.risk.fragility.plot_fragility import shown_intensity
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from frames.risk.campaign.comparison import DeviceComparison
     from frames.risk.fragility.curve import Fragility
@@ -22,53 +28,25 @@ if TYPE_CHECKING:
 
 
 class Compared(NamedTuple):
-    """What the page says of devices.
+    """What the page says of devices."""
 
-    Attributes
-    ----------
-    sizes, ratios, margins : Table
-        As the page has them.
-    collapse : str
-        What counts as collapse, in words.
-    considered : str
-        The maximum considered earthquake, in words.
-    pictures : list of Picture
-        A figure of curves and one of responses for each kind of rims.
-    files : dict of str to pandas.DataFrame
-        Tables in SI units, by the end of their name.
-    """
-
-    sizes: Table
+    sizes: Table  # as the page has them
     ratios: Table
     margins: Table
-    collapse: str
-    considered: str
-    pictures: list[Picture]
-    files: dict[str, pd.DataFrame]
+    collapse: str  # what counts as collapse, in words
+    considered: str  # the maximum considered earthquake, in words
+    pictures: list[Picture]  # a figure of curves and one of responses for each kind of rims
+    files: dict[str, pd.DataFrame]  # tables in SI units, by the end of their name
 
 
 class Fitted(NamedTuple):
-    """Curves of a campaign.
+    """Curves of a campaign."""
 
-    Attributes
-    ----------
-    runs : mapping of str to IntensityRuns
-        By structure, over the measure of the curves.
-    by_factor : mapping of str to IntensityRuns
-        The same over the factor on the motions.
-    limits : sequence of LimitState
-        What was fitted.
-    curves : mapping
-        By limit state and structure.
-    table : pandas.DataFrame
-        A row a structure and limit state; "no curve" says why there is none.
-    """
-
-    runs: Mapping[str, IntensityRuns]
-    by_factor: Mapping[str, IntensityRuns]
-    limits: Sequence[LimitState]
-    curves: Mapping[str, Mapping[str, Fragility]]
-    table: pd.DataFrame
+    runs: Mapping[str, IntensityRuns]  # by structure, over the measure of the curves
+    by_factor: Mapping[str, IntensityRuns]  # the same over the factor on the motions
+    limits: Sequence[LimitState]  # what was fitted
+    curves: Mapping[str, Mapping[str, Fragility]]  # by limit state and structure
+    table: pd.DataFrame  # a row a structure and limit state; "no curve" says why there is none
 
 
 def compared(
@@ -161,3 +139,63 @@ def _considered(comparison: DeviceComparison, fitted: Fitted) -> str:
     )
     value = f"{measure.label} = {comparison.considered:.3g} {measure.unit}"
     return f"The maximum considered earthquake is the one {whose}, {value}."
+
+
+MARKERS = "os^d"
+POINTS = 80
+
+
+def device_curves(
+    runs: Mapping[str, IntensityRuns],
+    curves: Mapping[str, Mapping[str, Fragility]],
+    limits: Sequence[LimitState],
+    *,
+    confidence: float,
+    considered: float | None = None,
+) -> Figure:
+    """Draw the fragility of devices, a panel a limit state."""
+    measure = next(iter(runs.values())).intensity
+    factor, label = shown_intensity(measure.unit, measure.label)
+    top = 1.05 * max(float(each.table["im"].max()) for each in runs.values())
+    at = np.linspace(top / POINTS, top, POINTS)
+    figure, panels = ps.panels_of(len(limits), min(3, len(limits)), 2.3, share=False)
+    for panel, limit in zip(panels, limits, strict=True):
+        for k, (name, each) in enumerate(runs.items()):
+            curve = curves.get(limit.name, {}).get(name)
+            if curve is not None:
+                _curve(panel, curve, at, factor, k, confidence)
+            im, shares = shares_exceeded(each, limit)
+            color = ps.PALETTE[k]
+            panel.plot(factor * im, shares, MARKERS[k], markersize=3.0, color=color)
+        if considered is not None:
+            panel.axvline(factor * considered, color=ps.GREY, linewidth=0.7, linestyle=":")
+        panel.set_xlim(0.0, factor * top)
+        panel.set_ylim(0.0, 1.02)
+        ps.caption(panel, x=label, title=limit.name)
+    for panel in panels[:: min(3, len(limits))]:
+        ps.caption(panel, y="probability [-]")
+    handles = [
+        Line2D([], [], label=name, marker=MARKERS[k], markersize=3.0, **ps.line_of(k))
+        for k, name in enumerate(runs)
+    ]
+    said = "Dotted: maximum considered earthquake" if considered is not None else ""
+    ps.add_legend(figure, handles, columns=2, title=said)
+    return figure
+
+
+def shares_exceeded(runs: IntensityRuns, limit: LimitState) -> tuple[np.ndarray, np.ndarray]:
+    """Return the intensities of runs, and the share at each that exceeds a limit state."""
+    exceeded, im = runs.exceeded(limit), runs.table["im"].to_numpy()
+    found = np.unique(im)
+    known = [exceeded[(im == one) & ~np.isnan(exceeded)] for one in found]
+    return found, np.array([own.mean() if len(own) else np.nan for own in known])
+
+
+def _curve(
+    panel: Axes, curve: Fragility, at: np.ndarray, factor: float, k: int, confidence: float
+) -> None:
+    table, look = curve.to_dataframe(at, confidence), ps.line_of(k)
+    panel.fill_between(
+        factor * at, table["low"], table["high"], alpha=0.15, color=look["color"], linewidth=0.0
+    )
+    panel.plot(factor * at, table["probability"], **look)

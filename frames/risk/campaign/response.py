@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from frames.results.quantities import QUANTITIES as TABLE
 from frames.risk.fragility.intensity import Intensity, IntensityMeasure
 from frames.risk.fragility.runs import COMPLETE, FAILURE, UNBUILT, UNKNOWN, IntensityRuns
 
@@ -19,13 +20,9 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.motion.ground_motion import GroundMotion
 
-QUANTITIES = (
-    "bearing displacement",
-    "storey drift, mean",
-    "floor acceleration in plan, mean",
-    "base shear",
-    "rim force",
-    "interface slip",
+QUANTITIES = tuple(
+    TABLE[name].title
+    for name in ("displacement", "drift", "floor_plan", "base_shear", "rim_force", "slip")
 )
 """Quantities of `frames.peaks` that the page shows, where a structure has them."""
 

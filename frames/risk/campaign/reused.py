@@ -28,15 +28,6 @@ _HISTORIES = "what was reached"
 class KnownRuns:
     """Runs of other results databases by what they are of: model, motion, scale, parameters.
 
-    Parameters
-    ----------
-    stores : sequence of str or path
-        Folders of the other campaigns.
-    work : Work
-        Of the campaign that takes runs over.
-    planned : mapping
-        What it is planned with (`described`).
-
     Raises
     ------
     CampaignError

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from frames.results.quantities import QUANTITIES
 from frames.risk._errors import FragilityError
 from lir_element.argument_checks import require_non_negative, require_positive, require_type
 from lir_element.units import STANDARD_GRAVITY
@@ -64,7 +65,7 @@ class LimitState:
     @staticmethod
     def rim_contact() -> LimitState:
         """Return contact with a rim: a force of any rim."""
-        return LimitState("rim contact", "rim force", 0.0)
+        return LimitState("rim contact", QUANTITIES["rim_force"].title, 0.0)
 
     @staticmethod
     def interface_slip(bearing: LIRBearing) -> LimitState:
@@ -89,43 +90,40 @@ class LimitState:
         if not 0.0 < holds < math.inf:
             msg = f"s* = {holds:g} m of this bearing is no limit: take bearing_failure()"
             raise FragilityError(msg)
-        return LimitState("interface slip beyond s*", "interface slip", holds)
+        return LimitState("interface slip beyond s*", QUANTITIES["slip"].title, holds)
 
     @staticmethod
     def displacement(limit: float) -> LimitState:
         """Return a bearing displacement in plan above `limit` [m]."""
-        return LimitState(
-            f"bearing displacement {1e3 * limit:g} mm", "bearing displacement", _above_0(limit)
-        )
+        return _above(f"bearing displacement {1e3 * limit:g} mm", "displacement", limit)
 
     @staticmethod
     def residual_displacement(limit: float) -> LimitState:
         """Return a residual bearing displacement at the end above `limit` [m]."""
-        name = f"residual displacement {1e3 * limit:g} mm"
-        return LimitState(name, "residual bearing displacement", _above_0(limit))
+        return _above(f"residual displacement {1e3 * limit:g} mm", "displacement_left", limit)
 
     @staticmethod
     def drift(limit: float) -> LimitState:
         """Return a storey drift ratio above `limit` [-]: mean of the storey, size in plan."""
-        return LimitState(f"storey drift {100 * limit:g} %", "storey drift, mean", _above_0(limit))
+        return _above(f"storey drift {100 * limit:g} %", "drift", limit)
 
     @staticmethod
     def floor_acceleration(limit: float) -> LimitState:
         """Return a floor acceleration above `limit` [m/s2]: mean of the level, size in plan."""
         name = f"floor acceleration {limit / STANDARD_GRAVITY:.3g} g"
-        return LimitState(name, "floor acceleration in plan, mean", _above_0(limit))
+        return _above(name, "floor_plan", limit)
 
     @staticmethod
     def ductility(limit: float) -> LimitState:
         """Return a ductility of links (storeys that yield) above `limit` [-]."""
-        return LimitState(f"ductility {limit:g}", "link ductility", _above_0(limit))
+        return _above(f"ductility {limit:g}", "link_ductility", limit)
 
     @staticmethod
     def plastic_rotation(limit: float) -> LimitState:
         """Return a plastic rotation of hinges above `limit` [rad]."""
-        name = f"plastic rotation {limit:g} rad"
-        return LimitState(name, "plastic rotation of hinges", _above_0(limit))
+        return _above(f"plastic rotation {limit:g} rad", "hinge_rotation", limit)
 
 
-def _above_0(limit: float) -> float:
-    return require_positive("limit", limit, error=FragilityError)
+def _above(name: str, quantity: str, limit: float) -> LimitState:
+    require_positive("limit", limit, error=FragilityError)
+    return LimitState(name, QUANTITIES[quantity].title, limit)
