@@ -32,6 +32,7 @@ from frames.design import (
 from frames.design.codes.registry import known_codes
 from frames.design.hazard.code_rules import remove_rules, scaling_named
 from frames.design.project import check_register, extensions
+from frames.design.project import run_checks as run_checks  # registers what the fixture keeps
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project, schema
 from lir_element import FrictionLaw
