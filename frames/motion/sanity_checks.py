@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.motion.baseline import LEAST_RECORD, corrected, drift_of
-from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, meant
+from lir_element.units import STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -57,7 +57,7 @@ def _of_peak(given: Mapping[str, FloatArray]) -> list[str]:
             return [
                 f"{axis} peaks at {peak:.4g} m/s2 = {peak / STANDARD_GRAVITY:.3g} g, the strongest "
                 "record known has some 4.4 g: its unit is probably another; "
-                f"{meant(peak, 'm/s2', ACCELERATIONS, 0.05, 30.0)}"
+                f"{meant(peak, 'm/s2', 0.05, 30.0)}"
             ]
     return []
 

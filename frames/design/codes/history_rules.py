@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from frames.design._errors import CheckError
 from frames.design.codes.levels import DESIGN, ActionLevel
-from lir_element.argument_checks import (
-    require_between,
-    require_choice,
-    require_non_negative,
-    require_positive,
-)
+from lir_element.argument_checks import require_choice
+from lir_element.fields import check_numbers, number
 
 MOST_ECCENTRIC = 0.25
 """Largest accidental eccentricity over the sides of the plan [-]; codes ask for 0.05."""
+
+_COUNT, _SHARE = number("-", "[1, 1000)"), number("-", "(0, inf)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,20 +80,27 @@ class HistoryRules:
     """
 
     code: str
-    least: int
-    mean_from: int
-    drift: float | None = None
-    drift_factor: float = 1.0
+    least: int = field(metadata=_COUNT)
+    mean_from: int = field(metadata=_COUNT)
+    drift: float | None = field(default=None, metadata=_SHARE)
+    drift_factor: float = field(default=1.0, metadata=number("-", "[0.1, 1]"))
     drift_classes: tuple[tuple[str, float], ...] = ()
-    second_order: float | None = None
-    displacement_factor: float = 1.0
+    second_order: float | None = field(default=None, metadata=_SHARE)
+    displacement_factor: float = field(default=1.0, metadata=number("-", "[1, 10)"))
     uplift_allowed: bool = False
-    least_gap: float = 1e-3
-    unacceptable_allowed: int = 0
+    least_gap: float = field(default=1e-3, metadata=number("m", "[0, inf)"))
+    unacceptable_allowed: int = field(default=0, metadata=number("-", "[0, inf)"))
     median_factor: float = 1.2
-    engagement: float | None = None
+    engagement: float | None = field(default=None, metadata=_SHARE)
     has_minima: bool = False
-    accidental_eccentricity: float = 0.0
+    accidental_eccentricity: float = field(
+        default=0.0,
+        metadata=number(
+            "-",
+            f"[0, {MOST_ECCENTRIC})",
+            remedy="0.05 is a twentieth of the plan's sides, 0 leaves it out",
+        ),
+    )
     levels: tuple[ActionLevel, ...] = (ActionLevel(DESIGN),)
     statistic_clause: str = ""
     displacement_clause: str = ""
@@ -111,26 +116,7 @@ class HistoryRules:
         return self.standard or self.code
 
     def __post_init__(self) -> None:
-        require_between("least", self.least, 1, 1000, "-", error=CheckError)
-        require_between("mean_from", self.mean_from, 1, 1000, "-", error=CheckError)
-        require_between(
-            "displacement_factor", self.displacement_factor, 1.0, 10.0, "-", error=CheckError
-        )
-        require_between(
-            "accidental_eccentricity",
-            self.accidental_eccentricity,
-            0.0,
-            MOST_ECCENTRIC,
-            "-",
-            remedy="0.05 is a twentieth of the plan's sides, 0 leaves it out",
-            error=CheckError,
-        )
-        require_between("drift_factor", self.drift_factor, 0.1, 1.0 + 1e-9, "-", error=CheckError)
-        require_non_negative("least_gap", self.least_gap, "m", error=CheckError)
-        require_non_negative("unacceptable_allowed", self.unacceptable_allowed, error=CheckError)
-        for name in ("drift", "second_order", "engagement"):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name), "-", error=CheckError)
+        check_numbers(self, error=CheckError)
         if not self.levels:
             msg = "levels is empty: give one level of the seismic action at least"
             raise CheckError(msg)

@@ -16,7 +16,7 @@ the effective distance, which magnitude keeps from vanishing.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,10 +24,10 @@ import numpy as np
 from frames._errors import MotionError
 from lir_element.argument_checks import (
     require_between,
-    require_non_negative,
     require_positive,
     require_type,
 )
+from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -96,31 +96,22 @@ class PointSource:
     ['near-fault 1']
     """
 
-    magnitude: float
-    distance: float
-    stress_drop: float = 10e6
-    density: float = 2800.0
-    shear_velocity: float = 3500.0
-    kappa: float = 0.04
-    quality: float = 180.0
-    quality_exponent: float = 0.45
+    magnitude: float = field(metadata=number("-", "[4, 9)"))
+    distance: float = field(
+        metadata=number("km", "[0, inf)", remedy="give the closest distance to the rupture in km")
+    )
+    stress_drop: float = field(default=10e6, metadata=number("Pa", "(0, inf)"))
+    density: float = field(default=2800.0, metadata=number("kg/m3", "(0, inf)"))
+    shear_velocity: float = field(default=3500.0, metadata=number("m/s", "(0, inf)"))
+    kappa: float = field(default=0.04, metadata=number("s", "[0, inf)"))
+    quality: float = field(default=180.0, metadata=number("-", "(0, inf)"))
+    quality_exponent: float = field(default=0.45, metadata=number("-", "[0, inf)"))
     amplification: tuple[tuple[float, float], ...] = GENERIC_ROCK
     saturation: tuple[float, float] = (-0.405, 0.235)
 
     def __post_init__(self) -> None:
         """Check."""
-        require_between("magnitude", self.magnitude, 4.0, 9.0, "-", error=MotionError)
-        require_non_negative(
-            "distance",
-            self.distance,
-            "km",
-            error=MotionError,
-            remedy="give the closest distance to the rupture in km",
-        )
-        for name in ("stress_drop", "density", "shear_velocity", "quality"):
-            require_positive(name, getattr(self, name), error=MotionError)
-        require_non_negative("kappa", self.kappa, "s", error=MotionError)
-        require_non_negative("quality_exponent", self.quality_exponent, "-", error=MotionError)
+        check_numbers(self, error=MotionError)
         if np.shape(self.saturation) != (2,):
             msg = f"saturation = {self.saturation!r}: give (a, b) of log10 h [km] = a + b magnitude"
             raise MotionError(msg)

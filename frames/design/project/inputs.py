@@ -198,8 +198,8 @@ class ProjectInputs:
 
     def limits(self, **others: float) -> DesignLimits:
         """Return what the engineer allows; others count where the file gives none."""
-        given = others | self.file.limits.model_dump(exclude_none=True)
-        return in_section("limits", lambda: DesignLimits(**given))
+        made: Callable[[], DesignLimits] = partial(self.file.limits.made, **others)
+        return in_section("limits", made)
 
     def rules(self) -> HistoryRules:
         """Return how time histories count: as the code has it, uplift as the file says."""
@@ -223,9 +223,9 @@ class ProjectInputs:
 
     def target(self) -> DesignTarget:
         """Return what ``lir design`` chooses from."""
-        given = self.file.design.model_dump(exclude_none=True)
         limits = self.limits(interface_pressure=INTERFACE_PRESSURE)
-        return in_section("design", lambda: DesignTarget(**given, limits=limits))
+        made: Callable[[], DesignTarget] = partial(self.file.design.made, limits=limits)
+        return in_section("design", made)
 
     def motions(self) -> MotionSet:
         """Return the motions as they are given, not scaled to the spectrum."""

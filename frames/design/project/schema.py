@@ -9,8 +9,10 @@ from typing import Annotated, Any, Literal, Self, Union
 from pydantic import Field, create_model, model_validator
 
 from frames.design.codes.registry import DesignCode, code_named, known_codes
+from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.code_rules import canonical
-from frames.design.project.derived import Table, WholeFile
+from frames.design.project.derived import Table, WholeFile, table_of
+from frames.design.project.quantities import Ratio
 from frames.design.project.schema_analysis import Analysis as Analysis
 from frames.design.project.schema_bearing import Bearing as Bearing
 from frames.design.project.schema_bearing import BearingType as BearingType
@@ -23,8 +25,6 @@ from frames.design.project.schema_hazard import BY_POINTS, points_table, spectru
 from frames.design.project.schema_hazard import Motions as Motions
 from frames.design.project.schema_hazard import MotionSource as MotionSource
 from frames.design.project.schema_hazard import SpectrumTable as SpectrumTable
-from frames.design.project.schema_limits import Limits as Limits
-from frames.design.project.schema_limits import Target as Target
 from frames.design.project.schema_loads import LoadsTable as LoadsTable
 from frames.design.project.schema_structure import ImportedModel as ImportedModel
 from frames.design.project.schema_structure import IrregularFrame as IrregularFrame
@@ -33,6 +33,17 @@ from frames.design.project.schema_structure import OpenSeesModel as OpenSeesMode
 from frames.design.project.schema_structure import ShearBuilding as ShearBuilding
 from frames.design.project.schema_structure import Structure as Structure
 from frames.design.project.schema_structure import SuperstructureTable as SuperstructureTable
+from frames.design.sizing.target import DesignTarget
+
+
+class Limits(table_of(DesignLimits)):  # type: ignore[misc]  # its keys are the fields
+    """``[limits]``: what the engineer allows; the fields of `frames.DesignLimits`."""
+
+
+class Target(table_of(DesignTarget)):  # type: ignore[misc]  # its keys are the fields
+    """``[design]``: what ``lir design`` chooses from; fields of `frames.DesignTarget`."""
+
+    frictions: tuple[Ratio, ...] = Field(DesignTarget.frictions)  # as `lir design` writes them
 
 
 class ProjectTable(Table):

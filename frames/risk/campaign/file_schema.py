@@ -12,7 +12,7 @@ from frames.design.project.schema import Bearing, LoadsTable, MotionSource, Stru
 from frames.risk.campaign.designs import names_of
 from frames.risk.campaign.file_compare import GEOMETRY, CompareTable
 from frames.risk.campaign.file_fragility import FragilityTable
-from lir_element.device.friction import unit_of
+from lir_element.fields import unit_of
 
 if TYPE_CHECKING:
     from lir_element import FrictionLaw
