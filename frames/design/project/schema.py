@@ -43,7 +43,7 @@ class Limits(table_of(DesignLimits)):  # type: ignore[misc]  # its keys are the 
 class Target(table_of(DesignTarget)):  # type: ignore[misc]  # its keys are the fields
     """``[design]``: what ``lir design`` chooses from; fields of `frames.DesignTarget`."""
 
-    frictions: tuple[Ratio, ...] = Field(DesignTarget.frictions)  # as `lir design` writes them
+    frictions: tuple[Ratio, ...] = ()  # as `lir design` writes them
 
 
 class ProjectTable(Table):
