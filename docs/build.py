@@ -36,8 +36,8 @@ from frames import (
     time_history,
     uplift_gap,
 )
-from frames.design.codes.builtin import BUILT_IN
-from frames.design.codes.provisions import NEEDS, OF_BEARINGS, Provision
+from frames.design.codes.analysis import BUILT_IN
+from frames.design.codes.code_values import NEEDS, OF_BEARINGS, Provision
 from frames.laws import Bilinear, PlasticHinge
 from frames.results.quantities import LEFT, QUANTITIES
 from frames.results.recorded import REACHED

@@ -524,10 +524,10 @@ CAMPAIGN = (
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     pytest.importorskip("pydantic")
     pytest.importorskip("pint")
-    from frames.design.project import extensions
+    from frames.design.project import source_files
     from lir_element.device import friction
 
-    monkeypatch.setattr(extensions, "_LOADED", {})
+    monkeypatch.setattr(source_files, "_LOADED", {})
     monkeypatch.setattr(friction, "_KNOWN", dict(friction._KNOWN))
     (tmp_path / "laws.py").write_text(ISLAND)
     (tmp_path / "project.toml").write_text(PROJECT)

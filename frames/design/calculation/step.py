@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from html import escape
 from typing import NamedTuple
 
-from frames.design.calculation.formula import Value, parse
 from frames.design.calculation.rendering import (
     Style,
+    Value,
     mathml,
+    parse,
     quantity,
     symbol_mathml,
     symbol_text,

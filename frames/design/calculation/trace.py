@@ -7,8 +7,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
 from frames.design._errors import CheckError
-from frames.design.calculation.formula import RESERVED, Value, evaluate, names, parse
-from frames.design.calculation.rendering import scale, usual_unit
+from frames.design.calculation.rendering import (
+    RESERVED,
+    Value,
+    evaluate,
+    names,
+    parse,
+    scale,
+    usual_unit,
+)
 from frames.design.calculation.step import Quantity, Step
 
 

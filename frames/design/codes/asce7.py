@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from frames._errors import MotionWarning
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
-from frames.design.codes.acceptance_rules import AcceptanceRule
 from frames.design.codes.common import (
     LinearAnalysis,
     capacity_check,
@@ -21,10 +20,10 @@ from frames.design.codes.common import (
     enter_storeys,
 )
 from frames.design.codes.factor_sources import factors_of_asce7
-from frames.design.codes.history_rules import HistoryRules
-from frames.design.codes.levels import MCE_R, ActionLevel
+from frames.design.codes.history_rules import MCE_R, ActionLevel, HistoryRules
 from frames.design.codes.outcome import Symbols
 from frames.design.codes.prototype_programme import (
+    AcceptanceRule,
     DesignToTest,
     PlannedTest,
     increments,

@@ -304,9 +304,25 @@ def capacity_check(
     demand: str,
     words: str = "the total displacement",
 ) -> Check:
-    """Return the check of the rims' displacement against that of each bearing, for the worst.
+    """Return the check of the rims' displacement against the demand, for the worst bearing.
 
-    `words` is what the code calls the demand; the check's note says where the rim is met.
+    Parameters
+    ----------
+    t : Trace
+        With the demand of each bearing.
+    system : IsolationSystem
+        The system.
+    judge : CheckBuilder
+        Makes the check.
+    clause, demand : str
+        Clause, and symbol of the demand.
+    words : str
+        What the code calls the demand, for the title.
+
+    Returns
+    -------
+    Check
+        Its note says where the rim is met.
     """
     t.given_each(
         "d_rim",

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
-from frames.design.codes.acceptance_rules import AcceptanceRule
 from frames.design.codes.common import (
     LinearAnalysis,
     capacity_check,
@@ -18,11 +17,10 @@ from frames.design.codes.common import (
     enter_storeys,
 )
 from frames.design.codes.factor_sources import factors_of_en1998
-from frames.design.codes.history_rules import HistoryRules
-from frames.design.codes.levels import DESIGN
+from frames.design.codes.history_rules import DESIGN, HistoryRules
 from frames.design.codes.load_rules import LoadRule, fixed_combinations
 from frames.design.codes.outcome import Symbols
-from frames.design.codes.prototype_programme import DesignToTest, PlannedTest
+from frames.design.codes.prototype_programme import AcceptanceRule, DesignToTest, PlannedTest
 from frames.design.codes.registry import (
     MOST_IMPORTANT,
     NO_LIMITS,

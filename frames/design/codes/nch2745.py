@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 import numpy as np
 
 from frames.design.calculation.check import Checks
-from frames.design.codes.acceptance_rules import AcceptanceRule
 from frames.design.codes.common import (
     LinearAnalysis,
     capacity_check,
@@ -19,11 +18,17 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
 )
-from frames.design.codes.history_rules import HistoryRules
-from frames.design.codes.levels import DESIGN, MAXIMUM, NCH_MAXIMUM, ActionLevel
+from frames.design.codes.history_rules import (
+    DESIGN,
+    MAXIMUM,
+    NCH_MAXIMUM,
+    ActionLevel,
+    HistoryRules,
+)
 from frames.design.codes.load_rules import LoadRule, fixed_combinations
 from frames.design.codes.outcome import Iteration, Symbols
 from frames.design.codes.prototype_programme import (
+    AcceptanceRule,
     DesignToTest,
     PlannedTest,
     increments,

@@ -12,9 +12,45 @@ from lir_element.argument_checks import require_non_negative, require_positive
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from frames.design.codes.code_values import CodeValue
     from frames.design.codes.outcome import BoundResult
     from frames.design.codes.pendulum import FrictionPendulum
     from lir_element import LIRBearing
+
+
+class AcceptanceRule(NamedTuple):
+    """What a code accepts of measured loops, of which tests of its programme.
+
+    Attributes
+    ----------
+    tests : tuple of str
+        How the names of these tests begin.
+    value : CodeValue
+        What is accepted, its clause, and how well it is known.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> rule = code_named("ASCE 7-22").accepted[-2]
+    >>> rule.tests, rule.value.clause
+    (('static',), 'ASCE 7-22 17.8.4')
+    """
+
+    tests: tuple[str, ...]
+    value: CodeValue
+
+    def holds_for(self, test: str) -> bool:
+        """Return whether it is of a test of the programme, by its name."""
+        return test.startswith(self.tests)
+
+
+def accepted_of(rules: Iterable[AcceptanceRule], test: str) -> str:
+    """Return what is accepted of a test, with clauses and stars, "; " between."""
+    return "; ".join(
+        f"{rule.value.what} ({rule.value.standing.cited(rule.value.clause)})"
+        for rule in rules
+        if rule.holds_for(test)
+    )
 
 
 def ordered_loads(loads: tuple[float, float]) -> tuple[float, float]:

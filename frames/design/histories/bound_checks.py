@@ -42,8 +42,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
-    from frames.design.codes.history_rules import HistoryRules
-    from frames.design.codes.levels import ActionLevel
+    from frames.design.codes.history_rules import ActionLevel, HistoryRules
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.devices.limits import DesignLimits
     from frames.design.histories.suite import Suite

@@ -19,9 +19,7 @@ from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
-from frames.design.project.bearing_types import STANDARD, on_types, types_by_column
-from frames.design.project.devices_beside import with_devices
-from frames.design.project.extensions import RunningScript
+from frames.design.project.devices_beside import STANDARD, on_types, types_by_column, with_devices
 from frames.design.project.member_sections import named_section
 from frames.design.project.schema import (
     ImportedModel,
@@ -31,9 +29,8 @@ from frames.design.project.schema import (
     ShearBuilding,
 )
 from frames.design.project.schema_bearing import FactorSources
-from frames.design.project.schema_hazard import PointsTable
-from frames.design.project.source_files import SourceFiles
-from frames.design.project.spectrum_points import read_points
+from frames.design.project.schema_hazard import PointsTable, read_points
+from frames.design.project.source_files import RunningScript, SourceFiles
 from frames.design.project.structure_loads import BuildingLoads, loads_of
 from frames.design.project.structure_plan import irregular_frame, regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget

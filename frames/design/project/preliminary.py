@@ -15,7 +15,7 @@ from frames._errors import ModelError, ModelWarning, MotionWarning, without_numb
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import Checks
 from frames.design.codes.analysis import equivalent_linear
-from frames.design.hazard.sanity_checks import factor_doubts, twins
+from frames.design.hazard.motion_collection import factor_doubts, twins
 from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
 from frames.design.project.inputs import in_section

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames.design.codes.service import least_strength
+from frames.design.codes.analysis import least_strength
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
-from frames.design.project.schema_devices import SIDES
+from frames.design.project.schema_bearing import SIDES
 from frames.design.project.schema_structure import BuildingTable, IrregularFrame
 from lir_element.units import STANDARD_GRAVITY
 

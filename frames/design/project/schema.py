@@ -6,26 +6,25 @@ import datetime
 from functools import cache
 from typing import Annotated, Any, Literal, Self, Union
 
-from pydantic import Field, create_model, model_validator
+from pydantic import Field, create_model, field_validator, model_validator
 
+from frames.design.codes.history_rules import MOST_ECCENTRIC
 from frames.design.codes.registry import DesignCode, code_named, known_codes
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.code_rules import canonical
 from frames.design.project.derived import Table, WholeFile, table_of
-from frames.design.project.quantities import Ratio
-from frames.design.project.schema_analysis import Analysis as Analysis
+from frames.design.project.quantities import Length, Positive, Ratio, Time
 from frames.design.project.schema_bearing import Bearing as Bearing
 from frames.design.project.schema_bearing import BearingType as BearingType
 from frames.design.project.schema_bearing import Bounds as Bounds
+from frames.design.project.schema_bearing import DamperTable as DamperTable
+from frames.design.project.schema_bearing import MoatTable as MoatTable
 from frames.design.project.schema_bearing import bearing_table as bearing_table
 from frames.design.project.schema_bearing import bearing_type_table, completed
-from frames.design.project.schema_devices import DamperTable as DamperTable
-from frames.design.project.schema_devices import MoatTable as MoatTable
 from frames.design.project.schema_hazard import BY_POINTS, points_table, spectrum_table
 from frames.design.project.schema_hazard import Motions as Motions
 from frames.design.project.schema_hazard import MotionSource as MotionSource
 from frames.design.project.schema_hazard import SpectrumTable as SpectrumTable
-from frames.design.project.schema_loads import LoadsTable as LoadsTable
 from frames.design.project.schema_structure import ImportedModel as ImportedModel
 from frames.design.project.schema_structure import IrregularFrame as IrregularFrame
 from frames.design.project.schema_structure import MomentFrame as MomentFrame
@@ -33,7 +32,44 @@ from frames.design.project.schema_structure import OpenSeesModel as OpenSeesMode
 from frames.design.project.schema_structure import ShearBuilding as ShearBuilding
 from frames.design.project.schema_structure import Structure as Structure
 from frames.design.project.schema_structure import SuperstructureTable as SuperstructureTable
+from frames.design.project.structure_loads import LoadsTable as LoadsTable
 from frames.design.sizing.target import DesignTarget
+
+
+class Analysis(Table):
+    """``[analysis]``: how time histories are run, and whether uplift voids them."""
+
+    level: Literal["pendulum", "contact"] = "contact"
+    dt: Annotated[Time, Positive] | None = None
+    workers: int | None = Field(default=None, ge=1)
+    bounds: tuple[Literal["lower", "nominal", "upper"], ...] = Field(
+        default=("lower", "nominal", "upper"), min_length=1
+    )
+    uplift_allowed: bool | None = None
+    least_gap: Length | None = None
+    nonstructural: str | None = None
+    histories: Literal["governing", "all"] = "governing"
+    accidental_eccentricity: Ratio | Literal["none"] | None = None
+    accidental_eccentricity_motions: Literal["governing", "all"] = "governing"
+
+    @field_validator("bounds")
+    @classmethod
+    def _each_once(cls, names: tuple[str, ...]) -> tuple[str, ...]:
+        if len(set(names)) < len(names):
+            msg = 'must name each bound once: ["lower", "nominal", "upper"] are all'
+            raise ValueError(msg)
+        return names
+
+    @field_validator("accidental_eccentricity")
+    @classmethod
+    def _eccentricity(cls, share: float | str | None) -> float | str | None:
+        if isinstance(share, float) and not 0.0 <= share <= MOST_ECCENTRIC:
+            msg = (
+                f"must be a share of the sides of the plan between 0 and {MOST_ECCENTRIC:g}, such "
+                'as "5 %", or "none"'
+            )
+            raise ValueError(msg)
+        return share
 
 
 class Limits(table_of(DesignLimits)):  # type: ignore[misc]  # its keys are the fields

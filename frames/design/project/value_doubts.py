@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design.codes.registry import code_named
-from frames.design.project.bearing_types import STANDARD
+from frames.design.project.devices_beside import STANDARD
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

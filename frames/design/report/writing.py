@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from frames.design.calculation.standing import LEGEND, standing_of
-from frames.design.codes.provisions import left_to_the_engineer
+from frames.design.codes.code_values import left_to_the_engineer
 from frames.design.codes.registry import code_named
 from frames.design.histories.demand_table import tables_of_levels
 from frames.design.histories.link_demands import largest_of_links
