@@ -82,7 +82,7 @@ def check_numbers(
 
 def _numbered(name: str, given: Any, places: tuple[str, ...]) -> list[tuple[str, Any]]:
     # The numbers of a field, each with its name: of several with their places.
-    if not isinstance(given, tuple):
+    if not isinstance(given, (tuple, list)):
         return [(name, given)]
     words = [f"{name} ({at})" for at in places] or [f"{name}[{k}]" for k in range(len(given))]
     found = zip(words, given, strict=False)

@@ -38,9 +38,9 @@ from frames.design.hazard.code_rules import ScalingRule as ScalingRule
 from frames.design.hazard.motion_measures import motion_measures as motion_measures
 from frames.design.hazard.motion_measures import pair_spectrum as pair_spectrum
 from frames.design.hazard.motion_set import MotionSet as MotionSet
-from frames.design.hazard.near_fault_pulse import NearFaultPulse as NearFaultPulse
 from frames.design.hazard.scaling import Scaling as Scaling
 from frames.design.hazard.spectrum import Spectrum as Spectrum
+from frames.design.hazard.stochastic_motion import NearFaultPulse as NearFaultPulse
 from frames.design.hazard.stochastic_motion import PointSource as PointSource
 from frames.design.hazard.synthetic_motions import PulseScatter as PulseScatter
 from frames.design.hazard.synthetic_motions import synthetic_near_fault as synthetic_near_fault

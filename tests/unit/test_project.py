@@ -28,6 +28,7 @@ from frames.design.project.quantities import si
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way
 from frames.design.report import files, writing
+from frames.design.sizing.target import INTERFACE_PRESSURE
 from tests.viewed import payload
 
 SMALL = """
@@ -679,6 +680,11 @@ def test_limits_are_refused_before_anything_is_run(folder: Path) -> None:
     path = changed(folder, 'rim_strength = "5 MN"', given)
     limits = ProjectInputs(read_project(path), folder).limits()
     assert (limits.uplift_gap, limits.rim_height, limits.base_shear) == (0.02, 0.03, 9e6)
+    own = '\n[design]\nrim_width = "30 mm"\nmax_base_shear = "12 %"\n'
+    path.write_text(path.read_text() + own)
+    target = ProjectInputs(read_project(path), folder).target()
+    assert (target.rim_width, target.max_base_shear, target.limits.rim_height) == (0.03, 0.12, 0.03)
+    assert target.limits.interface_pressure == INTERFACE_PRESSURE
 
 
 @pytest.mark.parametrize(

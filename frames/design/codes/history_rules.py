@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Literal, get_args
 
 from frames.design._errors import CheckError
-from lir_element.argument_checks import require_between, require_choice
+from lir_element.argument_checks import require_choice
 from lir_element.fields import check_numbers, number
 
 Judged = Literal["all", "superstructure", "isolation"]
@@ -45,13 +45,12 @@ class ActionLevel:
     """
 
     name: str
-    factor: float = 1.0
+    factor: float = field(default=1.0, metadata=number("-", "[1, 10)"))
     judges: Judged = "all"
 
     def __post_init__(self) -> None:
-        require_between("factor", self.factor, 1.0, 10.0, "-", error=CheckError)
-        words = ("all", "superstructure", "isolation")
-        require_choice("judges", self.judges, words, error=CheckError)
+        check_numbers(self, error=CheckError)
+        require_choice("judges", self.judges, get_args(Judged), error=CheckError)
 
     @property
     def judges_bearings(self) -> bool:

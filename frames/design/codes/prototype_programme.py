@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design._errors import CheckError
-from lir_element.argument_checks import require_non_negative, require_positive
+from lir_element.argument_checks import require_positive
+from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -122,19 +123,14 @@ class ProgrammeDemands:
     """
 
     loads: tuple[float, float] | None = None
-    wind: float | None = None
-    service: float | None = None
-    slip: float | None = None
-    impact_speed: float | None = None
-    slow_speed: float = 0.05
+    wind: float | None = field(default=None, metadata=number("N", "(0, inf)"))
+    service: float | None = field(default=None, metadata=number("m", "(0, inf)"))
+    slip: float | None = field(default=None, metadata=number("m", "[0, inf)"))
+    impact_speed: float | None = field(default=None, metadata=number("m/s", "(0, inf)"))
+    slow_speed: float = field(default=0.05, metadata=number("m/s", "(0, inf)"))
 
     def __post_init__(self) -> None:
-        for name, unit in (("wind", "N"), ("service", "m"), ("impact_speed", "m/s")):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name), unit, error=CheckError)
-        if self.slip is not None:
-            require_non_negative("slip", self.slip, "m", error=CheckError)
-        require_positive("slow_speed", self.slow_speed, "m/s", error=CheckError)
+        check_numbers(self, error=CheckError)
         if self.loads is not None:
             ordered_loads(self.loads)
 

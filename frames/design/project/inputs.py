@@ -26,10 +26,11 @@ from frames.design.project.schema import (
     IrregularFrame,
     MomentFrame,
     OpenSeesModel,
+    PointsTable,
     ShearBuilding,
+    read_points,
 )
 from frames.design.project.schema_bearing import FactorSources
-from frames.design.project.schema_hazard import PointsTable, read_points
 from frames.design.project.source_files import RunningScript, SourceFiles
 from frames.design.project.structure_loads import BuildingLoads, loads_of
 from frames.design.project.structure_plan import irregular_frame, regular_frame
