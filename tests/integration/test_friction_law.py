@@ -207,7 +207,7 @@ def test_measured_points_give_their_isotonic_fit() -> None:
     assert MeasuredFriction([0.1], [0.05]).at_speed(0.0) == 0.05
     with pytest.raises(ValueError, match="1 speeds and 2 coefficients: give one of each"):
         MeasuredFriction([0.1], [0.05, 0.06])
-    with pytest.raises(ValueError, match=r"coefficients = 6.* below 1"):
+    with pytest.raises(ValueError, match=r"coefficients\[0\] = 6.* below 1"):
         MeasuredFriction([0.1], [6.0])
 
 
