@@ -37,8 +37,8 @@ from frames import (
     uplift_gap,
 )
 from frames.demo import table_of
-from frames.design.codes.builtin import BUILT_IN
-from frames.design.codes.provisions import NEEDS, OF_BEARINGS, Provision
+from frames.design.codes.analysis import BUILT_IN
+from frames.design.codes.code_values import NEEDS, OF_BEARINGS, Provision
 from frames.laws import Bilinear, PlasticHinge
 from frames.results.quantities import QUANTITIES
 from frames.results.recorded import REACHED

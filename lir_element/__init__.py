@@ -3,7 +3,6 @@
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from lir_element.device.backup import BackupSupport as BackupSupport
     from lir_element.device.bearing import LIRBearing as LIRBearing
     from lir_element.device.bearing_checks import DesignWarning as DesignWarning
     from lir_element.device.features import Features as Features
@@ -14,6 +13,7 @@ if TYPE_CHECKING:
     from lir_element.device.heating import FrictionHeating as FrictionHeating
     from lir_element.device.heating import PressureDependence as PressureDependence
     from lir_element.device.ring_strength import ring_strength as ring_strength
+    from lir_element.device.specification import BackupSupport as BackupSupport
     from lir_element.element import Element as Element
     from lir_element.errors import AnalysisError as AnalysisError
     from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted

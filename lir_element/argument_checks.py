@@ -7,15 +7,30 @@ that the caller passes as `error`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, TypeVar, cast
+from collections.abc import Callable, Iterable, Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple, TypedDict, TypeVar, cast
 
 import numpy as np
 
 if TYPE_CHECKING:
+    from typing import Unpack
+
     from numpy.typing import ArrayLike, NDArray
 
 T = TypeVar("T")
+
+Remedy = str | Callable[[float], str]
+"""What to do about a number that is refused, or what makes it of the number."""
+
+
+class How(TypedDict, total=False):
+    """What a check at the door says and raises besides."""
+
+    remedy: Remedy
+    optional: bool
+    error: type[ValueError]
+
 
 _LONGEST = 120  # characters of a value in a message
 
@@ -76,75 +91,94 @@ def as_number(name: str, value: object, unit: str = "") -> float:
     return float(value)
 
 
-def require_finite(
+class Interval(NamedTuple):
+    """Where a number can be, as mathematics writes it: "(0, 1)", "[0, inf)", "(0, 1) or inf"."""
+
+    low: float
+    high: float
+    open_below: bool
+    open_above: bool
+    endless: bool
+
+    def holds(self, number: float) -> bool:
+        """Return whether a number is in it; NaN is in none."""
+        if number == math.inf and self.endless:
+            return True
+        above = self.low < number if self.open_below else self.low <= number
+        return above and (number < self.high if self.open_above else number <= self.high)
+
+    def words(self) -> str:
+        """Return it in words, as the end of "must be"."""
+        found = []
+        if not math.isinf(self.low):
+            plain = f"above {self.low:g}" if self.low else "positive"
+            found.append(plain if self.open_below else f"at least {self.low:g}")
+        if not math.isinf(self.high):
+            found.append(f"{'below' if self.open_above else 'at most'} {self.high:g}")
+        elif self.open_above:
+            found.append("finite")
+        return " and ".join(found) + (", or infinite" if self.endless else "")
+
+
+@lru_cache(512)
+def interval(text: str) -> Interval:
+    """Return the interval that a text means.
+
+    Examples
+    --------
+    >>> interval("(0, 1] or inf").words()
+    'positive and at most 1, or infinite'
+    """
+    plain = text.removesuffix(" or inf")
+    low, high = plain[1:-1].split(",")
+    return Interval(float(low), float(high), plain[0] == "(", plain[-1] == ")", plain != text)
+
+
+def require_within(
     name: str,
     value: object,
+    within: str,
     unit: str = "",
     *,
-    remedy: str = "",
+    remedy: Remedy = "",
+    optional: bool = False,
     error: type[ValueError] = ValueError,
 ) -> float:
-    """Return `value` if it is finite, or raise."""
+    """Return `value` if the interval holds it, or raise; an `optional` one can be left out."""
     number = as_number(name, value, unit)
-    if not math.isfinite(number):
-        raise error(_refusal(name, number, unit, "must be finite", remedy))
-    return number
+    if interval(within).holds(number):
+        return number
+    plain = {"": "give a number in SI units", "-": "give a pure number"}
+    otherwise = plain.get(unit, f"give it in {unit} (SI)") + ", or leave it out" * optional
+    what_to_do = remedy(number) if callable(remedy) else remedy or otherwise
+    shown_unit = f" [{unit}]" if unit else ""
+    must = interval(within).words()
+    msg = f"{name} = {number:g}{shown_unit} must be {must}: {what_to_do}"
+    raise error(msg)
+
+
+def require_finite(name: str, value: object, unit: str = "", **how: Unpack[How]) -> float:
+    """Return `value` if it is finite, or raise."""
+    return require_within(name, value, "(-inf, inf)", unit, **how)
 
 
 def require_positive(
-    name: str,
-    value: object,
-    unit: str = "",
-    *,
-    infinite: bool = False,
-    remedy: str = "",
-    error: type[ValueError] = ValueError,
+    name: str, value: object, unit: str = "", *, infinite: bool = False, **how: Unpack[How]
 ) -> float:
     """Return `value` if it is above zero (and finite, unless `infinite`), or raise."""
-    number = as_number(name, value, unit)
-    if math.isnan(number) or number <= 0.0 or (number == math.inf and not infinite):
-        bound = "must be positive" if infinite else "must be positive and finite"
-        raise error(_refusal(name, number, unit, bound, remedy))
-    return number
+    return require_within(name, value, "(0, inf]" if infinite else "(0, inf)", unit, **how)
 
 
-def require_non_negative(
-    name: str,
-    value: object,
-    unit: str = "",
-    *,
-    remedy: str = "",
-    error: type[ValueError] = ValueError,
-) -> float:
+def require_non_negative(name: str, value: object, unit: str = "", **how: Unpack[How]) -> float:
     """Return `value` if it is finite and not below zero, or raise."""
-    number = as_number(name, value, unit)
-    if not 0.0 <= number < math.inf:
-        raise error(_refusal(name, number, unit, "must be finite and at least 0", remedy))
-    return number
+    return require_within(name, value, "[0, inf)", unit, **how)
 
 
 def require_between(
-    name: str,
-    value: object,
-    low: float,
-    high: float,
-    unit: str = "",
-    *,
-    remedy: str = "",
-    error: type[ValueError] = ValueError,
+    name: str, value: object, low: float, high: float, unit: str = "", **how: Unpack[How]
 ) -> float:
     """Return `value` if ``low <= value < high``, or raise."""
-    number = as_number(name, value, unit)
-    if not low <= number < high:
-        bound = f"must be at least {low:g} and below {high:g}"
-        raise error(_refusal(name, number, unit, bound, remedy))
-    return number
-
-
-def _refusal(name: str, number: float, unit: str, bound: str, remedy: str) -> str:
-    plain = {"": "give a number in SI units", "-": "give a pure number"}
-    what_to_do = remedy or plain.get(unit, f"give it in {unit} (SI)")
-    return f"{name} = {number:g}{f' [{unit}]' if unit else ''} {bound}: {what_to_do}"
+    return require_within(name, value, f"[{low:.17g}, {high:.17g})", unit, **how)
 
 
 def require_vector(

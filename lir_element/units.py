@@ -5,26 +5,27 @@ from __future__ import annotations
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s2]."""
 
-Units = tuple[tuple[str, float], ...]
+OTHER_UNITS: dict[str, tuple[tuple[str, float], ...]] = {
+    "m": (("mm", 1e-3), ("cm", 1e-2), ("in", 0.0254)),
+    "N/m": (("kN/mm", 1e6), ("kN/m", 1e3)),
+    "N": (("kN", 1e3), ("MN", 1e6)),
+    "N/m2": (("kN/m2", 1e3),),
+    "kg": (("t", 1e3),),
+    "m/s2": (("mm/s2", 1e-3), ("cm/s2", 1e-2), ("g", STANDARD_GRAVITY)),
+    "Pa": (("MPa", 1e6), ("GPa", 1e9), ("kPa", 1e3)),
+    "m2": (("mm2", 1e-6), ("cm2", 1e-4)),
+    "s": (("ms", 1e-3), ("us", 1e-6)),
+    "s/m": (("s/mm", 1e3), ("s/cm", 1e2)),
+    "kg/m3": (("t/m3", 1e3), ("kg/mm3", 1e9)),
+}
+"""Units that numbers come in besides those of SI, and the size of each in that of SI."""
 
-LENGTHS: Units = (("mm", 1e-3), ("cm", 1e-2), ("in", 0.0254))
-STIFFNESSES: Units = (("kN/mm", 1e6), ("kN/m", 1e3))
-FORCES: Units = (("kN", 1e3), ("MN", 1e6))
-MASSES: Units = (("t", 1e3),)
-ACCELERATIONS: Units = (("mm/s2", 1e-3), ("cm/s2", 1e-2), ("g", STANDARD_GRAVITY))
-MODULI: Units = (("MPa", 1e6), ("GPa", 1e9), ("kPa", 1e3))
-AREAS: Units = (("mm2", 1e-6), ("cm2", 1e-4))
-TIMES: Units = (("ms", 1e-3), ("us", 1e-6))
-RATES: Units = (("s/mm", 1e3), ("s/cm", 1e2))
-DENSITIES: Units = (("t/m3", 1e3), ("kg/mm3", 1e9))
-"""Units that numbers come in besides those of SI, and what one of them is there."""
 
-
-def meant(value: float, unit: str, units: Units, low: float, high: float) -> str:
+def meant(value: float, unit: str, low: float, high: float) -> str:
     """Return which unit makes a number of the wrong size a usual one, as the end of a sentence."""
     fitting = [
         f"{value:.5g} {name} are {value * factor:.4g} {unit}"
-        for name, factor in units
+        for name, factor in OTHER_UNITS[unit]
         if low <= value * factor <= high
     ]
     return f"give {unit} ({', '.join(fitting)})" if fitting else f"give {unit}"

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
     from frames.design.calculation.check import Checks
-    from frames.design.codes.provisions import ProvisionState
+    from frames.design.codes.code_values import ProvisionState
     from frames.design.project.design_run import ProjectRun
     from frames.design.project.speed import Way
 
@@ -96,11 +96,11 @@ def new(
 def check(file: File = FILE) -> None:
     """Check a project's file, its model and motions; analyse it equivalent-linearly."""
     from frames.design.histories.motions import motion_checks
-    from frames.design.project.bearing_types import columns_by_type
+    from frames.design.project.design_run import from_memory, provisions_of
+    from frames.design.project.devices_beside import columns_by_type
     from frames.design.project.level_runs import said_of_runs
     from frames.design.project.preliminary import preliminary
     from frames.design.project.structure_statement import structure_rows
-    from frames.design.project.unchecked import from_memory, provisions_of
     from lir_element.tables import text_table
 
     with told():
@@ -339,7 +339,7 @@ def _checks(title: str, checks: Checks) -> None:
 
 def _provisions(states: Iterable[ProvisionState]) -> None:
     # Those that are not checked with their reasons, a line each; those of the engineer in one.
-    from frames.design.codes.provisions import RUN, left_to_the_engineer, not_checked
+    from frames.design.codes.code_values import RUN, left_to_the_engineer, not_checked
 
     every = tuple(states)
     checked, left, own = len(every), not_checked(every), left_to_the_engineer(every)

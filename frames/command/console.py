@@ -31,7 +31,7 @@ def told() -> Generator[None, None, None]:
     """Tell errors as lines and leave with their exit code; each warning is a line, once."""
     from frames._errors import ModelError, MotionError, without_numbers
     from frames.design._errors import CheckError, ProjectError
-    from frames.design.project.extensions import ANYWHERE, TOLD
+    from frames.design.project.source_files import ANYWHERE, TOLD
     from frames.risk._errors import CampaignError
     from lir_element.errors import AnalysisError, AnalysisInterrupted
 

@@ -11,7 +11,7 @@ class CheckError(ValueError):
     ...     PropertyModificationFactors(1.2, 1.5)
     ... except CheckError as error:
     ...     print(str(error).split(":")[0])
-    factors 1.2 and 1.5
+    lower factor of properties = 1.2 must be positive and at most 1
     """
 
 

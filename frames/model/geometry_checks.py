@@ -22,7 +22,7 @@ from frames.model.components import (
 from frames.model.names import known_name
 from lir_element.argument_checks import require_finite, require_type, require_vector
 from lir_element.elevations import SAME_PLACE
-from lir_element.units import LENGTHS, meant
+from lir_element.units import OTHER_UNITS, meant
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -131,7 +131,7 @@ def member_offsets(
         if size > LARGEST_OFFSET:
             message = (
                 f"{what} is {size:g} m long, at most {LARGEST_OFFSET:g} m: "
-                f"{meant(size, 'm', LENGTHS, 0.01, 3.0)}"
+                f"{meant(size, 'm', 0.01, 3.0)}"
             )
             raise ModelError(message)
         found.append((float(x), float(y), float(z)))
@@ -240,7 +240,7 @@ def member_releases(
 
 
 def _in_mm(rise: float, height: float) -> str:
-    for name, factor in LENGTHS:
+    for name, factor in OTHER_UNITS["m"]:
         if abs(rise * factor - height) <= max(SAME_PLACE * factor, 1e-3 * height):
             return f"; coordinates are in m ({rise:g} {name} are {rise * factor:.4g} m)"
     return ""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
-from lir_element.units import ACCELERATIONS, DENSITIES, LENGTHS, MODULI, meant
+from lir_element.units import meant
 
 if TYPE_CHECKING:
     from frames.model.frame_data import FrameData
@@ -50,7 +50,7 @@ def refuse_extent(frame: FrameData) -> None:
         if span > bound:
             message = (
                 f'frame "{frame.name}" is {span:g} m {words}, at most {bound:g} m: '
-                f"{meant(span, 'm', LENGTHS, 0.05, 0.5 * bound)}"
+                f"{meant(span, 'm', 0.05, 0.5 * bound)}"
             )
             raise ModelError(message)
 
@@ -70,7 +70,7 @@ def _of_gravity(frame: FrameData) -> list[str]:
     g = frame.gravity
     if g <= 0.0 or USUAL_GRAVITY[0] <= g <= USUAL_GRAVITY[1]:
         return []
-    hint = meant(g, "m/s2", ACCELERATIONS, *USUAL_GRAVITY)
+    hint = meant(g, "m/s2", *USUAL_GRAVITY)
     return [f"gravity = {g:g} m/s2 is not the Earth's: {hint} if that is not meant"]
 
 
@@ -106,12 +106,12 @@ def _of_sections(frame: FrameData) -> list[str]:
     for section in dict.fromkeys(member.section for member in frame.members.values()):
         modulus, density = section.elastic_modulus, section.density
         if modulus < SOFTEST and section.area < LARGEST_AREA:
-            hint = meant(modulus, "Pa", MODULI, 1e9, 5e11)
+            hint = meant(modulus, "Pa", 1e9, 5e11)
             found.append(
                 f"a section's elastic_modulus = {modulus:g} Pa is softer than plastic: {hint}"
             )
         if 0.0 < density < LIGHTEST:
-            hint = meant(density, "kg/m3", DENSITIES, 100.0, 2e4)
+            hint = meant(density, "kg/m3", 100.0, 2e4)
             found.append(f"a section's density = {density:g} kg/m3 is lighter than cork: {hint}")
     return found
 
@@ -123,7 +123,7 @@ def _of_floors(frame: FrameData) -> list[str]:
     load = light[0]
     return [
         f'floor load "{load.name}" has {load.q:g} N/m2, less than snow or sheeting: '
-        f"{meant(load.q, 'N/m2', (('kN/m2', 1e3),), 300.0, 5e4)}"
+        f"{meant(load.q, 'N/m2', 300.0, 5e4)}"
     ]
 
 

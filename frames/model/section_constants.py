@@ -9,7 +9,7 @@ from typing import Self
 from frames._errors import ModelError
 from lir_element.argument_checks import require_non_negative, require_positive
 from lir_element.tables import html_table
-from lir_element.units import AREAS, MODULI, meant
+from lir_element.units import meant
 
 SOFTEST, LARGEST_AREA = 1e6, 500.0
 """Elastic modulus [Pa] below, and area [m2] above which no member is."""
@@ -74,14 +74,14 @@ class SectionConstants:
         if self.elastic_modulus < SOFTEST and self.area < LARGEST_AREA:
             message = (
                 f"Section.elastic_modulus = {self.elastic_modulus:g} Pa is softer than rubber: "
-                f"{meant(self.elastic_modulus, 'Pa', MODULI, 1e9, 5e11)}; steel has 200e9, "
+                f"{meant(self.elastic_modulus, 'Pa', 1e9, 5e11)}; steel has 200e9, "
                 "concrete 30e9"
             )
             raise ModelError(message)
         if self.area > LARGEST_AREA and self.density > 0.0 and self.elastic_modulus > SOFTEST:
             message = (
                 f"Section.area = {self.area:g} m2, at most {LARGEST_AREA:g} m2 for a member with "
-                f"mass: {meant(self.area, 'm2', AREAS, 1e-5, 20.0)}"
+                f"mass: {meant(self.area, 'm2', 1e-5, 20.0)}"
             )
             raise ModelError(message)
 

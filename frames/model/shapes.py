@@ -6,7 +6,7 @@ import math
 
 from frames._errors import ModelError
 from lir_element.argument_checks import require_finite, require_positive
-from lir_element.units import LENGTHS, meant
+from lir_element.units import meant
 
 LARGEST_SIDE = 100.0
 """Outer dimension of a ready-made shape that no member has [m]."""
@@ -22,7 +22,7 @@ def dimensions(where: str, **values: float) -> tuple[float, ...]:
         ):
             message = (
                 f"{where}: {name} = {value:g} m, at most {LARGEST_SIDE:g} m: "
-                f"{meant(value, 'm', LENGTHS, 1e-3, 10.0)}"
+                f"{meant(value, 'm', 1e-3, 10.0)}"
             )
             raise ModelError(message)
     return tuple(values.values())

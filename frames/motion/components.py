@@ -8,7 +8,7 @@ import numpy as np
 
 from frames._errors import MotionError
 from lir_element.argument_checks import require_positive, unreal
-from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, TIMES, meant
+from lir_element.units import STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -49,7 +49,7 @@ def checked_component(axis: str, values: object) -> FloatArray:
         in_g = peak / STANDARD_GRAVITY
         msg = (
             f"{axis} peaks at {peak:.4g} m/s2 = {in_g:.4g} g, no ground shakes like that: "
-            f"{meant(peak, 'm/s2', ACCELERATIONS, 0.05, 30.0)}"
+            f"{meant(peak, 'm/s2', 0.05, 30.0)}"
         )
         if 0.05 < 0.01 * in_g < 30.0:
             msg += f"; {in_g:.4g} cm/s2 taken for g are {0.01 * in_g:.4g} m/s2"
@@ -61,11 +61,11 @@ def checked_step(value: object) -> float:
     """Return a time step [s] that a motion can have, or raise."""
     step = require_positive("dt", value, "s", remedy="give the time step in s", error=MotionError)
     if step > LONGEST_STEP:
-        hint = meant(step, "s", TIMES, 1e-4, 0.1)
+        hint = meant(step, "s", 1e-4, 0.1)
         msg = f"dt = {step:g} s is longer than any record's, at most {LONGEST_STEP:g} s: {hint}"
         raise MotionError(msg)
     if step < SHORTEST_STEP:
-        hint = meant(step, "s", TIMES, 1e-4, 0.1)
+        hint = meant(step, "s", 1e-4, 0.1)
         msg = f"dt = {step:g} s is shorter than any record's, at least {SHORTEST_STEP:g} s: {hint}"
         raise MotionError(msg)
     return step

@@ -18,7 +18,7 @@ from frames.motion.components import AXES
 from frames.motion.motion_data import MotionData
 from frames.motion.record_files import record_traces
 from frames.motion.records import AccelerationTrace, PathLike, at2_traces, common_step
-from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, meant
+from lir_element.units import STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -288,7 +288,7 @@ def _of_peak(given: Mapping[str, FloatArray]) -> list[str]:
             return [
                 f"{axis} peaks at {peak:.4g} m/s2 = {peak / STANDARD_GRAVITY:.3g} g, the strongest "
                 "record known has some 4.4 g: its unit is probably another; "
-                f"{meant(peak, 'm/s2', ACCELERATIONS, 0.05, 30.0)}"
+                f"{meant(peak, 'm/s2', 0.05, 30.0)}"
             ]
     return []
 

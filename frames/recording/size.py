@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from frames.bundles.nonlinear_data import part_sizes
 from lir_element.argument_checks import require_positive
 from lir_element.layout import BODIES, STATE
-from lir_element.units import TIMES, meant
+from lir_element.units import meant
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,7 +39,7 @@ def number_of_steps(duration: float, dt: float | None, largest: float) -> int:
         )
         raise ValueError(msg)
     if dt is not None and dt > COARSEST:
-        hint = meant(dt, "s", TIMES, 1e-5, 0.05)
+        hint = meant(dt, "s", 1e-5, 0.05)
         msg = f"dt = {dt:g} s is longer than any step of an analysis, {COARSEST:g} s: {hint}"
         raise ValueError(msg)
     if duration / step > MOST_STEPS:

@@ -22,7 +22,7 @@ from lir_element.device.sanity_checks import (
     USUAL_PRESSURE,
     pressure_remedy,
 )
-from lir_element.units import ACCELERATIONS, STANDARD_GRAVITY, meant
+from lir_element.units import STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -184,7 +184,7 @@ def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
     if peak > STRONG_GROUND:
         return (
             f"the motion's horizontal peak is {peak:.4g} m/s2 = {peak / STANDARD_GRAVITY:.3g} g, "
-            f"above all that was recorded: {meant(peak, 'm/s2', ACCELERATIONS, 0.2, 20.0)}",
+            f"above all that was recorded: {meant(peak, 'm/s2', 0.2, 20.0)}",
         )
     least = min(
         (

@@ -11,14 +11,12 @@ import numpy as np
 
 from lir_element.argument_checks import as_pair, frozen_pair, require_positive
 from lir_element.device.bearing_checks import check_bearing
-from lir_element.device.field_units import FIELD_UNITS
 from lir_element.device.friction import as_laws
 from lir_element.device.specification import Specification
+from lir_element.fields import check_numbers
 from lir_element.layout import FRICTION_TABLE, PROPS, PROPS_FIELDS, Records
 from lir_element.tables import html_table, text_table
 from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY
-
-_UNITS = FIELD_UNITS["LIRBearing"]
 
 _FACTORS = (
     "pressure_rate",
@@ -150,6 +148,7 @@ class LIRBearing(Specification):
                 for pair in inertia
             )
             object.__setattr__(self, "slider_inertia", pairs)
+        check_numbers(self, places=("bottom", "top"))
         check_bearing(self)
 
     def __repr__(self) -> str:
@@ -224,7 +223,7 @@ class LIRBearing(Specification):
             elif value == f.default:
                 note = ", default"
             shown = f"{value:.4g}" if isinstance(value, float) else str(value)
-            rows.append((f.name, shown, f"{_UNITS.get(f.name, '-')}{note}"))
+            rows.append((f.name, shown, f"{f.metadata.get('unit', '-')}{note}"))
         return rows
 
     def force_limit(self, axial_load: float) -> float:

@@ -10,37 +10,30 @@ import numpy as np
 
 from lir_element.argument_checks import (
     as_pair,
-    require_between,
     require_choice,
-    require_non_negative,
-    require_positive,
     require_type,
 )
-from lir_element.device.backup import BackupSupport
 from lir_element.device.friction import FrictionLaw
 from lir_element.device.heating import FrictionHeating, PressureDependence
-from lir_element.device.sanity_checks import refuse_forces, refuse_sizes, sanity_warnings
-from lir_element.units import LENGTHS, meant, per_cent
+from lir_element.device.sanity_checks import (
+    FLAT,
+    LARGEST_PRESSURE,
+    LARGEST_SHORTENING,
+    LONGEST_PENDULUM,
+    USUAL_PRESSURE,
+    sanity_warnings,
+    slider_area,
+)
+from lir_element.device.specification import BackupSupport
+from lir_element.units import STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from lir_element.device.specification import Specification
 
 LARGEST_SINE = 0.95
 """Of the slider's tilt at the rim; the kernels stop at 72 degrees."""
-
-LEAST_HARDENING = 1e-4
-"""Of a rim that yields: with none the force would not tell how far it goes (a choice)."""
-
-_OPTIONAL = (
-    ("axial_stiffness", "N/m"),
-    ("axial_damping", "N s/m"),
-    ("rim_stiffness", "N/m"),
-    ("rim_damping", "N s/m"),
-    ("rim_overrun", "m"),
-    ("flange", "m"),
-    ("slip_capacity", "m"),
-    ("design_load", "N"),
-)
 
 
 class DesignWarning(UserWarning):
@@ -60,38 +53,12 @@ class DesignWarning(UserWarning):
 
 
 def check_bearing(bearing: Specification) -> None:
-    """Check every number of a bearing and what they make together."""
-    _check_geometry(bearing)
-    _check_friction(bearing)
-    _check_rims(bearing)
-    for name, unit in _OPTIONAL:
-        value = getattr(bearing, name)
-        if value is not None:
-            require = require_non_negative if "damping" in name else require_positive
-            require(name, value, unit)
-    for name in ("yield_displacement", "interface_yield_displacement"):
-        require_positive(name, getattr(bearing, name), "m")
-    _check_sliders(bearing)
-    for name, kind in (
-        ("pressure_dependence", PressureDependence),
-        ("friction_heating", FrictionHeating),
-        ("backup", BackupSupport),
-    ):
-        value = getattr(bearing, name)
-        if value is not None:
-            example = "drop=0.05" if kind is BackupSupport else ""
-            require_type(
-                name, value, kind, f"a {kind.__name__}, such as {kind.__name__}({example})"
-            )
-    require_positive("uplift_capacity", bearing.uplift_capacity, "m", infinite=True)
-    for name in ("torsional_friction", "allow_weak_interface"):
-        if not isinstance(getattr(bearing, name), bool):
-            msg = f"{name} = {getattr(bearing, name)!r}: choose True or False"
-            raise TypeError(msg)
-    require_choice("friction_law", bearing.friction_law, ("elastic-plastic", "bouc-wen"))
-    require_between("bouc_wen_exponent", bearing.bouc_wen_exponent, 1.0, math.inf, "-")
-    refuse_forces(bearing)
-    for doubt in sanity_warnings(bearing):
+    """Refuse what the numbers of a bearing cannot make together, and warn of what is strange."""
+    _check_kinds(bearing)
+    for part in (_of_geometry, _of_friction, _of_rims, _of_sliders, _of_forces):
+        for msg in part(bearing):
+            raise ValueError(msg)
+    for doubt in (*_early_slip(bearing), *sanity_warnings(bearing)):
         warnings.warn(doubt, DesignWarning, stacklevel=4)
 
 
@@ -131,69 +98,7 @@ def _unknown(name: str, none: str, words: tuple[str, str]) -> str:
     )
 
 
-def _check_sliders(bearing: Specification) -> None:
-    require_positive("slider_density", bearing.slider_density, "kg/m3")
-    for mass in as_pair("slider_mass", bearing.slider_mass):
-        if mass is not None:
-            require_positive("slider_mass", mass, "kg")
-    inertia: object = bearing.slider_inertia
-    if inertia is not None:
-        pairs = inertia if isinstance(inertia, tuple) else ()
-        if [len(pair) if isinstance(pair, tuple) else 0 for pair in pairs] != [2, 2]:
-            msg = (
-                f"slider_inertia = {inertia!r}: give two pairs (across, along) [kg m2], those of "
-                "the bottom and of the top slider"
-            )
-            raise ValueError(msg)
-        for value in (number for pair in pairs for number in pair):
-            require_positive("slider_inertia", value, "kg m2")
-    given: object = bearing.contact_points
-    if given is None:
-        return
-    whole = isinstance(given, (int, np.integer)) and not isinstance(given, (bool, np.bool_))
-    count = int(cast("int", given)) if whole else 0
-    fits = 4 <= count <= 7 or (8 <= count <= 64 and count % 2 == 0)
-    if not (fits or (count >= 96 and count % 32 == 0)):
-        msg = (
-            f"contact_points = {given!r}: leave it out (discs, in closed form), or give 4 to 7 "
-            "(one ring on the slider's edge), an even number from 8 to 64 (two rings) or a "
-            "multiple of 32 from 96 on (rings of 32)"
-        )
-        raise ValueError(msg)
-
-
-def _check_geometry(bearing: Specification) -> None:
-    for name, value in zip(("bottom", "top"), as_pair("radius", bearing.radius), strict=True):
-        require_positive(f"radius ({name})", value, "m")
-    require_positive("slider_height", bearing.slider_height, "m")
-    require_positive("slider_radius", bearing.slider_radius, "m")
-    for value in as_pair("plate_thickness", bearing.plate_thickness):
-        require_non_negative("plate_thickness", value, "m")
-    refuse_sizes(bearing)
-    height, edge = bearing.slider_height, bearing.slider_radius
-    if edge >= min(bearing.radii):
-        msg = (
-            f"slider_radius = {edge:g} m does not fit a concave surface of radius "
-            f"{min(bearing.radii):g} m: use a smaller slider or larger radii"
-        )
-        raise ValueError(msg)
-    caps = sum(r - math.sqrt(r * r - edge * edge) for r in bearing.radii)
-    if height <= caps:
-        msg = (
-            f"slider_height = {height:g} m does not exceed the height of its two spherical "
-            f"caps, {caps:.4g} m at slider_radius = {edge:g} m: use a higher or a slimmer "
-            "slider"
-        )
-        raise ValueError(msg)
-    if height >= sum(bearing.radii):
-        msg = (
-            f"slider_height = {height:g} m must be below the sum of the radii, "
-            f"{sum(bearing.radii):g} m: the effective radius R1 + R2 - h must be positive"
-        )
-        raise ValueError(msg)
-
-
-def _check_friction(bearing: Specification) -> None:
+def _check_kinds(bearing: Specification) -> None:
     pair: tuple[object, object] = as_pair("friction", bearing.friction)
     for law in pair:
         if not isinstance(law, FrictionLaw):
@@ -204,81 +109,95 @@ def _check_friction(bearing: Specification) -> None:
             )
             raise TypeError(msg)
         law.kernel_values()  # which refuses what kernels cannot take
-    mu_h = require_positive("interface_friction", bearing.interface_friction, "-", infinite=True)
-    if 1.0 <= mu_h < math.inf:
-        msg = (
-            f"interface_friction = {mu_h:g} [-] must be below 1, or math.inf for a slider in one "
-            f"piece: {per_cent(mu_h)}"
-        )
-        raise ValueError(msg)
-    largest = max(law.f_max for law in bearing.frictions)
-    if bearing.allow_weak_interface:
-        return
-    if mu_h <= largest:
-        msg = (
+    for name, kind, example in (
+        ("pressure_dependence", PressureDependence, "PressureDependence()"),
+        ("friction_heating", FrictionHeating, "FrictionHeating()"),
+        ("backup", BackupSupport, "BackupSupport(drop=0.05)"),
+    ):
+        if (value := getattr(bearing, name)) is not None:
+            require_type(name, value, kind, f"a {kind.__name__}, such as {example}")
+    for name in ("torsional_friction", "allow_weak_interface"):
+        require_type(name, getattr(bearing, name), bool, "one of the two: choose True or False")
+    require_choice("friction_law", bearing.friction_law, ("elastic-plastic", "bouc-wen"))
+
+
+def _of_friction(bearing: Specification) -> Iterator[str]:
+    mu_h, largest = bearing.interface_friction, max(law.f_max for law in bearing.frictions)
+    if mu_h <= largest and not bearing.allow_weak_interface:
+        yield (
             f"interface_friction = {mu_h:g} must exceed the friction of the concave surfaces "
             f"at all speeds, {largest:g} (design rule mu_h > mu_d): raise it, or pass "
             "allow_weak_interface=True to study such a bearing"
         )
-        raise ValueError(msg)
-    if mu_h <= bearing.effective_friction:
-        msg = (
+
+
+def _early_slip(bearing: Specification) -> Iterator[str]:
+    mu_h, least = bearing.interface_friction, bearing.effective_friction
+    if mu_h <= least and not bearing.allow_weak_interface:
+        yield (
             f"interface_friction = {mu_h:g} exceeds mu_d but not (mu_1 R_1 + mu_2 R_2) / L = "
-            f"{bearing.effective_friction:.4g}: the interface slips before the slider meets a rim"
+            f"{least:.4g}: the interface slips before the slider meets a rim"
         )
-        warnings.warn(msg, DesignWarning, stacklevel=6)
 
 
-def _check_rims(bearing: Specification) -> None:
+def _of_geometry(bearing: Specification) -> Iterator[str]:
+    flat = max(bearing.radii) >= FLAT
+    if bearing.effective_radius > LONGEST_PENDULUM and not flat:
+        radius = max(bearing.radii)
+        period = 2.0 * math.pi * math.sqrt(bearing.effective_radius / STANDARD_GRAVITY)
+        yield (
+            f"radius = {radius:g} m makes a pendulum of {period:.0f} s: "
+            f"{meant(radius, 'm', 0.02, 15.0)}; a flat surface has {FLAT:g} m or more"
+        )
+    height, edge = bearing.slider_height, bearing.slider_radius
+    if edge >= min(bearing.radii):
+        yield (
+            f"slider_radius = {edge:g} m does not fit a concave surface of radius "
+            f"{min(bearing.radii):g} m: use a smaller slider or larger radii"
+        )
+    caps = sum(r - math.sqrt(r * r - edge * edge) for r in bearing.radii)
+    if height <= caps:
+        yield (
+            f"slider_height = {height:g} m does not exceed the height of its two spherical "
+            f"caps, {caps:.4g} m at slider_radius = {edge:g} m: use a higher or a slimmer "
+            "slider"
+        )
+    if height >= sum(bearing.radii):
+        yield (
+            f"slider_height = {height:g} m must be below the sum of the radii, "
+            f"{sum(bearing.radii):g} m: the effective radius R1 + R2 - h must be positive"
+        )
+
+
+def _of_rims(bearing: Specification) -> Iterator[str]:
     if bearing.capacity is None and bearing.rims is None:
-        msg = (
+        yield (
             "capacity is missing: give the lateral displacement at the first rim contact [m] "
             "(math.inf for a bearing without rims), or rims=(bottom, top)"
         )
-        raise ValueError(msg)
-    if bearing.capacity is not None:
-        require_positive("capacity", bearing.capacity, "m", infinite=True)
-    if bearing.rims is not None:
-        for value in as_pair("rims", bearing.rims):
-            require_positive("rims", value, "m", infinite=True)
-        if bearing.capacity is not None and not math.isclose(
-            bearing.capacity, bearing.lateral_capacity, rel_tol=1e-6
-        ):
-            msg = (
-                f"capacity = {bearing.capacity:g} m contradicts rims = {bearing.rims}, which give "
-                f"{bearing.lateral_capacity:g} m: give only one of them"
-            )
-            raise ValueError(msg)
+    given, found = bearing.capacity, bearing.lateral_capacity
+    twice = given is not None and bearing.rims is not None
+    if twice and not math.isclose(given or 0.0, found, rel_tol=1e-6):
+        yield (
+            f"capacity = {given:g} m contradicts rims = {bearing.rims}, which give {found:g} m: "
+            "give only one of them"
+        )
     limit = LARGEST_SINE * bearing.effective_radius
     if math.isfinite(bearing.lateral_capacity) and bearing.lateral_capacity > limit:
-        msg = (
+        yield (
             f"capacity = {bearing.lateral_capacity:g} m lies beyond the spheres: it must not "
             f"exceed {LARGEST_SINE} L = {limit:.4g} m; use larger radii, or "
-            f"{meant(bearing.lateral_capacity, 'm', LENGTHS, 0.002, 0.5 * limit)}"
+            f"{meant(bearing.lateral_capacity, 'm', 0.002, 0.5 * limit)}"
         )
-        raise ValueError(msg)
     for name, reach, r in zip(
         ("bottom", "top"), bearing.rim_displacement, bearing.radii, strict=True
     ):
         if math.isfinite(reach) and reach + bearing.slider_radius >= r:
-            msg = (
+            yield (
                 f"the slider does not fit the {name} plate: at its rim it reaches "
                 f"{reach:.4g} + slider_radius {bearing.slider_radius:g} m, which must be below "
                 f"the radius {r:g} m; reduce capacity or slider_radius"
             )
-            raise ValueError(msg)
-    _refuse_overlap(bearing)
-    require_positive("rim_yield_force", bearing.rim_yield_force, "N", infinite=True)
-    share = require_positive("rim_hardening", bearing.rim_hardening, "-")
-    if not LEAST_HARDENING <= share < 1.0:
-        msg = (
-            f"rim_hardening = {share:g} [-] must be from {LEAST_HARDENING:g} to below 1: it is the "
-            "stiffness of a rim that yields over its elastic one, some 0.005 of steel"
-        )
-        raise ValueError(msg)
-
-
-def _refuse_overlap(bearing: Specification) -> None:
     # Both surfaces reach out to where a slider at the rim ends; at rest, one above the other, they
     # come closest at the edge of the smaller one. Displaced and raised, the gap only grows.
     edge = min(bearing.rim_displacement) + bearing.slider_radius
@@ -286,10 +205,52 @@ def _refuse_overlap(bearing: Specification) -> None:
         return
     rise = sum(r - math.sqrt(r * r - edge * edge) for r in bearing.radii)
     if bearing.slider_height <= rise:
-        msg = (
+        yield (
             f"slider_height = {bearing.slider_height:g} m: the plates overlap at rest, their "
             f"concave surfaces rise by {rise:.4g} m together at the edge ({edge:.4g} m from the "
             "middle, where a slider at the rim ends): use a higher slider, larger radii, or less "
             "capacity"
         )
-        raise ValueError(msg)
+
+
+def _of_sliders(bearing: Specification) -> Iterator[str]:
+    inertia: object = bearing.slider_inertia
+    if inertia is not None:
+        pairs = inertia if isinstance(inertia, tuple) else ()
+        if [len(pair) if isinstance(pair, tuple) else 0 for pair in pairs] != [2, 2]:
+            yield (
+                f"slider_inertia = {inertia!r}: give two pairs (across, along) [kg m2], those of "
+                "the bottom and of the top slider"
+            )
+    given: object = bearing.contact_points
+    if given is None:
+        return
+    whole = isinstance(given, (int, np.integer)) and not isinstance(given, (bool, np.bool_))
+    count = int(cast("int", given)) if whole else 0
+    fits = 4 <= count <= 7 or (8 <= count <= 64 and count % 2 == 0)
+    if not (fits or (count >= 96 and count % 32 == 0)):
+        yield (
+            f"contact_points = {given!r}: leave it out (discs, in closed form), or give 4 to 7 "
+            "(one ring on the slider's edge), an even number from 8 to 64 (two rings) or a "
+            "multiple of 32 from 96 on (rings of 32)"
+        )
+
+
+def _of_forces(bearing: Specification) -> Iterator[str]:
+    options = bearing.resolved()
+    load, stiffness = options["design_load"], options["axial_stiffness"]
+    area = slider_area(bearing)  # of the smallest numbers 0
+    pressure, usual = load / area if area > 0.0 else math.inf, USUAL_PRESSURE[1] * area
+    if pressure > LARGEST_PRESSURE:
+        yield (
+            f"design_load = {load:g} N presses {1e-6 * pressure:.3g} MPa on the slider, more than "
+            f"any material carries: give at most some {usual:.2g} N, or check slider_radius = "
+            f"{bearing.slider_radius:g} m"
+        )
+    if load > LARGEST_SHORTENING * stiffness * bearing.slider_height:
+        least = load / (0.02 * bearing.slider_height)
+        yield (
+            f"axial_stiffness = {stiffness:g} N/m settles by {load / stiffness:.3g} m under the "
+            f"design load of {load:.4g} N, more than the slider's height: "
+            f"{meant(stiffness, 'N/m', least, 200.0 * least)}"
+        )

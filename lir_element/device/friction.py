@@ -5,15 +5,16 @@ from __future__ import annotations
 import abc
 import inspect
 import math
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, is_dataclass
 from functools import cached_property, lru_cache
 from math import exp
 from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 
-from lir_element.argument_checks import require_between, require_non_negative
+from lir_element.argument_checks import require_within
 from lir_element.device.friction_table import FASTEST, FrictionValues, never_falling, sampled
+from lir_element.fields import check_numbers, number
 from lir_element.units import per_cent
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
     from lir_element.layout import Floats, Records
 
+_COEFFICIENT = number("-", "[0, 1)", remedy=per_cent)
 _SAME = 1e-6  # of the coefficient, within which a law's own limits must be those of `at_speed`
 
 _KNOWN: dict[str, dict[tuple[str, str], type[FrictionLaw]]] = {}
@@ -184,12 +186,10 @@ class CoulombFriction(FrictionLaw):
     0.066
     """
 
-    coefficient: float
+    coefficient: float = field(metadata=_COEFFICIENT)
 
     def __post_init__(self) -> None:
-        require_between(
-            "coefficient", self.coefficient, 0.0, 1.0, "-", remedy=per_cent(self.coefficient)
-        )
+        check_numbers(self)
 
     @property
     def f_max(self) -> float:
@@ -243,14 +243,12 @@ class VelocityFriction(FrictionLaw):
     0.0325
     """
 
-    f_max: float
-    f_min: float
-    rate: float = field(metadata={"unit": "s/m"})
+    f_max: float = field(metadata=_COEFFICIENT)
+    f_min: float = field(metadata=_COEFFICIENT)
+    rate: float = field(metadata=number("s/m", "[0, inf)"))
 
     def __post_init__(self) -> None:
-        require_between("f_max", self.f_max, 0.0, 1.0, "-", remedy=per_cent(self.f_max))
-        require_between("f_min", self.f_min, 0.0, 1.0, "-", remedy=per_cent(self.f_min))
-        require_non_negative("rate", self.rate, "s/m")
+        check_numbers(self)
         if self.f_min > self.f_max:
             msg = (
                 f"f_min = {self.f_min:g} exceeds f_max = {self.f_max:g}: the friction at zero "
@@ -300,8 +298,8 @@ class MeasuredFriction(FrictionLaw):
     (0.04, 0.068, 0.0022)
     """
 
-    speeds: tuple[float, ...] = field(metadata={"unit": "m/s"})
-    coefficients: tuple[float, ...]
+    speeds: tuple[float, ...] = field(metadata=number("m/s", "[0, inf)"))
+    coefficients: tuple[float, ...] = field(metadata=_COEFFICIENT)
 
     def __post_init__(self) -> None:
         for name in ("speeds", "coefficients"):
@@ -313,9 +311,7 @@ class MeasuredFriction(FrictionLaw):
                 "coefficients: give one of each for every test, one test at least"
             )
             raise ValueError(msg)
-        for speed, coefficient in zip(self.speeds, self.coefficients, strict=True):
-            require_non_negative("speeds", speed, "m/s")
-            require_between("coefficients", coefficient, 0.0, 1.0, remedy=per_cent(coefficient))
+        check_numbers(self)
         self.kernel_values()  # which refuses a law that cannot be
 
     @cached_property
@@ -347,7 +343,7 @@ class _Scaled(FrictionLaw):
     factor: float
 
     def __post_init__(self) -> None:
-        require_between("f_max", self.f_max, 0.0, 1.0, "-", remedy="a smaller factor")
+        require_within("f_max", self.f_max, "[0, 1)", "-", remedy="a smaller factor")
 
     def __repr__(self) -> str:
         return f"{self.factor:g} * {self.law!r}"
@@ -389,11 +385,6 @@ def known_laws() -> tuple[type[FrictionLaw], ...]:
 
 def _is_complete(law: type) -> bool:
     return is_dataclass(law) and not inspect.isabstract(law)
-
-
-def unit_of(law: type[FrictionLaw], name: str) -> str:
-    """Return the unit of a field of a law, SI; "" of a pure number."""
-    return next((str(f.metadata.get("unit", "")) for f in fields(law) if f.name == name), "")  # type: ignore[arg-type]
 
 
 def least_coefficients(props: Records) -> Floats:

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from lir_element.argument_checks import require_between, require_choice, require_positive
+from lir_element.argument_checks import require_choice
+from lir_element.fields import check_numbers, number
 from lir_element.layout import HEAT_PARTS
-from lir_element.units import LENGTHS, MODULI, meant
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 _FALLS = {"half": (0.02, 0.40), "third": (0.029, 0.22), "two-thirds": (0.0085, 0.25)}
 """Of 0.7^(rate T) + rest, by what is left at 200 C: rate [1/K] and rest."""
+
+_TEMPERATURE = number("C", "[-100, 400)", remedy="give it in C")
 
 _SHORTEST, _LONGEST = 1e-3, 200.0  # s, between which the sum of exponentials holds
 _FASTEST, _SLOWEST = 2e3, 3e-3  # 1/s, of its rates: both bounds are well covered
@@ -55,19 +57,16 @@ class PressureDependence:
     0.7
     """
 
-    reference_pressure: float | None = None
-    rate: float = -0.02e-6 * math.log(0.7)
+    reference_pressure: float | None = field(
+        default=None, metadata=number("Pa", "[1e5, 3e9)", usual=(1e6, 3e8))
+    )
+    rate: float = field(
+        default=-0.02e-6 * math.log(0.7),
+        metadata=number("1/Pa", "[0, 1e-6)", remedy="give 1/Pa (0.0071 1/MPa are 7.1e-9 1/Pa)"),
+    )
 
     def __post_init__(self) -> None:
-        p = self.reference_pressure
-        if p is not None:
-            require_positive("reference_pressure", p, "Pa")
-            require_between(
-                "reference_pressure", p, 1e5, 3e9, "Pa", remedy=meant(p, "Pa", MODULI, 1e6, 3e8)
-            )
-        require_between(
-            "rate", self.rate, 0.0, 1e-6, "1/Pa", remedy="give 1/Pa (0.0071 1/MPa are 7.1e-9 1/Pa)"
-        )
+        check_numbers(self)
 
     def __str__(self) -> str:
         """Return it in words, for tables."""
@@ -131,30 +130,21 @@ class FrictionHeating:
     """
 
     variant: Literal["half", "third", "two-thirds"] = "half"
-    conductivity: float = 18.0
-    diffusivity: float = 4.44e-6
-    initial_temperature: float = 20.0
-    reference_temperature: float = 20.0
-    thickness: float | None = None
-    share: float = 1.0
+    conductivity: float = field(default=18.0, metadata=number("W/(m K)", "[0.1, 1e4)"))
+    diffusivity: float = field(
+        default=4.44e-6,
+        metadata=number("m2/s", "[1e-8, 1e-2)", remedy="give m2/s (4.44 mm2/s are 4.44e-6 m2/s)"),
+    )
+    initial_temperature: float = field(default=20.0, metadata=_TEMPERATURE)
+    reference_temperature: float = field(default=20.0, metadata=_TEMPERATURE)
+    thickness: float | None = field(
+        default=None, metadata=number("m", "[1e-3, 2)", usual=(2e-3, 0.5))
+    )
+    share: float = field(default=1.0, metadata=number("-", "(0, 1]", remedy="1 for all of it"))
 
     def __post_init__(self) -> None:
         require_choice("variant", self.variant, tuple(_FALLS))
-        require_between("conductivity", self.conductivity, 0.1, 1e4, "W/(m K)")
-        require_between(
-            "diffusivity",
-            self.diffusivity,
-            1e-8,
-            1e-2,
-            "m2/s",
-            remedy="give m2/s (4.44 mm2/s are 4.44e-6 m2/s)",
-        )
-        for name in ("initial_temperature", "reference_temperature"):
-            require_between(name, getattr(self, name), -100.0, 400.0, "C", remedy="give it in C")
-        if self.thickness is not None:
-            remedy = meant(self.thickness, "m", LENGTHS, 2e-3, 0.5)
-            require_between("thickness", self.thickness, 1e-3, 2.0, "m", remedy=remedy)
-        require_between("share", self.share, 1e-6, 1.0 + 1e-12, "-", remedy="1 for all of it")
+        check_numbers(self)
 
     def __str__(self) -> str:
         """Return it in words, for tables."""

@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, cast
 
 from lir_element.argument_checks import as_number, as_pair
-from lir_element.device.backup import BackupSupport
 from lir_element.device.friction import FrictionLaw
 from lir_element.device.heating import FrictionHeating, PressureDependence
-from lir_element.units import STANDARD_GRAVITY
+from lir_element.fields import check_numbers, number
+from lir_element.units import STANDARD_GRAVITY, meant, per_cent
+
+LARGEST_SLIDER = 3.0
+"""Radius or height of a slider that nobody builds [m]; the largest are about 1 m."""
+
+LARGEST_PLATE = 10.0
+"""Distance from a node to its concave surface that no plate has [m]."""
+
+_BUILT = f"(0, {LARGEST_SLIDER:g}]"
+_NO_RIMS = "no restraining rims"
 
 _STACK_MODULUS = 20e9  # Pa, slider with its liners: a tenth of steel's
 STACK_RANGE = 0.3, 3.0
@@ -21,42 +30,193 @@ _AXIAL_DAMPING_RATIO = 0.05
 _RIM_DAMPING_RATIO = 0.10
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BackupSupport:
+    r"""A support beside a bearing that carries nothing until the bearing has failed.
+
+    A bearing with one does not end an analysis by its failure: from then on it carries nothing,
+    and the structure over it comes down by `drop`, on a flat stop that presses and rubs but does
+    not pull. Without a stop (``drop=math.inf``) the neighbours have to carry the load.
+
+    Parameters
+    ----------
+    drop : float
+        Way that the top plate comes down from its undeformed place until the stop carries [m], at
+        least 0; ``math.inf``: there is no stop.
+    friction : float
+        Friction coefficient of the stop [-], at least 0 and below 1.
+    stiffness : float, optional
+        Of the stop, vertical [N/m]. Default: the axial stiffness of the bearing.
+    damping : float, optional
+        Of the stop, vertical [N s/m]. Default: the axial damping of the bearing.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If a value is out of bounds: the message names value, bound and remedy.
+
+    Notes
+    -----
+    The stop is wide enough wherever the structure comes down. What presses on it acts under the top
+    node, whose rotation meets no resistance; the moment that this takes is the bottom node's. Its
+    friction is that of the surfaces (docs/theory.md, section 3): elastic sliding by the bearing's
+    `yield_displacement`, then slip.
+
+    Examples
+    --------
+    >>> BackupSupport(drop=0.05, friction=0.3).stiffness is None
+    True
+    """
+
+    drop: float = field(
+        metadata=number(
+            "m",
+            "[0, 5) or inf",
+            remedy=lambda drop: f"{meant(drop, 'm', 1e-3, 1.0)}, or math.inf without a stop",
+        )
+    )
+    friction: float = field(default=0.3, metadata=number("-", "[0, 1)"))
+    stiffness: float | None = field(default=None, metadata=number("N/m", "(0, inf)"))
+    damping: float | None = field(default=None, metadata=number("N s/m", "(0, inf)"))
+
+    def __post_init__(self) -> None:
+        check_numbers(self)
+
+    def __str__(self) -> str:
+        """Return it in words, for tables."""
+        if self.drop == math.inf:
+            return "none: the neighbours carry"
+        return f"after {1e3 * self.drop:.4g} mm, friction {self.friction:.3g}"
+
+
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Specification:
     """The numbers of a bearing, each explained at `LIRBearing`, which checks them."""
 
-    radius: float | tuple[float, float]
-    slider_height: float
-    slider_radius: float
-    friction: FrictionLaw | float | tuple[FrictionLaw | float, FrictionLaw | float]
-    interface_friction: float
-    capacity: float | None = None
-    rims: float | tuple[float, float] | None = None
-    axial_stiffness: float | None = None
-    axial_damping: float | None = None
-    rim_stiffness: float | None = None
-    rim_damping: float | None = None
-    rim_yield_force: float = math.inf
-    rim_hardening: float = 0.005
-    rim_overrun: float | None = None
-    flange: float | None = None
-    slip_capacity: float | None = None
-    uplift_capacity: float = math.inf
-    backup: BackupSupport | None = None
-    design_load: float | None = None
-    yield_displacement: float = 0.25e-3
-    interface_yield_displacement: float = 0.01e-3
-    friction_law: Literal["elastic-plastic", "bouc-wen"] = "elastic-plastic"
-    bouc_wen_exponent: float = 2.0
-    torsional_friction: bool = True
-    plate_thickness: float | tuple[float, float] = 0.0
-    slider_density: float = 7850.0
-    slider_mass: float | tuple[float, float] | None = None
-    slider_inertia: tuple[tuple[float, float], tuple[float, float]] | None = None
-    contact_points: int | None = None
-    allow_weak_interface: bool = False
-    pressure_dependence: PressureDependence | None = None
-    friction_heating: FrictionHeating | None = None
+    radius: float | tuple[float, float] = field(
+        metadata=number("m", "(0, inf)", "radius of the concave surfaces")
+    )
+    slider_height: float = field(
+        metadata=number("m", _BUILT, "height of the inner slider", usual=(2e-3, 1.5))
+    )
+    slider_radius: float = field(
+        metadata=number("m", _BUILT, "radius of the inner slider in plan", usual=(2e-3, 1.5))
+    )
+    friction: FrictionLaw | float | tuple[FrictionLaw | float, FrictionLaw | float] = field(
+        metadata={"title": "friction coefficient of the concave surfaces"}
+    )
+    interface_friction: float = field(
+        metadata=number(
+            "-",
+            "(0, 1) or inf",
+            "friction coefficient of the interface",
+            remedy=lambda mu: f"{per_cent(mu)}, or math.inf for a slider in one piece",
+            endless="rigid slider",
+        )
+    )
+    capacity: float | None = field(
+        default=None,
+        metadata=number("m", "(0, inf]", "displacement capacity, to rim contact", endless=_NO_RIMS),
+    )
+    rims: float | tuple[float, float] | None = field(
+        default=None,
+        metadata=number(
+            "m", "(0, inf]", "sliding on a surface to its restraining rim", endless=_NO_RIMS
+        ),
+    )
+    axial_stiffness: float | None = field(
+        default=None, metadata=number("N/m", "(0, inf)", "axial stiffness of the slider")
+    )
+    axial_damping: float | None = field(
+        default=None, metadata=number("N s/m", "[0, inf)", "axial damping of the slider")
+    )
+    rim_stiffness: float | None = field(
+        default=None, metadata=number("N/m", "(0, inf)", "radial stiffness of a restraining rim")
+    )
+    rim_damping: float | None = field(
+        default=None, metadata=number("N s/m", "[0, inf)", "radial damping of a restraining rim")
+    )
+    rim_yield_force: float = field(
+        default=math.inf,
+        metadata=number(
+            "N", "(0, inf]", "radial force at which a restraining rim yields", endless="elastic"
+        ),
+    )
+    rim_hardening: float = field(
+        default=0.005,
+        metadata=number(
+            "-",
+            "[1e-4, 1)",  # with none the force would not tell how far it goes: a choice
+            "stiffness of a yielding rim over the elastic one",
+            remedy="it is the stiffness of a rim that yields over its elastic one, some 0.005 of "
+            "steel",
+        ),
+    )
+    rim_overrun: float | None = field(
+        default=None, metadata=number("m", "(0, inf)", "rim deformation at restrainer failure")
+    )
+    flange: float | None = field(
+        default=None, metadata=number("m", "(0, inf)", "way beyond a broken restraining rim")
+    )
+    slip_capacity: float | None = field(
+        default=None, metadata=number("m", "(0, inf)", "interface slip at the end of the overlap")
+    )
+    uplift_capacity: float = field(
+        default=math.inf, metadata=number("m", "(0, inf]", "uplift at which the bearing fails")
+    )
+    backup: BackupSupport | None = field(
+        default=None, metadata={"title": "support after the bearing's failure"}
+    )
+    design_load: float | None = field(
+        default=None, metadata=number("N", "(0, inf)", "axial load that defaults refer to")
+    )
+    yield_displacement: float = field(
+        default=0.25e-3,
+        metadata=number("m", "(0, inf)", "elastic displacement before sliding, concave surfaces"),
+    )
+    interface_yield_displacement: float = field(
+        default=0.01e-3,
+        metadata=number("m", "(0, inf)", "elastic displacement before slip, interface"),
+    )
+    friction_law: Literal["elastic-plastic", "bouc-wen"] = field(
+        default="elastic-plastic", metadata={"title": "hysteretic model of friction"}
+    )
+    bouc_wen_exponent: float = field(
+        default=2.0, metadata=number("-", "[1, inf)", "exponent of the Bouc-Wen model")
+    )
+    torsional_friction: bool = field(
+        default=True, metadata={"title": "friction against rotation about the vertical"}
+    )
+    plate_thickness: float | tuple[float, float] = field(
+        default=0.0,
+        metadata=number(
+            "m",
+            f"[0, {LARGEST_PLATE:g}]",
+            "plate thickness, node to vertex of the surface",
+            usual=(1e-3, 1.0),
+        ),
+    )
+    slider_density: float = field(
+        default=7850.0, metadata=number("kg/m3", "(0, inf)", "density of the sliders")
+    )
+    slider_mass: float | tuple[float, float] | None = field(
+        default=None, metadata=number("kg", "(0, inf)", "mass of the sliders")
+    )
+    slider_inertia: tuple[tuple[float, float], tuple[float, float]] | None = field(
+        default=None, metadata=number("kg m2", "(0, inf)", "moments of inertia of the sliders")
+    )
+    contact_points: int | None = field(
+        default=None, metadata={"title": "contact points of a slider's face"}
+    )
+    allow_weak_interface: bool = field(
+        default=False, metadata={"title": "interface weaker than the surfaces accepted"}
+    )
+    pressure_dependence: PressureDependence | None = field(
+        default=None, metadata={"title": "friction and pressure"}
+    )
+    friction_heating: FrictionHeating | None = field(
+        default=None, metadata={"title": "friction and temperature"}
+    )
 
     @property
     def radii(self) -> tuple[float, float]:

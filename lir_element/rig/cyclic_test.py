@@ -32,7 +32,7 @@ from lir_element.results.dataset import (
 )
 from lir_element.results.optional_variables import optional_variables
 from lir_element.rig.rigid_rig import drive_path
-from lir_element.units import FORCES, meant
+from lir_element.units import meant
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -178,7 +178,7 @@ def _tell_of_small_loads(bearing: LIRBearing, largest: float) -> None:
         return
     told = (
         f"axial_load = {largest:g} N is {largest / design:.2g} times the design load, "
-        f"{design:.3g} N: {meant(largest, 'N', FORCES, 0.01 * design, 10.0 * design)}"
+        f"{design:.3g} N: {meant(largest, 'N', 0.01 * design, 10.0 * design)}"
     )
     warnings.warn(told, DesignWarning, stacklevel=3)
 

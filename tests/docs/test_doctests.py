@@ -50,6 +50,13 @@ def test_examples(name: str) -> None:
     assert result.failed == 0, f"{result.failed} of {result.attempted} examples of {name} failed"
 
 
+def test_the_example_of_the_codes() -> None:
+    page = str(ROOT / "docs/design_checks.md")
+    result = doctest.testfile(page, module_relative=False, optionflags=FLAGS)
+    assert result.attempted > 5
+    assert result.failed == 0
+
+
 def has_example(text: str) -> bool:
     """Return whether a docstring has an example, or names a page of examples by its title."""
     section = text.partition("Examples\n")[2]

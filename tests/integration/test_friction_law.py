@@ -207,7 +207,7 @@ def test_measured_points_give_their_isotonic_fit() -> None:
     assert MeasuredFriction([0.1], [0.05]).at_speed(0.0) == 0.05
     with pytest.raises(ValueError, match="1 speeds and 2 coefficients: give one of each"):
         MeasuredFriction([0.1], [0.05, 0.06])
-    with pytest.raises(ValueError, match=r"coefficients = 6.* below 1"):
+    with pytest.raises(ValueError, match=r"coefficients\[0\] = 6.* below 1"):
         MeasuredFriction([0.1], [6.0])
 
 
@@ -524,10 +524,10 @@ CAMPAIGN = (
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     pytest.importorskip("pydantic")
     pytest.importorskip("pint")
-    from frames.design.project import extensions
+    from frames.design.project import source_files
     from lir_element.device import friction
 
-    monkeypatch.setattr(extensions, "_LOADED", {})
+    monkeypatch.setattr(source_files, "_LOADED", {})
     monkeypatch.setattr(friction, "_KNOWN", dict(friction._KNOWN))
     (tmp_path / "laws.py").write_text(ISLAND)
     (tmp_path / "project.toml").write_text(PROJECT)

@@ -174,7 +174,7 @@ def test_limits_have_bounds() -> None:
     for name, value, words in (
         ("rim_strength", -3e6, r"rim_strength = -3e\+06 \[N\] must be at least 1 "),
         ("interface_pressure", 60.0, r"interface_pressure = 60 \[Pa\] must be at least 100000"),
-        ("eccentricity", 1.5, "eccentricity = 1.5 .* must be at least 0.01 and below 1: give"),
+        ("eccentricity", 1.5, "eccentricity = 1.5 .* must be at least 0.01 and at most 1: give"),
         ("drift", 5.0, "drift = 5 .* below 0.2: give a pure number, or leave it out"),
         ("uplift_gap", 120.0, r"uplift_gap = 120 \[m\] .* below 0.5"),
         ("rim_engagement", 75.0, "rim_engagement = 75"),

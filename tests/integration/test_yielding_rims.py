@@ -420,7 +420,7 @@ def test_the_strength_of_a_ring() -> None:
         (
             {"rim_hardening": 1.0},
             ValueError,
-            r"rim_hardening = 1 \[-\] must be from 0.0001 to below",
+            r"rim_hardening = 1 \[-\] must be at least 0.0001 and below 1",
         ),
         ({"rim_hardening": 1e-5}, ValueError, "some 0.005 of steel"),
         ({"flange": 0.0}, ValueError, r"flange = 0"),

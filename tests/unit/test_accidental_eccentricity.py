@@ -25,7 +25,7 @@ from frames.design.project.comparison import OURS, PLAIN, compare_project
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
-from frames.design.project.result_names import RESULT_FILES
+from frames.design.project.schema_structure import RESULT_FILES
 
 PROJECT = """
 [project]

@@ -17,8 +17,8 @@ from typer.testing import CliRunner
 from frames import GroundMotion, MotionWarning, load
 from frames.command.app import app
 from frames.design import MotionSet, Spectrum
+from frames.design.hazard.motion_collection import twins
 from frames.design.hazard.motion_folder import read_table
-from frames.design.hazard.sanity_checks import twins
 from frames.design.project.quantities import si
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts

@@ -88,7 +88,7 @@ def test_positive_numbers(name: str, value: float) -> None:
 @pytest.mark.parametrize("value", [-1.0, -1e-12, math.nan, -math.inf, math.inf])
 @pytest.mark.parametrize("name", NOT_NEGATIVE)
 def test_numbers_that_may_be_zero(name: str, value: float) -> None:
-    refused(ValueError, f"{name} = {value:g}", "at least 0", "SI", **{name: value})
+    refused(ValueError, f"{name} = {value:g}", "at least 0", "give", **{name: value})
     assert getattr(bearing(**{name: 0.0}), name) == 0.0
 
 
@@ -100,13 +100,13 @@ def test_pairs_are_checked_on_both_surfaces(place: int, value: float) -> None:
         pair[place] = value
         if name == "rims" and value == math.inf:
             continue
-        where = f"radius ({('bottom', 'top')[place]})" if name == "radius" else "rims"
+        where = f"{name} ({('bottom', 'top')[place]})"
         changes = {name: tuple(pair)} | ({"capacity": None} if name == "rims" else {})
         refused(ValueError, f"{where} = {value:g}", "[m]", "positive", **changes)
-    thick = [0.0, 0.0]
+    thick, at = [0.0, 0.0], ("bottom", "top")[place]
     thick[place] = value
     if value != 0.0:
-        refused(ValueError, f"plate_thickness = {value:g}", plate_thickness=tuple(thick))
+        refused(ValueError, f"plate_thickness ({at}) = {value:g}", plate_thickness=tuple(thick))
 
 
 @pytest.mark.parametrize("value", ["0.1", None, 1j, b"1", {}, True, False])

@@ -10,6 +10,7 @@ import pytest
 pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 
+
 from frames.design import ProjectError
 from frames.design.project.derived import table_of
 from frames.design.project.inputs import ProjectInputs
@@ -23,8 +24,7 @@ from lir_element import (
     PressureDependence,
     VelocityFriction,
 )
-from lir_element.device.field_units import FIELD_UNITS
-from lir_element.device.friction import unit_of
+from lir_element.fields import unit_of
 
 pytestmark = pytest.mark.plain
 REQUIRED: dict[str, tuple[str, Any]] = {
@@ -201,11 +201,14 @@ def test_the_section_of_the_page_is_a_bearing(tmp_path: Path) -> None:
     assert found.pressure_dependence == PressureDependence(reference_pressure=20e6)
 
 
-def test_units_are_those_of_fields() -> None:
-    kinds = (LIRBearing, PressureDependence, FrictionHeating, BackupSupport)
-    assert set(FIELD_UNITS) == {kind.__name__ for kind in kinds}
-    for kind in kinds:
-        assert set(FIELD_UNITS[kind.__name__]) <= {f.name for f in fields(kind)}
+def test_every_field_of_a_bearing_says_its_unit_and_its_name() -> None:
+    for each in fields(LIRBearing):
+        assert each.metadata["title"], each.name
+        assert ("unit" in each.metadata) == ("float" in each.type and each.name != "friction")
+    for kind in (PressureDependence, FrictionHeating, BackupSupport):
+        assert all(f.metadata["unit"] for f in fields(kind) if "float" in f.type)
+    assert unit_of(LIRBearing, "radius") == "m"
+    assert unit_of(LIRBearing, "rim_hardening") == ""
     assert unit_of(VelocityFriction, "rate") == "s/m"
     assert "friction_heating" in schema()
     assert si("68 F", "C", "20 C") == pytest.approx(20.0)

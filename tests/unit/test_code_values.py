@@ -22,7 +22,7 @@ from frames.design import (
     equivalent_linear,
 )
 from frames.design.calculation.standing import MEMORY, OWN, Standing
-from frames.design.codes.builtin import BUILT_IN
+from frames.design.codes.analysis import BUILT_IN
 from frames.design.codes.code_values import E031, NTC, UFC_BNBC, standing_by, weakest
 from frames.design.codes.registry import standing_in
 from frames.design.codes.values_of_asce7 import VALUES as ASCE_VALUES

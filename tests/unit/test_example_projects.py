@@ -19,7 +19,7 @@ from frames.design.codes.bounds import with_property_bounds
 from frames.design.codes.registry import known_codes
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.device import device_checks
-from frames.design.project import artificial_motions
+from frames.design.project import example
 from frames.design.project.design_run import ProjectRun, run_project
 from frames.design.project.example import BUILDINGS, write_example
 from frames.design.project.inputs import ProjectInputs
@@ -32,7 +32,7 @@ CODES = tuple(code.name for code in known_codes() if code.example is not None)
 @pytest.fixture
 def one_motion(monkeypatch: pytest.MonkeyPatch) -> None:
     # one of the seven: they take a second each to make
-    monkeypatch.setattr(artificial_motions, "PULSES", {"artificial-1": 1.9})
+    monkeypatch.setattr(example, "PULSES", {"artificial-1": 1.9})
 
 
 @pytest.mark.parametrize("building", BUILDINGS)
@@ -120,7 +120,7 @@ def test_plain_example_runs_to_the_end_and_is_sound(
 @pytest.mark.usefixtures("one_motion")
 def test_vertical_component_follows_two_thirds_at_a_third_of_the_periods() -> None:
     target = code_named("ASCE 7-22").spectrum(s_ms=2.0, s_m1=1.2)
-    files = artificial_motions.motion_files(target, vertical=True)
+    files = example.motion_files(target, vertical=True)
     assert files["motions.csv"].splitlines()[1].split(",")[1:4] == [
         f"artificial-1-{axis}.txt" for axis in "xyz"
     ]

@@ -31,8 +31,7 @@ from frames.design import (
 )
 from frames.design.codes.registry import known_codes
 from frames.design.hazard.code_rules import remove_rules, scaling_named
-from frames.design.project import check_register, extensions
-from frames.design.project import run_checks as run_checks  # registers what the fixture keeps
+from frames.design.project import check_register, source_files
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project, schema
 from lir_element import FrictionLaw
@@ -81,7 +80,7 @@ def folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, put_example: Callable[..., Path]
 ) -> Iterator[Path]:
     """A project by the code of the page; what it registers is taken back."""
-    monkeypatch.setattr(extensions, "_LOADED", {})
+    monkeypatch.setattr(source_files, "_LOADED", {})
     monkeypatch.setattr(check_register, "_REGISTERED", dict(check_register._REGISTERED))
     put_example(tmp_path)
     (tmp_path / "island.py").write_text(SOURCE)

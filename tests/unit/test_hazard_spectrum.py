@@ -8,8 +8,7 @@ import pytest
 
 from frames import MotionError
 from frames.design import Spectrum
-from frames.design.hazard.code_rules import known_names
-from frames.design.hazard.damping_factors import damping_factor
+from frames.design.hazard.code_rules import damping_factor, known_names
 from lir_element.units import STANDARD_GRAVITY as G
 
 ALL = [

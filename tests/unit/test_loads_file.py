@@ -134,7 +134,7 @@ REFUSED = {
     'floor_load = "500 kg/m2"\n[loads]\ndead = "3 kN/m2"': "both say what floors weigh",
     "": "floor_load is missing: give the mass of the floors",
     '[loads]\nlive = "3 kN/m2"': "loads.dead is missing",
-    '[loads]\ndead = "450 kg/m2"': 'is in "kg/m2", which is no unit of N/m^2: as "4.5 kN/m2"',
+    '[loads]\ndead = "450 kg/m2"': 'is in "kg/m2", which is no unit of N/m2: as "4.5 kN/m2"',
     '[loads]\ndead = "-3 kN/m2"': "must be at least 0",
     '[loads]\ndead = "0 kN/m2"': "floors weigh something",
     '[loads]\ndead = "3 kN/m2"\nmass = { live = 25 }': "loads.mass.live",

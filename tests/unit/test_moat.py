@@ -18,7 +18,7 @@ from frames.design.project.devices_beside import walls_of, with_devices
 from frames.design.project.moat_checks import of_the_moat
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
-from frames.design.project.schema_devices import MoatTable
+from frames.design.project.schema_bearing import MoatTable
 from frames.design.report.words import Words
 from lir_element import LIRBearing
 from tests.unit.test_accidental_eccentricity import PROJECT

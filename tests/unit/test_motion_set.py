@@ -11,7 +11,7 @@ import pytest
 
 from frames import GroundMotion, MotionError, MotionWarning
 from frames.design import MotionSet, Spectrum, motion_measures, pair_spectrum
-from frames.design.hazard.pair_spectra import MEASURES
+from frames.design.hazard.motion_measures import MEASURES
 from lir_element.units import STANDARD_GRAVITY as G
 
 DT = 0.01

@@ -21,13 +21,14 @@ from typer.testing import CliRunner
 from frames import AnalysisInterrupted, load, time_history
 from frames.command.app import app
 from frames.design import ProjectError, with_property_bounds
-from frames.design.project import governing_run
+from frames.design.project import level_runs
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.quantities import si
 from frames.design.project.reading import read_project, schema
 from frames.design.project.speed import Way
 from frames.design.report import files, writing
+from frames.design.sizing.target import INTERFACE_PRESSURE
 from tests.viewed import payload
 
 SMALL = """
@@ -568,7 +569,7 @@ def test_a_run_goes_on_where_it_was_interrupted(
     def stopped(*_: object, **__: object) -> None:
         raise AnalysisInterrupted(2.0, xr.Dataset())
 
-    monkeypatch.setattr(governing_run, "time_history", stopped)
+    monkeypatch.setattr(level_runs, "time_history", stopped)
     found = ran(file, cut)
     assert found.exit_code == 130
     assert "the same command goes on from there" in found.output
@@ -621,13 +622,13 @@ def test_a_governing_run_whose_peaks_are_chance_says_so(
 ) -> None:
     kept = load(done / "out" / "governing.nc")
     assert 0.0 <= float(kept.attrs["noise_displacement"]) < 1e-4  # of an ordinary run
-    assert governing_run.sensitivity_warnings(kept) == ()
-    monkeypatch.setattr(governing_run, "NOISE", 0.2)
+    assert level_runs.sensitivity_warnings(kept) == ()
+    monkeypatch.setattr(level_runs, "NOISE", 0.2)
     parts = ProjectInputs(read_project(done / "small.toml"), done)
     known = preliminary(parts)
     runs = {parts.rules().levels[0].name: {"lower": load(done / "out" / "runs-lower.nc")}}
-    data, _ = governing_run.governing_run(parts, known.frame, known.motions, runs)
-    [said] = governing_run.sensitivity_warnings(data)
+    data, _ = level_runs.governing_run(parts, known.frame, known.motions, runs)
+    [said] = level_runs.sensitivity_warnings(data)
     share = 100.0 * float(data.attrs["noise_displacement"])
     assert share > 5.0
     assert f"bearing displacement by {share:.2g} %" in said
@@ -637,9 +638,9 @@ def test_what_the_disturbed_run_alone_reaches_is_all_of_the_difference(done: Pat
     kept = load(done / "out" / "governing.nc")
     free = kept.assign(rim_force=0.0 * kept["rim_force"])
     assert float(kept["rim_force"].max()) > 0.0
-    assert governing_run._apart(free, kept, "rim_force") == 1.0
-    assert governing_run._apart(kept, free, "rim_force") == 1.0
-    assert governing_run._apart(free, free, "rim_force") == 0.0
+    assert level_runs._apart(free, kept, "rim_force") == 1.0
+    assert level_runs._apart(kept, free, "rim_force") == 1.0
+    assert level_runs._apart(free, free, "rim_force") == 0.0
 
 
 @pytest.mark.parametrize(
@@ -679,6 +680,11 @@ def test_limits_are_refused_before_anything_is_run(folder: Path) -> None:
     path = changed(folder, 'rim_strength = "5 MN"', given)
     limits = ProjectInputs(read_project(path), folder).limits()
     assert (limits.uplift_gap, limits.rim_height, limits.base_shear) == (0.02, 0.03, 9e6)
+    own = '\n[design]\nrim_width = "30 mm"\nmax_base_shear = "12 %"\n'
+    path.write_text(path.read_text() + own)
+    target = ProjectInputs(read_project(path), folder).target()
+    assert (target.rim_width, target.max_base_shear, target.limits.rim_height) == (0.03, 0.12, 0.03)
+    assert target.limits.interface_pressure == INTERFACE_PRESSURE
 
 
 @pytest.mark.parametrize(

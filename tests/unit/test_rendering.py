@@ -7,8 +7,7 @@ from xml.dom.minidom import Element, Text, parseString  # noqa: S408
 
 import pytest
 
-from frames.design.calculation.formula import evaluate, parse
-from frames.design.calculation.rendering import Style, mathml, text
+from frames.design.calculation.rendering import Style, evaluate, mathml, parse, text
 
 VALUES = {"a": 1.25, "b": 2.5, "c": 0.75}
 DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")

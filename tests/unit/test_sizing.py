@@ -34,9 +34,9 @@ from frames.design import (
 from frames.design.codes.outcome import EquivalentLinear
 from frames.design.devices.capacity import engagement_checks
 from frames.design.plots import design_candidates
+from frames.design.sizing.candidate import grouped
 from frames.design.sizing.fitting import rounded_up
 from frames.design.sizing.proposal import Device
-from frames.design.sizing.size_groups import grouped
 from frames.design.sizing.trial import MARGIN, OneMass, Place, tried_on_one_mass
 from lir_element import CoulombFriction, DesignWarning, LIRBearing
 

@@ -8,8 +8,12 @@ from scipy.integrate import quad
 
 from frames import MotionError
 from frames.design import MotionSet, NearFaultPulse, synthetic_near_fault
-from frames.design.hazard.near_fault_pulse import pulse_period
-from frames.design.hazard.stochastic_motion import PointSource, envelope, stochastic_acceleration
+from frames.design.hazard.stochastic_motion import (
+    PointSource,
+    envelope,
+    pulse_period,
+    stochastic_acceleration,
+)
 from frames.design.hazard.synthetic_motions import PulseScatter, with_pulse
 from frames.motion.baseline import integrated
 from frames.motion.spectra import response_spectrum

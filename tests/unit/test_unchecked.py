@@ -26,23 +26,28 @@ from frames import time_history
 from frames.command.app import app
 from frames.command.console import FAILED_CHECKS
 from frames.design import Check, Checks, Standing, code_named
-from frames.design.codes.builtin import BUILT_IN
-from frames.design.codes.code_values import CodeValue
-from frames.design.codes.provisions import (
+from frames.design.codes.analysis import BUILT_IN
+from frames.design.codes.code_values import (
     NEEDS,
     NO_CHECK,
     OF_BEARINGS,
+    CodeValue,
     checks_of_provision,
     left_to_the_engineer,
     not_checked,
     states_of,
 )
-from frames.design.project.design_run import Histories, ProjectRun, evaluate_run
+from frames.design.project.design_run import (
+    Histories,
+    ProjectRun,
+    evaluate_run,
+    from_memory,
+    provisions_of,
+)
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.level_runs import histories_at_levels
 from frames.design.project.preliminary import Preliminary, preliminary
 from frames.design.project.reading import read_project
-from frames.design.project.unchecked import from_memory, provisions_of
 from frames.design.report.figures import VOID_TITLE, motions_figure
 from frames.design.report.numbers import run_tables
 from frames.design.report.words import Words

@@ -14,7 +14,7 @@ import numpy as np
 
 from frames import GroundMotion, MotionWarning
 from frames.demo import bearing_for, pacoima
-from frames.design.hazard.near_fault_pulse import NearFaultPulse
+from frames.design.hazard.stochastic_motion import NearFaultPulse
 from frames.risk import Intensity
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import LIR, TAIL, records_in

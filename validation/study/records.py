@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from frames import time_histories
-from frames.design.hazard.fema_records import RECORD_SETS
+from frames.design.hazard.motion_folder import RECORD_SETS
 from frames.risk import open_campaign
 from validation.measurements.yielding_runs import LIR, RIMS, WIDE
 from validation.page import FOLDER

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames.demo import bearing_for
-from frames.design.hazard.fema_records import RECORD_SETS
+from frames.design.hazard.motion_folder import RECORD_SETS
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import LIR, RIMS, TAIL, WIDE, bearings_of
 from validation.page import table

@@ -15,7 +15,7 @@ import numpy as np
 from frames import MotionWarning
 from frames.demo import bearing_for
 from frames.design import MotionSet
-from frames.design.hazard.fema_records import RECORD_SETS
+from frames.design.hazard.motion_folder import RECORD_SETS
 from frames.risk import (
     Campaign,
     FragilityError,

@@ -9,10 +9,14 @@ from html import escape
 from typing import NamedTuple
 
 from frames.design._errors import CheckError
-from frames.design.calculation.formula import RESERVED, Value, evaluate, names, parse
 from frames.design.calculation.rendering import (
+    RESERVED,
     Style,
+    Value,
+    evaluate,
     mathml,
+    names,
+    parse,
     quantity,
     scale,
     symbol_mathml,

@@ -2,23 +2,127 @@
 
 from __future__ import annotations
 
+import importlib
+import pkgutil
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Checks
-from frames.design.codes import builtin as builtin
+from frames.design.calculation.standing import OWN
+from frames.design.calculation.trace import Trace
 from frames.design.codes.bounds import ENDS, BoundName, PropertyBounds, with_property_bounds
-from frames.design.codes.interface import slip_threshold
 from frames.design.codes.isolation import Extremes, IsolationSystem
 from frames.design.codes.outcome import BoundResult, EquivalentLinear
-from frames.design.codes.registry import AnalysisMethod, code_named
-from frames.design.codes.service import service_checks
+from frames.design.codes.registry import (
+    AnalysisMethod,
+    DesignCode,
+    code_named,
+    known_codes,
+    register_code,
+)
+from frames.design.codes.secant import CheckBuilder
 from frames.design.hazard.code_rules import canonical, known_names
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_type
+from lir_element.device.bearing import LIRBearing
 
 if TYPE_CHECKING:
+    from frames.design.calculation.check import Check
+    from frames.design.codes.code_values import CodeValue
+    from frames.design.codes.pendulum import FrictionPendulum
     from frames.design.codes.superstructure import Superstructure
+
+for _found in sorted(pkgutil.iter_modules([str(Path(__file__).parent)])):
+    _code = getattr(importlib.import_module(f"{__package__}.{_found.name}"), "CODE", None)
+    if isinstance(_code, DesignCode):
+        register_code(_code)
+
+BUILT_IN = known_codes()
+"""The codes of this package."""
+
+
+def slip_threshold(system: IsolationSystem, bounds: PropertyBounds) -> Checks:
+    """Return the check that the interface holds while the surfaces slide, for the worst bearing.
+
+    Away from the rims the interface carries ``mu1 R1 + mu2 R2`` over L times the load, whatever
+    the displacement and the load: it holds where its friction at the lower bound is at least that
+    of the surfaces at the upper one.
+    """
+    pairs = zip(system.labels, system.bearings, strict=True)
+    found = [(name, b) for name, b in pairs if isinstance(b, LIRBearing) and not b.is_dcfp]
+    if not found:
+        return Checks()
+    t = Trace()
+    t.given_each("mu_h", [b.interface_friction for _, b in found], note="of the interface")
+    t.given_each("mu_e", [b.effective_friction for _, b in found], note="of the surfaces")
+    t.given("lambda_h", bounds.interface_factors.lower, note="lower bound of the interface")
+    t.given("lambda_e", bounds.friction.upper, note="upper bound of the surfaces")
+    t.each("mu_h_low", "lambda_h * mu_h")
+    t.each("mu_e_up", "lambda_e * mu_e", note="what the interface carries, over the load")
+    clause = "LIR-DCFP, docs/theory.md (2.1)"
+    check = CheckBuilder(t, "", OWN).worst(
+        clause,
+        "interface holds before the rim",
+        "mu_h_low",
+        ">=",
+        "mu_e_up",
+        subjects=tuple(name for name, _ in found),
+    )
+    return Checks([check])
+
+
+NO_CLAUSE = "no code: serviceability"
+"""Clause where a code's own was not read."""
+
+
+def service_checks(
+    system: IsolationSystem,
+    bounds: PropertyBounds,
+    above: Superstructure,
+    wind: CodeValue | None = None,
+) -> Checks:
+    """Return whether wind leaves the bearings in place, and service leaves the rims alone.
+
+    Bearings begin to slide with the friction of low speed at its lower bound, under their average
+    loads, all surfaces of a bearing at once.
+    """
+    found: list[Check] = []
+    if above.wind_shear > 0.0:
+        t = least_strength(system, bounds)
+        t.given("V_wind", above.wind_shear, "N")
+        judge = CheckBuilder(t, "lower", OWN if wind is None else wind.standing)
+        clause = NO_CLAUSE if wind is None else wind.clause
+        title, note = "sliding under wind", "where it slides: more friction, or a wind restraint"
+        found.append(judge(clause, title, "V_wind", "<=", "Q_min", note=note))
+    if above.service_displacement > 0.0:
+        t = Trace()
+        t.given("d_ser", above.service_displacement, "m", shown="mm", note="as given")
+        rims = [p.capacity for p in system.pendulums]
+        t.given("d_rim", min(rims), "m", shown="mm", note="displacement at the first rim contact")
+        judge = CheckBuilder(t, "", OWN)
+        title = "no restrainer contact in service"
+        found.append(judge(NO_CLAUSE, title, "d_ser", "<=", "d_rim"))
+    return Checks(found)
+
+
+def least_strength(system: IsolationSystem, bounds: PropertyBounds) -> Trace:
+    """Return what wind must stay below: the force that starts sliding, at the lower bound."""
+    t = Trace()
+    t.given_each("P", system.loads, "N", note=f"loads of the {len(system.loads)} bearings")
+    slow = [slow_friction(b) for b in system.bearings]
+    t.given_each("mu_s", slow, note="of low speed, both surfaces, over the load")
+    t.given("lambda_min", bounds.friction.lower, note="lower bound of the surfaces")
+    t("Q_min", "lambda_min * sum(P * mu_s)", "N", note="starts sliding")
+    return t
+
+
+def slow_friction(bearing: LIRBearing | FrictionPendulum) -> float:
+    """Return the friction of low speed with which all surfaces slide, over the load [-]."""
+    if not isinstance(bearing, LIRBearing):
+        return bearing.effective_friction
+    pairs = zip(bearing.frictions, bearing.radii, strict=True)
+    return sum(law.f_min * radius for law, radius in pairs) / bearing.effective_radius
 
 
 def equivalent_linear(

@@ -9,24 +9,21 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from frames._errors import MotionWarning
 from frames.design._errors import CheckError
-from frames.design.calculation.check import Bound, Check, Checks
-from frames.design.calculation.standing import MEMORY
-from frames.design.codes.acceptance_rules import AcceptanceRule
+from frames.design.calculation.check import Check, Checks
 from frames.design.codes.common import (
+    LinearAnalysis,
     capacity_check,
     drift_checks,
     eccentricities,
+    enter_activation,
     enter_restoring,
     enter_storeys,
-    overturning,
-    overturning_check,
-    vertical_checks,
 )
 from frames.design.codes.factor_sources import factors_of_asce7
-from frames.design.codes.history_rules import HistoryRules
-from frames.design.codes.levels import MCE_R, ActionLevel
-from frames.design.codes.outcome import BoundResult, Symbols
+from frames.design.codes.history_rules import MCE_R, ActionLevel, HistoryRules
+from frames.design.codes.outcome import Symbols
 from frames.design.codes.prototype_programme import (
+    AcceptanceRule,
     DesignToTest,
     PlannedTest,
     increments,
@@ -45,8 +42,6 @@ from frames.design.codes.registry import (
 from frames.design.codes.secant import (
     CheckBuilder,
     enter_system,
-    held_by,
-    iterate_displacement,
     secant,
 )
 from frames.design.codes.values_of_asce7 import PROVISIONS, VALUES
@@ -65,17 +60,16 @@ _NEAR_FAULT = 0.6  # g, S_1 from which on C_s has a further least value
 _STEPS = (0.25, 0.50, 0.67, 1.00)  # of D_M, in tests of increments
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from frames.design.calculation.trace import Trace
+    from frames.design.codes.code_values import CodeValue
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.superstructure import Superstructure
 
-_SYMBOLS = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
-
 
 @dataclass(frozen=True, kw_only=True)
-class ASCE7:
+class ASCE7(LinearAnalysis):
     """Factors of ASCE 7-22, chapter 17; `CODE.values` tells how well each is known.
 
     Parameters
@@ -118,24 +112,10 @@ class ASCE7:
 
     Examples
     --------
-    >>> from frames.design import ASCE7, IsolationSystem, PropertyBounds
-    >>> from frames.design import PropertyModificationFactors, Spectrum, equivalent_linear
-    >>> from lir_element import LIRBearing
-    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
-    ...                      friction=0.06, interface_friction=0.25)
-    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
-    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
-    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
-    >>> target = Spectrum.asce7(s_ms=1.2, s_m1=0.6)
-    >>> code = ASCE7(accidental_eccentricity=0.03)
-    >>> linear = equivalent_linear(system, target, bounds=bounds, code=code)
-    >>> round(1e3 * linear["lower"].trace.value("D_TM"))  # mm
-    288
+    In the how-to: "Design checks and equivalent-linear analysis" (docs/design_checks.md).
     """
 
-    accidental_eccentricity: float = 0.05
     least_torsion: float = 1.15
-    restoring: float = 0.025
     exponent: float = 3.5
     response_share: float = 3.0 / 8.0
     largest_reduction: float = 2.0
@@ -150,90 +130,49 @@ class ASCE7:
     history_share: float = 1.0
     irregular: bool = False
     no_tension: bool = False
-    orthogonal: float = 0.3
-    pressure_limit: float | None = None
     name: ClassVar[str] = "ASCE 7-22"
+    symbols: ClassVar[Symbols] = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
+    each: ClassVar[str] = "D_T"
+    level: ClassVar[str] = MCE_R
+    values: ClassVar[Mapping[str, CodeValue]] = VALUES
+    shear_clause: ClassVar[str] = "ASCE 7-22 (17.5-5)"
+    overturning_clause: ClassVar[str] = "ASCE 7-22 17.2.4.7"
+    vertical_clause: ClassVar[str] = "ASCE 7-22 17.2.4.6, 17.2.4.7"
 
-    def analyse(
-        self,
-        system: IsolationSystem,
-        spectrum: Spectrum,
-        bound: Bound,
-        superstructure: Superstructure | None,
-        extremes: Extremes,
-    ) -> BoundResult:
-        """Return analysis and checks at one bound.
-
-        Parameters
-        ----------
-        system : IsolationSystem
-            With properties at that bound.
-        spectrum : Spectrum
-            MCE_R.
-        bound : {"lower", "nominal", "upper"}
-            The bound.
-        superstructure : Superstructure, optional
-            What stands on it.
-        extremes : Extremes
-            The system with nominal and with upper properties.
-
-        Returns
-        -------
-        BoundResult
-            The analysis.
-
-        Raises
-        ------
-        CheckError
-            If the spectrum has no S_MS or S_M1, or no displacement is found.
-        """
+    def require(self, spectrum: Spectrum, above: Superstructure | None) -> None:
+        """Raise a CheckError if the spectrum has no S_MS or S_M1."""
         missing = [name for name in ("S_MS", "S_M1") if name not in spectrum.parameters]
         if missing:
             msg = f"the spectrum has no {' and '.join(missing)}: give one made by Spectrum.asce7"
             raise CheckError(msg)
-        s_m1 = spectrum.parameters["S_M1"]
 
-        def step(displacement: float) -> Trace:
-            t = enter_system(system)
-            t.given("S_MS", spectrum.parameters["S_MS"], note="in g")
-            t.given("S_M1", s_m1, note="in g")
-            t.given("D_0", displacement, "m", note="assumed, and found again")
-            secant(t, "D_0", _SYMBOLS, "ASCE 7-22 17.2.8, (17.5-2)")
-            factor = spectrum.damping_factor(t.value("beta_M"))
-            t.looked_up("B_M", factor, ["beta_M"], source="ASCE 7-22 Table 17.5-1")
-            source = "ASCE 7-22 (17.5-1)"
-            if spectrum.shape != MULTI_PERIOD:
-                formula = "g * S_M1 * T_M / (4 * pi**2 * B_M)"
-                t("D_M", formula, "m", source=source, shown="mm", note=_BY_S_M1)
-                return t
-            level = float(spectrum.acceleration(t.value("T_M"))) / t.value("g")
-            t.looked_up("S_aM", level, ["T_M"], source=source, note="in g, multi-period spectrum")
-            t("D_M", "g * S_aM * T_M**2 / (4 * pi**2 * B_M)", "m", source=source, shown="mm")
+    def first_displacement(self, system: IsolationSystem, spectrum: Spectrum) -> float:
+        """Return the displacement at which the search begins [m]."""
+        return system.gravity * spectrum.parameters["S_M1"] / 10.0
+
+    def step(self, system: IsolationSystem, spectrum: Spectrum, displacement: float) -> Trace:
+        """Return D_M of an assumed displacement [m]."""
+        t = enter_system(system)
+        t.given("S_MS", spectrum.parameters["S_MS"], note="in g")
+        t.given("S_M1", spectrum.parameters["S_M1"], note="in g")
+        t.given("D_0", displacement, "m", note="assumed, and found again")
+        secant(t, "D_0", self.symbols, "ASCE 7-22 17.2.8, (17.5-2)")
+        factor = spectrum.damping_factor(t.value("beta_M"))
+        t.looked_up("B_M", factor, ["beta_M"], source="ASCE 7-22 Table 17.5-1")
+        source = "ASCE 7-22 (17.5-1)"
+        if spectrum.shape != MULTI_PERIOD:
+            formula = "g * S_M1 * T_M / (4 * pi**2 * B_M)"
+            t("D_M", formula, "m", source=source, shown="mm", note=_BY_S_M1)
             return t
+        level = float(spectrum.acceleration(t.value("T_M"))) / t.value("g")
+        t.looked_up("S_aM", level, ["T_M"], source=source, note="in g, multi-period spectrum")
+        t("D_M", "g * S_aM * T_M**2 / (4 * pi**2 * B_M)", "m", source=source, shown="mm")
+        return t
 
-        start = system.gravity * s_m1 / 10.0
-        t, rounds = iterate_displacement(step, start, _SYMBOLS, held_by(system, spectrum))
+    def totals(self, t: Trace, system: IsolationSystem, spectrum: Spectrum) -> None:
+        """Enter D_TM, and D_T of each bearing."""
         if doubt := spectrum.beyond_points(t.value("T_M")):
-            warnings.warn(doubt, MotionWarning, stacklevel=4)
-        for pendulum in system.pendulums:
-            pendulum.require_sliding(t.value("D_M"))
-        self._total(t, system)
-        t("V_b", "k_M * D_M", "N", source="ASCE 7-22 (17.5-5)")
-        judge = CheckBuilder(t, bound, MEMORY, level=MCE_R, values=VALUES, analysis=self)
-        checks = self._device_checks(t, system, judge)
-        if superstructure is not None:
-            self._shears(t, superstructure, spectrum, extremes)
-            checks += self._structure_checks(t, superstructure, judge)
-            overturning(t, "M_o", "o")
-            known = judge.resting_on("overturning")
-            checks += overturning_check(t, known, "ASCE 7-22 17.2.4.7")
-            clause = "ASCE 7-22 17.2.4.6, 17.2.4.7"
-            vertical = judge.resting_on("vertical loads")
-            checks += vertical_checks(t, system, vertical, clause, self.pressure_limit)
-        forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
-        return BoundResult(bound, t, _SYMBOLS, rounds, t.values("D_T"), forces, checks)
-
-    def _total(self, t: Trace, system: IsolationSystem) -> None:
+            warnings.warn(doubt, MotionWarning, stacklevel=5)
         source = "ASCE 7-22 (17.5-3)"
         t.given("a_e", self.accidental_eccentricity, source="ASCE 7-22 17.5.3.3")
         t.given("a_T", self.least_torsion, source="ASCE 7-22 17.5.3.3")
@@ -255,7 +194,8 @@ class ASCE7:
         t.each("D_T", "max(D_Tx, D_Ty)", "m", shown="mm")
         t("D_TM", "max(D_T)", "m", source=source, shown="mm")
 
-    def _device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+    def device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+        """Return the checks of rims, restoring force and limits of the procedure."""
         enter_restoring(t, "D_M", self.restoring)
         t.given("T_lim", self.longest_period, "s")
         t.given("beta_lim", self.most_damping, shown="%")
@@ -278,13 +218,10 @@ class ASCE7:
             ]
         )
 
-    def _shears(
-        self,
-        t: Trace,
-        above: Superstructure,
-        spectrum: Spectrum,
-        extremes: Extremes,
+    def shears(
+        self, t: Trace, above: Superstructure, spectrum: Spectrum, extremes: Extremes
     ) -> None:
+        """Enter V_s and its least values, the forces of the floors, and least ones of histories."""
         enter_storeys(t, above)
         t("W_s", "sum(w_x)", "N")
         t.given("n_beta", self.exponent, source="ASCE 7-22 (17.5-7)")
@@ -302,9 +239,7 @@ class ASCE7:
         self._response_coefficient(t, spectrum)
         t("V_fixed", "C_s * W_s", "N", source=least)
         t.given("V_wind", above.wind_shear, "N", source=least)
-        t.given("Q_nom", extremes.nominal.strength, "N", note="starts sliding, nominal properties")
-        t.given("Q_up", extremes.upper.strength, "N", note="starts sliding, upper properties")
-        t.given("a_Q", self.activation)
+        enter_activation(t, extremes, self.activation)
         t("V_act", "max(Q_up, a_Q * Q_nom)", "N", source=least)
         t("V_s", "max(V_red, V_fixed, V_wind, V_act)", "N", source="ASCE 7-22 17.5.4")
         t.given("T_fb", above.fixed_base_period, "s")
@@ -346,7 +281,8 @@ class ASCE7:
         t("V_b_dyn", "0.9 * V_b", "N", source=source, note=note)
         t("V_s_dyn", "a_dyn * V_s", "N", source=source, note=note)
 
-    def _structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
+    def structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
+        """Return the limits of the procedure for the structure, and its drifts."""
         limits = "ASCE 7-22 17.4.1"
 
         t.given("a_fb", self.period_ratio)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, TypeVar
 
@@ -15,8 +14,8 @@ from lir_element import LIRBearing
 from lir_element.argument_checks import (
     require_choice,
     require_non_negative,
-    require_positive,
     require_type,
+    require_within,
 )
 
 if TYPE_CHECKING:
@@ -64,13 +63,7 @@ class PropertyModificationFactors:
     trace: Trace = field(default_factory=Trace, compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        require_positive("lower factor", self.lower, "-", error=CheckError)
-        if not self.lower <= 1.0 <= self.upper < math.inf:
-            msg = (
-                f"factors {self.lower:g} and {self.upper:g}: give the lower at most 1, the upper "
-                "at least 1"
-            )
-            raise CheckError(msg)
+        require_around_one("properties", (self.lower, self.upper))
 
     @classmethod
     def asce7(
@@ -292,10 +285,17 @@ def _pendulum(pendulum: Pendulum, factor: float) -> Pendulum:
 
 
 def _enter(t: Trace, name: str, pair: Range) -> None:
-    low, high = pair
-    require_positive(f"lower factor of {name}", low, "-", error=CheckError)
-    if not low <= 1.0 <= high < math.inf:
-        msg = f"factors of {name} = {pair}: give the lower at most 1, the upper at least 1"
-        raise CheckError(msg)
+    low, high = require_around_one(name, pair)
     t.given(f"lambda_{name}_min", low)
     t.given(f"lambda_{name}_max", high)
+
+
+def require_around_one(name: str, pair: Range) -> Range:
+    """Return a lower and an upper factor [-] if 1 is between them, or raise."""
+    how = "give the lower at most 1, the upper at least 1"
+    ends = zip(("lower", "upper"), pair, ("(0, 1]", "[1, inf)"), strict=True)
+    low, high = (
+        require_within(f"{end} factor of {name}", factor, within, remedy=how, error=CheckError)
+        for end, factor, within in ends
+    )
+    return low, high

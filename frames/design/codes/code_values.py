@@ -2,13 +2,248 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+import re
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from frames.design._errors import CheckError
-from frames.design.calculation.standing import MEMORY, Standing
+from frames.design.calculation.standing import MEMORY, OWN, Standing
+from frames.design.calculation.unevaluated import NOT_EVALUATED
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping
+
+    from frames.design.calculation.check import Check
+
+State = Literal["checked", "not checked", "yours"]
+
+RUN = "lir run"
+"""Makes the checks that a project has before its time histories not yet."""
+
+NO_CHECK = "since no check of it was made"
+"""Reason of a provision that should have been checked."""
+
+NEEDS: Mapping[str, str] = {
+    "superstructure": "there is no [superstructure] with R",
+    "wind": "no wind shear is given ([superstructure] wind_shear)",
+    "combinations": "no load cases of dead, live and snow load are known ([loads] gives them)",
+    "service": "no displacement is given ([superstructure] service_displacement)",
+    "gap": "no clear distance is given ([limits] moat_gap)",
+    "room": "no clear distance is given ([limits] moat_gap, or walls in [moat])",
+    "storey stiffness": 'only a structure of kind "shear building" has the stiffness of a storey; '
+    "the drifts of time histories are checked",
+    "storeys": "the model names fewer than two levels",
+    "moved": "no time history has its masses moved ([analysis] accidental_eccentricity)",
+    "bounds": "[analysis] bounds has neither lower nor upper",
+    "pressure": "no pressure is given ([limits] interface_pressure)",
+    "liner": "no pressure is given ([limits] liner_pressure)",
+    "rim strength": "no strength of the rims is given ([limits] rim_strength)",
+    "near fault": "no motion is marked near_fault",
+}
+"""Facts that checks need, each with the reason if a project lacks it."""
+
+
+class Provision(NamedTuple):
+    """A provision of a code, with the checks that are made of it.
+
+    Attributes
+    ----------
+    clause : str
+        Clause.
+    what : str
+        What it asks, in a few words.
+    checks : tuple of str
+        How the titles of its checks begin: all of them must be made. None: it is not checked.
+    needs : tuple of str
+        Facts of `NEEDS` without which they are not made.
+    why : str
+        Why no check is made, or how the engineer shows it.
+    yours : bool
+        Whether no program can check it, or this one leaves it to the engineer.
+    only : str
+        Fact of the structures that it is for, such as "walls"; of all if empty.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> code_named("ASCE 7-22").provisions[0].what
+    'rims are not met at D_TM'
+    """
+
+    clause: str
+    what: str
+    checks: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
+    why: str = ""
+    yours: bool = False
+    only: str = ""
+
+
+class ProvisionState(NamedTuple):
+    """Whether a provision is checked in a project.
+
+    Attributes
+    ----------
+    clause : str
+        Clause, with a star where it is from memory.
+    what : str
+        What it asks.
+    state : {"checked", "not checked", "yours"}
+        Whether a check of it was made.
+    how : str
+        Titles of its checks, why there is none, or how the engineer shows it.
+    """
+
+    clause: str
+    what: str
+    state: State
+    how: str
+
+    @property
+    def said(self) -> str:
+        """The provision in a sentence."""
+        return f"{self.what}: {self.state}{', ' if self.state != 'yours' else ': '}{self.how}"
+
+
+def yours(clause: str, what: str, why: str, only: str = "") -> Provision:
+    """Return a provision that the engineer shows, and how."""
+    return Provision(clause, what, why=why, yours=True, only=only)
+
+
+NO_CODE = "no code"
+"""Clause of provisions that no code has."""
+
+OF_BEARINGS = (
+    Provision(
+        NO_CODE,
+        "the interface holds until a rim is met",
+        ("interface holds until a rim is met",),
+    ),
+    Provision(
+        NO_CODE,
+        "slip of the interface",
+        ("slip over the overlap", "slip over its stable limit s*", "residual slip"),
+    ),
+    Provision(NO_CODE, "eccentricity of the resultant e/a", ("normalised eccentricity e/a",)),
+    Provision(
+        NO_CODE,
+        "strength of the rims",
+        ("rim force", "interface slips before the rim breaks"),
+        ("rim strength",),
+    ),
+    Provision(
+        NO_CODE,
+        "forces at 3 times the default axial stiffness, where rims are met with a slip",
+        why="since no run has it: give the axial stiffness, and run again",
+    ),
+    Provision(
+        NO_CODE,
+        "pressure on the sliders' overlap",
+        ("pressure on the sliders' overlap",),
+        ("pressure",),
+    ),
+    Provision(
+        NO_CODE,
+        "pressure of the liners",
+        ("pressure on the liner around its resultant",),
+        ("liner",),
+    ),
+    Provision(NO_CODE, "movements in service", ("no restrainer contact in service",), ("service",)),
+    Provision(
+        NO_CODE,
+        "clear distance under the time histories",
+        ("clearance to the moat wall", "moat wall is not met in any run"),
+        ("gap",),
+    ),
+    Provision(
+        NO_CODE,
+        "clear distance at the corners of the slab",
+        why="since displacements are held against it at the bearings alone",
+    ),
+    yours(NO_CODE, "strength of members and connections", "members.csv has their forces"),
+    yours(
+        NO_CODE,
+        "foundations, pedestals and the slab above the bearings",
+        "reactions.csv has the forces; moments of N times half of the displacement come on top",
+    ),
+    yours(
+        NO_CODE, "strength of walls in shear and at their edges", "members.csv has forces", "walls"
+    ),
+    yours(NO_CODE, "stroke and force of dampers", "links.csv has both", "dampers"),
+    Provision(
+        NO_CODE,
+        "rotation of plastic hinges and ductility of links",
+        why="since no limit of them can be given",
+        only="yields",
+    ),
+)
+"""Provisions that a bearing and its structure have under every code."""
+
+
+def states_of(
+    provisions: Iterable[Provision],
+    facts: Collection[str],
+    checks: Iterable[Check],
+    *,
+    is_run: bool = True,
+) -> tuple[ProvisionState, ...]:
+    """Return whether each provision is checked in a project."""
+    made = tuple(checks)
+    return tuple(
+        _state(one, facts, made, is_run) for one in provisions if not one.only or one.only in facts
+    )
+
+
+def checks_of_provision(one: Provision, checks: Iterable[Check]) -> list[Check]:
+    """Return the checks that are made of a provision; a code's are none but those that cite one."""
+    own = one.clause.startswith(NO_CODE)
+    return [
+        check
+        for check in checks
+        if (own or not check.clause.startswith(NO_CODE))
+        and any(_begins(check, title) for title in one.checks)
+    ]
+
+
+def _begins(check: Check, title: str) -> bool:
+    return re.fullmatch(rf"{re.escape(title)}([,:] .*| above .*)?", check.title) is not None
+
+
+def _state(
+    one: Provision, facts: Collection[str], made: Iterable[Check], is_run: bool
+) -> ProvisionState:
+    standing = OWN if one.clause.startswith(NO_CODE) else MEMORY
+    if one.yours:
+        return ProvisionState(standing.cited(one.clause), one.what, "yours", one.why)
+    lacking = next((NEEDS[name] for name in one.needs if name not in facts), "")
+    found = checks_of_provision(one, made)
+    clause = found[0].cited if found else standing.cited(one.clause)
+    blind = next((check for check in found if not _is_made(check)), None)
+    if blind is not None:
+        why = blind.note.partition("; ")[0] if NOT_EVALUATED in blind.title else "it has no limit"
+        return ProvisionState(clause, one.what, "not checked", f"since {why}")
+    whole = all(any(_begins(check, title) for check in found) for title in one.checks)
+    if found and whole and not lacking:
+        titles = dict.fromkeys(check.title for check in found)
+        return ProvisionState(clause, one.what, "checked", "; ".join(titles))
+    if one.checks and not lacking and not is_run:
+        return ProvisionState(clause, one.what, "checked", RUN)
+    why = one.why or (f"since {lacking}" if lacking else NO_CHECK)
+    return ProvisionState(clause, one.what, "not checked", why)
+
+
+def _is_made(check: Check) -> bool:
+    return NOT_EVALUATED not in check.title and check.verdict != "no limit"
+
+
+def not_checked(states: Iterable[ProvisionState]) -> list[str]:
+    """Return the provisions that are not checked, each in a sentence with its reason."""
+    return [one.said for one in states if one.state == "not checked"]
+
+
+def left_to_the_engineer(states: Iterable[ProvisionState]) -> list[str]:
+    """Return the provisions that the engineer shows, by their names."""
+    return [one.what for one in states if one.state == "yours"]
+
 
 E031 = Standing("agrees", "E.031 of Peru (DS 030-2019-VIVIENDA)")
 E031_FACTORS = Standing("agrees", "E.031 of Peru (DS 030-2019-VIVIENDA), eq. 1 and 2")

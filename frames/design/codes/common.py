@@ -1,14 +1,19 @@
-"""What the codes share of torsion, overturning, vertical loads, rims and drifts."""
+"""What the codes share: the order of an equivalent-linear analysis, and its common steps."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+import abc
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, ClassVar
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.check import Bound, Check, Checks
+from frames.design.calculation.standing import MEMORY
 from frames.design.calculation.unevaluated import not_evaluated
-from frames.design.codes.secant import CheckBuilder
+from frames.design.codes.code_values import CodeValue
+from frames.design.codes.outcome import BoundResult, Iteration, Symbols
+from frames.design.codes.secant import CheckBuilder, held_by, iterate_displacement
 from lir_element.device.bearing import LIRBearing
 
 _SAME_CENTRE = 1e-3
@@ -16,8 +21,152 @@ _SAME_CENTRE = 1e-3
 
 if TYPE_CHECKING:
     from frames.design.calculation.trace import Trace
-    from frames.design.codes.isolation import IsolationSystem
+    from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.superstructure import Superstructure
+    from frames.design.hazard.spectrum import Spectrum
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinearAnalysis(abc.ABC):
+    """An equivalent-linear analysis: its steps in the order of all codes; a code gives formulas.
+
+    A code's class gives what is abstract here; class variables name its symbols and clauses. Its
+    factors are fields of a frozen dataclass (docs/extending.md).
+    """
+
+    name: ClassVar[str]
+    symbols: ClassVar[Symbols]
+    each: ClassVar[str]
+    """Symbol of the displacement of each bearing, torsion included."""
+    sliding: ClassVar[str] = ""
+    """Symbol of the displacement at which all must slide, if not the central one."""
+    level: ClassVar[str] = ""
+    """Level of the seismic action of the checks."""
+    loads_level: ClassVar[str] = ""
+    """The same of overturning and vertical loads, if another."""
+    values: ClassVar[Mapping[str, CodeValue]] = {}
+    shear_clause: ClassVar[str] = ""
+    overturning_clause: ClassVar[str] = ""
+    vertical_clause: ClassVar[str] = ""
+
+    accidental_eccentricity: float = 0.05
+    restoring: float = 0.025
+    orthogonal: float = 0.3
+    pressure_limit: float | None = None
+
+    def analyse(
+        self,
+        system: IsolationSystem,
+        spectrum: Spectrum,
+        bound: Bound,
+        superstructure: Superstructure | None,
+        extremes: Extremes,
+    ) -> BoundResult:
+        """Return analysis and checks at one bound.
+
+        Parameters
+        ----------
+        system : IsolationSystem
+            With properties at that bound.
+        spectrum : Spectrum
+            Of the level that the code's analysis is for.
+        bound : {"lower", "nominal", "upper"}
+            The bound.
+        superstructure : Superstructure, optional
+            What stands on it.
+        extremes : Extremes
+            The system with nominal and with upper properties.
+
+        Returns
+        -------
+        BoundResult
+            The analysis.
+
+        Raises
+        ------
+        CheckError
+            If the spectrum or the superstructure lacks what the code needs, or no displacement is
+            found.
+        """
+        self.require(spectrum, superstructure)
+        t, rounds = self.settled(system, spectrum)
+        for pendulum in system.pendulums:
+            pendulum.require_sliding(t.value(self.sliding or self.symbols.displacement))
+        self.totals(t, system, spectrum)
+        self.base_shear(t, spectrum, extremes)
+        judge = CheckBuilder(t, bound, MEMORY, level=self.level, values=self.values, analysis=self)
+        checks, forces = self.device_checks(t, system, judge), tuple[float, ...]()
+        if superstructure is not None:
+            self.shears(t, superstructure, spectrum, extremes)
+            checks += self.structure_checks(t, superstructure, judge)
+            loads = judge.at(self.loads_level or self.level)
+            overturning(t, "M_o", "o")
+            known = loads.resting_on("overturning")
+            checks += overturning_check(t, known, self.overturning_clause)
+            known = loads.resting_on("vertical loads")
+            checks += vertical_checks(t, system, known, self.vertical_clause, self.pressure_limit)
+            checks += self.further_checks(t, superstructure, judge)
+            forces = (t.value("F_1"), *t.values("F_x"))
+        return BoundResult(bound, t, self.symbols, rounds, t.values(self.each), forces, checks)
+
+    def require(  # noqa: B027  # most codes need nothing
+        self, spectrum: Spectrum, above: Superstructure | None
+    ) -> None:
+        """Raise a CheckError if something that the analysis needs is not given."""
+
+    def settled(
+        self, system: IsolationSystem, spectrum: Spectrum
+    ) -> tuple[Trace, tuple[Iteration, ...]]:
+        """Return the calculation whose assumed and found displacements agree, and its rounds."""
+
+        def step(displacement: float) -> Trace:
+            return self.step(system, spectrum, displacement)
+
+        first, held = self.first_displacement(system, spectrum), held_by(system, spectrum)
+        return iterate_displacement(step, first, self.symbols, held)
+
+    def first_displacement(self, system: IsolationSystem, spectrum: Spectrum) -> float:
+        """Return the displacement at which the search begins [m]."""
+        return 0.1
+
+    @abc.abstractmethod
+    def step(self, system: IsolationSystem, spectrum: Spectrum, displacement: float) -> Trace:
+        """Return the displacement that stiffness and damping at an assumed one give [m]."""
+
+    @abc.abstractmethod
+    def totals(self, t: Trace, system: IsolationSystem, spectrum: Spectrum) -> None:
+        """Enter torsion, and the displacement of each bearing."""
+
+    def base_shear(self, t: Trace, spectrum: Spectrum, extremes: Extremes) -> None:
+        """Enter the shear of the isolation system."""
+        k, d = self.symbols.stiffness, self.symbols.displacement
+        t(self.symbols.base_shear, f"{k} * {d}", "N", source=self.shear_clause)
+
+    @abc.abstractmethod
+    def device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+        """Return the checks of the bearings and of the procedure."""
+
+    def shears(
+        self, t: Trace, above: Superstructure, spectrum: Spectrum, extremes: Extremes
+    ) -> None:
+        """Enter the forces F_1 and F_x, the moment M_o, and o, the other direction's share."""
+        msg = f"{self.name} has no forces above the bearings: leave the superstructure out"
+        raise CheckError(msg)
+
+    def structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
+        """Return the checks of the structure above."""
+        return Checks()
+
+    def further_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
+        """Return checks that come last."""
+        return Checks()
+
+
+def enter_activation(t: Trace, extremes: Extremes, activation: float) -> None:
+    """Enter Q_nom and Q_up, the forces that start sliding, and a_Q, the factor on the former."""
+    t.given("Q_nom", extremes.nominal.strength, "N", note="starts sliding, nominal properties")
+    t.given("Q_up", extremes.upper.strength, "N", note="starts sliding, upper properties")
+    t.given("a_Q", activation)
 
 
 def eccentricities(

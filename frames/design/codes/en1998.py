@@ -7,25 +7,20 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import Bound, Check, Checks
-from frames.design.calculation.standing import MEMORY
-from frames.design.codes.acceptance_rules import AcceptanceRule
+from frames.design.calculation.check import Check, Checks
 from frames.design.codes.common import (
+    LinearAnalysis,
     capacity_check,
     drift_checks,
     eccentricities,
     enter_restoring,
     enter_storeys,
-    overturning,
-    overturning_check,
-    vertical_checks,
 )
 from frames.design.codes.factor_sources import factors_of_en1998
-from frames.design.codes.history_rules import HistoryRules
-from frames.design.codes.levels import DESIGN
+from frames.design.codes.history_rules import DESIGN, HistoryRules
 from frames.design.codes.load_rules import LoadRule, fixed_combinations
-from frames.design.codes.outcome import BoundResult, Symbols
-from frames.design.codes.prototype_programme import DesignToTest, PlannedTest
+from frames.design.codes.outcome import Symbols
+from frames.design.codes.prototype_programme import AcceptanceRule, DesignToTest, PlannedTest
 from frames.design.codes.registry import (
     MOST_IMPORTANT,
     NO_LIMITS,
@@ -38,8 +33,6 @@ from frames.design.codes.registry import (
 from frames.design.codes.secant import (
     CheckBuilder,
     enter_system,
-    held_by,
-    iterate_displacement,
     secant,
 )
 from frames.design.codes.values_of_en1998 import PROVISIONS, VALUES
@@ -49,21 +42,19 @@ from frames.design.hazard.spectrum import Spectrum
 _SMALLEST_ETA = 0.55
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from frames.design.calculation.trace import Trace
+    from frames.design.codes.code_values import CodeValue
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.superstructure import Superstructure
-
-_SYMBOLS = Symbols("d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s", allowed="d_max")
-
 
 _DRIFTS = {"brittle": 0.005, "ductile": 0.0075, "separate": 0.010}
 """Limits of nu d_r over the height by the non-structural elements (EN 1998-1 4.4.3.2)."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class EN1998:
+class EN1998(LinearAnalysis):
     """Factors of EN 1998-1 and -2 and EN 15129; `CODE.values` tells how well each is known.
 
     Parameters
@@ -111,26 +102,13 @@ class EN1998:
 
     Examples
     --------
-    >>> from frames.design import EN1998, IsolationSystem, PropertyBounds
-    >>> from frames.design import PropertyModificationFactors, Spectrum, equivalent_linear
-    >>> from lir_element import LIRBearing
-    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
-    ...                      friction=0.06, interface_friction=0.25)
-    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
-    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
-    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
-    >>> target = Spectrum.en1998(2.4, "C")
-    >>> linear = equivalent_linear(system, target, bounds=bounds, code=EN1998(reliability=1.5))
-    >>> linear.code, round(1e3 * linear["lower"].trace.value("d_bd"))  # mm
-    ('EN 1998', 122)
+    In the how-to: "Design checks and equivalent-linear analysis" (docs/design_checks.md).
     """
 
     reliability: float = 1.2
-    accidental_eccentricity: float = 0.05
     behaviour: float = 1.5
     energy_ratio: float = 0.25
     recentring: float = 0.5
-    restoring: float = 0.025
     stiffness_ratio: float = 0.5
     most_damping: float = 0.30
     property_variation: float | None = None
@@ -147,63 +125,48 @@ class EN1998:
     accumulated: float = 0.5
     drift: float = 0.005
     reduction: float = 0.5
-    orthogonal: float = 0.3
-    pressure_limit: float | None = None
     name: ClassVar[str] = "EN 1998"
+    symbols: ClassVar[Symbols] = Symbols(
+        "d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s", allowed="d_max"
+    )
+    each: ClassVar[str] = "d_bi"
+    level: ClassVar[str] = DESIGN
+    values: ClassVar[Mapping[str, CodeValue]] = VALUES
+    shear_clause: ClassVar[str] = "EN 1998-1 10.9.3"
+    overturning_clause: ClassVar[str] = "EN 1998-1 4.4.2.4"
+    vertical_clause: ClassVar[str] = "EN 15129 8.3, EN 1998-1 10.10"
 
-    def analyse(
-        self,
-        system: IsolationSystem,
-        spectrum: Spectrum,
-        bound: Bound,
-        superstructure: Superstructure | None,
-        extremes: Extremes,
-    ) -> BoundResult:
-        """Return analysis and checks at one bound, as `ASCE7.analyse`; `extremes` is not used."""
-        if self.simplified:
-            self._require_simplified(superstructure)
+    def require(self, spectrum: Spectrum, above: Superstructure | None) -> None:
+        """Raise a CheckError if the simplified analysis lacks a distance or a period."""
+        vertical = None if above is None else above.vertical_period
+        if self.simplified and (self.fault_distance is None or vertical is None):
+            msg = (
+                "the limits of the simplified analysis need fault_distance of EN1998, and a "
+                "superstructure with its vertical_period: give them, or simplified=False"
+            )
+            raise CheckError(msg)
 
-        def step(displacement: float) -> Trace:
-            t = enter_system(system)
-            t.given("d_0", displacement, "m", note="assumed, and found again")
-            secant(t, "d_0", _SYMBOLS, "EN 1998-1 10.9.2; EN 15129 8.3")
-            damping = t.value("xi_eff")
-            factor = spectrum.damping_factor(damping)
-            t.looked_up("eta", 1.0 / factor, ["xi_eff"], source="EN 1998-1 (3.6)")
-            acceleration = spectrum.acceleration(t.value("T_eff"), damping)
-            at, source = ["T_eff", "xi_eff"], "EN 1998-1 3.2.2.2"
-            t.looked_up("S_e", float(acceleration), at, "m/s2", source=source)
-            t("M", "W / g", "kg", shown="t")
-            t("d_dc", "M * S_e / K_eff", "m", source="EN 1998-1 (10.4)", shown="mm")
-            return t
+    def first_displacement(self, system: IsolationSystem, spectrum: Spectrum) -> float:
+        """Return the displacement at which the search begins [m]."""
+        return 0.1 * max(p.effective_radius for p in system.pendulums)
 
-        start = 0.1 * max(p.effective_radius for p in system.pendulums)
-        t, rounds = iterate_displacement(step, start, _SYMBOLS, held_by(system, spectrum))
-        for pendulum in system.pendulums:
-            pendulum.require_sliding(t.value("d_dc"))
-        self._torsion(t, system)
-        t("V_b", "K_eff * d_dc", "N", source="EN 1998-1 10.9.3")
-        judge = CheckBuilder(t, bound, MEMORY, level=DESIGN, values=VALUES, analysis=self)
-        checks = self._device_checks(t, system, judge)
-        if superstructure is not None:
-            self._shears(t, superstructure)
-            t.given("nu", self.reduction, source="EN 1998-1 4.4.3.2")
-            clause = "EN 1998-1 4.4.3.2"
-            limit = self.drift
-            known = judge.resting_on("drift", "reduction", "behaviour")
-            checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="nu * q")
-            overturning(t, "M_o", "o")
-            known = judge.resting_on("overturning")
-            checks += overturning_check(t, known, "EN 1998-1 4.4.2.4")
-            clause = "EN 15129 8.3, EN 1998-1 10.10"
-            known = judge.resting_on("vertical loads")
-            checks += vertical_checks(t, system, known, clause, self.pressure_limit)
-            if self.simplified:
-                checks += self._simplified_checks(t, superstructure, judge)
-        forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
-        return BoundResult(bound, t, _SYMBOLS, rounds, t.values("d_bi"), forces, checks)
+    def step(self, system: IsolationSystem, spectrum: Spectrum, displacement: float) -> Trace:
+        """Return d_dc of an assumed displacement [m]."""
+        t = enter_system(system)
+        t.given("d_0", displacement, "m", note="assumed, and found again")
+        secant(t, "d_0", self.symbols, "EN 1998-1 10.9.2; EN 15129 8.3")
+        damping = t.value("xi_eff")
+        factor = spectrum.damping_factor(damping)
+        t.looked_up("eta", 1.0 / factor, ["xi_eff"], source="EN 1998-1 (3.6)")
+        acceleration = spectrum.acceleration(t.value("T_eff"), damping)
+        at, source = ["T_eff", "xi_eff"], "EN 1998-1 3.2.2.2"
+        t.looked_up("S_e", float(acceleration), at, "m/s2", source=source)
+        t("M", "W / g", "kg", shown="t")
+        t("d_dc", "M * S_e / K_eff", "m", source="EN 1998-1 (10.4)", shown="mm")
+        return t
 
-    def _torsion(self, t: Trace, system: IsolationSystem) -> None:
+    def totals(self, t: Trace, system: IsolationSystem, spectrum: Spectrum) -> None:
+        """Enter d_bd, d_max, and d_bi of each bearing."""
         t.given("a_e", self.accidental_eccentricity, source="EN 1998-1 4.3.2")
         source = "EN 1998-1 (10.5)"
         eccentricities(t, system, "a_e", "EN 1998-1 4.3.2", by_direction=True)
@@ -220,7 +183,8 @@ class EN1998:
         t("d_bd", "max(d_bi)", "m", shown="mm")
         t("d_max", "max(d_Ed)", "m", shown="mm", note="that bearings must allow")
 
-    def _device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+    def device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+        """Return the checks of capacity, recentring and limits of the procedure."""
         t.given("a_k", self.stiffness_ratio)
         t("K_02", "sum(P * (0.2 * d_dc / L + mu)) / (0.2 * d_dc)", "N/m", note="at 0.2 d_dc")
         t("K_lim", "a_k * K_02", "N/m")
@@ -290,7 +254,10 @@ class EN1998:
             note="in Italy; the residual displacement at damage limitation counts where it is more",
         )
 
-    def _shears(self, t: Trace, above: Superstructure) -> None:
+    def shears(
+        self, t: Trace, above: Superstructure, spectrum: Spectrum, extremes: Extremes
+    ) -> None:
+        """Enter V_s and the forces of the floors."""
         enter_storeys(t, above)
         t.given("q", self.behaviour, source="EN 1998-1 10.10")
         source = "EN 1998-1 (10.9)"
@@ -302,16 +269,16 @@ class EN1998:
         t("M_o", "sum(f_x * h_x)", "N m", note="overturning, q = 1")
         t.given("o", self.orthogonal, source="EN 1998-1 4.3.3.5")
 
-    def _require_simplified(self, above: Superstructure | None) -> None:
-        vertical = None if above is None else above.vertical_period
-        if self.fault_distance is None or vertical is None:
-            msg = (
-                "the limits of the simplified analysis need fault_distance of EN1998, and a "
-                "superstructure with its vertical_period: give them, or simplified=False"
-            )
-            raise CheckError(msg)
+    def structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
+        """Return the check of storey drifts."""
+        t.given("nu", self.reduction, source="EN 1998-1 4.4.3.2")
+        known, clause = judge.resting_on("drift", "reduction", "behaviour"), "EN 1998-1 4.4.3.2"
+        return drift_checks(t, above, known, clause, limit=self.drift, factor="nu * q")
 
-    def _simplified_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
+    def further_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
+        """Return the limits of the simplified analysis."""
+        if not self.simplified:
+            return Checks()
         t("B_plan", "max(b, d)", "m")
         t.given("B_lim", self.largest_side, "m")
         t.given("T_lim", self.longest_period, "s")

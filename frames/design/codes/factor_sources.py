@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 from frames.design._errors import CheckError
 from frames.design.calculation.trace import Trace
-from frames.design.codes.bounds import PropertyModificationFactors
+from frames.design.codes.bounds import PropertyModificationFactors, require_around_one
 
 if TYPE_CHECKING:
     Range = tuple[float, float]
@@ -48,7 +47,7 @@ def factors_by_source(**given: Any) -> PropertyModificationFactors:
     _refuse_others(given, tuple(_SYMBOLS))
     t, names = Trace(), []
     for source, (low, high) in given.items():
-        _require_around_one(source, (low, high))
+        require_around_one(source, (low, high))
         name = _SYMBOLS[source]
         t.given(f"lambda_{name}_min", low, note=source)
         t.given(f"lambda_{name}_max", high, note=source)
@@ -98,7 +97,7 @@ def factors_of_en1998(
     }
     _refuse_others(others, (*raising, "specification", "importance_class"))
     for source, (low, high) in raising.items():
-        _require_around_one(source, (low, high))
+        require_around_one(source, (low, high))
         if low < 1.0:
             msg = (
                 f"{source} = [{low:g}, {high:g}]: EN 1998-2 annex JJ has factors that raise "
@@ -116,11 +115,4 @@ def _refuse_others(given: dict[str, Any], known: tuple[str, ...]) -> None:
     odd = [name for name in given if name not in known]
     if odd:
         msg = f"{odd[0]} is no source of factors of this code: it has {', '.join(known)}"
-        raise CheckError(msg)
-
-
-def _require_around_one(source: str, pair: Range) -> None:
-    low, high = pair
-    if not 0.0 < low <= 1.0 <= high < math.inf:
-        msg = f"{source} = [{low:g}, {high:g}]: give the lower at most 1, the upper at least 1"
         raise CheckError(msg)

@@ -2,19 +2,71 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import Literal, get_args
 
 from frames.design._errors import CheckError
-from frames.design.codes.levels import DESIGN, ActionLevel
-from lir_element.argument_checks import (
-    require_between,
-    require_choice,
-    require_non_negative,
-    require_positive,
-)
+from lir_element.argument_checks import require_choice
+from lir_element.fields import check_numbers, number
+
+Judged = Literal["all", "superstructure", "isolation"]
+
+MCE_R, DESIGN, MAXIMUM = "MCE_R", "design", "maximum"
+"""Names of levels."""
+
+NCH_MAXIMUM = 1.2
+"""M_M of NCh2745: maximum over design level, to be confirmed against the standard."""
+
+
+@dataclass(frozen=True)
+class ActionLevel:
+    """A level of the seismic action, and what is judged at it.
+
+    Parameters
+    ----------
+    name : str
+        As tables and checks show it.
+    factor : float
+        On motions that are scaled to the design spectrum [-], at least 1.
+    judges : {"all", "superstructure", "isolation"}
+        What is judged at this level: what stands on the bearings (base shear, storey shears and
+        drifts, accelerations), the bearings (displacement, rims, slip, forces, uplift), or both.
+
+    Raises
+    ------
+    CheckError
+        If the factor is out of bounds, or a word is none of those allowed.
+
+    Examples
+    --------
+    >>> from frames.design import HISTORY_RULES
+    >>> [level.name for level in HISTORY_RULES["NCh2745"].levels]
+    ['design', 'maximum']
+    """
+
+    name: str
+    factor: float = field(default=1.0, metadata=number("-", "[1, 10)"))
+    judges: Judged = "all"
+
+    def __post_init__(self) -> None:
+        check_numbers(self, error=CheckError)
+        require_choice("judges", self.judges, get_args(Judged), error=CheckError)
+
+    @property
+    def judges_bearings(self) -> bool:
+        """Whether the bearings are judged at this level."""
+        return self.judges != "superstructure"
+
+    @property
+    def judges_structure(self) -> bool:
+        """Whether what stands on the bearings is judged at this level."""
+        return self.judges != "isolation"
+
 
 MOST_ECCENTRIC = 0.25
 """Largest accidental eccentricity over the sides of the plan [-]; codes ask for 0.05."""
+
+_COUNT, _SHARE = number("-", "[1, 1000)"), number("-", "(0, inf)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,20 +134,27 @@ class HistoryRules:
     """
 
     code: str
-    least: int
-    mean_from: int
-    drift: float | None = None
-    drift_factor: float = 1.0
+    least: int = field(metadata=_COUNT)
+    mean_from: int = field(metadata=_COUNT)
+    drift: float | None = field(default=None, metadata=_SHARE)
+    drift_factor: float = field(default=1.0, metadata=number("-", "[0.1, 1]"))
     drift_classes: tuple[tuple[str, float], ...] = ()
-    second_order: float | None = None
-    displacement_factor: float = 1.0
+    second_order: float | None = field(default=None, metadata=_SHARE)
+    displacement_factor: float = field(default=1.0, metadata=number("-", "[1, 10)"))
     uplift_allowed: bool = False
-    least_gap: float = 1e-3
-    unacceptable_allowed: int = 0
+    least_gap: float = field(default=1e-3, metadata=number("m", "[0, inf)"))
+    unacceptable_allowed: int = field(default=0, metadata=number("-", "[0, inf)"))
     median_factor: float = 1.2
-    engagement: float | None = None
+    engagement: float | None = field(default=None, metadata=_SHARE)
     has_minima: bool = False
-    accidental_eccentricity: float = 0.0
+    accidental_eccentricity: float = field(
+        default=0.0,
+        metadata=number(
+            "-",
+            f"[0, {MOST_ECCENTRIC})",
+            remedy="0.05 is a twentieth of the plan's sides, 0 leaves it out",
+        ),
+    )
     levels: tuple[ActionLevel, ...] = (ActionLevel(DESIGN),)
     statistic_clause: str = ""
     displacement_clause: str = ""
@@ -111,26 +170,7 @@ class HistoryRules:
         return self.standard or self.code
 
     def __post_init__(self) -> None:
-        require_between("least", self.least, 1, 1000, "-", error=CheckError)
-        require_between("mean_from", self.mean_from, 1, 1000, "-", error=CheckError)
-        require_between(
-            "displacement_factor", self.displacement_factor, 1.0, 10.0, "-", error=CheckError
-        )
-        require_between(
-            "accidental_eccentricity",
-            self.accidental_eccentricity,
-            0.0,
-            MOST_ECCENTRIC,
-            "-",
-            remedy="0.05 is a twentieth of the plan's sides, 0 leaves it out",
-            error=CheckError,
-        )
-        require_between("drift_factor", self.drift_factor, 0.1, 1.0 + 1e-9, "-", error=CheckError)
-        require_non_negative("least_gap", self.least_gap, "m", error=CheckError)
-        require_non_negative("unacceptable_allowed", self.unacceptable_allowed, error=CheckError)
-        for name in ("drift", "second_order", "engagement"):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name), "-", error=CheckError)
+        check_numbers(self, error=CheckError)
         if not self.levels:
             msg = "levels is empty: give one level of the seismic action at least"
             raise CheckError(msg)

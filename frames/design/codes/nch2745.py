@@ -8,24 +8,27 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
-from frames.design.calculation.check import Bound, Checks
-from frames.design.calculation.standing import MEMORY
-from frames.design.codes.acceptance_rules import AcceptanceRule
+from frames.design.calculation.check import Checks
 from frames.design.codes.common import (
+    LinearAnalysis,
     capacity_check,
     drift_checks,
     eccentricities,
+    enter_activation,
     enter_restoring,
     enter_storeys,
-    overturning,
-    overturning_check,
-    vertical_checks,
 )
-from frames.design.codes.history_rules import HistoryRules
-from frames.design.codes.levels import DESIGN, MAXIMUM, NCH_MAXIMUM, ActionLevel
+from frames.design.codes.history_rules import (
+    DESIGN,
+    MAXIMUM,
+    NCH_MAXIMUM,
+    ActionLevel,
+    HistoryRules,
+)
 from frames.design.codes.load_rules import LoadRule, fixed_combinations
-from frames.design.codes.outcome import BoundResult, Symbols
+from frames.design.codes.outcome import Iteration, Symbols
 from frames.design.codes.prototype_programme import (
+    AcceptanceRule,
     DesignToTest,
     PlannedTest,
     increments,
@@ -58,14 +61,14 @@ from frames.design.hazard.spectral_shapes import (
 from frames.design.hazard.spectrum import Spectrum
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from frames.design.calculation.trace import Trace
+    from frames.design.codes.code_values import CodeValue
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.superstructure import Superstructure
 
 _DESIGN = Symbols("D_D", "D_TD", "k_D", "beta_D", "T_D", "B_D", "V_b", "V_s")
-_MAXIMUM = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
 GIVEN = "given"
 """Shape of spectra that are given point by point."""
 
@@ -73,7 +76,7 @@ _LONG = 4.0  # s, beyond all T_d
 
 
 @dataclass(frozen=True, kw_only=True)
-class NCh2745:
+class NCh2745(LinearAnalysis):
     """Factors of NCh2745; `CODE.values` tells how well each is known.
 
     Parameters
@@ -104,49 +107,33 @@ class NCh2745:
 
     Examples
     --------
-    >>> from frames.design import IsolationSystem, NCh2745, PropertyBounds
-    >>> from frames.design import PropertyModificationFactors, Spectrum, equivalent_linear
-    >>> from lir_element import LIRBearing
-    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
-    ...                      friction=0.06, interface_friction=0.25)
-    >>> system = IsolationSystem(bearings=(bearing,) * 4, loads=(1.5e6,) * 4, plan=(9.0, 9.0),
-    ...                          positions=((-4, -4), (4, -4), (4, 4), (-4, 4)))
-    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
-    >>> target = Spectrum.nch2745(soil="II", zone=3)
-    >>> linear = equivalent_linear(system, target, bounds=bounds, code=NCh2745(drift=0.002))
-    >>> linear.code, round(1e3 * linear["lower"].trace.value("D_TM"))  # mm
-    ('NCh2745', 228)
+    In the how-to: "Design checks and equivalent-linear analysis" (docs/design_checks.md).
     """
 
     maximum: float = NCH_MAXIMUM
-    accidental_eccentricity: float = 0.05
     least_torsion: float = 1.1
     largest_reduction: float = 2.0
-    restoring: float = 0.025
     activation: float = 1.5
     drift: float = 0.0025
-    orthogonal: float = 0.3
-    pressure_limit: float | None = None
     name: ClassVar[str] = "NCh2745"
+    symbols: ClassVar[Symbols] = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
+    each: ClassVar[str] = "D_TM_i"
+    sliding: ClassVar[str] = "D_D"
+    level: ClassVar[str] = DESIGN
+    loads_level: ClassVar[str] = MAXIMUM
+    values: ClassVar[Mapping[str, CodeValue]] = VALUES
+    overturning_clause: ClassVar[str] = "NCh2745 6.2"
+    vertical_clause: ClassVar[str] = "NCh2745 6.2"
 
-    def analyse(
-        self,
-        system: IsolationSystem,
-        spectrum: Spectrum,
-        bound: Bound,
-        superstructure: Superstructure | None,
-        extremes: Extremes,
-    ) -> BoundResult:
-        """Return analysis and checks at one bound, as `ASCE7.analyse`."""
-        held = held_by(system, spectrum)
-        design, _ = iterate_displacement(
-            lambda d: self._design(system, spectrum, d), 0.1, _DESIGN, held
-        )
+    def settled(
+        self, system: IsolationSystem, spectrum: Spectrum
+    ) -> tuple[Trace, tuple[Iteration, ...]]:
+        """Return the calculation at the maximum level, after that at the design level."""
 
-        def step(displacement: float) -> Trace:
+        def maximum(displacement: float) -> Trace:
             t = design.copy()
             t.given("D_0M", displacement, "m", note="assumed, and found again")
-            secant(t, "D_0M", _MAXIMUM, "NCh2745 7", "_M")
+            secant(t, "D_0M", self.symbols, "NCh2745 7", "_M")
             factor = spectrum.damping_factor(t.value("beta_M"))
             t.looked_up("B_M", factor, ["beta_M"], source="NCh2745 7.3")
             t.given("M_M", self.maximum)
@@ -158,32 +145,14 @@ class NCh2745:
             t("D_M", "C_M / B_M", "m", source="NCh2745 7.3", shown="mm")
             return t
 
-        t, rounds = iterate_displacement(step, design.value("D_D"), _MAXIMUM)
-        for pendulum in system.pendulums:
-            pendulum.require_sliding(t.value("D_D"))
-        self._totals(t, system)
-        _enter_cycles(t, spectrum)
-        friction = [p.effective_friction for p in extremes.upper.pendulums]
-        t.given_each("mu_up", friction, note="effective friction, upper properties")
-        t("k_Dmax", "sum(P * (D_D / L + mu_up)) / D_D", "N/m", source="NCh2745 7.4")
-        t("V_b", "k_Dmax * D_D", "N", source="NCh2745 7.4")
-        t("k_Mmax", "sum(P * (D_M / L + mu_up)) / D_M", "N/m", note="largest at D_M")
-        judge = CheckBuilder(t, bound, MEMORY, level=DESIGN, values=VALUES, analysis=self)
-        checks = self._device_checks(t, system, judge)
-        if superstructure is not None:
-            self._shears(t, superstructure, spectrum, extremes)
-            clause, limit = "NCh2745 7.6", self.drift
-            known = judge.resting_on("drift", "R_1", "F_x")
-            checks += drift_checks(t, superstructure, known, clause, limit=limit, factor="R_1")
-            overturning(t, "M_o", "o")
-            known = judge.resting_on("overturning").at(MAXIMUM)
-            checks += overturning_check(t, known, "NCh2745 6.2")
-            at = judge.resting_on("vertical loads").at(MAXIMUM)
-            checks += vertical_checks(t, system, at, "NCh2745 6.2", self.pressure_limit)
-        forces = (t.value("F_1"), *t.values("F_x")) if superstructure is not None else ()
-        return BoundResult(bound, t, _MAXIMUM, rounds, t.values("D_TM_i"), forces, checks)
+        held = held_by(system, spectrum)
+        design, _ = iterate_displacement(
+            lambda d: self.step(system, spectrum, d), 0.1, _DESIGN, held
+        )
+        return iterate_displacement(maximum, design.value("D_D"), self.symbols)
 
-    def _design(self, system: IsolationSystem, spectrum: Spectrum, displacement: float) -> Trace:
+    def step(self, system: IsolationSystem, spectrum: Spectrum, displacement: float) -> Trace:
+        """Return D_D of an assumed displacement [m]."""
         t = enter_system(system)
         t.given("D_0", displacement, "m", note="assumed, and found again")
         secant(t, "D_0", _DESIGN, "NCh2745 7")
@@ -199,7 +168,8 @@ class NCh2745:
         t("D_D", "C_D / B_D", "m", source="NCh2745 7.3", shown="mm")
         return t
 
-    def _totals(self, t: Trace, system: IsolationSystem) -> None:
+    def totals(self, t: Trace, system: IsolationSystem, spectrum: Spectrum) -> None:
+        """Enter D_TD, D_TM, those of each bearing, and the cycles of tests."""
         t.given("a_e", self.accidental_eccentricity, source="NCh2745 7.3")
         t.given("a_T", self.least_torsion, source="NCh2745 7.3")
         eccentricities(t, system, "a_e", "NCh2745 7.3", by_direction=False)
@@ -209,8 +179,18 @@ class NCh2745:
             formula = f"D_{level} * max(tau_x, tau_y, a_T)"
             t.each(f"D_T{level}_i", formula, "m", source="NCh2745 7.3", shown="mm")
             t(f"D_T{level}", f"max(D_T{level}_i)", "m", shown="mm")
+        _enter_cycles(t, spectrum)
 
-    def _device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+    def base_shear(self, t: Trace, spectrum: Spectrum, extremes: Extremes) -> None:
+        """Enter V_b, by the largest stiffness at D_D."""
+        friction = [p.effective_friction for p in extremes.upper.pendulums]
+        t.given_each("mu_up", friction, note="effective friction, upper properties")
+        t("k_Dmax", "sum(P * (D_D / L + mu_up)) / D_D", "N/m", source="NCh2745 7.4")
+        t("V_b", "k_Dmax * D_D", "N", source="NCh2745 7.4")
+        t("k_Mmax", "sum(P * (D_M / L + mu_up)) / D_M", "N/m", note="largest at D_M")
+
+    def device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+        """Return the checks of rims and restoring force."""
         enter_restoring(t, "D_D", self.restoring)
         note = "else bearings must allow 3 times the total design displacement, 3 D_TD"
         rims, back = judge.resting_on("capacity"), judge.resting_on("restoring")
@@ -221,17 +201,21 @@ class NCh2745:
             ]
         )
 
-    def _shears(
+    def structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
+        """Return the check of storey drifts."""
+        known = judge.resting_on("drift", "R_1", "F_x")
+        return drift_checks(t, above, known, "NCh2745 7.6", limit=self.drift, factor="R_1")
+
+    def shears(
         self, t: Trace, above: Superstructure, spectrum: Spectrum, extremes: Extremes
     ) -> None:
+        """Enter V_s and its least values, and the forces of the floors."""
         enter_storeys(t, above)
         t.given("R", above.R)
         t.given("R_max", self.largest_reduction)
         t("R_1", "max(min(R, R_max), 1)", source="NCh2745 7.4")
         t.given("V_wind", above.wind_shear, "N", source="NCh2745 7.4")
-        t.given("Q_nom", extremes.nominal.strength, "N", note="starts sliding, nominal properties")
-        t.given("Q_up", extremes.upper.strength, "N", note="starts sliding, upper properties")
-        t.given("a_Q", self.activation)
+        enter_activation(t, extremes, self.activation)
         _enter_fixed_base(t, spectrum)
         t("V_s", "max(V_b / R_1, V_fixed, V_wind, Q_up, a_Q * Q_nom)", "N", source="NCh2745 7.4")
         t.each("F_x", "V_s * w_x * h_x / sum(w_x * h_x)", "N", source="NCh2745 7.5")

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
-from lir_element.argument_checks import require_between, require_positive
+from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing
@@ -47,18 +47,15 @@ class FrictionPendulum:
     (0.038, 227.89)
     """
 
-    radii: tuple[float, ...]
-    frictions: tuple[float, ...]
-    capacity: float = math.inf
+    radii: tuple[float, ...] = field(metadata=number("m", "(0, inf)"))
+    frictions: tuple[float, ...] = field(metadata=number("-", "[0, 1)"))
+    capacity: float = field(default=math.inf, metadata=number("m", "(0, inf]"))
 
     def __post_init__(self) -> None:
         if len(self.radii) not in {1, 2} or len(self.radii) != len(self.frictions):
             msg = f"radii {self.radii}, frictions {self.frictions}: give one or two surfaces' pairs"
             raise CheckError(msg)
-        for radius, friction in zip(self.radii, self.frictions, strict=True):
-            require_positive("effective radius", radius, "m", error=CheckError)
-            require_between("friction", friction, 0.0, 1.0, "-", error=CheckError)
-        require_positive("capacity", self.capacity, "m", infinite=True, error=CheckError)
+        check_numbers(self, error=CheckError)
 
     @classmethod
     def of(cls, bearing: LIRBearing | FrictionPendulum) -> FrictionPendulum:

@@ -3,18 +3,55 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design._errors import CheckError
-from lir_element.argument_checks import require_non_negative, require_positive
+from lir_element.argument_checks import require_positive
+from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from frames.design.codes.code_values import CodeValue
     from frames.design.codes.outcome import BoundResult
     from frames.design.codes.pendulum import FrictionPendulum
     from lir_element import LIRBearing
+
+
+class AcceptanceRule(NamedTuple):
+    """What a code accepts of measured loops, of which tests of its programme.
+
+    Attributes
+    ----------
+    tests : tuple of str
+        How the names of these tests begin.
+    value : CodeValue
+        What is accepted, its clause, and how well it is known.
+
+    Examples
+    --------
+    >>> from frames.design import code_named
+    >>> rule = code_named("ASCE 7-22").accepted[-2]
+    >>> rule.tests, rule.value.clause
+    (('static',), 'ASCE 7-22 17.8.4')
+    """
+
+    tests: tuple[str, ...]
+    value: CodeValue
+
+    def holds_for(self, test: str) -> bool:
+        """Return whether it is of a test of the programme, by its name."""
+        return test.startswith(self.tests)
+
+
+def accepted_of(rules: Iterable[AcceptanceRule], test: str) -> str:
+    """Return what is accepted of a test, with clauses and stars, "; " between."""
+    return "; ".join(
+        f"{rule.value.what} ({rule.value.standing.cited(rule.value.clause)})"
+        for rule in rules
+        if rule.holds_for(test)
+    )
 
 
 def ordered_loads(loads: tuple[float, float]) -> tuple[float, float]:
@@ -86,19 +123,14 @@ class ProgrammeDemands:
     """
 
     loads: tuple[float, float] | None = None
-    wind: float | None = None
-    service: float | None = None
-    slip: float | None = None
-    impact_speed: float | None = None
-    slow_speed: float = 0.05
+    wind: float | None = field(default=None, metadata=number("N", "(0, inf)"))
+    service: float | None = field(default=None, metadata=number("m", "(0, inf)"))
+    slip: float | None = field(default=None, metadata=number("m", "[0, inf)"))
+    impact_speed: float | None = field(default=None, metadata=number("m/s", "(0, inf)"))
+    slow_speed: float = field(default=0.05, metadata=number("m/s", "(0, inf)"))
 
     def __post_init__(self) -> None:
-        for name, unit in (("wind", "N"), ("service", "m"), ("impact_speed", "m/s")):
-            if getattr(self, name) is not None:
-                require_positive(name, getattr(self, name), unit, error=CheckError)
-        if self.slip is not None:
-            require_non_negative("slip", self.slip, "m", error=CheckError)
-        require_positive("slow_speed", self.slow_speed, "m/s", error=CheckError)
+        check_numbers(self, error=CheckError)
         if self.loads is not None:
             ordered_loads(self.loads)
 

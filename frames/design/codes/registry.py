@@ -24,12 +24,11 @@ from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Bound
-    from frames.design.codes.acceptance_rules import AcceptanceRule
     from frames.design.codes.bounds import PropertyModificationFactors
-    from frames.design.codes.code_values import CodeValue
+    from frames.design.codes.code_values import CodeValue, Provision
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.outcome import BoundResult
-    from frames.design.codes.provisions import Provision
+    from frames.design.codes.prototype_programme import AcceptanceRule
     from frames.design.codes.superstructure import Superstructure
 
 

@@ -76,30 +76,10 @@ def held_by(system: IsolationSystem, spectrum: Spectrum) -> str:
 def iterate_displacement(
     step: Callable[[float], Trace], start: float, symbols: Symbols, held: str = ""
 ) -> tuple[Trace, tuple[Iteration, ...]]:
-    """Find the displacement at which stiffness and damping give that displacement.
+    """Find the displacement at which stiffness and damping give that displacement, in rounds.
 
-    Parameters
-    ----------
-    step : callable
-        Calculation from an assumed displacement [m].
-    start : float
-        First assumption [m].
-    symbols : Symbols
-        What the calculation calls displacement, stiffness, damping and period.
-    held : str
-        Peak acceleration and friction in words, for a message.
-
-    Returns
-    -------
-    Trace
-        Of the last round, whose assumed and found displacements agree.
-    tuple of Iteration
-        All rounds.
-
-    Raises
-    ------
-    CheckError
-        If they do not agree after 500 rounds, or nothing slides.
+    `step` is the calculation from an assumed displacement [m], `start` the first one; `held` says
+    peak acceleration and friction in words, for the message where nothing slides.
     """
     rounds: list[Iteration] = []
     assumed = start

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +10,8 @@ import numpy as np
 from frames.assembly.supports import above_bearings
 from frames.design._errors import CheckError
 from frames.statics.gravity import gravity
-from lir_element.argument_checks import require_non_negative, require_positive, require_vector
+from lir_element.argument_checks import require_vector
+from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:
     from frames.frame import Frame
@@ -57,35 +58,28 @@ class Superstructure:
     5.5
     """
 
-    fixed_base_period: float
-    storey_weights: tuple[float, ...]
-    storey_heights: tuple[float, ...]
-    R: float
-    importance: float = 1.0
-    storey_stiffness: tuple[float, ...] | None = None
-    wind_shear: float = 0.0
-    service_displacement: float = 0.0
-    vertical_period: float | None = None
+    fixed_base_period: float = field(metadata=number("s", "(0, inf)"))
+    storey_weights: tuple[float, ...] = field(metadata=number("N", "(0, inf)"))
+    storey_heights: tuple[float, ...] = field(metadata=number("m", "(0, inf)"))
+    R: float = field(metadata=number("-", "(0, inf)"))
+    importance: float = field(default=1.0, metadata=number("-", "(0, inf)"))
+    storey_stiffness: tuple[float, ...] | None = field(
+        default=None, metadata=number("N/m", "(0, inf)")
+    )
+    wind_shear: float = field(default=0.0, metadata=number("N", "[0, inf)"))
+    service_displacement: float = field(default=0.0, metadata=number("m", "[0, inf)"))
+    vertical_period: float | None = field(default=None, metadata=number("s", "(0, inf)"))
 
     def __post_init__(self) -> None:
         for name in ("storey_weights", "storey_heights", "storey_stiffness"):
             values = getattr(self, name)
-            if values is None:
-                continue
-            count = len(self.storey_weights)
-            for value in require_vector(name, values, count, error=CheckError):
-                require_positive(name, value, error=CheckError)
-            object.__setattr__(self, name, tuple(map(float, values)))
+            if values is not None:
+                found = require_vector(name, values, len(self.storey_weights), error=CheckError)
+                object.__setattr__(self, name, tuple(found.tolist()))
         if not self.storey_weights:
             msg = "storey_weights is empty: give the weight of one floor at least"
             raise CheckError(msg)
-        for name in ("fixed_base_period", "R", "importance"):
-            require_positive(name, getattr(self, name), error=CheckError)
-        require_non_negative("wind_shear", self.wind_shear, "N", error=CheckError)
-        given = self.service_displacement
-        require_non_negative("service_displacement", given, "m", error=CheckError)
-        if self.vertical_period is not None:
-            require_positive("vertical_period", self.vertical_period, "s", error=CheckError)
+        check_numbers(self, error=CheckError)
 
     @classmethod
     def from_frame(

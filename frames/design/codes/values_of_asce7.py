@@ -8,8 +8,9 @@ from frames.design.codes.code_values import (
     UFC_BNBC,
     USGS,
     CodeValue,
+    Provision,
+    yours,
 )
-from frames.design.codes.provisions import Provision, yours
 
 VALUES = {
     "damping factor": CodeValue("ASCE 7-22 table 17.5-1", "B_M by the damping", E031),

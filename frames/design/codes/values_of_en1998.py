@@ -1,7 +1,6 @@
 """What EN 1998 and EN 15129 give for isolation, value by value, and how well each is known."""
 
-from frames.design.codes.code_values import NTC, NTC_SLIDERS, CodeValue
-from frames.design.codes.provisions import NO_CODE, Provision, yours
+from frames.design.codes.code_values import NO_CODE, NTC, NTC_SLIDERS, CodeValue, Provision, yours
 from frames.design.hazard.spectral_shapes import EN1998_TABLES
 
 VALUES = {

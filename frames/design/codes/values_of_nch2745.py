@@ -1,7 +1,6 @@
 """What NCh2745 gives, value by value, and how well each is known."""
 
-from frames.design.codes.code_values import CodeValue
-from frames.design.codes.provisions import NO_CODE, Provision, yours
+from frames.design.codes.code_values import NO_CODE, CodeValue, Provision, yours
 from frames.design.hazard.spectral_shapes import NCH2745_TABLES
 
 VALUES = {

@@ -13,9 +13,10 @@ from frames.design.devices.bearing_numbers import (
     SURFACES,
     enter_bearing,
     enter_length,
+    liner_pressure,
+    pressure,
 )
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
-from frames.design.devices.overlap import liner_pressure, pressure
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, field
 
 from frames.design._errors import CheckError
-from lir_element.argument_checks import require_between
+from lir_element.fields import check_numbers, number
 
 PROJECT_LIMIT = "no code: limit of the project"
 """Clause of checks against a limit that the engineer sets."""
@@ -19,29 +18,9 @@ LANDING_PRESSURE = 90e6
 """Mean pressure on the sliders' overlap that is checked at a landing where none is given [Pa]."""
 
 
-class _Range(NamedTuple):
-    # What a limit can be: from the least, below the largest.
-    least: float
-    below: float
-    unit: str
-
-
-_FORCE = _Range(1.0, 1e10, "N")
-_PRESSURE = _Range(1e5, 1e10, "Pa")
-_LENGTH = _Range(1e-4, 5.0, "m")
-_RANGES = {
-    "margin": _Range(1.0, 10.0, "-"),
-    "eccentricity": _Range(0.01, 1.0 + 1e-9, "-"),
-    "drift": _Range(1e-5, 0.2, "-"),
-    "floor_acceleration": _Range(1e-3, 200.0, "m/s2"),
-    "rim_engagement": _Range(0.1, 1.0 + 1e-9, "-"),
-    "uplift_gap": _Range(1e-4, 0.5, "m"),
-    "rim_height": _Range(1e-3, 0.5, "m"),
-    "moat_gap": _Range(1e-2, 10.0, "m"),
-    **dict.fromkeys(("slip_left", "displacement_left"), _LENGTH),
-    **dict.fromkeys(("rim_strength", "lateral_force", "axial_force", "base_shear"), _FORCE),
-    **dict.fromkeys(("interface_pressure", "liner_pressure"), _PRESSURE),
-}
+_FORCE = number("N", "[1, 1e10)")
+_PRESSURE = number("Pa", "[1e5, 1e10)")
+_LENGTH = number("m", "[1e-4, 5)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -108,32 +87,26 @@ class DesignLimits:
     (1.6, 0.8)
     """
 
-    margin: float = 1.2
-    rim_strength: float | None = None
+    margin: float = field(default=1.2, metadata=number("-", "[1, 10)"))
+    rim_strength: float | None = field(default=None, metadata=_FORCE)
     rims_together: bool = False
-    eccentricity: float = 0.8
-    interface_pressure: float | None = None
-    liner_pressure: float | None = None
-    lateral_force: float | None = None
-    slip_left: float | None = None
-    uplift_gap: float | None = None
-    rim_height: float | None = None
-    axial_force: float | None = None
-    floor_acceleration: float | None = None
-    drift: float | None = None
-    base_shear: float | None = None
-    displacement_left: float | None = None
-    rim_engagement: float | None = None
-    moat_gap: float | None = None
+    eccentricity: float = field(default=0.8, metadata=number("-", "[0.01, 1]"))
+    interface_pressure: float | None = field(default=None, metadata=_PRESSURE)
+    liner_pressure: float | None = field(default=None, metadata=_PRESSURE)
+    lateral_force: float | None = field(default=None, metadata=_FORCE)
+    slip_left: float | None = field(default=None, metadata=_LENGTH)
+    uplift_gap: float | None = field(default=None, metadata=number("m", "[1e-4, 0.5)"))
+    rim_height: float | None = field(default=None, metadata=number("m", "[1e-3, 0.5)"))
+    axial_force: float | None = field(default=None, metadata=_FORCE)
+    floor_acceleration: float | None = field(default=None, metadata=number("m/s2", "[1e-3, 200)"))
+    drift: float | None = field(default=None, metadata=number("-", "[1e-5, 0.2)"))
+    base_shear: float | None = field(default=None, metadata=_FORCE)
+    displacement_left: float | None = field(default=None, metadata=_LENGTH)
+    rim_engagement: float | None = field(default=None, metadata=number("-", "[0.1, 1]"))
+    moat_gap: float | None = field(default=None, metadata=number("m", "[1e-2, 10)"))
 
     def __post_init__(self) -> None:
-        for name, (least, below, unit) in _RANGES.items():
-            value = getattr(self, name)
-            if value is not None:
-                remedy = f"give a limit in {unit}" if unit != "-" else "give a pure number"
-                if self.__dataclass_fields__[name].default is None:
-                    remedy += ", or leave it out"
-                require_between(name, value, least, below, unit, remedy=remedy, error=CheckError)
+        check_numbers(self, error=CheckError)
 
     def clause_of(self, name: str) -> str:
         """Return what a check against a limit cites: the project, or a proposal of this package."""

@@ -9,10 +9,24 @@ import numpy as np
 
 from frames._errors import MotionError
 from frames.design.calculation.standing import MEMORY, Standing
-from lir_element.argument_checks import require_choice
+from lir_element.argument_checks import require_between, require_choice
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+
+def damping_factor(code: str, damping: float) -> float:
+    """Return the factor by which a code divides a spectrum of 5 % damping.
+
+    Examples
+    --------
+    >>> damping_factor("ASCE 7-22", 0.25)
+    1.6
+    """
+    rule = rules_named(code).damping
+    ratio = require_between("damping", damping, 0.0, 1.0, remedy="5 % is 0.05", error=MotionError)
+    return rule.factor(ratio)
+
 
 LINEAR = "linear between the values, constant outside of them"
 """How factors between those of a table are found."""
@@ -64,7 +78,7 @@ class ScalingRule(NamedTuple):
     name : str
         How `MotionSet.scaled_to` and `motion_checks` call it.
     measure : str
-        Measure of a pair (`frames.design.hazard.pair_spectra.MEASURES`).
+        Measure of a pair (`frames.design.hazard.motion_measures.MEASURES`).
     part : float
         What the mean must reach at least, as a part of the target [-].
     at_zero : float

@@ -14,8 +14,7 @@ import pandas as pd
 from frames._errors import MotionError
 from frames._types import FloatArray
 from frames.design.hazard import spectral_shapes as sh
-from frames.design.hazard.code_rules import known_names
-from frames.design.hazard.damping_factors import damping_factor
+from frames.design.hazard.code_rules import damping_factor, known_names
 from lir_element.argument_checks import require_between, require_positive
 from lir_element.tables import html_table
 from lir_element.units import STANDARD_GRAVITY

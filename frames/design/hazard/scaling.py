@@ -11,7 +11,7 @@ import numpy as np
 
 from frames._errors import MotionError, MotionWarning
 from frames.design.hazard.code_rules import scaling_named
-from frames.design.hazard.pair_spectra import pair_spectrum
+from frames.design.hazard.motion_measures import pair_spectrum
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_choice, require_positive, require_type
 

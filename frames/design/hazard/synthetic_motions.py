@@ -9,15 +9,21 @@ strongest time. Near the pulse's frequency the pulse rules, elsewhere the backgr
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from frames._errors import MotionError
 from frames.design.hazard.motion_set import MotionSet
-from frames.design.hazard.near_fault_pulse import PULSE_VELOCITY, NearFaultPulse, pulse_period
-from frames.design.hazard.stochastic_motion import PEAK, PointSource, stochastic_acceleration
+from frames.design.hazard.stochastic_motion import (
+    PEAK,
+    PULSE_VELOCITY,
+    NearFaultPulse,
+    PointSource,
+    pulse_period,
+    stochastic_acceleration,
+)
 from frames.motion.ground_motion import GroundMotion
 from lir_element.argument_checks import (
     require_between,
@@ -26,6 +32,7 @@ from lir_element.argument_checks import (
     require_positive,
     require_type,
 )
+from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -69,20 +76,16 @@ class PulseScatter:
     True
     """
 
-    velocity: float = PULSE_VELOCITY
-    velocity_dispersion: float = 0.3
-    period: float | None = None
-    period_dispersion: float = 0.3
+    velocity: float = field(default=PULSE_VELOCITY, metadata=number("m/s", "(0, inf)"))
+    velocity_dispersion: float = field(default=0.3, metadata=number("-", "[0, inf)"))
+    period: float | None = field(default=None, metadata=number("s", "(0, inf)"))
+    period_dispersion: float = field(default=0.3, metadata=number("-", "[0, inf)"))
     gamma: tuple[float, float] = (1.1, 3.0)
     phase: tuple[float, float] = (0.0, 2.0 * math.pi)
 
     def __post_init__(self) -> None:
         """Check."""
-        require_positive("velocity", self.velocity, "m/s", error=MotionError)
-        if self.period is not None:
-            require_positive("period", self.period, "s", error=MotionError)
-        for name in ("velocity_dispersion", "period_dispersion"):
-            require_non_negative(name, getattr(self, name), "-", error=MotionError)
+        check_numbers(self, error=MotionError)
         for name, least in (("gamma", 1.0), ("phase", -math.inf)):
             given = getattr(self, name)
             if np.shape(given) != (2,) or not least < given[0] <= given[1] < math.inf:

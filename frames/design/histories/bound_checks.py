@@ -41,7 +41,7 @@ from frames.statics.overturning import unknown_axial_forces
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
-    from frames.design.codes.levels import ActionLevel
+    from frames.design.codes.history_rules import ActionLevel
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.devices.limits import DesignLimits
     from frames.frame import Frame

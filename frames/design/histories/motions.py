@@ -14,8 +14,8 @@ from frames.design.calculation.trace import Trace
 from frames.design.codes.registry import code_named, standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.hazard.code_rules import ScalingRule, scaling_named
-from frames.design.hazard.fault_axes import angle_of
-from frames.design.hazard.pair_spectra import pair_spectrum
+from frames.design.hazard.motion_measures import pair_spectrum
+from frames.design.hazard.motion_set import angle_of
 from frames.design.hazard.scaling import POINTS
 from frames.motion.ground_motion import GroundMotion
 

@@ -12,9 +12,8 @@ import numpy as np
 from frames.design.calculation.check import Bound, Check
 from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
-from frames.design.devices.bearing_numbers import enter_geometry
+from frames.design.devices.bearing_numbers import enter_geometry, overlap_area, pressure
 from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
-from frames.design.devices.overlap import overlap_area, pressure
 from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.suite import (
     Suite,

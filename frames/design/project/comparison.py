@@ -13,11 +13,12 @@ import pandas as pd
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.demand_table import envelope_said, void_said
 from frames.design.histories.suite import peaks_of_runs
-from frames.design.project.governing_run import most_displaced, named_case
 from frames.design.project.level_runs import (
     demands_at_levels,
     histories_at_levels,
+    most_displaced,
     moved_at_levels,
+    named_case,
 )
 from frames.design.project.preliminary import preliminary
 from frames.results.quantities import DEMANDS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import types
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import MISSING, fields, is_dataclass
 from difflib import get_close_matches
 from functools import cache
@@ -33,14 +33,13 @@ from pydantic import (
 )
 
 from frames.design.project.quantities import number_or_infinity
-from lir_element.device.field_units import FIELD_UNITS
 from lir_element.device.friction import (
     CoulombFriction,
     FrictionLaw,
     VelocityFriction,
     known_laws,
-    unit_of,
 )
+from lir_element.fields import unit_of
 
 _NUMBER, _PAIR = "[number]", "[pair]"
 
@@ -99,16 +98,17 @@ class DerivedTable(Table):
     beside: ClassVar[frozenset[str]] = frozenset()
     """Keys that are no argument of the dataclass."""
 
-    def made(self) -> Any:
-        """Return the dataclass that the table describes; omitted keys have its defaults."""
-        given = {name: getattr(self, name) for name in self.model_fields_set - {LAW} - self.beside}
-        return self.made_of(**{name: _made(value) for name, value in given.items()})
+    def made(self, **others: object) -> Any:
+        """Return the dataclass that the table describes; omitted keys count as in `others`."""
+        names = self.model_fields_set - {LAW} - self.beside
+        return self.made_of(**others | {name: _made(getattr(self, name)) for name in names})
 
 
 def table_of(kind: type) -> type[DerivedTable]:
     """Return the table of a dataclass: a key a field, numbers with the units of its fields.
 
-    A friction law may be any that is known now (`known_laws`): ``law = "..."`` names its class.
+    A field whose default is made by a factory has no key. A friction law may be any that is known
+    now (`known_laws`): ``law = "..."`` names its class.
     """
     return _table_of(kind, tuple(law for law in known_laws() if _fits_a_file(law)))
 
@@ -124,11 +124,13 @@ def _fits_a_file(law: type[FrictionLaw]) -> bool:
 
 @cache
 def _table_of(kind: type, laws: tuple[type[FrictionLaw], ...]) -> type[DerivedTable]:
-    units, hints = FIELD_UNITS.get(kind.__name__, {}), get_type_hints(kind)
+    hints = get_type_hints(kind)
     keys: dict[str, Any] = {}
     for each in fields(kind):
+        if each.default_factory is not MISSING:
+            continue
         default = ... if each.default is MISSING else each.default
-        unit = unit_of(kind, each.name) or units.get(each.name, "")
+        unit = unit_of(kind, each.name)
         keys[each.name] = (_kind(hints[each.name], unit, laws), Field(default))
     if issubclass(kind, FrictionLaw):
         if LAW in keys:
@@ -155,8 +157,8 @@ def _kind(annotation: Any, unit: str, laws: tuple[type[FrictionLaw], ...]) -> An
     if is_dataclass(annotation) and isinstance(annotation, type):
         return _table_of(annotation, laws)
     origin, parts = get_origin(annotation), get_args(annotation)
-    if origin is tuple:
-        if parts[1:] == (...,):
+    if origin in {tuple, Sequence}:
+        if origin is Sequence or parts[1:] == (...,):
             return tuple[_kind(parts[0], unit, laws), ...]  # type: ignore[misc]
         return tuple[tuple(_kind(part, unit, laws) for part in parts)]  # type: ignore[misc]
     if origin in {Union, types.UnionType}:

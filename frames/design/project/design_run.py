@@ -10,79 +10,110 @@ import pandas as pd
 import xarray as xr
 
 from frames.design.calculation.check import Checks
+from frames.design.codes.code_values import OF_BEARINGS, states_of
 from frames.design.codes.prototype_programme import ProgrammeDemands
 from frames.design.histories.demand_table import demand_table, largest_of_bounds, void_said
 from frames.design.histories.eccentricity import Case, cases_of
 from frames.design.histories.impacts import rim_engagement
-from frames.design.project import moat_checks as moat_checks  # which it registers
-from frames.design.project import run_checks as run_checks  # which it registers
+from frames.design.project import moat_checks as moat_checks
 from frames.design.project.check_register import BearingDemand, RunToCheck, TypeOfBearing, checks_of
-from frames.design.project.governing_run import governing_run, sensitivity_warnings
 from frames.design.project.level_runs import (
     demands_at_levels,
+    governing_run,
     histories_at_levels,
     moved_at_levels,
+    sensitivity_warnings,
 )
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.structure_statement import structure_rows
-from frames.design.project.unchecked import provisions_of
 from frames.design.testing.programme import prototype_tests
 from lir_element.errors import AnalysisInterrupted
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
     from pathlib import Path
 
     from frames.batch.cases import BatchProgress
-    from frames.design.calculation.check import Bound
-    from frames.design.codes.bounds import PropertyBounds
-    from frames.design.codes.history_rules import HistoryRules
-    from frames.design.codes.outcome import EquivalentLinear
-    from frames.design.codes.provisions import ProvisionState
-    from frames.design.hazard.motion_set import MotionSet
-    from frames.design.hazard.spectrum import Spectrum
+    from frames.design.calculation.check import Bound, Check
+    from frames.design.codes.code_values import ProvisionState
+    from frames.design.codes.registry import DesignCode
     from frames.design.project.inputs import ProjectInputs
     from frames.design.project.preliminary import Preliminary
     from frames.design.project.schema import ProjectTable
-    from frames.frame import Frame
     from frames.statics.model_check import ModelCheck
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class ProjectRun:
-    """What a project's run gives."""
+def provisions_of(
+    parts: ProjectInputs, known: Preliminary, checks: Iterable[Check], *, is_run: bool = True
+) -> tuple[ProvisionState, ...]:
+    """Return whether each provision of the code is checked in a project, and why not."""
+    asked = (*parts.code().provisions, *OF_BEARINGS)
+    return states_of(asked, facts_of(parts, known), (*checks, *known.checks), is_run=is_run)
 
-    frame: Frame  # the structure on its bearings, friction nominal
-    spectrum: Spectrum  # the design spectrum
-    motions: MotionSet  # as they were run, scaled
-    equivalent: EquivalentLinear  # equivalent-linear analysis at both bounds
-    # time histories by level of the seismic action, then by bound; a row a motion
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]]
-    demands: pd.DataFrame  # what the time histories give for design, with the level of each row
-    # of the time histories, the bearing, and what of the equivalent-linear analysis they do not
-    # replace
+
+def facts_of(parts: ProjectInputs, known: Preliminary) -> frozenset[str]:
+    """Return what of `NEEDS` a project has, and what its structure is made of."""
+    file, frame, above = parts.file, known.frame, known.superstructure
+    limits, facts = parts.limits(), [one.get("near_fault") for one in known.motions.facts.values()]
+    laws = [getattr(link.law, "yield_force", None) for link in frame.links.values()]
+    there = {
+        "superstructure": above is not None,
+        "wind": above is not None and above.wind_shear > 0.0,
+        "service": above is not None and above.service_displacement > 0.0,
+        "storey stiffness": above is not None and above.storey_stiffness is not None,
+        "combinations": bool(known.system.combinations),
+        "storeys": len(frame.levels) > 1,
+        "moved": bool(known.moved),
+        "bounds": not {*file.analysis.bounds}.isdisjoint(known.equivalent.bounds),
+        "gap": limits.moat_gap is not None,
+        "room": limits.moat_gap is not None or file.moat is not None,
+        "pressure": limits.interface_pressure is not None,
+        "liner": limits.liner_pressure is not None,
+        "rim strength": limits.rim_strength is not None,
+        "near fault": any(facts),
+        "walls": bool(getattr(file.structure, "walls", ())),
+        "dampers": bool(file.dampers),
+        "yields": bool(frame.hinges) or any(force is not None for force in laws),
+    }
+    return frozenset(name for name, is_there in there.items() if is_there)
+
+
+def from_memory(code: DesignCode) -> tuple[str, ...]:
+    """Return which values of a code are from memory alone."""
+    said = [f"{v.clause} ({v.what})" for v in code.values.values() if v.standing.starred]
+    return (f"from memory, not read in the standard: {'; '.join(said)}",) if said else ()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ProjectRun(RunToCheck):
+    """What a project's run gives: all that its checks are made of, and what comes of it."""
+
+    # of the time histories, the bearing, and the equivalent-linear analysis they do not replace
     checks: Checks
-    bounds: PropertyBounds  # lower and upper bound friction properties
     model: ModelCheck  # totals of the structure
-    loads: tuple[float, ...]  # axial loads of the average combination [N]
     governing: xr.Dataset  # histories of the run that displaces a bearing most
-    governing_case: str  # which that is: motion, bound and level
+    governing_case: str  # motion, bound and level of that run
     # digests of what the time histories depend on, by section of the file
     inputs: Mapping[str, str]
     programme: pd.DataFrame  # tests that prove the bearings
-    rules: HistoryRules  # how the time histories counted, and at which levels
-    # ``[project]`` of the file: its name, client, engineer, checker, revision, date
+    # ``[project]`` of the file: name, client, engineer, checker, revision, date
     about: ProjectTable
-    # type of each bearing: "standard", or of ``[bearings.<type>]``
-    types: Mapping[str, str] = field(default_factory=dict)
-    # time histories with the floors' masses moved, in the way of `runs`
-    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     doubts: tuple[str, ...] = ()  # what of the input was warned of
     structure: tuple[tuple[str, str], ...] = ()  # what the structure is, in words
     # provisions of the code: checked, not checked and why, or the engineer's
     provisions: tuple[ProvisionState, ...] = ()
     # tables that the file names, which are kept with the results, as they were read
     tables: Mapping[str, bytes] = field(default_factory=dict)
+
+    @property
+    def loads(self) -> tuple[float, ...]:
+        """Axial loads of the average combination [N], (n_bearings,)."""
+        return self.system.loads
+
+    @property
+    def kinds(self) -> dict[str, str]:
+        """Type of each bearing by its name: "standard", or of ``[bearings.<type>]``."""
+        return {name: key for key, each in self.types.items() for name in each.columns}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -125,15 +156,13 @@ def run_project(
 
 def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories) -> ProjectRun:
     """Return a project's run from its time histories: demands and checks."""
-    frame, bounds, rules, runs = known.frame, parts.bounds(), parts.rules(), histories.runs
-    moved = histories.moved
-    demands = demands_at_levels(runs, rules, moved)
+    rules, runs, moved = parts.rules(), histories.runs, histories.moved
     level = rules.bearing_level
     types = _types(parts, known, cases_of({level: runs[level]}, rules, moved))
     asked = _of_all(types)
     run = RunToCheck(
         code=parts.code(),
-        frame=frame,
+        frame=known.frame,
         bearing=parts.bearing(),
         system=known.system,
         superstructure=known.superstructure,
@@ -142,8 +171,8 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         equivalent=known.equivalent,
         runs=runs,
         moved=moved,
-        demands=demands,
-        bounds=bounds,
+        demands=demands_at_levels(runs, rules, moved),
+        bounds=parts.bounds(),
         limits=parts.limits(),
         rules=rules,
         asked=asked,
@@ -151,30 +180,20 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
     )
     checks = Checks(checks_of(run))
     return ProjectRun(
-        frame=frame,
-        spectrum=known.spectrum,
-        motions=known.motions,
-        equivalent=known.equivalent,
-        runs=runs,
-        moved=moved,
-        demands=demands,
+        **vars(run),
         checks=checks,
-        bounds=bounds,
-        model=frame.check(),
-        loads=known.system.loads,
+        model=run.frame.check(),
         governing=histories.governing,
         governing_case=histories.governing_case,
         inputs=inputs_of(parts, known),
         programme=_programme(parts, known, histories, asked),
-        rules=rules,
         about=parts.file.project,
-        types=known.types,
         doubts=(
             *known.doubts,
             *sensitivity_warnings(histories.governing),
             *parts.sources.warn_of_changes(),
         ),
-        structure=tuple(structure_rows(parts.file, frame, known.spectrum)),
+        structure=tuple(structure_rows(parts.file, run.frame, known.spectrum)),
         provisions=provisions_of(parts, known, checks),
         tables=parts.sources.tables,
     )

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 import re
 from importlib import resources
 from typing import TYPE_CHECKING
 
+import numpy as np
+from scipy import signal
+
 from frames.design._errors import ProjectError
 from frames.design.codes.registry import ExampleProject, known_codes
 from frames.design.hazard.code_rules import canonical
-from frames.design.project.artificial_motions import motion_files
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
+from frames.motion.spectra import response_spectrum
 from frames.results.storage import make_folder, write_whole
 from lir_element.argument_checks import require_choice
 
@@ -19,6 +23,98 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from importlib.resources.abc import Traversable
     from pathlib import Path
+
+    from frames._types import FloatArray
+    from frames.design.hazard.spectrum import Spectrum
+
+PULSES = {f"artificial-{k}": 1.6 + 0.3 * k for k in range(1, 8)}
+"""Period of the pulse in each artificial motion [s]."""
+
+_STEP, _LENGTH = 0.005, 25.0  # s
+_GROUND = 2.0 * math.pi * 1.2, 0.7  # rad/s, -: filter of the noise (Kanai and Tajimi)
+_SHORTEST, _LONGEST, _PERIODS = 0.05, 6.0, 60  # s, s, -: at which motions follow the spectrum
+_ROUNDS = 10
+_ACROSS = 0.6  # weaker component over the stronger one
+_VERTICAL, _FASTER = 2.0 / 3.0, 3.0  # vertical spectrum over the horizontal one, and its periods
+_UPWARD = 8  # added to the seeds of vertical components
+
+
+def motion_files(target: Spectrum, *, vertical: bool = False) -> Mapping[str, str]:
+    """Return artificial motions as files of a folder, with the table that names them.
+
+    They are filtered noise with a pulse of velocity in it, weaker across, whose amplitudes are
+    brought to the spectrum: there to try a project with, not to design by.
+    """
+    z = ",z" if vertical else ""
+    table = [f"name,x,y{z},dt,unit,near_fault,strike,azimuth_x,azimuth_y"]  # x across the fault
+    files: dict[str, str] = {}
+    for seed, (name, period) in enumerate(PULSES.items()):
+        parts = {
+            "x": _matched(_artificial(period, 2 * seed), target),
+            "y": _ACROSS * _matched(_artificial(period, 2 * seed + 1), target),
+        }
+        if vertical:
+            noise = _noise(2 * len(PULSES) + _UPWARD + seed)
+            parts["z"] = _VERTICAL * _matched(noise, target, _FASTER)
+        names = [f"{name}-{axis}.txt" for axis in parts]
+        files |= {at: _column(values) for at, values in zip(names, parts.values(), strict=True)}
+        table.append(f"{name},{','.join(names)},{_STEP},m/s2,yes,0,90,0")
+    return files | {"motions.csv": "\n".join(table) + "\n"}
+
+
+def _matched(values: FloatArray, target: Spectrum, faster: float = 1.0) -> FloatArray:
+    # Fourier amplitudes times the ratio of the spectra, some times over; what is slower than the
+    # longest period fades. `faster` is how much shorter the periods of the spectrum are.
+    periods = np.geomspace(_SHORTEST, _LONGEST, _PERIODS)
+    wanted = np.asarray(target.acceleration(np.minimum(faster * periods, _LONGEST)))
+    frequency = np.fft.rfftfreq(len(values), _STEP)
+    with np.errstate(divide="ignore"):
+        at = np.clip(1.0 / frequency, _SHORTEST, _LONGEST)
+    found = values
+    for _ in range(_ROUNDS):
+        reached = response_spectrum(found, _STEP, periods)["pseudo_acceleration"].to_numpy()
+        ratio = np.interp(at, periods, wanted / reached)
+        found = np.fft.irfft(ratio * np.fft.rfft(found), len(values))
+    window = signal.windows.tukey(len(found), 0.1)
+    slow = signal.butter(4, 0.1 * faster, "highpass", fs=1.0 / _STEP, output="sos")
+    result: FloatArray = signal.sosfiltfilt(slow, found * window)
+    return result
+
+
+def _noise(seed: int) -> FloatArray:
+    # Noise that a soil layer filters, under a bell, without what a record's processing takes out
+    # below 0.1 Hz; its largest value is one.
+    time = np.arange(0.0, _LENGTH, _STEP)
+    white = np.random.default_rng(seed).standard_normal(len(time))
+    soil = signal.lfilter(*_layer(), white)
+    slow = signal.butter(4, 0.1, "highpass", fs=1.0 / _STEP, output="sos")
+    noise = signal.sosfiltfilt(slow, soil * np.sin(np.pi * time / _LENGTH) ** 2)
+    found: FloatArray = noise / np.abs(noise).max()
+    return found
+
+
+def _artificial(period: float, seed: int) -> FloatArray:
+    # Noise, and a pulse that starts and ends at rest [m/s2].
+    time = np.arange(0.0, _LENGTH, _STEP)
+    phase = (time - 8.0) / period
+    bell = np.where(np.abs(phase) < 1.0, 0.5 * (1.0 + np.cos(np.pi * phase)), 0.0)
+    pulse = np.gradient(bell * np.sin(2.0 * np.pi * phase), _STEP)
+    found: FloatArray = 1.5 * _noise(seed) + 0.25 * pulse
+    return found
+
+
+def _layer() -> tuple[FloatArray, FloatArray]:
+    # The filter of Kanai and Tajimi as a recursion.
+    omega, ratio = _GROUND
+    upper = np.array([2.0 * ratio * omega, omega**2])
+    lower = np.array([1.0, 2.0 * ratio * omega, omega**2])
+    numerator, denominator, _ = signal.cont2discrete((upper, lower), _STEP)
+    return numerator.ravel(), denominator
+
+
+def _column(values: FloatArray) -> str:
+    return "\n".join(f"{value:.6g}" for value in values) + "\n"
+
 
 BUILDINGS = {
     "hospital": "six storeys, L-shaped, walls of shells, by an OpenSees script; NCh2745",

@@ -19,21 +19,19 @@ from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
-from frames.design.project.bearing_types import STANDARD, on_types, types_by_column
-from frames.design.project.devices_beside import with_devices
-from frames.design.project.extensions import RunningScript
+from frames.design.project.devices_beside import STANDARD, on_types, types_by_column, with_devices
 from frames.design.project.member_sections import named_section
 from frames.design.project.schema import (
     ImportedModel,
     IrregularFrame,
     MomentFrame,
     OpenSeesModel,
+    PointsTable,
     ShearBuilding,
+    read_points,
 )
 from frames.design.project.schema_bearing import FactorSources
-from frames.design.project.schema_hazard import PointsTable
-from frames.design.project.source_files import SourceFiles
-from frames.design.project.spectrum_points import read_points
+from frames.design.project.source_files import RunningScript, SourceFiles
 from frames.design.project.structure_loads import BuildingLoads, loads_of
 from frames.design.project.structure_plan import irregular_frame, regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
@@ -198,8 +196,8 @@ class ProjectInputs:
 
     def limits(self, **others: float) -> DesignLimits:
         """Return what the engineer allows; others count where the file gives none."""
-        given = others | self.file.limits.model_dump(exclude_none=True)
-        return in_section("limits", lambda: DesignLimits(**given))
+        made: Callable[[], DesignLimits] = partial(self.file.limits.made, **others)
+        return in_section("limits", made)
 
     def rules(self) -> HistoryRules:
         """Return how time histories count: as the code has it, uplift as the file says."""
@@ -223,9 +221,9 @@ class ProjectInputs:
 
     def target(self) -> DesignTarget:
         """Return what ``lir design`` chooses from."""
-        given = self.file.design.model_dump(exclude_none=True)
         limits = self.limits(interface_pressure=INTERFACE_PRESSURE)
-        return in_section("design", lambda: DesignTarget(**given, limits=limits))
+        made: Callable[[], DesignTarget] = partial(self.file.design.made, limits=limits)
+        return in_section("design", made)
 
     def motions(self) -> MotionSet:
         """Return the motions as they are given, not scaled to the spectrum."""

@@ -15,14 +15,13 @@ from frames._errors import ModelError, ModelWarning, MotionWarning, without_numb
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import Checks
 from frames.design.codes.analysis import equivalent_linear
-from frames.design.hazard.sanity_checks import factor_doubts, twins
+from frames.design.hazard.motion_collection import factor_doubts, twins
 from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
 from frames.design.project.inputs import in_section
 from frames.design.project.moat_checks import clearance_checks
-from frames.design.project.sanity_checks import file_doubts, wind_doubts
+from frames.design.project.sanity_checks import file_doubts, value_doubts, wind_doubts
 from frames.design.project.schema import ImportedModel, OpenSeesModel
-from frames.design.project.value_doubts import value_doubts
 from frames.library.moved_masses import with_moved_masses
 from frames.recording.size import number_of_steps
 from lir_element._version import package_version

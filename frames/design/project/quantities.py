@@ -35,12 +35,11 @@ EXAMPLES = {
     "m2/s": "4.44 mm2/s",
     "C": "20 C",
     "s": "5 ms",
-    "m/s^2": "3.5 m/s2",
-    "kg/m^2": "1450 kg/m2",
-    "kg/m^3": "2500 kg/m3",
-    "m^2": "150 cm2",
-    "m^4": "25000 cm4",
-    "N/m^2": "4.5 kN/m2",
+    "m/s2": "3.5 m/s2",
+    "kg/m2": "1450 kg/m2",
+    "m2": "150 cm2",
+    "m4": "25000 cm4",
+    "N/m2": "4.5 kN/m2",
     "": "0.05",
 }
 """How numbers of each unit may be written, for messages and the schema."""
@@ -88,6 +87,7 @@ def si(value: object, unit: str, example: str) -> float:
     >>> si("175 mm", "m", "175 mm"), si("5 %", "", "0.05")
     (0.175, 0.05)
     """
+    unit = unit.replace("^", "")
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         if unit:
             msg = f"has no unit: {_written(value, unit, example)}"
@@ -106,7 +106,7 @@ def si(value: object, unit: str, example: str) -> float:
     if unit and not given:
         msg = f'has no unit: write it as "{example}"'
         raise ValueError(msg)
-    if unit == "m/s^2" and given in {"g", "G"}:  # elsewhere the gram
+    if unit == "m/s2" and given in {"g", "G"}:  # elsewhere the gram
         given = "standard_gravity"
     if unit == "C":
         return _finite(_celsius(number, given, example))
@@ -148,7 +148,7 @@ def _written(value: float, unit: str, example: str) -> str:
     # A number with its unit; of lengths that are too short for mm, m; of accelerations below 2, g.
     if unit == "m" and abs(value) < _LEAST_IN_MM:
         return f'write "{value:g} m" or "{1e3 * value:g} mm" if that is meant'
-    if unit == "m/s^2" and abs(value) < _LARGEST_IN_G:
+    if unit == "m/s2" and abs(value) < _LARGEST_IN_G:
         return f'write "{value:g} g" or "{value:g} m/s2" if that is meant'
     return f'write "{value:g} {example.split(maxsplit=1)[1]}" if that is meant'
 
@@ -179,7 +179,7 @@ def number_or_infinity(unit: str) -> Any:
 
 def quantity(unit: str) -> Any:
     """Return the type of a number with an SI unit, "" of a pure number, for a field of a table."""
-    return Annotated[float, *_kind(unit, EXAMPLES.get(unit, f"1 {unit}"))]
+    return Annotated[float, *_kind(unit, EXAMPLES.get(unit.replace("^", ""), f"1 {unit}"))]
 
 
 def positive(number: float) -> float:
@@ -215,15 +215,15 @@ Length = Annotated[float, *_kind("m", "175 mm")]
 Force = Annotated[float, *_kind("N", "150 kN")]
 Pressure = Annotated[float, *_kind("Pa", "30 MPa")]
 Mass = Annotated[float, *_kind("kg", "200 t")]
-AreaMass = Annotated[float, *_kind("kg/m^2", "1450 kg/m2")]
-Density = Annotated[float, *_kind("kg/m^3", "2500 kg/m3"), NotNegative]
-Area = Annotated[float, *_kind("m^2", "150 cm2")]
-Inertia = Annotated[float, *_kind("m^4", "25000 cm4")]
-AreaLoad = Annotated[float, *_kind("N/m^2", "4.5 kN/m2")]
+AreaMass = Annotated[float, *_kind("kg/m2", "1450 kg/m2")]
+Density = Annotated[float, *_kind("kg/m3", "2500 kg/m3"), NotNegative]
+Area = Annotated[float, *_kind("m2", "150 cm2")]
+Inertia = Annotated[float, *_kind("m4", "25000 cm4")]
+AreaLoad = Annotated[float, *_kind("N/m2", "4.5 kN/m2")]
 LineLoad = Annotated[float, *_kind("N/m", "8 kN/m")]
 Stiffness = Annotated[float, *_kind("N/m", "400 kN/mm")]
 Time = Annotated[float, *_kind("s", "5 ms")]
-Acceleration = Annotated[float, *_kind("m/s^2", "3.5 m/s2")]
+Acceleration = Annotated[float, *_kind("m/s2", "3.5 m/s2")]
 SpeedRate = Annotated[float, *_kind("s/m", "100 s/m")]
 Ratio = Annotated[float, *_kind("", "0.05")]
 Eccentricity = Annotated[Ratio, AfterValidator(part_of_side)]

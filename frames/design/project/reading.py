@@ -14,8 +14,8 @@ from pydantic import ValidationError
 from frames.design._errors import ProjectError
 from frames.design.hazard.code_rules import known_names
 from frames.design.project.derived import Table, WholeFile
-from frames.design.project.extensions import load_extensions
 from frames.design.project.schema import project_file
+from frames.design.project.source_files import load_extensions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

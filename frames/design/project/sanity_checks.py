@@ -3,19 +3,171 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from frames.design.codes.service import least_strength
+from frames.design.codes.analysis import least_strength
+from frames.design.codes.registry import code_named
+from frames.design.project.devices_beside import STANDARD
 from frames.design.project.inputs import bearing_of
 from frames.design.project.schema import MomentFrame, ShearBuilding
-from frames.design.project.schema_devices import SIDES
+from frames.design.project.schema_bearing import SIDES
 from frames.design.project.schema_structure import BuildingTable, IrregularFrame
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
     from frames.design.codes.bounds import PropertyBounds
     from frames.design.codes.isolation import IsolationSystem
+    from frames.design.codes.outcome import EquivalentLinear
     from frames.design.project.schema import ProjectFile
+    from lir_element import LIRBearing
+
+_SHOWN = {"m": ("mm", 1e3), "N": ("kN", 1e-3), "Pa": ("MPa", 1e-6), "N/m": ("kN/mm", 1e-6)}
+
+
+class _Row(NamedTuple):
+    """A value with the bounds beyond which it is strange, and their reason."""
+
+    key: str
+    value: float | None
+    unit: str
+    low: float
+    high: float
+    why: str
+
+
+def value_doubts(
+    file: ProjectFile,
+    system: IsolationSystem,
+    equivalent: EquivalentLinear,
+    devices: Mapping[str, LIRBearing],
+    types: Mapping[str, str],
+) -> tuple[str, ...]:
+    """Return which values of a file do not fit its building, and which have no effect."""
+    rows = [
+        *_of_bearings(devices, equivalent),
+        *_of_limits(file, system, equivalent, devices),
+        *_of_devices(file, system, equivalent),
+    ]
+    return (*map(_said, filter(_strange, rows)), *_without_effect(file, types))
+
+
+def _strange(row: _Row) -> bool:
+    return row.value is not None and not row.low <= row.value <= row.high
+
+
+def _said(row: _Row) -> str:
+    value = row.value or 0.0
+    unit, factor = _SHOWN.get(row.unit, (row.unit, 1.0))
+    bound, word = (row.low, "less") if value < row.low else (row.high, "more")
+    return (
+        f"{row.key} = {factor * value:.4g} {unit}".rstrip()
+        + f" is {word} than {factor * bound:.4g} {unit}".rstrip()
+        + f", {row.why}: look at its unit"
+    )
+
+
+def _of_bearings(devices: Mapping[str, LIRBearing], equivalent: EquivalentLinear) -> Iterator[_Row]:
+    needed = max(each.allowed_displacement for each in equivalent.bounds.values())
+    for kind, bearing in devices.items():
+        at = "[bearing]" if kind == STANDARD else f"[bearings.{kind}]"
+        a, options = bearing.slider_radius, bearing.resolved()
+        why = "sliding materials of isolators have 0.01 to 0.15"
+        yield _Row(
+            f"{at} friction", max(law.f_max for law in bearing.frictions), "", 0.01, 0.3, why
+        )
+        why = f"a fifth of the {1e3 * needed:.4g} mm that bearings without rims go"
+        yield _Row(f"{at} capacity", bearing.lateral_capacity, "m", 0.2 * needed, math.inf, why)
+        why = "the slider's radius: its edge has left the plate before the rim counts as failed"
+        yield _Row(f"{at} rim_overrun", options["rim_overrun"], "m", 0.0, a, why)
+        why = "the slider's diameter: its halves overlap no more"
+        yield _Row(f"{at} slip_capacity", options["slip_capacity"], "m", 0.0, 2.0 * a, why)
+        for name in ("yield_displacement", "interface_yield_displacement"):
+            why = "sliders begin to slide within some tenths of a millimetre"
+            yield _Row(f"{at} {name}", getattr(bearing, name), "m", 0.0, 5e-3, why)
+        if bearing.friction_heating is not None:
+            key = f"{at} friction_heating: initial_temperature"
+            given, why = bearing.friction_heating.initial_temperature, "no climate's temperature"
+            yield _Row(key, given, "C", -40.0, 60.0, why)
+
+
+def _of_limits(
+    file: ProjectFile,
+    system: IsolationSystem,
+    equivalent: EquivalentLinear,
+    devices: Mapping[str, LIRBearing],
+) -> Iterator[_Row]:
+    limits, load, weight = file.limits, max(system.loads), system.seismic_weight
+    capacity = max(each.lateral_capacity for each in devices.values())
+    heaviest = f"the heaviest bearing carries {1e-3 * load:.4g} kN"
+    whole = f"the building weighs {1e-3 * weight:.4g} kN"
+    pushed = min(each.base_shear for each in equivalent.bounds.values()) / weight
+    rows: dict[str, tuple[str, float, float, str]] = {
+        "rim_strength": ("N", 0.02 * load, 100.0 * load, heaviest),
+        "axial_force": ("N", 0.5 * load, 100.0 * load, heaviest),
+        "lateral_force": ("N", 0.005 * load, 100.0 * load, heaviest),
+        "base_shear": ("N", 0.005 * weight, 3.0 * weight, whole),
+        "interface_pressure": ("Pa", 2e6, 1e9, "sliding materials carry 5 to 100 MPa"),
+        "liner_pressure": ("Pa", 2e6, 1e9, "sliding materials carry 5 to 100 MPa"),
+        "floor_acceleration": (
+            "m/s2",
+            pushed * STANDARD_GRAVITY,
+            25.0,
+            f"the isolation pushes with {pushed:.3g} of the weight, isolated floors have 1 to 10 "
+            "m/s2",
+        ),
+        "drift": ("", 1e-4, 0.05, "codes allow 0.002 to 0.02 of isolated buildings"),
+        "slip_left": ("m", 0.0, capacity, "the capacity: no run reaches it"),
+        "displacement_left": ("m", 0.0, capacity, "the capacity: hardly a run reaches it"),
+    }
+    for name, (unit, low, high, why) in rows.items():
+        yield _Row(f"[limits] {name}", getattr(limits, name), unit, low, high, why)
+
+
+def _of_devices(
+    file: ProjectFile, system: IsolationSystem, equivalent: EquivalentLinear
+) -> Iterator[_Row]:
+    weight, each = system.seismic_weight, equivalent.bounds.values()
+    needed = max(one.allowed_displacement for one in each)
+    if file.moat is not None:
+        why = f"half of the {1e3 * needed:.4g} mm that bearings go without walls"
+        yield _Row("[moat] gap", file.moat.gap, "m", 0.5 * needed, math.inf, why)
+        stiff = max(one.stiffness for one in each)
+        why = "ten times the isolation's stiffness: a wall that soft is none"
+        yield _Row("[moat] stiffness", file.moat.stiffness, "N/m", 10.0 * stiff, math.inf, why)
+    for name, one in file.dampers.items():
+        count = len(one.columns) or 1
+        why = f"the building weighs {1e-3 * weight:.4g} kN"
+        key = f"[dampers.{name}] force times {count}" if count > 1 else f"[dampers.{name}] force"
+        yield _Row(key, count * one.force, "N", 1e-3 * weight, weight, why)
+        why = "isolated buildings move at 0.1 to 2 m/s"
+        yield _Row(f"[dampers.{name}] speed", one.speed, "m/s", 0.01, 5.0, why)
+    above = getattr(file.structure, "damping", None)
+    if isinstance(above, float):
+        why = "structures on isolators stay elastic and have 0.01 to 0.05"
+        yield _Row("[structure] damping", above, "", 0.0, 0.1, why)
+    why = "the program chooses 0.005 s or less"
+    yield _Row("[analysis] dt", file.analysis.dt, "s", 0.0, 0.02, why)
+
+
+def _without_effect(file: ProjectFile, types: Mapping[str, str]) -> Iterator[str]:
+    # Keys that the code does not read, bearings that stand nowhere.
+    above, code = file.superstructure, code_named(file.project.code)
+    for key, instead in code.unread.items():
+        given = above is not None and key in above.model_fields_set and getattr(above, key)
+        if given and not math.isclose(given, 1.0):
+            yield (
+                f"[superstructure] {key} = {given:g} changes nothing: {code.name} {instead}; "
+                "leave it out"
+            )
+    by_load = any(kind.above is not None for kind in file.bearings.values())
+    if by_load and STANDARD not in types.values():
+        yield (
+            "[bearing] stands under no column: every bearing carries more than the least `above` "
+            "of [bearings]; look at its unit, or raise it"
+        )
+
 
 SOFT = 0.5
 """Period of what is on a storey over the number of storeys above its floor and one more [s], from
@@ -63,23 +215,23 @@ def wind_doubts(
     )
 
 
-def _of_sections(file: ProjectFile) -> list[str]:
+def _of_sections(file: ProjectFile) -> Iterator[str]:
     given = file.structure
     if not isinstance(given, MomentFrame):
-        return []
+        return
     keys = ("columns", "beams", "base_beams")
     assumed = [key for key in keys if getattr(given, key) is None]
     if not assumed:
-        return []
-    return [
+        return
+    yield (
         f"[structure] {' and '.join(assumed)}: no section is given, those of an example are "
         "assumed (`lir check` shows them), whatever the building carries: give each its section, "
         'columns = { section = "HEB 300" }, beams = { rectangle = ["300 mm", "600 mm"], '
         'material = "C30/37" }'
-    ]
+    )
 
 
-def _of_masses(file: ProjectFile) -> list[str]:
+def _of_masses(file: ProjectFile) -> Iterator[str]:
     given = file.structure
     if isinstance(given, BuildingTable):
         dead = None if file.loads is None else file.loads.dead / STANDARD_GRAVITY
@@ -92,115 +244,106 @@ def _of_masses(file: ProjectFile) -> list[str]:
             masses["base_mass"] = given.base_mass
         found = {key: mass / area for key, mass in masses.items()} if area > 0.0 else {}
     else:
-        return []
+        return
     low, high = FLOOR_MASS
     strange = {k: v for k, v in found.items() if v > high or (v < low and k != "base_mass")}
-    if not strange:
-        return []
-    key, value = next(iter(strange.items()))
-    unit = "is a mass in t written as kg?" if value < low else "is a mass in kg written as t?"
-    return [
-        f"[structure] {key} is {value:.3g} kg on each m2 of the plan, buildings have 300 to 1500: "
-        f"{unit} Masses are written with their unit, 300 t or 300000 kg"
-    ]
+    for key, value in list(strange.items())[:1]:
+        unit = "is a mass in t written as kg?" if value < low else "is a mass in kg written as t?"
+        yield (
+            f"[structure] {key} is {value:.3g} kg on each m2 of the plan, buildings have 300 to "
+            f"1500: {unit} Masses are written with their unit, 300 t or 300000 kg"
+        )
 
 
-def _of_heights(file: ProjectFile) -> list[str]:
+def _of_heights(file: ProjectFile) -> Iterator[str]:
     given = file.structure
     if not isinstance(given, (MomentFrame, IrregularFrame)):
-        return []
+        return
     low, high = STOREY
     for k, height in enumerate(given.heights, start=1):
         if not low <= height <= high:
-            return [
+            yield (
                 f"[structure] storey_height of storey {k} is {height:.4g} m, storeys have {low:g} "
                 f"to {high:g} m: look at its unit"
-            ]
-    return []
+            )
+            return
 
 
-def _of_loads(file: ProjectFile) -> list[str]:
+def _of_loads(file: ProjectFile) -> Iterator[str]:
     given = file.loads
     if given is None:
-        return []
-    named = {
-        "live": (given.live, HEAVY_FLOOR, "kN/m2"),
-        "snow": (given.snow, HEAVY_FLOOR, "kN/m2"),
-        "facade": (given.facade, HEAVY_FACADE, "kN/m"),
-    }
-    for key, (load, most, unit) in named.items():
-        if load > most:
-            return [
-                f"[loads] {key} = {1e-3 * load:.4g} {unit} is more than {1e-3 * most:g} {unit}, "
-                "which hardly any building has: look at its unit"
-            ]
-    return []
+        return
+    rows = [
+        _Row(f"[loads] {key}", 1e-3 * load, unit, 0.0, 1e-3 * most, "which hardly any building has")
+        for key, load, most, unit in (
+            ("live", given.live, HEAVY_FLOOR, "kN/m2"),
+            ("snow", given.snow, HEAVY_FLOOR, "kN/m2"),
+            ("facade", given.facade, HEAVY_FACADE, "kN/m"),
+        )
+    ]
+    yield from map(_said, filter(_strange, rows))
 
 
-def _of_bays(file: ProjectFile) -> list[str]:
+def _of_bays(file: ProjectFile) -> Iterator[str]:
     given = file.structure
     if file.bearing is None or not isinstance(given, (MomentFrame, ShearBuilding)):
-        return []
+        return
     each = [bearing_of(one) for one in (file.bearing, *file.bearings.values())]
     sides = [own.lateral_capacity + 2.0 * own.slider_radius for own in each]  # plates go half of it
     side = max((side for side in sides if math.isfinite(side)), default=0.0)
     least = min(width for count, width in zip(given.bays, given.bay_width, strict=True) if count)
     if least >= side:
-        return []
-    return [
+        return
+    yield (
         f"[structure] bay_width = {least:.4g} m is less than the {side:.4g} m that a bearing takes "
         "in plan (capacity and the diameter of the slider): look at its unit"
-    ]
+    )
 
 
-def _of_storeys(file: ProjectFile) -> list[str]:
+def _of_storeys(file: ProjectFile) -> Iterator[str]:
     given = file.structure
     if not isinstance(given, ShearBuilding) or len(given.storey_stiffness) != len(
         given.storey_mass
     ):
-        return []
+        return
     count = len(given.storey_mass)
     for k, stiffness in enumerate(given.storey_stiffness):
         above = sum(given.storey_mass[k:])
-        period, most = 2.0 * math.pi * math.sqrt(above / stiffness), SOFT * (1 + count - k)
-        if period < STIFF * (count - k):
-            return [
+        least, most = STIFF * (count - k), SOFT * (1 + count - k)
+        period = 2.0 * math.pi * math.sqrt(above / stiffness)
+        if not least <= period <= most:
+            bound = f"above {least:.3g}" if period < least else f"below {most:.3g}"
+            yield (
                 f"[structure] storey_stiffness[{k}] = {1e-6 * stiffness:.4g} kN/mm lets the "
                 f"{1e-3 * above:.4g} t above it swing with {period:.3g} s; storeys of buildings "
-                f"stay above {STIFF * (count - k):.3g} s: look at its unit"
-            ]
-        if period > most:
-            return [
-                f"[structure] storey_stiffness[{k}] = {1e-6 * stiffness:.4g} kN/mm lets the "
-                f"{1e-3 * above:.4g} t above it swing with {period:.3g} s; storeys of buildings "
-                f"stay below {most:.3g} s: look at its unit"
-            ]
-    return []
+                f"stay {bound} s: look at its unit"
+            )
+            return
 
 
-def _of_importance(file: ProjectFile) -> list[str]:
+def _of_importance(file: ProjectFile) -> Iterator[str]:
     above, spectrum = file.superstructure, file.spectrum
     if above is None:
-        return []
+        return
     own = getattr(spectrum, "importance", None)
     if own is None or above.importance == own:
-        return []
+        return
     share = above.importance / own
-    return [
+    yield (
         f"[superstructure] importance = {above.importance:g}, [spectrum] importance = "
         f"{own:g}: {file.project.code} multiplies a_g by gamma_I, which only the spectrum's "
         f"does; if {above.importance:g} is meant, the spectrum is to be multiplied by {share:.3g}: "
         "give both sections the same"
-    ]
+    )
 
 
-def _of_moat(file: ProjectFile) -> list[str]:
+def _of_moat(file: ProjectFile) -> Iterator[str]:
     # A neighbour may be nearer than a wall, but not where walls stand all around.
     clear, wall = file.limits.moat_gap, file.moat
     if wall is None or clear is None or clear >= wall.gap or len(set(wall.sides)) < len(SIDES):
-        return []
-    return [
+        return
+    yield (
         f"[limits] moat_gap = {1e3 * clear:.5g} mm, [moat] gap = {1e3 * wall.gap:.5g} mm: walls "
         "all around stand farther off than the clear distance that is checked; give both the same "
         "if they are of one wall"
-    ]
+    )

@@ -22,7 +22,6 @@ from frames.design.project.quantities import (
     Ratio,
     Stiffness,
 )
-from frames.design.project.result_names import is_result
 from frames.design.project.schema_sections import (
     BaseBeams,
     Beams,
@@ -34,6 +33,52 @@ from frames.design.project.schema_sections import (
     Size,
     WallTable,
 )
+
+RESULT_FILES = frozenset(
+    {
+        *(
+            f"{name}.csv"
+            for name in (
+                "bearings",
+                "bench",
+                "checks",
+                "compare",
+                "compare-motions",
+                "demands",
+                "demands-by-motion",
+                "eccentricity",
+                "equivalent-linear",
+                "friction",
+                "links",
+                "member-groups",
+                "members",
+                "members-without-forces",
+                "modes",
+                "motions",
+                "programme",
+                "provisions",
+                "reactions",
+                "storeys",
+            )
+        ),
+        "checks.txt",
+        "compare.html",
+        "governing.nc",
+        "interrupted.nc",
+        "project.toml",
+        "report.html",
+        "report.pdf",
+        "run.json",
+        "view.html",
+    }
+)
+"""Files of fixed names; time histories are ``runs-<bound>.nc`` and ``moved-<bound>.nc`` besides."""
+
+
+def is_result(name: str) -> bool:
+    """Return whether a file of a name would be written over, on any system."""
+    return name.lower() in RESULT_FILES
+
 
 MOST_REDUCING = 12.0
 """Largest response modification factor [-]; codes have 1 to 11."""

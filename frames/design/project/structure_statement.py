@@ -10,8 +10,7 @@ import numpy as np
 
 from frames.design.codes.registry import code_named
 from frames.design.project.devices_beside import device_rows
-from frames.design.project.materials import material_of
-from frames.design.project.member_sections import named_section
+from frames.design.project.member_sections import material_of, named_section
 from frames.design.project.schema_sections import CrackedTable
 from frames.design.project.schema_structure import (
     BuildingTable,
@@ -28,8 +27,8 @@ if TYPE_CHECKING:
 
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.schema import ProjectFile
-    from frames.design.project.schema_loads import LoadsTable
     from frames.design.project.schema_sections import BraceTable, WallTable
+    from frames.design.project.structure_loads import LoadsTable
     from frames.exchange.account import Account
     from frames.frame import Frame
 

@@ -71,8 +71,8 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
         },
         index=pd.Index(list(links), name="bearing"),
     )
-    if len(set(run.types.values())) > 1:
-        table.insert(0, "type", [run.types[name] for name in links])
+    if len(set(run.kinds.values())) > 1:
+        table.insert(0, "type", [run.kinds[name] for name in links])
     both = (*run.runs.values(), *run.moved.values())
     for title, name in _REACHED.items():
         every = (data for each in both for data in each.values())
@@ -106,7 +106,7 @@ def devices_by_type(run: ProjectRun) -> dict[str, LIRBearing]:
     """Return a bearing of each type, the type's name "" where there is one alone."""
     found: dict[str, LIRBearing] = {}
     for name, link in run.frame.bearings.items():
-        found.setdefault(run.types.get(name, ""), link.bearing)
+        found.setdefault(run.kinds.get(name, ""), link.bearing)
     return found if len(found) > 1 else {"": next(iter(found.values()))}
 
 

@@ -8,57 +8,12 @@ from typing import TYPE_CHECKING
 
 from frames.design.calculation.rendering import number as written
 from frames.design.report.page import Table
-from lir_element.device.field_units import FIELD_UNITS
 from lir_element.device.friction import FrictionLaw
 
 if TYPE_CHECKING:
     from frames.statics.model_check import ModelCheck
     from lir_element import LIRBearing
 
-TERMS = {
-    "radius": "radius of the concave surfaces",
-    "slider_height": "height of the inner slider",
-    "slider_radius": "radius of the inner slider in plan",
-    "friction": "friction coefficient of the concave surfaces",
-    "interface_friction": "friction coefficient of the interface",
-    "capacity": "displacement capacity, to rim contact",
-    "rims": "sliding on a surface to its restraining rim",
-    "axial_stiffness": "axial stiffness of the slider",
-    "axial_damping": "axial damping of the slider",
-    "rim_stiffness": "radial stiffness of a restraining rim",
-    "rim_damping": "radial damping of a restraining rim",
-    "rim_yield_force": "radial force at which a restraining rim yields",
-    "rim_hardening": "stiffness of a yielding rim over the elastic one",
-    "rim_overrun": "rim deformation at restrainer failure",
-    "flange": "way beyond a broken restraining rim",
-    "slip_capacity": "interface slip at the end of the overlap",
-    "uplift_capacity": "uplift at which the bearing fails",
-    "backup": "support after the bearing's failure",
-    "design_load": "axial load that defaults refer to",
-    "yield_displacement": "elastic displacement before sliding, concave surfaces",
-    "interface_yield_displacement": "elastic displacement before slip, interface",
-    "friction_law": "hysteretic model of friction",
-    "bouc_wen_exponent": "exponent of the Bouc-Wen model",
-    "torsional_friction": "friction against rotation about the vertical",
-    "plate_thickness": "plate thickness, node to vertex of the surface",
-    "slider_density": "density of the sliders",
-    "slider_mass": "mass of the sliders",
-    "slider_inertia": "moments of inertia of the sliders",
-    "contact_points": "contact points of a slider's face",
-    "allow_weak_interface": "interface weaker than the surfaces accepted",
-    "pressure_dependence": "friction and pressure",
-    "friction_heating": "friction and temperature",
-}
-"""Fields of a bearing as the report calls them."""
-
-_ENDLESS = {
-    "interface_friction": "rigid slider",
-    "capacity": "no restraining rims",
-    "rims": "no restraining rims",
-    "rim_yield_force": "elastic",
-    "rim_overrun": "no failure modelled",
-    "slip_capacity": "no end modelled",
-}
 _SHOWN = {
     "m": ("mm", 1e3),
     "N": ("kN", 1e-3),
@@ -100,9 +55,9 @@ def device_table(bearing: LIRBearing) -> Table:
             value, origin = resolved[name], "default"
         elif value == field.default:
             origin = "default"
-        unit = FIELD_UNITS["LIRBearing"].get(name, "-" if _is_number(value) else "")
-        shown = _quantity(value, unit, _ENDLESS.get(name, "not limited"))
-        rows.append((TERMS.get(name, name.replace("_", " ")), shown, _unit(value, unit), origin))
+        unit = field.metadata.get("unit", "")
+        shown = _quantity(value, unit, field.metadata.get("endless") or "not limited")
+        rows.append((field.metadata["title"], shown, _unit(value, unit), origin))
     return Table(("property", "value", "unit", "origin"), rows, frozenset({3}))
 
 

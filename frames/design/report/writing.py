@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from frames.design.calculation.standing import LEGEND, MEMORY, standing_of
-from frames.design.codes.provisions import left_to_the_engineer
+from frames.design.codes.code_values import left_to_the_engineer
 from frames.design.codes.registry import code_named
 from frames.design.histories.demand_table import largest_of_links, tables_of_levels
 from frames.design.report.cover import cover_of, css_string, verdict_of

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
     from frames.design.codes.isolation import IsolationSystem
     from frames.design.codes.outcome import EquivalentLinear
-    from frames.design.sizing.size_groups import Size
+    from frames.design.sizing.candidate import Size
     from frames.design.sizing.target import DesignTarget
     from lir_element.device.friction import FrictionLaw
 

@@ -11,7 +11,7 @@ from frames.design._errors import CheckError
 from frames.design.codes.analysis import equivalent_linear
 from frames.design.codes.isolation import IsolationSystem
 from frames.design.hazard.spectrum import Spectrum
-from frames.design.sizing.candidate import Candidate
+from frames.design.sizing.candidate import Candidate, grouped
 from frames.design.sizing.fitting import Asked, fitted
 from frames.design.sizing.selection import (
     OBJECTIVES,
@@ -22,7 +22,6 @@ from frames.design.sizing.selection import (
     ranked,
     table_of,
 )
-from frames.design.sizing.size_groups import grouped
 from frames.design.sizing.target import DesignTarget
 from frames.frame import Frame
 from lir_element import DesignWarning

@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 
 from frames.design._errors import CheckError
 from frames.design.devices.limits import LANDING_PRESSURE, DesignLimits
-from lir_element.argument_checks import require_between, require_positive, require_type
+from lir_element.argument_checks import require_type
 from lir_element.device.friction import CoulombFriction, FrictionLaw
+from lir_element.fields import check_numbers, number
 
 INTERFACE_PRESSURE = LANDING_PRESSURE
 """Mean pressure on the sliders' overlap that a proposal keeps unless told otherwise [Pa]."""
@@ -22,6 +23,9 @@ the pressure falls, and tests cover 5 to 45 MPa (for instance Bondonet and Filia
 Bridge Eng. 2(4)). Ten, of all bearings together, leaves the lightest ones about the lower end of
 the tests. A starting point of this package, to be confirmed by the liner's maker.
 """
+
+
+_PRESSURE = number("Pa", "(0, inf)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,23 +92,25 @@ class DesignTarget:
     (30.0, 60.0)
     """
 
-    radii: Sequence[float] = (1.0, 1.5, 2.0, 2.5, 3.0)
+    radii: Sequence[float] = field(
+        default=(1.0, 1.5, 2.0, 2.5, 3.0), metadata=number("m", "(0, inf)")
+    )
     frictions: Sequence[float | FrictionLaw] = (0.04, 0.05, 0.06, 0.08)
-    rim_share: float | None = None
-    free_margin: float = 1.05
-    slip_reserve: float = 0.10
-    slip_margin: float = 1.0
-    pressure: float = 30e6
-    largest_pressure: float = 60e6
-    least_pressure: float = LEAST_PRESSURE
-    height_ratio: float = 1.0
-    rim_width: float = 0.025
-    clearance: float = 0.010
-    slider_step: float = 0.005
-    friction_step: float = 0.005
-    max_displacement: float | None = None
-    max_base_shear: float | None = None
-    max_plan_diameter: float | None = None
+    rim_share: float | None = field(default=None, metadata=number("-", "(0, 2)"))
+    free_margin: float = field(default=1.05, metadata=number("-", "[1, 2)"))
+    slip_reserve: float = field(default=0.10, metadata=number("-", "(0, 1)"))
+    slip_margin: float = field(default=1.0, metadata=number("-", "[1, 10)"))
+    pressure: float = field(default=30e6, metadata=_PRESSURE)
+    largest_pressure: float = field(default=60e6, metadata=_PRESSURE)
+    least_pressure: float = field(default=LEAST_PRESSURE, metadata=_PRESSURE)
+    height_ratio: float = field(default=1.0, metadata=number("-", "(0, inf)"))
+    rim_width: float = field(default=0.025, metadata=number("m", "(0, inf)"))
+    clearance: float = field(default=0.010, metadata=number("m", "(0, inf)"))
+    slider_step: float = field(default=0.005, metadata=number("m", "(0, inf)"))
+    friction_step: float = field(default=0.005, metadata=number("-", "(0, inf)"))
+    max_displacement: float | None = field(default=None, metadata=number("m", "[1e-3, 5)"))
+    max_base_shear: float | None = field(default=None, metadata=number("-", "[1e-3, 5)"))
+    max_plan_diameter: float | None = field(default=None, metadata=number("m", "[1e-3, 10)"))
     limits: DesignLimits = field(
         default_factory=lambda: DesignLimits(interface_pressure=INTERFACE_PRESSURE)
     )
@@ -116,34 +122,7 @@ class DesignTarget:
                 msg = f"{name} is empty: give one to choose from, at least"
                 raise CheckError(msg)
             object.__setattr__(self, name, values)
-        for radius in self.radii:
-            require_positive("radius", radius, "m", error=CheckError)
-        if self.rim_share is not None:
-            share = require_positive("rim_share", self.rim_share, "-", error=CheckError)
-            require_between("rim_share", share, 0.0, 2.0, "-", error=CheckError)
-        require_between("free_margin", self.free_margin, 1.0, 2.0, "-", error=CheckError)
-        require_between("slip_reserve", self.slip_reserve, 0.0, 1.0, "-", error=CheckError)
-        require_between("slip_margin", self.slip_margin, 1.0, 10.0, "-", error=CheckError)
-        for name in (
-            "slip_reserve",
-            "pressure",
-            "largest_pressure",
-            "least_pressure",
-            "height_ratio",
-            "rim_width",
-            "clearance",
-            "slider_step",
-            "friction_step",
-        ):
-            require_positive(name, getattr(self, name), error=CheckError)
-        for name, unit, most in (
-            ("max_displacement", "m", 5.0),
-            ("max_base_shear", "-", 5.0),
-            ("max_plan_diameter", "m", 10.0),
-        ):
-            value = getattr(self, name)
-            if value is not None:
-                require_between(name, value, 1e-3, most, unit, error=CheckError)
+        check_numbers(self, error=CheckError)
         try:
             _ = self.laws  # refused here, not when it is tried
         except ValueError as cause:

@@ -11,7 +11,7 @@ import xarray as xr
 from frames.batch.time_histories import time_histories
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.codes.registry import code_named
-from frames.design.hazard.pair_spectra import pair_spectrum
+from frames.design.hazard.motion_measures import pair_spectrum
 from frames.design.histories.suite import peaks_of_runs, suite_of
 from frames.design.sizing.fitting import Asked
 from frames.library.models import lumped_mass

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from frames.design._errors import CheckError
@@ -15,7 +15,7 @@ from frames.design.codes.secant import CheckBuilder
 from frames.design.testing.acceptance_of_code import checks_of_code
 from frames.design.testing.programme import PROPOSAL, pressure_factor
 from lir_element import LIRBearing
-from lir_element.argument_checks import require_between
+from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -67,17 +67,15 @@ class AcceptanceLimits:
     True
     """
 
-    spread: float = 0.15
-    drop: float = 0.20
-    many_cycles: int = 10
+    spread: float = field(default=0.15, metadata=number("-", "[0, 1)"))
+    drop: float = field(default=0.20, metadata=number("-", "[0, 1)"))
+    many_cycles: int = field(
+        default=10, metadata=number("-", f"[{_SEVERAL}, inf)", remedy="10 is usual")
+    )
     stiffness: tuple[float, float] = (0.85, 1.15)
 
     def __post_init__(self) -> None:
-        for name in ("spread", "drop"):
-            require_between(name, getattr(self, name), 0.0, 1.0, "-", error=CheckError)
-        if self.many_cycles < _SEVERAL:
-            msg = f"many_cycles = {self.many_cycles}: give {_SEVERAL} at least, 10 is usual"
-            raise CheckError(msg)
+        check_numbers(self, error=CheckError)
         least, most = self.stiffness
         if not 0.0 < least <= 1.0 <= most:
             msg = f"stiffness = {self.stiffness}: give a range around 1, (0.85, 1.15) is usual"

@@ -8,11 +8,16 @@ from typing import TYPE_CHECKING
 from frames.design._errors import CheckError
 from frames.design.calculation.standing import OWN, Standing
 from frames.design.calculation.unevaluated import NOT_EVALUATED
-from frames.design.codes.acceptance_rules import AcceptanceRule, accepted_of
 from frames.design.codes.bounds import ENDS, with_property_bounds
 from frames.design.codes.code_values import CodeValue, weakest
 from frames.design.codes.pendulum import FrictionPendulum
-from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, ProgrammeDemands
+from frames.design.codes.prototype_programme import (
+    AcceptanceRule,
+    DesignToTest,
+    PlannedTest,
+    ProgrammeDemands,
+    accepted_of,
+)
 from frames.design.codes.registry import code_named
 from lir_element import LIRBearing
 from lir_element.argument_checks import require_positive

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from frames.design.hazard.damping_factors import damping_factor
+from frames.design.hazard.code_rules import damping_factor
 from frames.risk._errors import FragilityError
 from frames.risk.campaign.compared_devices import LIR, dish_diameter
 from frames.risk.fragility.comparison import compare_fragility

@@ -14,7 +14,7 @@ from frames.risk.campaign.comparison import collapse_limit
 from frames.risk.campaign.designs import names_of
 from frames.risk.campaign.file_fragility import FragilityTable
 from frames.risk.fragility.limit_state import LimitState
-from lir_element.device.friction import unit_of
+from lir_element.fields import unit_of
 
 if TYPE_CHECKING:
     from lir_element import FrictionLaw

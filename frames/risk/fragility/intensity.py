@@ -7,8 +7,13 @@ from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
-from frames.design.hazard.motion_measures import build_up, cumulative_velocity
-from frames.design.hazard.pair_spectra import ANGLES, MEASURES, pair_spectrum
+from frames.design.hazard.motion_measures import (
+    ANGLES,
+    MEASURES,
+    build_up,
+    cumulative_velocity,
+    pair_spectrum,
+)
 from frames.motion.baseline import integrated
 from frames.risk._errors import FragilityError
 from lir_element.argument_checks import (
