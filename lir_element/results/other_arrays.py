@@ -44,6 +44,7 @@ def spare() -> None:
     if isinstance(kinds, dict) and hasattr(pycompat, "DuckArrayModule"):
         for package in PACKAGES:
             kinds.setdefault(package, _NotImported(package))
-    asked = getattr(utils, "is_dask_collection", None)
+    checks: Any = utils
+    asked = getattr(checks, "is_dask_collection", None)
     if asked is not None:
-        utils.is_dask_collection = lambda x: "dask.base" in sys.modules and asked(x)
+        checks.is_dask_collection = lambda x: "dask.base" in sys.modules and asked(x)
