@@ -29,11 +29,27 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
+LONG = 300
+"""Instructions from which on LLVM may not copy a function: it takes half as long for the rest."""
+
+MANY_ARGUMENTS = 100
+"""Arguments from which on a call costs too much: arrays are handed over number by number."""
+
+
 class PartLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
     """The code of one kernel as it was lowered, and the libraries of what it calls."""
 
     kept: tuple[str, bytes] | None = None
     """Name and digest of the file that it is kept in."""
+
+    def add_ir_module(self, ir_module: Any) -> None:
+        """Take code in; a long function with few arguments is called rather than copied."""
+        for function in ir_module.functions:
+            length = sum(len(block.instructions) for block in function.blocks)
+            few = len(function.args) < MANY_ARGUMENTS
+            if few and length > LONG and "alwaysinline" not in function.attributes:
+                function.attributes.add("noinline")
+        super().add_ir_module(ir_module)
 
     def add_llvm_module(self, ll_module: Any) -> None:
         """Take code in as it is."""

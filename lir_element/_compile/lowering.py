@@ -21,9 +21,10 @@ from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import register_pass
 from numba.core.funcdesc import default_mangler
 from numba.core.lowering import Lower
-from numba.core.typed_passes import NativeLowering
+from numba.core.typed_passes import InlineOverloads, NativeLowering, NopythonRewrites
 from numba.core.types.containers import BaseNamedTuple, BaseTuple
 from numba.core.types.misc import unliteral
+from numba.core.untyped_passes import FindLiterallyCalls, WithLifting
 from numba.np.arrayobj import fix_integer_index, load_item, store_item
 
 if TYPE_CHECKING:
@@ -326,15 +327,20 @@ class KernelLowering(NativeLowering):  # type: ignore[misc]  # numba has no type
             del context.mangler
 
 
+_NEEDLESS = (InlineOverloads, NopythonRewrites, WithLifting, FindLiterallyCalls)
+"""Steps for expressions of arrays, overloads and contexts, which kernels do not have."""
+
+
 class KernelPipeline(CompilerBase):  # type: ignore[misc]  # numba has no types
     """The steps of the compiler for kernels."""
 
     def define_pipelines(self) -> list[Any]:
-        """Return numba's steps with the last one of this module."""
+        """Return numba's steps without the needless ones, with the last one of this module."""
         manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
         passes = [
             (KernelLowering if step is NativeLowering else step, why)
             for step, why in manager.passes
+            if step not in _NEEDLESS
         ]
         manager.passes = passes
         manager._finalized = False

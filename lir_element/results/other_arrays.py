@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-from xarray.namedarray import pycompat
+from xarray.namedarray import pycompat, utils
 
 PACKAGES = {"dask": "dask.array", "pint": "pint"}
 """Those with an array, and the module without which there is none."""
@@ -44,3 +44,7 @@ def spare() -> None:
     if isinstance(kinds, dict) and hasattr(pycompat, "DuckArrayModule"):
         for package in PACKAGES:
             kinds.setdefault(package, _NotImported(package))
+    checks: Any = utils
+    asked = getattr(checks, "is_dask_collection", None)
+    if asked is not None:
+        checks.is_dask_collection = lambda x: "dask.base" in sys.modules and asked(x)

@@ -116,6 +116,34 @@ def test_a_part_is_left_whose_callee_another_process_has_replaced(
     assert [compiled(names[name]) for name in NAMES] == [0, 1, 1, 1]
 
 
+@PARTS
+def test_a_long_function_is_called_and_a_short_or_forced_one_is_copied() -> None:
+    from llvmlite import ir
+    from numba.core.registry import cpu_target
+
+    from lir_element._compile.linking import LONG, MANY_ARGUMENTS, PartLibrary
+
+    def called(length: int, arguments: int, *, forced: bool = False) -> bool:
+        library = PartLibrary(cpu_target.target_context.codegen(), "law")
+        module = library.create_ir_module("law")
+        double = ir.DoubleType()
+        function = ir.Function(module, ir.FunctionType(double, [double] * arguments), "law")
+        builder = ir.IRBuilder(function.append_basic_block())
+        value = function.args[0]
+        for _ in range(length - 1):
+            value = builder.fadd(value, value)
+        builder.ret(value)
+        if forced:
+            function.attributes.add("alwaysinline")
+        library.add_ir_module(module)
+        return "noinline" in function.attributes
+
+    assert called(LONG + 1, 5)
+    assert not called(LONG, 5)
+    assert not called(LONG + 1, MANY_ARGUMENTS)
+    assert not called(LONG + 1, 5, forced=True)
+
+
 FALLBACK = """
 import numba
 numba.__version__ = "0.1.0"

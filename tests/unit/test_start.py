@@ -79,7 +79,7 @@ from frames.demo import bearing_for
 pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 21)), dt=0.05)
 data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse, duration=0.5)
 largest = float(abs(data["bearing_displacement"]).max())
-print([name for name in ("dask.array", "pint") if name in sys.modules])
+print([name for name in ("dask.base", "dask.array", "pint") if name in sys.modules])
 """
 LATER = """
 import dask.array, xarray
