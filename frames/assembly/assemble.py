@@ -26,8 +26,7 @@ from frames.assembly.system import System as System
 from frames.model.applied_loads import applied_loads
 from frames.model.axes import default_up, matrix_to_global, to_local
 from frames.model.components import RELEASABLE, bearing_axial_stiffness, bearing_rocking_stiffness
-from frames.model.part_elements import element_table
-from frames.model.superelement import Placed, lumped, placed
+from frames.model.superelement import Placed, element_table, lumped, placed
 from lir_element.device.features import Features
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from frames.assembly.members import (
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.assembly.nonlinear_parts import NonlinearParts
-    from frames.model.part_elements import ElementTable
+    from frames.model.superelement import ElementTable
     from lir_element import Features, LIRBearing
 
 

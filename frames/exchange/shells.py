@@ -13,7 +13,7 @@ from frames.exchange.building import AreaObject, AreaSection, Constraint, Materi
 from frames.exchange.geometry import Levels, area_normal, level_of
 from frames.exchange.loads import Shares
 from frames.exchange.mesh import joints_within
-from frames.model.part_elements import ShellElement, WithoutForces, no_elements
+from frames.model.superelement import ShellElement, WithoutForces, no_elements
 from frames.opensees.model import read_model
 from lir_element.argument_checks import listed
 from lir_element.elevations import SAME_PLACE

@@ -14,7 +14,7 @@ from frames.model.applied_loads import applied_loads, load_masses
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.frame import Frame
-    from frames.model.panels import Span
+    from frames.model.floors import Span
 
 FACADE = "D"
 """Load case of facades."""

@@ -27,7 +27,7 @@ from lir_element.argument_checks import require_type, require_vector
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, MatrixLike
-    from frames.model.part_elements import PartElements
+    from frames.model.superelement import PartElements
     from lir_element import LIRBearing
 
 
@@ -186,7 +186,7 @@ class FrameBuilder(FrameLoader):
             What whoever reads the results should know of where it came from.
         elements : PartElements, optional
             Line elements that are in the matrices already: how the forces in them follow from
-            displacements (`frames.model.part_elements`), so that results have them with those of
+            displacements (`frames.model.superelement`), so that results have them with those of
             members.
 
         Raises

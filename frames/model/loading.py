@@ -22,7 +22,7 @@ from lir_element.argument_checks import (
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
-    from frames.model.panels import Span
+    from frames.model.floors import Span
 
 
 class FrameLoader(FrameData):

@@ -6,8 +6,8 @@ import math
 
 from frames._errors import ModelError
 from frames.model.rolled_shapes import catalogue_dimensions, rolled_i_constants
-from frames.model.section_constants import SectionConstants
 from frames.model.shapes import (
+    SectionConstants,
     circle_constants,
     dimensions,
     i_shape_constants,

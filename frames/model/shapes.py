@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, fields, replace
+from typing import Self
 
 from frames._errors import ModelError
-from lir_element.argument_checks import require_finite, require_positive
+from lir_element.argument_checks import require_finite, require_non_negative, require_positive
+from lir_element.tables import html_table
 from lir_element.units import meant
 
 LARGEST_SIDE = 100.0
@@ -89,3 +92,129 @@ def i_shape_constants(
         "shear_area_y": 5.0 / 6.0 * 2.0 * b * tf,
         "shear_area_z": (d - tf) * tw,
     }
+
+
+SOFTEST, LARGEST_AREA = 1e6, 500.0
+"""Elastic modulus [Pa] below, and area [m2] above which no member is."""
+
+UNITS = {
+    "area": "m2",
+    "inertia_y": "m4",
+    "inertia_z": "m4",
+    "torsion_constant": "m4",
+    "elastic_modulus": "Pa",
+    "shear_modulus": "Pa",
+    "density": "kg/m3",
+    "shear_area_y": "m2",
+    "shear_area_z": "m2",
+}
+
+
+@dataclass(frozen=True)
+class SectionConstants:
+    """What `Section` is made of; its docstring has the meaning and the unit of each."""
+
+    area: float
+    inertia_y: float
+    inertia_z: float
+    torsion_constant: float
+    elastic_modulus: float
+    shear_modulus: float
+    density: float = 0.0
+    shear_area_y: float = math.inf
+    shear_area_z: float = math.inf
+
+    def __post_init__(self) -> None:
+        """Check every number."""
+        for field in fields(self):
+            value = getattr(self, field.name)
+            what = f"Section.{field.name}"
+            if field.name == "density":
+                number = require_non_negative(
+                    what,
+                    value,
+                    remedy="give kg/m3, or 0 for a member without mass",
+                    error=ModelError,
+                )
+            elif field.name.startswith("shear_area"):
+                remedy = "give m2, or leave it out (infinity) to neglect the shear deformation"
+                number = require_positive(
+                    what, value, infinite=True, remedy=remedy, error=ModelError
+                )
+            else:
+                number = require_positive(
+                    what,
+                    value,
+                    remedy="a member needs every stiffness; give SI units",
+                    error=ModelError,
+                )
+            object.__setattr__(self, field.name, number)
+        self._refuse_units()
+
+    def _refuse_units(self) -> None:
+        # Moduli that no material has, areas that no member has; sections of modulus 1, with
+        # stiffnesses in the place of areas, and rigid ones pass.
+        if self.elastic_modulus < SOFTEST and self.area < LARGEST_AREA:
+            message = (
+                f"Section.elastic_modulus = {self.elastic_modulus:g} Pa is softer than rubber: "
+                f"{meant(self.elastic_modulus, 'Pa', 1e9, 5e11)}; steel has 200e9, "
+                "concrete 30e9"
+            )
+            raise ModelError(message)
+        if self.area > LARGEST_AREA and self.density > 0.0 and self.elastic_modulus > SOFTEST:
+            message = (
+                f"Section.area = {self.area:g} m2, at most {LARGEST_AREA:g} m2 for a member with "
+                f"mass: {meant(self.area, 'm2', 1e-5, 20.0)}"
+            )
+            raise ModelError(message)
+
+    def _repr_html_(self) -> str:
+        def text(value: float) -> str:
+            return "not counted" if math.isinf(value) else f"{value:.4g}"
+
+        rows = [
+            (f.name.replace("_", " "), text(getattr(self, f.name)), UNITS[f.name])
+            for f in fields(self)
+        ]
+        return html_table("Section", rows)
+
+    def cracked(
+        self, bending: float, *, torsion: float | None = None, shear: float | None = None
+    ) -> Self:
+        """Return the section with the effective stiffness of cracked concrete.
+
+        Codes give factors, such as 0.5 for bending and shear (EN 1998-1:2004, 4.3.1(7)), or 0.7 for
+        the bending of columns and 0.35 of beams (ACI 318-19, table 6.6.3.1.1(a)).
+
+        Parameters
+        ----------
+        bending : float
+            Factor on both second moments of area [-], in (0, 1].
+        torsion, shear : float, optional
+            Factors on the torsion constant and on the shear areas [-], in (0, 1]; that of bending
+            if None.
+
+        Returns
+        -------
+        Section
+            The same section; area and density stay.
+
+        Raises
+        ------
+        ModelError
+            If a factor is out of bounds.
+        """
+        given = {"bending": bending, "torsion": torsion, "shear": shear}
+        factors = {name: bending if value is None else value for name, value in given.items()}
+        for name, value in factors.items():
+            if not 0.0 < value <= 1.0:
+                msg = f"{name} = {value:g} must lie in (0, 1]: 0.5 is half the uncracked stiffness"
+                raise ModelError(msg)
+        return replace(
+            self,
+            inertia_y=factors["bending"] * self.inertia_y,
+            inertia_z=factors["bending"] * self.inertia_z,
+            torsion_constant=factors["torsion"] * self.torsion_constant,
+            shear_area_y=factors["shear"] * self.shear_area_y,
+            shear_area_z=factors["shear"] * self.shear_area_z,
+        )

@@ -11,7 +11,6 @@ import numpy as np
 
 from frames._errors import MotionError, MotionWarning
 from frames._types import FloatArray
-from frames.motion.components import AXES
 from frames.motion.number_text import (
     Lines,
     Writing,
@@ -21,7 +20,7 @@ from frames.motion.number_text import (
     table_of,
     text_lines,
 )
-from frames.motion.records import AccelerationTrace, PathLike
+from frames.motion.records import AXES, AccelerationTrace, PathLike
 from lir_element.argument_checks import require_choice
 
 Source: TypeAlias = int | PathLike | tuple[PathLike, int]

@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from frames._errors import MotionError
 from frames.motion import transforms
 from frames.motion.record_motions import RecordedMotion
@@ -18,6 +20,9 @@ from frames.motion.spectra import response_spectrum
 if TYPE_CHECKING:
     import numpy.typing as npt
     import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.motion.ground_motion import GroundMotion
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
@@ -164,7 +169,7 @@ class GroundMotion(RecordedMotion):
         """Return the motion with its baseline corrected: the ground is at rest at its end.
 
         The smallest acceleration that does so, a straight line in time, is taken off each
-        component (`frames.motion.baseline`). The name tells by how much the peaks changed.
+        component (`frames.motion.transforms`). The name tells by how much the peaks changed.
 
         Parameters
         ----------
@@ -234,3 +239,27 @@ class GroundMotion(RecordedMotion):
             raise MotionError(msg)
         data = response_spectrum(given[component], self.dt, periods, damping)
         return data.assign_attrs(motion=self.name, component=component)
+
+
+def seen_by_steps(motion: GroundMotion, dt: float) -> tuple[FloatArray, float]:
+    """Return ground accelerations and their step for an analysis in steps of `dt`."""
+    given = np.ascontiguousarray(motion.components, dtype=np.float64)
+    step = float(motion.dt)
+    if dt <= step * (1.0 + 1e-9) or len(given) < 2:
+        return given, step
+    rise = np.diff(given, axis=0) / step
+    velocity = np.vstack([np.zeros(3), np.cumsum(0.5 * step * (given[1:] + given[:-1]), axis=0)])
+    parts = step * velocity[:-1] + step**2 * (0.5 * given[:-1] + step * rise / 6.0)
+    place = np.vstack([np.zeros(3), np.cumsum(parts, axis=0)])
+    count = int(np.ceil((len(given) - 1) * step / dt - 1e-9)) + 2
+    times = dt * np.arange(-1, count + 1)
+    index = np.clip((times / step + 1e-9).astype(np.int64), 0, len(given) - 1)
+    since = np.maximum(times - step * index, 0.0)[:, None]
+    inside = index < len(given) - 1
+    slope = np.vstack([rise, np.zeros(3)])[index]
+    start = np.where(inside[:, None], given[index], 0.0)
+    moved = place[index] + since * velocity[index] + since**2 * (0.5 * start + since * slope / 6.0)
+    moved[times < 0.0] = 0.0
+    means = (moved[2:] - 2.0 * moved[1:-1] + moved[:-2]) / dt**2
+    means[0] *= 2.0  # half of the first triangle lies before the motion
+    return np.ascontiguousarray(means), dt

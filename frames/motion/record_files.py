@@ -14,10 +14,17 @@ import numpy as np
 from frames._errors import MotionError, MotionWarning
 from frames._types import FloatArray
 from frames.motion.columns import even_step
-from frames.motion.components import AXES, PAD_PART, PAD_SAMPLES
 from frames.motion.formats import FORMATS, Format
 from frames.motion.number_text import Writing, acceleration_unit, rows_of, text_lines
-from frames.motion.records import AccelerationTrace, PathLike, is_at2, read_at2
+from frames.motion.records import (
+    AXES,
+    PAD_PART,
+    PAD_SAMPLES,
+    AccelerationTrace,
+    PathLike,
+    is_at2,
+    read_at2,
+)
 
 _LOOKED_AT = 60
 """Lines at the beginning of a file by which its format is recognised."""

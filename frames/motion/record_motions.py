@@ -12,12 +12,11 @@ import numpy as np
 
 from frames._errors import MotionWarning
 from frames.motion import transforms
-from frames.motion.baseline import LEAST_RECORD, corrected, drift_of
 from frames.motion.columns import ColumnLayout, Source, column_traces
-from frames.motion.components import AXES
 from frames.motion.motion_data import MotionData
 from frames.motion.record_files import record_traces
-from frames.motion.records import AccelerationTrace, PathLike, at2_traces, common_step
+from frames.motion.records import AXES, AccelerationTrace, PathLike, at2_traces, common_step
+from frames.motion.transforms import LEAST_RECORD, corrected, drift_of
 from lir_element.units import STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.assembly.members import at_ends
-from frames.model.part_elements import PartElements, WithoutForces, no_elements
+from frames.model.superelement import PartElements, WithoutForces, no_elements
 from frames.opensees.element_stiffness import apart_from_assembled, geometry, stiffnesses
 from frames.opensees.materials import law_of, printed_model
 from frames.opensees.natures import BARS, LINEAR

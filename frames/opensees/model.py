@@ -20,7 +20,7 @@ from scipy import sparse
 
 from frames._errors import ModelError
 from lir_element.opensees import opensees
-from lir_element.opensees.dangling_references import leftovers
+from lir_element.opensees.base_nodes import leftovers
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix

@@ -12,7 +12,7 @@ from frames._fingerprint import motion_digest
 from frames._provenance import provenance
 from frames.bundles.run_data import MOST_HALVINGS, Ground, IntegratorSettings
 from frames.kernels.integration import integrate_chunk, record
-from frames.motion.resampling import seen_by_steps
+from frames.motion.ground_motion import seen_by_steps
 from frames.solve.outcome import Outcome, concluded, ended
 from frames.solve.rigid import LARGEST_STEP
 from frames.statics.equilibrium import force_tolerance

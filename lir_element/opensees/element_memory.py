@@ -24,8 +24,7 @@ from lir_element.opensees.block.layout import (
     RECORD_WORDS,
     STATE_WORDS,
 )
-from lir_element.opensees.block.messages import bearing_messages
-from lir_element.opensees.block.responses import host_responses
+from lir_element.opensees.block.responses import bearing_messages, host_responses
 
 if TYPE_CHECKING:
     from collections.abc import Callable

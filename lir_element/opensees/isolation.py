@@ -20,7 +20,7 @@ from lir_element.opensees.base_nodes import (
     not_alone,
     release,
 )
-from lir_element.opensees.held_signals import signals_held
+from lir_element.opensees.connection import signals_held
 from lir_element.opensees.library import opensees
 from lir_element.opensees.plugin import (
     ROUTES,

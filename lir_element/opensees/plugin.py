@@ -13,13 +13,12 @@ import numpy as np
 from lir_element.argument_checks import require_choice
 from lir_element.device.bearing import LIRBearing
 from lir_element.element import LEVELS, Level
-from lir_element.opensees.connection import add_host_element
+from lir_element.opensees.connection import add_host_element, restart_reads, signals_held
 from lir_element.opensees.element_memory import ElementMemory, entries_of
 from lir_element.opensees.fast.in_process_element import Grafted
 from lir_element.opensees.fast.portable_responses import Manners
 from lir_element.opensees.fast.selftest import why_not_fast
 from lir_element.opensees.fast.symbols import NotPossibleError
-from lir_element.opensees.held_signals import restart_reads, signals_held
 from lir_element.opensees.library import opensees
 from lir_element.opensees.placement import Placement, place
 from lir_element.opensees.portable.remote import Orphans, Remote, RouteWarning, Server, ServerError

@@ -12,6 +12,7 @@ import xarray as xr
 from lir_element.argument_checks import require_choice, require_positive, unreal
 from lir_element.bundles.contact_data import contact_arrays
 from lir_element.bundles.rig_data import rig_run
+from lir_element.bundles.rigid_data import FIRST_STEP, rigid_input, rigid_run, rigid_setup
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.bearing_checks import (
     AT_RIGID_BODY,
@@ -22,6 +23,7 @@ from lir_element.element import ALL_LEVELS, AnyLevel, heat_parts, initial_state,
 from lir_element.errors import RunStatus
 from lir_element.interruptible import interruptible, ready
 from lir_element.kernels.cyclic_kernel import begin_path, follow_path
+from lir_element.kernels.rigid_body.integrate import integrate_bodies, start
 from lir_element.results.dataset import (
     bearing_coordinates,
     bearing_variables,
@@ -31,7 +33,6 @@ from lir_element.results.dataset import (
     require_on_failure,
 )
 from lir_element.results.optional_variables import optional_variables
-from lir_element.rig.rigid_rig import drive_path
 from lir_element.units import meant
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
     from lir_element.bundles.contact_data import Contacts
     from lir_element.bundles.rig_data import RigRun
     from lir_element.device.bearing import LIRBearing
-    from lir_element.layout import Floats
+    from lir_element.layout import Floats, Records
 
 _TOO_LIGHT = 2e-3  # of the design load: kilonewtons
 _TOO_FAR = 10.0  # of the radius: a path in millimetres
@@ -198,3 +199,49 @@ def _loads(axial_load: float | ArrayLike, displacement: ArrayLike) -> Floats:
         msg = f"axial_load = {worst:g} N: it must be positive (compression) and finite everywhere"
         raise ValueError(msg)
     return loads
+
+
+def drive_path(
+    props: Records,
+    contacts: Contacts,
+    state: Records,
+    path: Floats,
+    loads: Floats,
+    velocity: float,
+) -> tuple[Records, Records, int, RunStatus, float, Records]:
+    """Take one bearing in equilibrium through a path of its top plate, as rigid bodies.
+
+    The rig's plate weighs what it carries: axial load over standard gravity.
+
+    Shapes: path (n, 2), loads (n,).
+    """
+    mass = np.max(loads) / STANDARD_GRAVITY
+    run = rigid_run(
+        props,
+        contacts,
+        state,
+        np.full(3, mass),
+        np.zeros(3),
+        np.array([0, 0, 1, 0, 0, 0]),
+        driven=True,
+    )
+    points = np.vstack([np.zeros((1, 2)), path])
+    lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    count = len(points)
+    load = np.zeros((count, 6))
+    load[:, 2] = -np.concatenate([loads[:1], loads])
+    times = np.concatenate([[0.0], np.cumsum(lengths / velocity)])
+    given, out = rigid_input((np.zeros((2, 3)), 1.0), times, points, load)
+    length = float(props["length"][0])
+    largest = 0.2 * float(props["yield_displacement"].min()) / velocity
+    setup = rigid_setup(length, largest)
+    run.clock["step"] = min(FIRST_STEP, largest)
+    start(run, given)
+
+    def go(last: int, tries: int) -> int:
+        return integrate_bodies(run, given, setup, last, tries)
+
+    status = interruptible(go, lambda: int(run.counts["outputs"][0]), count)
+    reached = int(run.counts["outputs"][0]) - 1
+    time = float(run.clock["time"][0])
+    return out.states[1:], out.bodies[1:], reached, status, time, run.states[2:]

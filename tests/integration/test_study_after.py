@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import minimize
 from scipy.stats import binom, norm
 
-from frames.risk.campaign.compared_devices import dish_diameter
+from frames.risk.campaign.comparison import dish_diameter
 from validation.page import FOLDER
 from validation.study.after import NAME, page
 from validation.study.after_runs import DEVICES, DROPS, KINDS, Kind, devices

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from frames.risk import IntensityRuns
-from frames.risk.campaign.compared_devices import dish_diameter
+from frames.risk.campaign.comparison import dish_diameter
 from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
 from validation.study.buildings_numbers import DEFINITIONS, facts_of

@@ -10,7 +10,7 @@ import pytest
 from scipy.stats import norm
 
 from frames.risk import Intensity, IntensityRuns
-from frames.risk.campaign.compared_devices import dish_diameter
+from frames.risk.campaign.comparison import dish_diameter
 from frames.risk.fragility.runs import COMPLETE, FAILURE
 from lir_element import CoulombFriction, cyclic_test
 from validation.measurements.yielding_runs import LIR

@@ -9,7 +9,7 @@ import pytest
 from scipy import stats
 
 from frames.risk import HazardCurve, IntensityRuns, LimitState
-from frames.risk.campaign.compared_devices import dish_diameter
+from frames.risk.campaign.comparison import dish_diameter
 from lir_element.units import STANDARD_GRAVITY
 from validation.page import FOLDER
 from validation.study import loss

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from frames.risk.campaign.compared_devices import dish_diameter
+from frames.risk.campaign.comparison import dish_diameter
 from validation.page import FOLDER
 from validation.study.records_runs import COLLAPSE, considered
 from validation.study.rims import NAME, OURS, PLAINS, page

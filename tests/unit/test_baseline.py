@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
 from frames import GroundMotion, MotionError, MotionWarning
-from frames.motion.baseline import corrected, drift_of, integrated
+from frames.motion.transforms import corrected, drift_of, integrated
 
 DT = 0.01
 

@@ -30,9 +30,9 @@ from frames.risk import (
 from frames.risk.campaign import batches, packages, plan_description
 from frames.risk.campaign.campaign import usual_batch
 from frames.risk.campaign.designs import with_parameters
-from frames.risk.campaign.lock import locked
+from frames.risk.campaign.opened_store import locked
 from frames.risk.campaign.plan import Plan, differences
-from frames.risk.campaign.response import failure_table, response_table
+from frames.risk.campaign.plot_response import failure_table, response_table
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
 
@@ -372,7 +372,7 @@ def test_two_campaigns_at_once_are_refused(store: Path) -> None:
 HOLDER = """
 import sys, time
 from pathlib import Path
-from frames.risk.campaign.lock import locked
+from frames.risk.campaign.opened_store import locked
 
 with locked(Path(sys.argv[1])):
     print("held", flush=True)

@@ -22,8 +22,13 @@ from typer.testing import CliRunner
 from frames import lumped_mass
 from frames.command.app import app
 from frames.risk import CampaignError, Intensity, open_campaign
-from frames.risk.campaign.compared_devices import OTHERS, ComparedDevices, dish_diameter
-from frames.risk.campaign.comparison import collapse_limit, filling_intensity
+from frames.risk.campaign.comparison import (
+    OTHERS,
+    ComparedDevices,
+    collapse_limit,
+    dish_diameter,
+    filling_intensity,
+)
 from frames.risk.campaign.file import comparison_in, read_campaign
 from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
 

@@ -23,8 +23,7 @@ from frames.command.app import app
 from frames.design import ProjectError
 from frames.risk import IntensityRuns, fragility_of, open_campaign
 from frames.risk.campaign.file import fragility_in, read_campaign
-from frames.risk.campaign.plot_response import response_by_factor
-from frames.risk.campaign.response import runs_by_model
+from frames.risk.campaign.plot_response import response_by_factor, runs_by_model
 from lir_element import AnalysisWarning
 from tests.unit.test_campaign_file import FILE
 

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from frames import Frame, ModelError
 from frames.assembly.assemble import assemble
 from frames.demo import bearing_for
-from frames.model.part_elements import no_elements
+from frames.model.superelement import no_elements
 from frames.plots import model_view
 from frames.viewer.structure import structure_of
 from lir_element.opensees import opensees

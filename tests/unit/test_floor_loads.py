@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from frames import Frame, ModelError, Section
 from frames.assembly.assemble import assemble
 from frames.model.applied_loads import applied_loads
-from frames.model.panels import nearest_edges, one_way, turning
+from frames.model.floors import nearest_edges, one_way, turning
 from frames.model.sanity_checks import sanity_warnings
 
 BEAM = Section(

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import GroundMotion
-from frames.motion.resampling import seen_by_steps
+from frames.motion.ground_motion import seen_by_steps
 
 
 def motion() -> GroundMotion:

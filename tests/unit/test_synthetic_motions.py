@@ -15,8 +15,8 @@ from frames.design.hazard.stochastic_motion import (
     stochastic_acceleration,
 )
 from frames.design.hazard.synthetic_motions import PulseScatter, with_pulse
-from frames.motion.baseline import integrated
 from frames.motion.spectra import response_spectrum
+from frames.motion.transforms import integrated
 
 PULSE = NearFaultPulse(velocity=1.2, period=3.0, gamma=1.7, phase=0.8, time=4.0)
 

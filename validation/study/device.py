@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames.design import MotionSet
-from frames.risk.fragility.resampling import RESAMPLES
+from frames.risk.fragility.fitting import RESAMPLES
 from validation.measurements.benchmark import processor
 from validation.measurements.yielding_runs import LIR, WIDE
 from validation.study import device_search

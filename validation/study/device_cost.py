@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.risk.campaign.compared_devices import dish_diameter
+from frames.risk.campaign.comparison import dish_diameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

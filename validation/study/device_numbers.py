@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames.risk import FragilityError, collapse_margin_ratio, compare_fragility, fragility_of
-from frames.risk.campaign.compared_devices import dish_diameter
+from frames.risk.campaign.comparison import dish_diameter
 from frames.risk.fragility.runs import COMPLETE, FAILURE
 from validation.study.device_cost import PRICES, cost_of, volume_of
 from validation.study.device_runs import STRIPES, Device, frame_of, own_bearings, shape_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from frames.design import MotionSet
-from frames.risk.fragility.resampling import RESAMPLES
+from frames.risk.fragility.fitting import RESAMPLES
 from validation.study.part import performed
 from validation.study.records_runs import normalised
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from frames.design import MotionSet
 from frames.risk import open_campaign
-from frames.risk.fragility.resampling import RESAMPLES
+from frames.risk.fragility.fitting import RESAMPLES
 from validation.study.loss_figures import figures
 from validation.study.loss_page import page
 from validation.study.loss_runs import best_campaign, campaign, floor_spectra, floors_of, found_of

@@ -27,7 +27,7 @@ from frames.risk import (
     fragility_of,
 )
 from frames.risk.campaign.comparison import filling_intensity
-from frames.risk.fragility.resampling import RESAMPLES
+from frames.risk.fragility.fitting import RESAMPLES
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import (
     LIR,

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from frames.risk import Campaign, LimitState, collapse_margin_ratio
-from frames.risk.campaign.compared_devices import dish_diameter
+from frames.risk.campaign.comparison import dish_diameter
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import LIR, RIMS, model_of, structures
 from validation.study.records_runs import (

@@ -13,9 +13,9 @@ import numpy as np
 
 from frames._csv import csv_lines
 from frames._errors import MotionError, MotionWarning
-from frames.motion.components import AXES
 from frames.motion.ground_motion import GroundMotion
 from frames.motion.record_files import is_record, record_traces, single_traces
+from frames.motion.records import AXES
 from lir_element.argument_checks import listed, require_choice
 from lir_element.units import STANDARD_GRAVITY
 

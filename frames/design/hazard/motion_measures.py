@@ -9,8 +9,8 @@ import numpy as np
 
 from frames._errors import MotionError
 from frames._types import FloatArray
-from frames.motion.baseline import integrated
 from frames.motion.spectra import checked_oscillators, displacement_history, response_spectrum
+from frames.motion.transforms import integrated
 from lir_element.argument_checks import require_choice
 from lir_element.units import STANDARD_GRAVITY
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from frames.frame import Frame
     from frames.motion.ground_motion import GroundMotion
-    from frames.risk.campaign.file_fragility import FragilityTable
+    from frames.risk.campaign.file_schema import FragilityTable
     from frames.risk.campaign.sampling import ParameterSample
     from frames.risk.fragility.intensity import Intensity
     from lir_element import FrictionLaw

@@ -13,8 +13,12 @@ from frames.design.report.tables import in_mm_and_kn
 from frames.results.storage import csv_of, write_whole
 from frames.risk._errors import FragilityError
 from frames.risk.campaign.page_comparison import Fitted, compared
-from frames.risk.campaign.plot_response import response_by_factor
-from frames.risk.campaign.response import failure_table, response_table, runs_by_model
+from frames.risk.campaign.plot_response import (
+    failure_table,
+    response_by_factor,
+    response_table,
+    runs_by_model,
+)
 from frames.risk.fragility.of_runs import fragility_of
 from frames.risk.fragility.plot_fragility import fragility_curves
 from lir_element._version import package_version

@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from frames.design.report.page import Picture, Table, page_table, picture
 from frames.design.report.tables import in_mm_and_kn
 from frames.plots import plot_style as ps
-from frames.risk.campaign.compared_devices import LIR
+from frames.risk.campaign.comparison import LIR
 from frames.risk.campaign.plot_response import response_by_factor
 from frames.risk.fragility.plot_fragility import shown_intensity
 

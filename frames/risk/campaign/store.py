@@ -16,12 +16,10 @@ import numpy as np
 
 from frames.results.storage import write_whole
 from frames.risk._errors import CampaignError
-from frames.risk.campaign.layout import EVERY_CHUNK, digest_of, lay_out
-from frames.risk.campaign.lock import locked
-from frames.risk.campaign.opened_store import damaged, opened, readable, results_of
+from frames.risk.campaign.layout import EVERY_CHUNK, digest_of, lay_out, run_table
+from frames.risk.campaign.opened_store import damaged, locked, opened, readable, results_of
 from frames.risk.campaign.plan import listed
 from frames.risk.campaign.plan_description import FORMAT, READABLE, SOURCES, TAKEN_OVER, unlike
-from frames.risk.campaign.run_table import run_table
 
 if TYPE_CHECKING:
     from collections.abc import Generator

@@ -10,9 +10,9 @@ import pandas as pd
 
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.curve import CollapseFragility, Fragility
+from frames.risk.fragility.fitting import RESAMPLES, checked_runs, no_fit, resampled
 from frames.risk.fragility.intensity import IntensityMeasure, unit_of
 from frames.risk.fragility.likelihood import binomial
-from frames.risk.fragility.resampling import RESAMPLES, checked_runs, no_fit, resampled
 from lir_element.argument_checks import require_positive
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from frames.design.hazard.motion_measures import (
     cumulative_velocity,
     pair_spectrum,
 )
-from frames.motion.baseline import integrated
+from frames.motion.transforms import integrated
 from frames.risk._errors import FragilityError
 from lir_element.argument_checks import (
     require_between,

@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING, Literal
 
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.cloud_fit import fit_cloud
-from frames.risk.fragility.fitting import fit_capacities, fit_stripes
+from frames.risk.fragility.fitting import RESAMPLES, fit_capacities, fit_stripes
 from frames.risk.fragility.incremental import IDA, capacities_of
 from frames.risk.fragility.limit_state import LimitState
 from frames.risk.fragility.plans import CLOUD, HUNT, plans_of, require_beforehand
-from frames.risk.fragility.resampling import RESAMPLES
 from frames.risk.fragility.runs import IntensityRuns
 from lir_element.argument_checks import require_choice, require_type
 

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lir_element.opensees.block.layout import HOST, MOST_DOFS
-from lir_element.opensees.block.messages import bearing_messages
-from lir_element.opensees.block.responses import host_responses
+from lir_element.opensees.block.responses import bearing_messages, host_responses
 from lir_element.opensees.fast.symbols import addresses
 from lir_element.opensees.fast.vtable_patch import Graft, common_functions
 

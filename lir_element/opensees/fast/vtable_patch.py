@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lir_element.opensees.block.layout import CONSTANT, RESPONSE, offset_of
-from lir_element.opensees.block.messages import HINTED
+from lir_element.opensees.block.responses import HINTED
 from lir_element.opensees.fast.symbols import (
     OPTIONAL,
     REPLACED,

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lir_element.opensees.block.guard_layout import GUARD, MOST_CHANNELS
-from lir_element.opensees.block.messages import HINTED
+from lir_element.opensees.block.responses import HINTED
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from lir_element.device.friction import without_class
 from lir_element.opensees.block.protocol import vector_length
-from lir_element.opensees.connection import own_connections
-from lir_element.opensees.held_signals import signals_held
+from lir_element.opensees.connection import own_connections, signals_held
 from lir_element.opensees.library import child_environment, opensees
 from lir_element.opensees.portable.guard import Guard
 
