@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
-    from frames.motion.ground_motion import GroundMotion
 
 
 @dataclass(frozen=True, eq=False, repr=False, slots=True)
