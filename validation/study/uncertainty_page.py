@@ -39,6 +39,8 @@ RANGES = {
     "strength": "log-uniform, 0.5 to 2",
     "breaks": "uniform, 0.01 to 0.04",
     "damping": "uniform, 0.01 to 0.05",
+    "axial": "log-uniform, 0.3 to 3",
+    "yield": "log-uniform, 0.00005 to 0.002",
     RECORD: "each of the set as likely",
 }
 WHAT = {**{name: name for name in PAIR}, "ratio": "LIR-DCFP over DCFP"}

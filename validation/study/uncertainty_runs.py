@@ -17,9 +17,7 @@ from frames import ModalDamping
 from frames.risk import Campaign, ParameterSample
 from frames.risk.fragility.sensitivity import saltelli_sets
 from validation.study.pairs import BY_LOAD, OURS, UNBREAKABLE, device
-from validation.study.records_runs import (
-    STEP,
-)
+from validation.study.records_runs import STEP
 from validation.study.rims_runs import BREAKS
 
 if TYPE_CHECKING:
@@ -37,6 +35,8 @@ SPREADS: dict[str, Any] = {
     "strength": stats.loguniform(0.5, 2.0),
     "breaks": stats.uniform(0.01, 0.03),
     "damping": stats.uniform(0.01, 0.04),
+    "axial": stats.loguniform(0.3, 3.0),
+    "yield": stats.loguniform(5e-5, 2e-3),
     RECORD: stats.uniform(0.0, 1.0),
 }
 """What is not known, and how it is distributed: assumptions."""
@@ -48,6 +48,8 @@ MEANINGS = {
     "strength": "strength of the rims over W",
     "breaks": "plastic deformation at which a rim breaks [m]",
     "damping": "modal damping of the frame",
+    "axial": "axial stiffness of the bearings over the default",
+    "yield": "yield displacement of the friction of the dishes [m]",
     RECORD: "record of the set",
 }
 
@@ -91,6 +93,10 @@ def changed(own: LIRBearing, parameters: Mapping[str, float]) -> LIRBearing:
     options = own.resolved()
     stiffness = parameters.get("stiffness", 1.0) * options["rim_stiffness"]
     changes: dict[str, Any] = {"friction": friction, "rim_stiffness": stiffness}
+    if "axial" in parameters:
+        changes["axial_stiffness"] = parameters["axial"] * options["axial_stiffness"]
+    if "yield" in parameters:
+        changes["yield_displacement"] = parameters["yield"]
     if not own.is_dcfp:
         changes["interface_friction"] = parameters.get("interface", 1.0) * own.interface_friction
     if "strength" in parameters:
