@@ -60,8 +60,6 @@ def _page(
     motions = found.by_motion()
     pictures = {}
     if histories is not None:
-        from frames.design.report.comparison_page import comparison_pictures
-
         pictures = comparison_pictures(motions, *histories)
     return page_template("compare.html.j2").render(
         name=found.known.frame.name,
