@@ -43,14 +43,13 @@ def told() -> Generator[None, None, None]:
                 before.add(without_numbers(text))
                 err.print(f"warning: {text}", markup=False, highlight=False, soft_wrap=True)
 
-        def running(script: Path) -> None:
-            text = f"running {script}, a Python file that the project names"
+        def begins(text: str) -> None:
             if text not in before:
                 before.add(text)
                 err.print(text, markup=False, highlight=False, soft_wrap=True)
 
         warnings.showwarning = once
-        tokens = TOLD.set(running), ANYWHERE.set(_TRUST.get())
+        tokens = TOLD.set(begins), ANYWHERE.set(_TRUST.get())
         try:
             yield
         except (ProjectError, CheckError, ModelError, MotionError, CampaignError) as cause:

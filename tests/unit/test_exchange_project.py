@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from frames.design._errors import ProjectError
 from frames.design.project import example
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
+from frames.design.project.source_files import TOLD
 from frames.design.project.structure_statement import structure_rows
 from tests import etabs_models, sap2000_models
 from tests.unit.test_exchange_etabs_links import LINKS, isolator, model
@@ -124,6 +126,12 @@ def project_of(parts: ProjectInputs, folder: Path, **changes: object) -> Project
 
 def test_types_of_bearings_by_groups_of_the_model(tmp_path: Path) -> None:
     parts = project(tmp_path, 'kind = "sap2000"\nfile = "model.s2k"')
+    said: list[str] = []
+    token = TOLD.set(said.append)
+    parts.frame()
+    TOLD.reset(token)
+    assert len(said) == 1  # read once, and said before it is
+    assert re.fullmatch(r"reading .*model\.s2k, a model of SAP2000 \(\d+\.\d MB\)", said[0])
     joints = [name.removeprefix("bearing-") for name in parts.frame().bearings]
     tables = sap2000_models.building()
     groups = {"CORE": joints[:2], "EMPTY": []}

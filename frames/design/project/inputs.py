@@ -31,7 +31,7 @@ from frames.design.project.schema import (
     read_points,
 )
 from frames.design.project.schema_bearing import FactorSources
-from frames.design.project.source_files import RunningScript, SourceFiles
+from frames.design.project.source_files import RunningScript, SourceFiles, tell
 from frames.design.project.structure_loads import BuildingLoads, loads_of
 from frames.design.project.structure_plan import irregular_frame, regular_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
@@ -284,6 +284,8 @@ def _imported(given: ImportedModel, bearing: LIRBearing, name: str, folder: Path
         shapes = {k: named_section(v, column=False).section for k, v in given.sections.items()}
         library = [folder / file for file in given.library]
         read = partial(Frame.from_etabs, sections=shapes, library=library)
+    size = path.stat().st_size / 1e6
+    tell(f"reading {path}, a model of {given.kind.upper()} ({size:.1f} MB)")
     with in_project_file():
         return read(
             path,

@@ -31,8 +31,15 @@ _LOADED: dict[Path, str] = {}
 ANYWHERE: ContextVar[bool] = ContextVar("ANYWHERE", default=False)
 """Whether files outside of the project's folder may run."""
 
-TOLD: ContextVar[Callable[[Path], None] | None] = ContextVar("TOLD", default=None)
-"""Called with each file before it runs."""
+TOLD: ContextVar[Callable[[str], None] | None] = ContextVar("TOLD", default=None)
+"""Called with a text before a file runs, and before a model that another program wrote is read."""
+
+
+def tell(text: str) -> None:
+    """Say what begins, where somebody listens."""
+    listener = TOLD.get()
+    if listener is not None:
+        listener(text)
 
 
 class RunningScript:
@@ -62,9 +69,7 @@ class RunningScript:
             )
             raise ProjectError(msg)
         self._script, self._key, self._before = script, key, Path.cwd()
-        tell = TOLD.get()
-        if tell is not None:
-            tell(whole)
+        tell(f"running {whole}, a Python file that the project names")
 
     def __enter__(self) -> None:
         os.chdir(self._script.parent)
