@@ -16,6 +16,7 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError, ModelWarning
 from frames.demo import bearing_for
+from frames.design.report.words import Words
 from frames.exchange.etabs import read_etabs
 from lir_element.opensees import opensees
 from tests import etabs_models, sap2000_models
@@ -294,6 +295,10 @@ def test_material_without_weight_is_doubted(tmp_path: Path) -> None:
     with pytest.warns(ModelWarning) as told:
         Frame.from_etabs(written(tmp_path, text))
     said = " ".join(str(each.message) for each in told)
+    words = Words("es")
+    for each in told:
+        words.say(str(each.message))
+    assert not words.missing
     assert 'material "C30" has no weight, and pattern "Dead" has own weight' in said
     assert "of the mass has no weight" in said
 

@@ -16,6 +16,7 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError, ModelWarning, gravity
 from frames.demo import bearing_for
+from frames.design.report.words import Words
 from frames.exchange.building import Modifiers
 from frames.exchange.geometry import cardinal_shift, frame_axes
 from frames.exchange.links import equivalent_bearing
@@ -380,6 +381,10 @@ def doubts(tmp_path: Path, tables: models.Rows, **options: object) -> tuple[Fram
         warnings.simplefilter("always")
         path = written(tmp_path, models.text(tables))
         frame = Frame.from_sap2000(path, BEARING, **options)  # type: ignore[arg-type]
+    words = Words("es")
+    for each in told:
+        words.say(str(each.message))
+    assert not words.missing
     return frame, " ".join(str(each.message) for each in told)
 
 

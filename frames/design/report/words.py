@@ -36,6 +36,8 @@ _WORDLESS = "|".join(
         r"[A-Z-]{2,}\S*",
         r"[+-][xyz]|[xyz][+-]",
         r"\S+\.md",
+        r'"[^"]*"',  # a name of the user's
+        r"\w+ ?= ?(?:\"[^\"]*\"|\{[^}]*\})",  # a key with its value
         r"\[[^\]]*\](?: [a-z_]+(?= |$))?",  # a section, and its key
         _UNITS,
     )
@@ -167,9 +169,9 @@ class Words:
         if found := _HEAD.fullmatch(text):
             name = self._known(found[1])
             return None if name is None else f"{name}{found[2]}"
-        if found := _COUNTED.fullmatch(text):
-            rest = self._known(found[2])
-            return None if rest is None else f"{found[1]} {rest}"
+        found = _COUNTED.fullmatch(text)
+        if found and (rest := self._known(found[2])) is not None:
+            return f"{found[1]} {rest}"
         for sign in ("; ", ", "):
             if sign in text:
                 several = [self._known(part) for part in text.split(sign)]
