@@ -10,7 +10,7 @@ import numpy as np
 from scipy import sparse
 
 from frames.assembly.members import at_ends, local_geometric_stiffness, local_stiffness
-from frames.assembly.nonlinear_parts import (
+from frames.assembly.system import (
     BILINEAR,
     BOUC_WEN,
     CONSTANTS,

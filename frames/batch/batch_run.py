@@ -11,9 +11,8 @@ import numpy as np
 from frames.batch.batch_dataset import NUMBERS, Layout, RunResult, layout_of, reached_row
 from frames.bundles.peak_data import ENERGY_TERMS
 from frames.recording.force_tracking import ForceTracker
-from frames.recording.recording import Recording, require_known
+from frames.recording.recording import Recording, bytes_over_time, require_known, require_rows
 from frames.recording.reduction import reduced
-from frames.recording.size import bytes_over_time, require_rows
 from frames.results.findings import Findings
 from frames.results.peaks import peaks_of
 from frames.results.recorded import REACHED

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.assembly.nonlinear_parts import SCRATCH, STATE_SIZE, WIDEST
+from frames.assembly.system import SCRATCH, STATE_SIZE, WIDEST
 from frames.bundles.run_data import MOST_HALVINGS
 from lir_element.layout import Field, dtype_of
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from frames._types import SparseMatrix
     from frames.assembly.basis import Basis
-    from frames.assembly.nonlinear_parts import NonlinearParts
+    from frames.assembly.system import NonlinearParts
 
     Array = npt.NDArray[Any]
 

@@ -18,8 +18,7 @@ def view(
     """Write view.html: model and bearings of the governing run in motion, on one page."""
     from frames.design._errors import ProjectError
     from frames.design.project.preliminary import inputs_of, preliminary
-    from frames.design.report.files import read_histories
-    from frames.design.report.kept_checks import read_checks
+    from frames.design.report.files import read_checks, read_histories
     from frames.results.storage import refuse_links
     from frames.viewer import write_view  # with figures
 

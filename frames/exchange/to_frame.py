@@ -23,7 +23,7 @@ from frames.exchange.stations import divide, under_loads
 from frames.exchange.supports import Places, add_constraints, add_supports, levels_of
 from frames.model.applied_loads import applied_loads, load_masses
 from frames.model.editing import FrameEditor
-from lir_element._compile.collection import without_collection
+from lir_element._compile.front_end import without_collection
 from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import kernel
-from frames.assembly.nonlinear_parts import HINGE, N_PLASTIC, STRIDE
+from frames.assembly.system import HINGE, N_PLASTIC, STRIDE
 from lir_element.kernels.linear import solve_many
 
 if TYPE_CHECKING:

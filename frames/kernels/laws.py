@@ -11,7 +11,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import kernel
-from frames.assembly.nonlinear_parts import BILINEAR, BOUC_WEN, MAXWELL, STOP, TIE, VISCOUS
+from frames.assembly.system import BILINEAR, BOUC_WEN, MAXWELL, STOP, TIE, VISCOUS
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
-from frames.assembly.nonlinear_parts import (
+from frames.assembly.system import (
     HERTZ,
     HINGES,
     MAXWELL,

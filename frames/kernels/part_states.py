@@ -10,7 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames._jit import inlined, kernel
-from frames.assembly.nonlinear_parts import BOUC_WEN, HINGES, WIDEST
+from frames.assembly.system import BOUC_WEN, HINGES, WIDEST
 from frames.kernels.effective import effective
 from frames.kernels.hinges import turn_hinges
 from frames.kernels.laws import uniaxial

@@ -24,8 +24,7 @@ from lir_element.results.dataset import (
     some_bodies,
 )
 from lir_element.results.deferred import deferred
-from lir_element.results.eccentricity import interface_eccentricity
-from lir_element.results.optional_variables import optional_variables
+from lir_element.results.optional_variables import interface_eccentricity, optional_variables
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.assembly.nonlinear_parts import N_PLASTIC, WORK_DONE
+from frames.assembly.system import N_PLASTIC, WORK_DONE
 from frames.kernels.hinges import place
 from frames.model.components import hinge_name, hinged_ends
 from frames.results.peak_response import Extreme, extreme_of, later
@@ -17,8 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
-    from frames.assembly.nonlinear_parts import NonlinearParts
-    from frames.assembly.system import System
+    from frames.assembly.system import NonlinearParts, System
     from frames.bundles.run_data import Output
     from frames.model.components import HingedEnd
     from frames.model.frame_data import FrameData

@@ -13,16 +13,19 @@ import xarray as xr
 
 from frames.bundles.peak_data import FULL_SLIP, LOOSE
 from frames.results.bearing_findings import (
+    equilibrium,
     full_contact,
     held_by_friction,
     met_with_slip,
     slip_stability,
+    strained,
+    time_step,
+    yielding,
 )
 from frames.results.findings import Finding, Findings, by_whom, finding, percent
 from frames.results.formulas import left_out
 from frames.results.level_doubts import levels_of_bearings
 from frames.results.peak_response import largest, total
-from frames.results.run_findings import equilibrium, strained, time_step, yielding
 from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
 

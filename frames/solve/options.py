@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from frames.recording.size import number_of_steps
+from frames.recording.recording import number_of_steps
 from frames.solve.rigid import LARGEST_STEP
 from lir_element.argument_checks import require_between, require_choice, require_positive
 from lir_element.device.features import Features

@@ -14,20 +14,20 @@ from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.force_tracking import ForceTracker, StrainGauge
 from frames.recording.nonlinear_results import PartGauge
 from frames.recording.peak_tracking import PeakTracker
-from frames.recording.recording import require_known
+from frames.recording.recording import (
+    bytes_of_step,
+    bytes_over_time,
+    memory,
+    require_known,
+    require_memory,
+    require_room,
+)
 from frames.recording.reduction import (
     PeakState,
     Reduction,
     judgeable_of,
     present_quantities,
     with_other_peak_state,
-)
-from frames.recording.size import (
-    bytes_of_step,
-    bytes_over_time,
-    memory,
-    require_memory,
-    require_room,
 )
 from frames.results.peak_response import largest, with_exceeded
 from frames.statics.resultants import Plausibility

@@ -12,9 +12,8 @@ from frames.assembly.basis import bearing_rows
 from frames.bundles.peak_data import ENERGY_TERMS
 from frames.bundles.run_data import Ground, Output, output_arrays
 from frames.recording.dataset import build_dataset, common_of, ground_at, peak_velocity
-from frames.recording.recording import Recording, require_known
+from frames.recording.recording import Recording, number_of_steps, require_known, require_memory
 from frames.recording.reduction import reduced
-from frames.recording.size import number_of_steps, require_memory
 from frames.results.assumption_checks import audit
 from frames.results.findings import Findings
 from frames.solve.outcome import Outcome, evaluated

@@ -11,8 +11,8 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.assembly.assemble import node_geometric_stiffness
-from frames.assembly.nonlinear_parts import BOUC_WEN, HINGE, SCRATCH, STATE_SIZE, STRIDE
 from frames.assembly.supports import load_path
+from frames.assembly.system import BOUC_WEN, HINGE, SCRATCH, STATE_SIZE, STRIDE
 from frames.bundles.model_data import ReducedModel, contacts_of, model_arrays
 from frames.bundles.nonlinear_data import parts_arrays
 from frames.bundles.run_data import IntegrationState, run_arrays
@@ -30,8 +30,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.assembly.basis import Basis
-    from frames.assembly.nonlinear_parts import NonlinearParts
-    from frames.assembly.system import System
+    from frames.assembly.system import NonlinearParts, System
     from frames.bundles.nonlinear_data import NonlinearElements
     from lir_element.bundles.contact_data import Contacts
     from lir_element.layout import Records

@@ -15,8 +15,16 @@ from frames.results.findings import doubts_of
 from frames.results.measures import floor_acceleration, storey_drift
 from frames.results.quantities import QUANTITIES
 from frames.results.recorded import EVERY_STEP
-from frames.viewer.bearings import SLIPS, Movements, devices, movements, peaks_of
-from frames.viewer.structure import exact, scaled, structure_of
+from frames.viewer.structure import (
+    SLIPS,
+    Movements,
+    devices,
+    exact,
+    movements,
+    peaks_of,
+    scaled,
+    structure_of,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -10,6 +10,7 @@ compiled.
 from __future__ import annotations
 
 import copy
+import gc
 from contextlib import contextmanager
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -91,3 +92,15 @@ def _variables(self: Any, value: Any) -> list[Any]:
         else:
             found += _variables(self, each)
     return found
+
+
+@contextmanager
+def without_collection() -> Generator[None]:
+    """Keep Python from looking for garbage in what is still needed."""
+    looks = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if looks:
+            gc.enable()

@@ -21,8 +21,7 @@ from numba.core.registry import CPUDispatcher
 from numba.core.runtime import rtsys
 from numba.core.types.misc import unliteral
 
-from lir_element._compile.collection import without_collection
-from lir_element._compile.front_end import shortened
+from lir_element._compile.front_end import shortened, without_collection
 from lir_element._compile.lowering import KernelPipeline
 
 if TYPE_CHECKING:

@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
+from lir_element._compile.jit import on_arrays
+from lir_element.device.sliders import interface_height
+from lir_element.kernels.derived import eccentricity, resultant_offset
 from lir_element.results.dataset import SURFACES, labelled, rims_give_way
 
 if TYPE_CHECKING:
-    from lir_element.layout import Records
+    from lir_element.layout import Floats, Records
 
 CONTACTS = (*SURFACES, "interface")
 
@@ -53,3 +56,35 @@ def optional_variables(step: str, states: Records, props: Records) -> dict[str, 
             "1 once the bearing has failed: forces are those of its backup, if it has a stop",
         )
     return found
+
+
+def interface_eccentricity(props: Records, states: Records) -> Floats:
+    """Return how far the resultant in the plane of the interface lies off the sliders' axes.
+
+    Moment equilibrium of the bottom slider about the centre of its sphere: the normal force of the
+    plate passes through that centre, friction and rim act at the vertex, the interface at the
+    height h_b above it (`interface_height`; docs/theory.md, section 10)::
+
+        e_b = ((R_1 - h_b) F_h - R_1 F_1 + R_1 P_1) / N,      e_t = e_b - s.
+
+    Where sliders are bodies with discs as faces it is the centre of pressure between them.
+
+    Shapes: props (n_bearings,), states (n_steps, n_bearings), result (n_steps, n_bearings).
+    """
+    slider_height = props["radius"].sum(axis=1) - props["length"]
+    vectors = (
+        states["axis"],
+        states["rim_force"][..., :1],
+        states["interface_force"],
+        states["friction_force"][..., 0, :],
+        states["slip"],
+    )
+    by_forces: Floats = on_arrays(eccentricity)(
+        states["axial_force"],
+        props["axial_floor"],
+        props["radius"][:, 0],
+        interface_height(props["radius"], props["slider_radius"], slider_height),
+        *(vector[..., k] for vector in vectors for k in range(vector.shape[-1])),
+    )
+    larger: Floats = on_arrays(resultant_offset)(by_forces, states["offset"])
+    return larger

@@ -336,7 +336,7 @@ def test_what_cannot_be_is_refused(
 def test_more_than_the_memory_holds_is_refused(
     building: Frame, motions: dict[str, GroundMotion], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("frames.recording.size.memory", lambda: 1e6)
+    monkeypatch.setattr("frames.recording.recording.memory", lambda: 1e6)
     quietly(time_histories, building, motions["near"], scales=[0.4, 0.5], duration=0.2)
     with pytest.raises(ValueError, match="results of 2 of 2 runs take about"):
         time_histories(building, motions["near"], scales=[0.4, 0.5], record=Recording())

@@ -387,7 +387,7 @@ def test_unknown_names_are_refused_before_the_run(options, message):
 
 
 def test_what_would_not_fit_is_refused_and_what_fits_is_not(monkeypatch):
-    monkeypatch.setattr("frames.recording.size.memory", lambda: 80e6)
+    monkeypatch.setattr("frames.recording.recording.memory", lambda: 80e6)
     monkeypatch.setattr(recorder, "memory", lambda: 80e6)
     model, motion, _ = SCENES["uplift"]
     with pytest.raises(ValueError, match=r"recorded steps take about .* GB.*frames.Recording"):

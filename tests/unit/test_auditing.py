@@ -38,7 +38,7 @@ from lir_element import (
 )
 from lir_element.device.sliders import slider_record
 from lir_element.errors import RunStatus
-from lir_element.results.eccentricity import interface_eccentricity
+from lir_element.results.optional_variables import interface_eccentricity
 
 DT = 0.005
 MASS = 3e4

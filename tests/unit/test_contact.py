@@ -17,10 +17,10 @@ from scipy.spatial.transform import Rotation
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.bundles.contact_data import BodyStep
 from lir_element.device.sliders import face_records, slider_record
-from lir_element.kernels.contact.elimination import invert
 from lir_element.kernels.contact.pair import bond, clear_pair, plane, rim, sphere
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import locate, matrix_of, turn_between, turn_by
+from lir_element.kernels.contact.residual import invert
 from lir_element.kernels.linear import solve_many
 from lir_element.layout import BODIES, SCRATCH, TOUCH
 

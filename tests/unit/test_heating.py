@@ -34,7 +34,7 @@ from lir_element import (
     cyclic_test,
 )
 from lir_element.element import heat_parts, initial_state
-from lir_element.kernels.heating import covered, heat_up
+from lir_element.kernels.friction_law import covered, heat_up
 
 LOAD = 3e6
 MU = 0.06

@@ -12,7 +12,7 @@ from scipy.optimize import minimize
 from frames import ModelError
 from frames.assembly.members import local_stiffness, member_arrays
 from frames.assembly.nonlinear import BASIC, _hinges
-from frames.assembly.nonlinear_parts import HINGE, STATE_SIZE, STRIDE
+from frames.assembly.system import HINGE, STATE_SIZE, STRIDE
 from frames.kernels.hinges import hinged_member, place, surface, turn_hinges
 from frames.laws import PlasticHinge
 from frames.library.moment_frames import DEFAULT_BEAM, DEFAULT_COLUMN

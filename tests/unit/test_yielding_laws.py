@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 from frames import ModelError
 from frames.assembly.nonlinear import _law
-from frames.assembly.nonlinear_parts import STATE_SIZE
+from frames.assembly.system import STATE_SIZE
 from frames.kernels.laws import uniaxial
 from frames.laws import Bilinear, BoucWen, Gap, HertzGap, Pinching, Tie, ViscousDamper
 

@@ -15,8 +15,7 @@ from frames.design.calculation.check import Bound, Check
 from frames.design.calculation.standing import OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing, liner_pressure, pressure
-from frames.design.histories.governing import Calculation, Governing
-from frames.design.histories.suite import names_of, peaks_of_runs
+from frames.design.histories.suite import Calculation, Governing, names_of, peaks_of_runs
 from frames.design.histories.suite_notes import doubted, level_errors
 from frames.results.bearing_findings import IMPACT
 from frames.results.level_doubts import DOUBTED

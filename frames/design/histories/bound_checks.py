@@ -25,9 +25,10 @@ from frames.design.histories.bearing_demands import (
     note_of_impacts,
 )
 from frames.design.histories.eccentricity import Case, named_by_way, reached_by
-from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.least_shears import LEAST, raise_of, shear_checks
 from frames.design.histories.suite import (
+    Calculation,
+    Governing,
     names_of,
     parted,
     peaks_of_runs,

@@ -15,14 +15,13 @@ from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
 from frames.design.histories.bearing_demands import BearingDemands, devices_of
-from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.impacts import (
     impact_demand,
     rim_engagement,
     slips_of_events,
     uplift_events,
 )
-from frames.design.histories.suite import Suite
+from frames.design.histories.suite import Calculation, Governing, Suite
 from frames.design.histories.suite_notes import left_out_checks
 from frames.design.histories.uplift import Uplift
 from frames.results.findings import doubts_of

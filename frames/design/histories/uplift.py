@@ -14,8 +14,9 @@ from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import enter_geometry, overlap_area, pressure
 from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
-from frames.design.histories.governing import Calculation, Governing
 from frames.design.histories.suite import (
+    Calculation,
+    Governing,
     Suite,
     motion_of,
     names_of,

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any, cast
 import pandas as pd
 
 from frames.design._errors import ProjectError
+from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.standing import standing_of
 from frames.design.histories.demand_table import headed
 from frames.design.project.design_run import Histories
 from frames.design.report.numbers import BY_MOTION, ECCENTRICITY, TABLES_OF_FORCES, run_tables
 from frames.design.report.writing import report_html
-from frames.results.storage import csv_of, load, make_folder, save, write_whole
+from frames.results.storage import csv_of, from_text, load, make_folder, save, write_whole
 from lir_element._version import package_version
 
 if TYPE_CHECKING:
@@ -248,3 +250,51 @@ def _labelled(
         for level, each in runs.items()
         for bound, data in each.items()
     }
+
+
+_TEXTS = (
+    "clause",
+    "title",
+    "symbol",
+    "unit",
+    "relation",
+    "standing",
+    "bound",
+    "subject",
+    "note",
+    "void",
+    "level",
+)
+_SHOWN = {"m": "mm"}
+
+
+def read_checks(folder: Path) -> Checks:
+    """Return the checks that ``checks.csv`` holds, without their calculations."""
+    path = folder / "checks.csv"
+    if not path.is_file():
+        msg = f"{path} is missing: `lir report` writes it from the histories of the run"
+        raise ProjectError(msg)
+    try:
+        table = pd.read_csv(path, dtype=dict.fromkeys(_TEXTS, str), keep_default_na=False)
+    except (OSError, ValueError) as cause:
+        msg = f"{path} cannot be read ({cause}): `lir report` writes it anew"
+        raise ProjectError(msg) from cause
+    missing = sorted({*_TEXTS, "demand", "limit", "verdict"} - {*map(str, table.columns)})
+    if missing:
+        msg = f"{path} has no column {', '.join(missing)}: `lir report` writes it anew"
+        raise ProjectError(msg)
+    return Checks(_check(row) for row in table.to_dict("records"))
+
+
+def _check(row: dict[Any, Any]) -> Check:
+    texts = {name: from_text(row[name]) for name in _TEXTS}
+    beyond = {
+        "does not apply": "procedure",
+        "needs agreement": "agreement",
+        "raised": "minimum",
+    }
+    scope = beyond.get(row["verdict"], "any")
+    shown = _SHOWN.get(row["unit"], "")
+    numbers = {name: float(row[name]) for name in ("demand", "limit")}
+    texts["standing"] = standing_of(row["standing"])
+    return Check(**texts, **numbers, scope=scope, shown=shown)  # type: ignore[arg-type]  # Check judges them

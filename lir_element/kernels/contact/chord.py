@@ -12,10 +12,10 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
-from lir_element.kernels.contact.elimination import invert
 from lir_element.kernels.contact.pairs import add_up, clear_parts, hold_pairs, push_sliders
 from lir_element.kernels.contact.places import OWN, place_bodies, turn_between, turn_by
 from lir_element.kernels.contact.residual import (
+    invert,
     longest,
     set_system,
     size_of_residual,

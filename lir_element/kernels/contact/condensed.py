@@ -13,10 +13,17 @@ from typing import TYPE_CHECKING
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.chord import begin_search, keep_lead, lead_on, seek
-from lir_element.kernels.contact.elimination import invert, solve_one
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import place_bodies, turn_by
-from lir_element.kernels.contact.residual import HOLD, longest, set_system, small_forces, unbalanced
+from lir_element.kernels.contact.residual import (
+    HOLD,
+    invert,
+    longest,
+    set_system,
+    small_forces,
+    solve_one,
+    unbalanced,
+)
 from lir_element.kernels.contact.slider_motion import set_momentum
 from lir_element.kernels.contact.start import (
     carry_on,
@@ -26,8 +33,7 @@ from lir_element.kernels.contact.start import (
     turn_back,
 )
 from lir_element.kernels.contact.state import bodies_status, fill_state
-from lir_element.kernels.friction_law import least
-from lir_element.kernels.heating import left_by_heat, left_by_pressure
+from lir_element.kernels.friction_law import least, left_by_heat, left_by_pressure
 from lir_element.kernels.pendulum.nodes import add_twist, apply_spin
 from lir_element.kernels.pendulum.trial import has_no_state, is_finite, trial
 

@@ -16,7 +16,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import inlined, kernel
-from lir_element.kernels.heating import left_by_pressure
+from lir_element.kernels.friction_law import left_by_pressure
 from lir_element.kernels.slip import kelvin_voigt, kept_share
 
 if TYPE_CHECKING:

@@ -10,8 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
-from lir_element.kernels.friction_law import steepest
-from lir_element.kernels.heating import left_by_heat
+from lir_element.kernels.friction_law import left_by_heat, steepest
 from lir_element.kernels.pendulum.string import elastic_jacobian, evaluate, set_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian
 from lir_element.kernels.slip import step_share
