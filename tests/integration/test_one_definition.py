@@ -102,7 +102,7 @@ def test_the_report_s_bearings_have_the_peaks(
 ) -> None:
     types = dict.fromkeys(frame.bearings, "standard")
     runs = {"": {"nominal": batch}}
-    run = SimpleNamespace(frame=frame, loads=np.ones(4), runs=runs, types=types, moved={})
+    run = SimpleNamespace(frame=frame, loads=np.ones(4), runs=runs, kinds=types, moved={})
     table: pd.DataFrame = bearing_table(run)  # type: ignore[arg-type]
     known = peaks(data)["value"]
     assert table["displacement [m]"].max() == pytest.approx(known["bearing displacement"])

@@ -337,7 +337,7 @@ def test_box_and_i_shape_and_rectangle() -> None:
             {"elastic_modulus": math.inf},
             r"Section.elastic_modulus = inf must be positive and finite",
         ),
-        ({"density": -1.0}, r"Section.density = -1 must be finite and at least 0"),
+        ({"density": -1.0}, r"Section.density = -1 must be at least 0 and finite"),
         ({"shear_area_z": math.nan}, r"Section.shear_area_z = nan must be positive"),
     ],
 )

@@ -7,7 +7,7 @@ import pytest
 
 import frames
 from frames import audit, audit_report, load, lumped_mass, modes, peaks, time_history
-from lir_element import AnalysisWarning, CoulombFriction, DesignWarning, LIRBearing, cyclic_test
+from lir_element import CoulombFriction, DesignWarning, LIRBearing, cyclic_test
 
 BEARING = LIRBearing(
     radius=0.75,
@@ -20,10 +20,7 @@ BEARING = LIRBearing(
 
 
 def test_a_load_in_kilonewtons_is_told() -> None:
-    with (
-        pytest.warns(DesignWarning, match=r"axial_load = 150 N .*150 kN are 1.5e\+05 N"),
-        pytest.warns(AnalysisWarning),
-    ):
+    with pytest.warns(DesignWarning, match=r"axial_load = 150 N .*150 kN are 1.5e\+05 N"):
         cyclic_test(BEARING, [0.0, 0.001], 150.0)
 
 

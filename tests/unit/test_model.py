@@ -119,7 +119,7 @@ REFUSALS: dict[str, Refusal] = {
     "negative mass": (
         lambda f: f.add_mass("base", -2.0),
         ModelError,
-        r'mass \[kg\] at node "base" = -2 must be finite and at least 0',
+        r'mass \[kg\] at node "base" = -2 must be at least 0 and finite',
     ),
     "negative inertia": (
         lambda f: f.add_mass("base", 1.0, (0.0, -1.0, 0.0)),

@@ -228,7 +228,7 @@ def test_messages_name_file_key_value_and_remedy(
 @pytest.mark.parametrize(
     ("old", "new", "part", "words"),
     [
-        ("[0.8, 1.3]", "[1.2, 1.3]", "bounds", r"\[bounds\] factors 1.2"),
+        ("[0.8, 1.3]", "[1.2, 1.3]", "bounds", r"\[bounds\] lower factor of properties = 1.2"),
         ('"180 mm"', '"180 m"', "bearing", r"\[bearing\] capacity = 180 m lies beyond"),
         ('capacity = "180 mm"', "", "bearing", r"\[bearing\].*capacity"),
         ('"motions"', '"nowhere"', "motions", r"\[motions\].*nowhere"),

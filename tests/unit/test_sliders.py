@@ -237,15 +237,16 @@ def refused(error: type[Exception], *words: str, **changes: object) -> None:
 @pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf])
 def test_masses_and_inertias_are_positive(value: float) -> None:
     for name, unit in (("slider_density", "kg/m3"), ("slider_mass", "kg")):
-        refused(ValueError, f"{name} = {value:g}", unit, "must be positive", **{name: value})
+        refused(ValueError, name, f"= {value:g}", unit, "must be positive", **{name: value})
     for place in range(2):
         pair = [3.0, 3.0]
         pair[place] = value
-        refused(ValueError, f"slider_mass = {value:g}", "positive", slider_mass=tuple(pair))
+        said = f"slider_mass ({('bottom', 'top')[place]}) = {value:g}"
+        refused(ValueError, said, "positive", slider_mass=tuple(pair))
         for inner in range(2):
             inertia = [[0.1, 0.1], [0.1, 0.1]]
             inertia[place][inner] = value
-            refused(ValueError, f"slider_inertia = {value:g}", "kg m2", slider_inertia=inertia)
+            refused(ValueError, "slider_inertia", f"= {value:g}", "kg m2", slider_inertia=inertia)
 
 
 @pytest.mark.parametrize("value", ["7850", None, True, 1j])
