@@ -94,18 +94,19 @@ WAITS = (
         "**missed**: imports take 1.1, of them xarray with pandas 0.6; kernels are loaded in 0.6",
     ),
     (
-        "first history, nothing kept",
+        "first history, nothing kept, processor time",
         "55 s",
-        "29 s",
-        "20 s",
-        "**missed**: LLVM takes 13 ([choices.md](choices.md#compiled-kernels))",
+        "36 s",
+        "15 s",
+        "**missed**: numba's type inference and lowering take 20 "
+        "([choices.md](choices.md#compiled-kernels))",
     ),
     (
-        "first history of a structure that yields, nothing kept",
-        "89 s",
-        "59 s",
-        "-",
-        "-",
+        "the same at the level `contact`; of a structure that yields",
+        "73; 82 s",
+        "53; 50 s",
+        "25 s",
+        "**missed**: likewise",
     ),
     (
         "`make quick`, kernels kept",
