@@ -16,14 +16,14 @@ from frames.design.codes.outcome import BoundResult, Iteration, Symbols
 from frames.design.codes.secant import CheckBuilder, held_by, iterate_displacement
 from lir_element.device.bearing import LIRBearing
 
-_SAME_CENTRE = 1e-3
-"""Distance of two centres over the side of the plan, below which they are one."""
-
 if TYPE_CHECKING:
     from frames.design.calculation.trace import Trace
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.superstructure import Superstructure
     from frames.design.hazard.spectrum import Spectrum
+
+_SAME_CENTRE = 1e-3
+"""Distance of two centres over the side of the plan, below which they are one."""
 
 
 @dataclass(frozen=True, kw_only=True)

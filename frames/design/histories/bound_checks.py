@@ -111,7 +111,7 @@ class BoundChecks:
         allowed = "" if self.case.suite.void or not failed else f"{failed} runs failed: as many may"
         return "; ".join(part for part in (allowed, more) if part)
 
-    @property
+    @cached_property
     def _bearings(self) -> BearingDemands:
         devices = devices_of(self.case.data, self.frame)
         return BearingDemands(
@@ -212,7 +212,7 @@ class BoundChecks:
             found.append(judge(clause, title, "t_up", "<=", "t_allowed", note=note))
         rules = self.case.rules
         clause = self._clause(rules.uplift_clause) if rules.uplift_clause else ""
-        devices = devices_of(self.case.data, self.frame)
+        devices = self._bearings.bearings
         more = "" if clause else self._uplift_by_the_project
         failed = (self.case.suite.reason, self.case.suite.moved_failed)
         reason = "; ".join(part for part in failed if part)
