@@ -112,8 +112,12 @@ def part_sizes(parts: NonlinearElements | None) -> tuple[int, int, int]:
     return (0, 0, 0) if parts is None else (len(parts.d), len(parts.kind), STATE_SIZE)
 
 
-def parts_arrays(found: NonlinearParts, rows: SparseMatrix, basis: Basis) -> NonlinearElements:
-    """Return the parts at rest; `rows` (m, n_free) are their deformations."""
+def parts_arrays(
+    found: NonlinearParts, rows: SparseMatrix, basis: Basis
+) -> NonlinearElements | None:
+    """Return the parts at rest, if there are any; `rows` (m, n_free) are their deformations."""
+    if not len(found.kind):
+        return None
     m, n = int(found.first[-1]), len(found.kind)
     n_b, n_e = len(basis.load_b), len(basis.load_e)
     sizes = MOST_HALVINGS + 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, get_type_hints
 
 import numpy as np
 
@@ -169,6 +169,10 @@ class IntegratorSettings(NamedTuple):
     error_vertical: float  # share of the vertical error that counts while a bearing is pressed
     error_open: float  # the same while it is lifted off, or lands
     first: int  # base step that the first row of the output holds
+
+
+AT_REST = IntegratorSettings(*(kind() for kind in get_type_hints(IntegratorSettings).values()))
+"""Settings where nothing moves."""
 
 
 def run_arrays(model: ReducedModel) -> IntegrationState:

@@ -17,7 +17,7 @@ from frames.kernels.nonlinear_works import commit_parts
 from frames.kernels.part_states import set_part_follow
 from frames.kernels.shared_tangent import carry_products
 from frames.kernels.step_error import is_rough, keep_motion
-from frames.kernels.stepping import commit_bearings, newton, predict
+from frames.kernels.stepping import commit_bearings, newton, predict, solve_gravity
 from frames.kernels.yielding import begin_parts, part_load_on_modes
 from lir_element.errors import RunStatus
 from lir_element.kernels.linear import add_product, set_product, subtract_squares
@@ -471,19 +471,28 @@ def integrate_chunk(
 ) -> int:
     """Go on until `last` base steps are done, or `trials` state determinations are spent.
 
-    Records each base step, `settings.first` in the first row. Returns a status code; ``run.clock``
-    and ``run.counts`` tell where it stands, and the next call goes on from there.
+    Records each base step, `settings.first` in the first row, and the present one if no trials
+    are given. Returns a status code; ``run.clock`` and ``run.counts`` tell where it stands, and
+    the next call goes on from there. If `last` is negative, finds the state at rest: one kernel
+    for both, because each alone holds the state determination of the bearings.
     """
+    if last < 0:
+        return solve_gravity(
+            model, run, contacts, settings.force_tolerance, settings.max_iterations
+        )
     clock, counts = run.clock[0], run.counts[0]
     most = counts.trials + trials
-    while clock.done < last and counts.trials < most:
+    is_new = trials == 0
+    while True:
+        if is_new:
+            record(model, run, contacts, parts, ground, out, clock.done - settings.first)
+        if clock.done >= last or counts.trials >= most:
+            return _OK
         code = try_substep(model, run, contacts, parts, settings, ground)
         if code != _OK:
             return code
-        if clock.ticks == _TICKS:
+        is_new = clock.ticks == _TICKS
+        if is_new:
             clock.done += 1
             clock.ticks = 0
             clock.time = settings.dt * clock.done
-            place = clock.done - settings.first
-            record(model, run, contacts, parts, ground, out, place)
-    return _OK

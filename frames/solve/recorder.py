@@ -9,7 +9,6 @@ import numpy as np
 
 from frames.bundles.nonlinear_data import part_sizes
 from frames.bundles.run_data import output_arrays
-from frames.kernels.integration import record
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.force_tracking import ForceTracker, StrainGauge
 from frames.recording.nonlinear_results import PartGauge
@@ -120,9 +119,7 @@ class _Buffer:
         self.strains.reset()
 
     def begin(self) -> None:
-        """Record the state at rest."""
-        state = self._state
-        record(state.model, state.run, state.contacts, state.parts, self._ground, self.out, 0)
+        """Begin with the state at rest, which is recorded."""
 
     def room(self, done: int) -> int:
         """Return the last base step that there is room for; a full buffer is emptied first."""
@@ -175,8 +172,7 @@ class Recorder(_Buffer):
         self._forces = ForceTracker(analysis.force_maps) if recording.forces else None
 
     def begin(self) -> None:
-        """Record the state at rest, and refuse what cannot be recorded."""
-        super().begin()
+        """Refuse what cannot be recorded."""
         recording = self._recording
         if self._is_whole:
             return

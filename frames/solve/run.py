@@ -11,7 +11,7 @@ import numpy as np
 from frames._fingerprint import motion_digest
 from frames._provenance import provenance
 from frames.bundles.run_data import MOST_HALVINGS, Ground, IntegratorSettings
-from frames.kernels.integration import integrate_chunk, record
+from frames.kernels.integration import integrate_chunk
 from frames.motion.ground_motion import seen_by_steps
 from frames.solve.outcome import Outcome, concluded, ended
 from frames.solve.rigid import LARGEST_STEP
@@ -61,7 +61,7 @@ class StepWriter(Protocol):
         """Make ready for a run under `motion`, which the loop integrates as `ground`."""
 
     def begin(self) -> None:
-        """Record the state at rest."""
+        """Begin with the state at rest, which is recorded."""
 
     def room(self, done: int) -> int:
         """Return the last base step that there is room for."""
@@ -246,9 +246,6 @@ def integrate(
     model, run, contacts, parts = state.model, state.run, state.contacts, state.parts
     out = recorder.out
     ready(integrate_chunk, model, run, contacts, parts, settings, ground, out, 0, 0)
-    ready(record, model, run, contacts, parts, ground, out, 0)
-    recorder.begin()
-    began = perf_counter()
 
     def go(last: int, trials: int) -> int:
         here = settings._replace(first=recorder.first)
@@ -257,6 +254,9 @@ def integrate(
     def done() -> int:
         return int(run.clock["done"][0])
 
+    go(0, 0)
+    recorder.begin()
+    began = perf_counter()
     status = interruptible(
         go, done, options.steps, options.progress, room=lambda: recorder.room(done())
     )

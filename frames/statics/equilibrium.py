@@ -14,10 +14,10 @@ from frames.assembly.assemble import node_geometric_stiffness
 from frames.assembly.supports import load_path
 from frames.assembly.system import BOUC_WEN, HINGE, SCRATCH, STATE_SIZE, STRIDE
 from frames.bundles.model_data import ReducedModel, contacts_of, model_arrays
-from frames.bundles.nonlinear_data import parts_arrays
-from frames.bundles.run_data import IntegrationState, run_arrays
+from frames.bundles.nonlinear_data import part_sizes
+from frames.bundles.run_data import AT_REST, Ground, IntegrationState, output_arrays, run_arrays
 from frames.kernels.hinges import is_outside, set_forces, set_stress
-from frames.kernels.stepping import solve_gravity
+from frames.kernels.integration import integrate_chunk
 from frames.model.laws import Bilinear, BoucWen
 from frames.statics.springs import spring_forces
 from lir_element.device.friction import least_coefficients
@@ -58,6 +58,7 @@ def find_equilibrium(
     linear: FloatArray,
     levels: Mapping[str, str],
     static_load: FloatArray | None,
+    parts: NonlinearElements | None,
 ) -> Equilibrium:
     """Find the equilibrium of a frame under its permanent loads.
 
@@ -70,15 +71,22 @@ def find_equilibrium(
     """
     model = model_arrays(system, basis, static_load)
     chosen = [levels[placed.name] for placed in system.bearings]
-    tolerance = force_tolerance(system, _FORCE_TOLERANCE)
+    settings = AT_REST._replace(
+        force_tolerance=force_tolerance(system, _FORCE_TOLERANCE), max_iterations=_MAX_ITERATIONS
+    )
     guess = linear[basis.bearing_dofs]
-    empty = run_arrays(model), contacts_of(system, chosen)
-    compiling = ready(solve_gravity, model, *empty, tolerance, _MAX_ITERATIONS)
+
+    def task(run: IntegrationState, contacts: Contacts | None) -> tuple[object, ...]:
+        still = Ground(np.zeros((2, 3)), 1.0)
+        out, _, _ = output_arrays(model, contacts, 1, part_sizes(parts))
+        return model, run, contacts, parts, settings, still, out, -1, 0
+
+    compiling = ready(integrate_chunk, *task(run_arrays(model), contacts_of(system, chosen)))
 
     def solve(first: FloatArray) -> tuple[RunStatus, IntegrationState, Contacts | None]:
         run, contacts = run_arrays(model), contacts_of(system, chosen)
         run.b[:] = first
-        status = solve_gravity(model, run, contacts, tolerance, _MAX_ITERATIONS)
+        status = integrate_chunk(*task(run, contacts))
         return RunStatus(status), run, contacts
 
     status, run, contacts = solve(guess)
@@ -205,17 +213,12 @@ def force_tolerance(system: System, relative: float) -> float:
     return relative * max(weight, 1e-3 * system.gravity * float(system.node_mass[:, :3].sum()))
 
 
-def parts_at_rest(
-    system: System, basis: Basis, displacement: FloatArray
-) -> NonlinearElements | None:
-    """Return the nonlinear parts as a time history starts with them.
+def put_at_rest(system: System, parts: NonlinearElements, displacement: FloatArray) -> None:
+    """Let nonlinear parts start from what permanent loads displace.
 
     Shapes: displacement (n_free,).
     """
     found = system.parts
-    if not len(found.kind):
-        return None
-    parts = parts_arrays(found, system.part_rows, basis)
     d = np.asarray(system.part_rows @ displacement)
     d[np.abs(found.elastic) <= 0.0] = 0.0  # put in later
     refuse_yielding(found, d)
@@ -223,7 +226,6 @@ def parts_at_rest(
     for k in np.flatnonzero(found.kind == BOUC_WEN):
         parts.old[k, 0] = d[found.first[k]] / found.par[k, 6]
     parts.new[:] = parts.old
-    return parts
 
 
 def refuse_yielding(found: NonlinearParts, d: FloatArray) -> None:

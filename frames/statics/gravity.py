@@ -21,10 +21,11 @@ from frames.assembly.assemble import (
 from frames.assembly.basis import Basis, build_basis
 from frames.assembly.nonlinear import with_axial_forces
 from frames.assembly.supports import LoadPath, load_path
+from frames.bundles.nonlinear_data import parts_arrays
 from frames.model import sanity_checks
 from frames.model.frame_data import FrameData
 from frames.statics.blas_threads import blas_threads_for
-from frames.statics.equilibrium import find_equilibrium, parts_at_rest
+from frames.statics.equilibrium import find_equilibrium, put_at_rest
 from frames.statics.sanity_checks import held_periods, sanity_warnings
 from frames.statics.springs import first_displacement
 from lir_element.argument_checks import require_choice, require_type
@@ -225,13 +226,16 @@ def at_rest(
     """Find the equilibrium under permanent loads in a basis."""
     began = perf_counter()
     system, _, member_forces, linear, levels, before = prepared
-    found = find_equilibrium(system, basis, linear, levels, None)
+    parts = parts_arrays(system.parts, system.part_rows, basis)
+    found = find_equilibrium(system, basis, linear, levels, None, parts)
     compiling = found.compiling
     axial_forces = np.array(found.run.old["axial_force"])
     if not system.features.vertical_coupling:
         load = -found.run.old["force"][:, 8]
-        found = find_equilibrium(system, basis, linear, levels, load)
+        found = find_equilibrium(system, basis, linear, levels, load, parts)
     displacement = expand(basis, found.run.b, found.run.e)
+    if parts is not None:
+        put_at_rest(system, parts, displacement)
     state = GravityState(
         system=system,
         geometric=prepared.geometric,
@@ -246,7 +250,7 @@ def at_rest(
         load_path=load_path(
             system, node_geometric_stiffness(system, member_forces), displacement, axial_forces
         ),
-        parts=parts_at_rest(system, basis, displacement),
+        parts=parts,
     )
     for doubt in () if silent else state.doubts:
         warnings.warn(doubt, ModelWarning, stacklevel=3)

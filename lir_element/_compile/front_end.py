@@ -15,46 +15,68 @@ from contextlib import contextmanager
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
-from numba.core import inline_closurecall, ir, types
+from numba.core import errors, inline_closurecall, ir, postproc, transforms, types
+from numba.core.compiler_machinery import PassManager
+from numba.core.compiler_machinery import _pass_registry as pass_registry
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
+    from collections.abc import Generator
 
 _signatures: dict[tuple[Any, ...], Any] = {}
+_signature_of = types.BaseFunction.get_call_type
 
 
 @contextmanager
-def shortened(typing: Any) -> Generator[None]:
+def shortened() -> Generator[None]:
     """Shorten the front end's ways; whoever compiles holds numba's lock."""
-    if "resolve_function_type" in vars(typing):  # by the kernel that is compiled around this one
+    if types.BaseFunction.get_call_type is _remembered:  # by the kernel compiled around this one
         yield
         return
-    usual_lists = ir.Inst._rec_list_vars
-    typing.resolve_function_type = _remembering(typing.resolve_function_type)
+    usual_lists, usual_processing = ir.Inst._rec_list_vars, postproc.PostProcessor.run
+    types.BaseFunction.get_call_type = _remembered
+    postproc.PostProcessor.run = _processed
     inline_closurecall.copy = SimpleNamespace(deepcopy=_copied, copy=copy.copy)
     ir.Inst._rec_list_vars = _variables
     try:
         yield
     finally:
-        del typing.resolve_function_type
+        types.BaseFunction.get_call_type = _signature_of
+        postproc.PostProcessor.run = usual_processing
         inline_closurecall.copy = copy
         ir.Inst._rec_list_vars = usual_lists
 
 
-def _remembering(resolve: Callable[..., Any]) -> Callable[..., Any]:
+def _remembered(func: Any, context: Any, args: Any, kws: Any) -> Any:
     # The signature of a function of numba's own for some types, which does not change.
-    def resolved(func: Any, args: Any, kws: Any) -> Any:
-        if not isinstance(func, types.Function) or kws:
-            return resolve(func, args, kws)
-        key = (func, tuple(args))
-        found = _signatures.get(key)
-        if found is None:
-            found = resolve(func, args, kws)
-            if found is not None:
-                _signatures[key] = found
-        return found
+    if kws:
+        return _signature_of(func, context, args, kws)
+    key = (func, tuple(args))
+    found = _signatures.get(key)
+    if found is None:
+        found = _signature_of(func, context, args, kws)
+        if found is not None:
+            _signatures[key] = found
+    return found
 
-    return resolved
+
+class ShortPasses(PassManager):  # type: ignore[misc]  # numba has no types
+    """Steps of the compiler, without a record of each that spells out all arguments."""
+
+    def _runPass(self, index: int, step: Any, state: Any) -> None:  # noqa: N802 (its name there)
+        step.analysis = self._analysis
+        with errors.new_error_context("Pass {name}", name=step.name()):
+            step.run_pass(state)
+        if pass_registry.get(type(step)).mutates_CFG:
+            postproc.PostProcessor(state.func_ir).run()
+
+
+def _processed(self: Any, emit_dels: bool = False, extend_lifetimes: bool = False) -> None:
+    # Blocks in order, and what lives how long if somebody asks: no kernel is a generator.
+    self.func_ir.blocks = transforms.canonicalize_cfg(self.func_ir.blocks)
+    self.func_ir.variable_lifetime = postproc.VariableLifetime(self.func_ir.blocks)
+    self.func_ir.generator_info = None
+    if emit_dels:
+        self._insert_var_dels(extend_lifetimes=extend_lifetimes)
 
 
 def _copied(value: Any) -> Any:

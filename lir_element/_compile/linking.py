@@ -224,7 +224,7 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no typ
             before = self._compiler.as_part
             self._compiler.as_part = self._cache.as_part = as_part
             try:
-                with without_collection(), shortened(self.typingctx):
+                with without_collection(), shortened():
                     return super().compile(sig)
             finally:
                 self._compiler.as_part = self._cache.as_part = before

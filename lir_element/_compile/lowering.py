@@ -16,16 +16,23 @@ from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir as llvm
 from numba.core import ir, types
-from numba.core.cgutils import get_record_member
+from numba.core.cgutils import alloca_once, get_record_member
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import register_pass
 from numba.core.funcdesc import default_mangler
 from numba.core.lowering import Lower
-from numba.core.typed_passes import InlineOverloads, NativeLowering, NopythonRewrites
+from numba.core.typed_passes import (
+    InlineOverloads,
+    IRLegalization,
+    NativeLowering,
+    NopythonRewrites,
+)
 from numba.core.types.containers import BaseNamedTuple, BaseTuple
 from numba.core.types.misc import unliteral
 from numba.core.untyped_passes import FindLiterallyCalls, WithLifting
 from numba.np.arrayobj import fix_integer_index, load_item, store_item
+
+from lir_element._compile.front_end import ShortPasses
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -171,6 +178,10 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
         """Forget a variable: there is nothing to count, and nobody reads it again."""
         if not self._plain:
             super().delvar(name)
+
+    def alloca_lltype(self, name: str, lltype: Any, datamodel: Any = None) -> Any:
+        """Make room for a variable."""
+        return alloca_once(self.builder, lltype, name=name, zfill=False)
 
     def _alloca_var(self, name: str, fetype: Any) -> None:
         if self._stands(name) is None:
@@ -337,12 +348,12 @@ class KernelPipeline(CompilerBase):  # type: ignore[misc]  # numba has no types
     def define_pipelines(self) -> list[Any]:
         """Return numba's steps without the needless ones, with the last one of this module."""
         manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
-        passes = [
+        needless = _NEEDLESS if self.state.flags.nrt else (*_NEEDLESS, IRLegalization)
+        short = ShortPasses(manager.pipeline_name)
+        short.passes = [
             (KernelLowering if step is NativeLowering else step, why)
             for step, why in manager.passes
-            if step not in _NEEDLESS
+            if step not in needless
         ]
-        manager.passes = passes
-        manager._finalized = False
-        manager.finalize()
-        return [manager]
+        short.finalize()
+        return [short]
