@@ -1,7 +1,7 @@
 """A word while kernels compile: the first run takes ten seconds to a minute.
 
-Written to the standard error, once: a line that says what happens and, on a terminal, how far it
-is. Nothing is written where the kernels come from the cache, nor with LIR_QUIET=1.
+Written to the standard error, once: a line that says what happens and, on a terminal, a bar.
+Nothing is written where the kernels come from the cache, nor with LIR_QUIET=1.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ PATIENCE = 1.0
 """Seconds of compiling before anything is said: a kernel or two are not worth a word."""
 
 _WIDTH = 78
+_BAR = 24
 
 
 def quiet() -> bool:
@@ -78,6 +79,7 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
         self._began = 0.0
         self._spent = 0.0
         self._done = 0
+        self._most = 0
         self._told = False
         self._drawn = False
 
@@ -87,6 +89,7 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
             return
         if not self._open:
             self._began = self._clock()
+            self._most = self._done + self._below(event.data["dispatcher"])
         self._open.append(event.data["dispatcher"].__name__)
         self._show()
 
@@ -103,6 +106,17 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
         if self._drawn:  # what comes next shall find an empty line
             self._drawn = not _write(f"\r{'':{_WIDTH}}\r")
 
+    def _below(self, top: Any) -> int:
+        # How many kernels there are in one, by the names in its code: it may need fewer.
+        found, left = {id(top): top}, [top]
+        while left:
+            function = left.pop().py_func
+            called = (function.__globals__.get(name) for name in function.__code__.co_names)
+            new = {id(each): each for each in called if hasattr(each, "py_func")}
+            left += [each for key, each in new.items() if key not in found]
+            found |= new
+        return sum(map(self._ours, found.values()))
+
     def _show(self) -> None:
         seconds = self._spent + self._clock() - self._began
         if seconds < PATIENCE:
@@ -112,5 +126,7 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
             say(f"compiling kernels for the first use, {long}; {self._where()}")
             self._told = True
         if on_terminal():
-            line = f"  {self._done} compiled, {seconds:.0f} s: {self._open[-1]}"
+            bar = "#" * (_BAR * self._done // max(self._most, 1))
+            of = f"{self._done} of at most {self._most} kernels, {seconds:.0f} s"
+            line = f"  [{bar:{_BAR}}] {of}: {self._open[-1]}"
             self._drawn = _write(f"\r{line[:_WIDTH]:{_WIDTH}}")

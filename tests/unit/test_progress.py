@@ -25,6 +25,12 @@ class Terminal(io.StringIO):
         return True
 
 
+def dispatcher(name: str, _: float, *calls: tuple[Any, ...]) -> SimpleNamespace:
+    below = {call[0]: dispatcher(*call) for call in calls}
+    code = SimpleNamespace(co_names=("shape", *below))
+    return SimpleNamespace(__name__=name, py_func=SimpleNamespace(__code__=code, __globals__=below))
+
+
 class Compiler:
     """Compiles a kernel of so many seconds, and first those that it calls."""
 
@@ -33,7 +39,7 @@ class Compiler:
         self.progress = progress
 
     def compile(self, name: str, seconds: float, *calls: tuple[Any, ...]) -> None:
-        event = SimpleNamespace(data={"dispatcher": SimpleNamespace(__name__=name)})
+        event = SimpleNamespace(data={"dispatcher": dispatcher(name, seconds, *calls)})
         self.progress.on_start(event)
         for call in calls:
             self.compile(*call)
@@ -81,10 +87,10 @@ def test_progress_on_a_terminal(compiler: Compiler, written: Any) -> None:
     shown = [part.rstrip() for part in stream.getvalue()[len(SAID) :].split("\r")]
     assert shown == [
         "",
-        "  1 compiled, 1 s: trial",
-        "  2 compiled, 4 s: run",
-        "  2 compiled, 4 s: commit",
-        "  3 compiled, 6 s: run",
+        "  [######                  ] 1 of at most 4 kernels, 1 s: trial",
+        "  [############            ] 2 of at most 4 kernels, 4 s: run",
+        "  [############            ] 2 of at most 4 kernels, 4 s: commit",
+        "  [##################      ] 3 of at most 4 kernels, 6 s: run",
         "",
         "",
     ]
