@@ -113,7 +113,7 @@ def bearing_for(load: float) -> LIRBearing:
 def design() -> dict[Place, LIRBearing]:
     """Return the bearings by place: one pressure under the loads of a first, uniform design."""
     places = [(ix, iy) for ix in range(3) for iy in range(3)]
-    first = gravity(moment_frame(bearing=bearing_for(1000e3)))
+    first = gravity(moment_frame(bearing=bearing_for(1000e3)), level=LEVEL)
     load_of = dict(zip(places, first.axial_forces, strict=True))
     mirrored = {
         place: np.mean([load_of[i, j] for i in {ix, 2 - ix} for j in {iy, 2 - iy}])
