@@ -248,7 +248,7 @@ def return_map(
         for a in range(N_PLASTIC):
             back[a] = new[a]
         back[N_PLASTIC], back[N_PLASTIC + 1] = lam[0], lam[1]
-        if not solve_many(w, step.reshape((8, 1)), count, 1):
+        if not solve_many(w, step[:, None], count, 1):
             return False
         factor, found = 1.0, math.inf
         for _ in range(_TRIES):

@@ -264,8 +264,9 @@ def renew_tangent(
     bearing_tangents(model, run, contacts, share, whole)
     if model.shared.shape[0] > 0:
         if whole:
-            size = run.element_k.size
-            copy(run.element_k.reshape((size,)), run.element_whole.reshape((size,)))
+            for k in range(run.element_k.shape[0]):
+                for a in range(12):
+                    copy(run.element_k[k, a], run.element_whole[k, a])
             for a in range(n_b):
                 run.weights[a] = abs(linear[a, a])
         run.counts[0].shared_tangents += 1 - int(whole)

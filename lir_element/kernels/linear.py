@@ -229,7 +229,7 @@ def eliminate_four(columns: Floats, row: int, at: int, begin: int) -> None:
 @kernel
 def substitute(factors: Floats, order: Words, x: Floats) -> None:
     """Solve for the right-hand side `x` (n,) in place, with what `factorise` made."""
-    substitute_rows(factors, order, x.reshape((1, x.shape[0])))
+    substitute_rows(factors, order, x[None])
 
 
 @kernel
