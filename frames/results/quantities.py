@@ -1,7 +1,7 @@
 """The quantities of time histories: the one table that says what is known of each.
 
 A quantity is added by its row here and its formula in `frames.kernels.quantities`
-(docs/architecture.md).
+(docs/extending.md).
 """
 
 from __future__ import annotations
