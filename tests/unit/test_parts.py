@@ -102,9 +102,7 @@ def test_a_later_process_takes_parts_from_the_cache(kernels: Any, tmp_path: Path
 
 
 @PARTS
-def test_a_part_is_left_whose_callee_another_process_has_replaced(
-    kernels: Any, tmp_path: Path
-) -> None:
+def test_a_part_is_left_whose_callee_another_process_has_replaced(kernels, tmp_path):
     kernels()["other"](X)
     [law] = files(tmp_path, "law")
     before = law.read_bytes()

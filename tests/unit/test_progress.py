@@ -105,9 +105,7 @@ def test_a_small_kernel_is_not_worth_a_word(compiler: Compiler, written: Any) ->
     assert stream.getvalue().startswith(SAID)  # with the one before it is more than a second
 
 
-def test_silence_on_request(
-    compiler: Compiler, written: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_silence_on_request(compiler, written, monkeypatch):
     monkeypatch.setenv("LIR_QUIET", "1")
     stream = written(Terminal)
     compiler.compile("run", 20.0, ("trial", 3.0))
@@ -115,9 +113,7 @@ def test_silence_on_request(
 
 
 @pytest.mark.parametrize("closed", [True, False])
-def test_without_a_standard_error(
-    compiler: Compiler, monkeypatch: pytest.MonkeyPatch, closed: bool
-) -> None:
+def test_without_a_standard_error(compiler, monkeypatch, closed):
     stream = io.StringIO()
     stream.close()
     monkeypatch.setattr(sys, "stderr", stream if closed else None)
