@@ -1,9 +1,6 @@
 """A column of results: one formula, whether taken up step by step or read off a Dataset."""
 
-import os
 import shutil
-import subprocess  # this interpreter  # noqa: S404
-import sys
 import warnings
 from pathlib import Path
 
@@ -15,6 +12,7 @@ from frames import Frame, moment_frame, time_histories, time_history
 from frames.results.peak_response import largest
 from frames.results.quantities import QUANTITIES
 from lir_element import CoulombFriction, VelocityFriction
+from tests.patience import fresh
 from tests.scenes import simple_bearing, swell
 
 ROOT = Path(__file__).parents[2]
@@ -135,10 +133,6 @@ def test_a_column_is_added_in_two_files(tmp_path: Path) -> None:
         text = (tmp_path / path).read_text(encoding="utf-8")
         assert text.count(old) == 1, path
         (tmp_path / path).write_text(text.replace(old, new), encoding="utf-8")
-    env = {**os.environ, "PYTHONPATH": str(tmp_path), "NUMBA_DISABLE_JIT": "1"}
-    command = [sys.executable, "-c", RUN]
-    done = subprocess.run(  # noqa: S603
-        command, env=env, cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = fresh(RUN, cwd=tmp_path, check=False, PYTHONPATH=str(tmp_path), NUMBA_DISABLE_JIT="1")
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) > 0.0

@@ -1,8 +1,6 @@
 """The plain bearing as elements of OpenSees: mapping, refusals, and short histories in both."""
 
 import math
-import subprocess  # a call that ends its process  # noqa: S404
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
@@ -26,7 +24,7 @@ from lir_element.opensees import (
     builtin_values,
     opensees,
 )
-from tests.patience import patience
+from tests.patience import fresh, patience
 from validation.opensees.model import (
     gravity_analysis,
     ground_motion,
@@ -272,13 +270,7 @@ def test_zero_friction_would_end_the_process() -> None:
         "ops.frictionModel('Coulomb', 1, 0.0)\n"
         "print('still here')\n"
     )
-    done = subprocess.run(  # this script  # noqa: S603
-        [sys.executable, "-c", script],
-        capture_output=True,
-        text=True,
-        timeout=patience(),
-        check=False,
-    )
+    done = fresh(script, timeout=patience(), check=False)
     assert "still here" not in done.stdout
 
 

@@ -19,6 +19,7 @@ from frames.bundles.peak_data import ENERGY_TERMS
 from lir_element._compile import cache
 from lir_element._compile.jit import kernels_of
 from lir_element._compile.sources import compiled_sources
+from tests.patience import fresh
 
 pytestmark = pytest.mark.skipif(
     not isinstance(importlib.import_module("lir_element.kernels.rotation").rotate, Dispatcher),
@@ -320,11 +321,7 @@ def test_a_cache_that_is_only_read_is_taken(package: Path) -> None:
 
 
 def run(code: str, root: Path = ROOT, **environment: str) -> "subprocess.CompletedProcess[str]":
-    env = {**os.environ, "PYTHONPATH": str(root), **environment}
-    command = [sys.executable, "-c", code]
-    return subprocess.run(  # noqa: S603
-        command, env=env, cwd=root, capture_output=True, text=True, check=True
-    )
+    return fresh(code, cwd=root, PYTHONPATH=str(root), **environment)
 
 
 KERNEL = "from lir_element.kernels.rotation import coefficients; print(coefficients(1.0)[0])"

@@ -1,8 +1,6 @@
 """What Frame.from_opensees refuses or names; each message says what to change."""
 
 import importlib.util
-import subprocess  # a fresh interpreter  # noqa: S404
-import sys
 from dataclasses import replace
 
 import numpy as np
@@ -23,6 +21,7 @@ from frames import (
 from frames.opensees.checks import refuse_unsymmetric
 from frames.opensees.model import read_model
 from lir_element.opensees import builtin_element
+from tests.patience import fresh
 from tests.refusals import refused
 from tests.scenes import simple_bearing
 from validation.opensees.model import gravity_analysis, permanent_loads
@@ -393,5 +392,5 @@ def test_vertical_mass_can_be_given(ops):
 
 def test_frames_alone_does_not_load_openseespy():
     code = "import frames, sys; print(any(name.startswith('openseespy') for name in sys.modules))"
-    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+    out = fresh(code)
     assert out.stdout.strip() == "False"

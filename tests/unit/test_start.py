@@ -16,6 +16,7 @@ from frames import GroundMotion, lumped_mass, moment_frame, precompile, time_his
 from frames.command.app import app
 from frames.design.project.example import BUILDINGS
 from lir_element._compile import shipped
+from tests.patience import fresh
 from tests.scenes import paper_bearing
 
 ROOT = Path(__file__).parents[2]
@@ -45,13 +46,13 @@ def law_of():
 
 def test_imports_leave_out_what_most_runs_do_without() -> None:
     code = f"import frames, sys; print([name for name in {HEAVY} if name in sys.modules])"
-    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+    out = fresh(code)
     assert out.stdout.strip() == "[]"
 
 
 def told_by(code: str) -> str:
     """Return what a new process prints."""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+    done = fresh(code)
     return done.stdout.strip()
 
 
@@ -105,15 +106,12 @@ def test_a_kernel_of_the_wheel_is_taken_and_gives_the_same_bits(tmp_path, monkey
     (package / "kernels").mkdir(parents=True)
     (package / "kernels" / "law_of_a_wheel.py").write_text(KERNEL, encoding="utf-8")
     environment = {
-        **os.environ,
         "LIR_CACHE_DIR": str(wheel),
         "NUMBA_CPU_NAME": str(shipped.baseline(platform.machine())),
         "NUMBA_CPU_FEATURES": "",
         "PYTHONPATH": os.pathsep.join([str(package / "kernels"), *sys.path]),
     }
-    kept = subprocess.run(  # noqa: S603
-        [sys.executable, "-c", COMPILE], env=environment, capture_output=True, text=True, check=True
-    ).stdout.strip()
+    kept = fresh(COMPILE, **environment).stdout.strip()
     monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path / "cache"))
     monkeypatch.syspath_prepend(str(package / "kernels"))
     native = law_of()
