@@ -4,9 +4,11 @@ No test has a limit in seconds: a machine that is busy, slow or debugged would f
 """
 
 import functools
+import os
 import subprocess  # a fresh interpreter  # noqa: S404
 import sys
 import time
+from pathlib import Path
 
 _HANG = 300.0  # starts, that nothing which ends by itself takes
 _LEAST = 600.0  # s, the same: kernels may have to be compiled first
@@ -23,3 +25,23 @@ def start_up() -> float:
 def patience() -> float:
     """Return the time after which something hangs [s]."""
     return max(_LEAST, _HANG * start_up())
+
+
+def fresh(
+    code: str,
+    *words: str,
+    cwd: Path | None = None,
+    check: bool = True,
+    timeout: float | None = None,
+    **environment: str,
+) -> "subprocess.CompletedProcess[str]":
+    """Run code in a new interpreter to its end and return the process; words are its arguments."""
+    return subprocess.run(  # noqa: S603
+        [sys.executable, "-c", code, *words],
+        env=os.environ | environment,
+        cwd=cwd,
+        check=check,
+        timeout=timeout,
+        capture_output=True,
+        text=True,
+    )

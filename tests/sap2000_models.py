@@ -108,10 +108,7 @@ def building(
                 "Multiplier": 0.3,
             }
         ],
-        "AREA SECTION PROPERTIES": [
-            _shell("SLAB", 0.15, one),
-            _shell("WALL", 0.25, one),
-        ],
+        "AREA SECTION PROPERTIES": [_shell("SLAB", 0.15, one), _shell("WALL", 0.25, one)],
         "JOINT COORDINATES": [],
         "CONNECTIVITY - FRAME": [],
         "FRAME SECTION ASSIGNMENTS": [],

@@ -3,19 +3,12 @@
 from typing import Any
 
 from frames.design import IsolationSystem
-from lir_element import LIRBearing
+from tests.scenes import tall_bearing
 
 
 def square_system(**more: Any) -> IsolationSystem:
     """Return it, 1.5 MN on each bearing, with further fields of `IsolationSystem`."""
-    bearing = LIRBearing(
-        radius=1.5,
-        slider_height=0.3,
-        slider_radius=0.2,
-        capacity=0.45,
-        friction=0.06,
-        interface_friction=0.25,
-    )
+    bearing = tall_bearing()
     return IsolationSystem(
         bearings=(bearing,) * 4,
         loads=(1.5e6,) * 4,

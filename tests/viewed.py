@@ -12,16 +12,9 @@ import numpy as np
 import xarray as xr
 
 from frames import Frame, GroundMotion, moment_frame, time_history
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import simple_bearing
 
-BEARING = LIRBearing(
-    radius=1.0,
-    slider_height=0.1,
-    slider_radius=0.1,
-    capacity=0.12,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.13,
-)
+BEARING = simple_bearing()
 
 
 @dataclass

@@ -8,10 +8,11 @@ import pytest
 import xarray as xr
 
 from frames import Frame, GroundMotion, energy_error, time_history
-from lir_element import LIRBearing, VelocityFriction
+from lir_element import LIRBearing
 from lir_element.opensees import bearing_tags, opensees
 from lir_element.opensees.fast.selftest import why_not_fast
 from tests.integration.stand import Stand
+from tests.scenes import paper_bearing
 
 LEDGER = 1e-3  # of the input
 
@@ -32,14 +33,7 @@ def run() -> Callable[..., xr.Dataset]:
 @pytest.fixture(scope="session")
 def newhall_bearing() -> LIRBearing:
     """The bearing of the paper's numerical example (section 3.1)."""
-    return LIRBearing(
-        radius=1.185,
-        slider_height=0.12,
-        slider_radius=0.15,
-        capacity=0.25,
-        friction=VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
-        interface_friction=0.13,
-    )
+    return paper_bearing()
 
 
 @pytest.fixture(scope="session")

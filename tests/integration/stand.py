@@ -7,6 +7,7 @@ import numpy as np
 from lir_element import LIRBearing, VelocityFriction
 from lir_element.opensees import bearing_element
 from lir_element.opensees.plugin import _SESSION
+from tests.scenes import small_bearing
 
 
 class Stand:
@@ -14,15 +15,7 @@ class Stand:
 
     LOAD = 1e6
     MASS = 1e5
-    DEVICE = LIRBearing(
-        radius=0.75,
-        slider_height=0.085,
-        slider_radius=0.08,
-        capacity=0.175,
-        friction=VelocityFriction(f_max=0.066, f_min=0.033, rate=20.0),
-        interface_friction=0.126,
-        design_load=LOAD,
-    )
+    DEVICE = small_bearing(friction=VelocityFriction(0.066, 0.033, 20.0), design_load=LOAD)
 
     def __init__(self, ops: Any, route: str) -> None:
         self.ops = ops

@@ -19,6 +19,7 @@ from lir_element import (
     RunStatus,
 )
 from lir_element.units import STANDARD_GRAVITY
+from tests.refusals import refused
 
 LOAD = 150e3
 BEARING = LIRBearing(
@@ -203,19 +204,15 @@ def test_fragility_takes_a_lost_bearing_for_a_failure_alone():
 
 
 def test_refused_where_it_is_not_known():
-    with pytest.raises(ValueError, match=r"rigid_body.*backup"):
-        mass_on(BACKED, level="rigid_body")
+    refused(ValueError, r"rigid_body.*backup", mass_on, BACKED, level="rigid_body")
     for wrong, match in (
         (-0.01, "drop"),
         (50.0, r"50 mm are 0.05 m.*math.inf"),
         ("5 cm", "number"),
     ):
-        with pytest.raises((TypeError, ValueError), match=match):
-            BackupSupport(drop=wrong)
-    with pytest.raises(TypeError, match=r"backup.*BackupSupport"):
-        replace(BEARING, backup=0.05)
-    with pytest.raises(ValueError, match="uplift_capacity"):
-        replace(BEARING, uplift_capacity=0.0)
+        refused((TypeError, ValueError), match, BackupSupport, drop=wrong)
+    refused(TypeError, r"backup.*BackupSupport", replace, BEARING, backup=0.05)
+    refused(ValueError, "uplift_capacity", replace, BEARING, uplift_capacity=0.0)
 
 
 def test_a_run_that_has_to_raise_does_not_for_a_lost_bearing():

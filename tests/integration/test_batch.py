@@ -93,16 +93,12 @@ SCALES = (0.4, 1.0, 3.5)
 
 
 @pytest.fixture(scope="module")
-def grid(
-    building: Frame, device: LIRBearing, motions: dict[str, GroundMotion]
-) -> tuple[dict[str, Frame], xr.Dataset]:
+def grid(building, device, motions):
     models = {"frame": building, "mass": lumped_mass(device, 2e5)}
     return models, quietly(time_histories, models, motions, scales=SCALES, workers=2)
 
 
-def test_rows_are_the_single_runs(
-    grid: tuple[dict[str, Frame], xr.Dataset], motions: dict[str, GroundMotion]
-) -> None:
+def test_rows_are_the_single_runs(grid, motions):
     models, data = grid
     cases = [(m, g, s) for m in models for g in motions for s in SCALES]
     rows = zip(*(data[c].to_numpy() for c in ("model", "motion", "scale")), strict=True)
@@ -118,9 +114,7 @@ def test_rows_are_the_single_runs(
     assert float(data["reached_rims_met"].max()) > 0.0
 
 
-def test_what_a_structure_does_not_have_is_nan(
-    grid: tuple[dict[str, Frame], xr.Dataset],
-) -> None:
+def test_what_a_structure_does_not_have_is_nan(grid):
     _, data = grid
     masses = data["model"].to_numpy() == "mass"
     drift = data["peak"].sel(quantity="storey drift, mean").to_numpy()
@@ -131,9 +125,7 @@ def test_what_a_structure_does_not_have_is_nan(
 
 
 @pytest.mark.parametrize("workers", [1, 3])
-def test_any_number_of_workers_gives_the_same_bits(
-    grid: tuple[dict[str, Frame], xr.Dataset], motions: dict[str, GroundMotion], workers: int
-) -> None:
+def test_any_number_of_workers_gives_the_same_bits(grid, motions, workers):
     models, data = grid
     again = quietly(time_histories, models, motions, scales=SCALES, workers=workers)
     assert untimed(again).identical(untimed(data))
@@ -163,9 +155,7 @@ def test_a_row_does_not_depend_on_those_before(
         {"duration": 3.0, "tolerance": 1e-3},
     ],
 )
-def test_options_are_those_of_the_single_run(
-    building: Frame, motions: dict[str, GroundMotion], options: dict[str, Any]
-) -> None:
+def test_options_are_those_of_the_single_run(building, motions, options):
     many = quietly(time_histories, building, motions["near"], workers=2, **options)
     one = quietly(time_history, building, motions["near"], recording=Recording.peaks(), **options)
     agree(many.sel(run=0), one)
@@ -209,9 +199,7 @@ def test_histories_are_stacked(building: Frame, motions: dict[str, GroundMotion]
     assert float(ended.min()) < float(ended.max())  # one stops early, and is filled up
 
 
-def test_histories_of_some_levels_and_bearings(
-    building: Frame, motions: dict[str, GroundMotion]
-) -> None:
+def test_histories_of_some_levels_and_bearings(building, motions):
     """Of what is not recorded nothing is kept, as in a single history; peaks are of all."""
     recording = Recording(levels=("base",), bearings=tuple(building.bearings)[:1])
     motion = motions["near"]
@@ -228,9 +216,7 @@ def test_histories_of_some_levels_and_bearings(
         floor_acceleration(many.isel(run=0))
 
 
-def test_histories_on_other_grids_have_steps(
-    building: Frame, motions: dict[str, GroundMotion]
-) -> None:
+def test_histories_on_other_grids_have_steps(building, motions):
     many = quietly(time_histories, building, motions, record=Recording(), scales=0.5)
     assert "step" in many["node_displacement"].dims
     for k, motion in enumerate(motions.values()):
@@ -269,9 +255,7 @@ def test_progress_tells_rate_and_time_left() -> None:
     assert "min left" in str(BatchProgress(1, 100, 10.0, 0))
 
 
-def test_progress_is_written(
-    building: Frame, motions: dict[str, GroundMotion], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_progress_is_written(building, motions, capsys):
     quietly(time_histories, building, motions["near"], progress=True, duration=0.2)
     assert capsys.readouterr().err.startswith("1 of 1 runs, ")
 
@@ -283,9 +267,7 @@ def test_what_is_told_of_runs_that_stop(building: Frame, motions: dict[str, Grou
     assert list(np.isfinite(data["failed_at"])) == [False, True]
 
 
-def test_a_structure_without_equilibrium_is_a_row(
-    building: Frame, device: LIRBearing, motions: dict[str, GroundMotion]
-) -> None:
+def test_a_structure_without_equilibrium_is_a_row(building, device, motions):
     lifted = lumped_mass(device, 2e5)
     lifted.add_load("mass", (0.0, 0.0, 3e6, 0.0, 0.0, 0.0))
     models = {"lifted": lifted, "frame": building}
@@ -326,16 +308,12 @@ def test_saved_and_loaded(grid: tuple[dict[str, Frame], xr.Dataset], tmp_path: P
         ({"models": {1: None}}, "a name: a string"),
     ],
 )
-def test_what_cannot_be_is_refused(
-    building: Frame, motions: dict[str, GroundMotion], options: dict[str, Any], message: str
-) -> None:
+def test_what_cannot_be_is_refused(building, motions, options, message):
     with pytest.raises((ValueError, TypeError), match=message):
         time_histories(**({"models": building, "motions": motions} | options))
 
 
-def test_more_than_the_memory_holds_is_refused(
-    building: Frame, motions: dict[str, GroundMotion], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_more_than_the_memory_holds_is_refused(building, motions, monkeypatch):
     monkeypatch.setattr("frames.recording.recording.memory", lambda: 1e6)
     quietly(time_histories, building, motions["near"], scales=[0.4, 0.5], duration=0.2)
     with pytest.raises(ValueError, match="results of 2 of 2 runs take about"):
@@ -347,9 +325,7 @@ def test_names_have_to_be_unique(building: Frame, motions: dict[str, GroundMotio
         time_histories([building, building.copy("frame")], motions)
 
 
-def test_a_motion_in_other_units_is_named_once(
-    building: Frame, motions: dict[str, GroundMotion]
-) -> None:
+def test_a_motion_in_other_units_is_named_once(building, motions):
     with pytest.warns(ModelWarning, match=r"and 1 more of the 2 runs") as told:
         time_histories(building, motions["near"], scales=[1e-3, 2e-3], duration=0.2)
     assert len(told) == 1

@@ -1,6 +1,7 @@
 """Bearings on elastic columns: the lower plate moves and turns with the column's head."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from frames import Frame, GroundMotion, Section, gravity, lumped_mass
 from frames.model.components import DOFS
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.kernels.rotation import rotate
+from tests.scenes import uneven_bearing
 
 DT, MASS, HEIGHT, G = 0.005, 1e5, 4.0, 9.80665
 E, I_COLUMN = 2e11, 6e-4
@@ -26,16 +28,7 @@ def column(factor: float = 1.0, area: float = 0.04) -> Section:
     )
 
 
-def device(**options) -> LIRBearing:
-    given = {
-        "radius": (1.0, 0.8),
-        "slider_height": 0.1,
-        "slider_radius": 0.12,
-        "capacity": 0.08,
-        "friction": CoulombFriction(0.05),
-        "interface_friction": 0.14,
-    }
-    return LIRBearing(**{**given, **options})
+device = partial(uneven_bearing, friction=0.05)
 
 
 def pier(

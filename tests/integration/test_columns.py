@@ -1,29 +1,28 @@
 """A column of results: one formula, whether taken up step by step or read off a Dataset."""
 
-import os
 import shutil
-import subprocess  # this interpreter  # noqa: S404
-import sys
 import warnings
 from pathlib import Path
 
-import numpy as np
 import pytest
 import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
 
-from frames import Frame, GroundMotion, moment_frame, time_histories, time_history
+from frames import Frame, moment_frame, time_histories, time_history
 from frames.results.peak_response import largest
 from frames.results.quantities import QUANTITIES
-from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, VelocityFriction
+from tests.patience import fresh
+from tests.scenes import simple_bearing, swell
 
 ROOT = Path(__file__).parents[2]
-TIME = np.arange(0.0, 2.5, 0.01)
-BELL = np.exp(-(((TIME - 1.0) / 0.6) ** 2))
-MOTION = GroundMotion(
-    x=2.6 * BELL * np.sin(2.0 * np.pi * TIME / 1.4),
-    y=1.3 * BELL * np.sin(2.0 * np.pi * TIME / 0.9),
-    z=14.0 * BELL * np.sin(2.0 * np.pi * TIME / 0.35),
+MOTION = swell(
+    x=(2.6, 1.4),
+    y=(1.3, 0.9),
+    z=(14.0, 0.35),
+    middle=1.0,
+    width=0.6,
+    end=2.5,
     dt=0.01,
     name="both ways and up",
 )
@@ -35,14 +34,7 @@ FROM_NODES = {"gap", "centre_shift"}
 @pytest.fixture(scope="module")
 def runs() -> tuple[xr.Dataset, xr.Dataset]:
     """Return one run as its histories, and as a row of a batch."""
-    bearing = LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=0.12,
-        friction=(VelocityFriction(0.05, 0.03, 12.0), CoulombFriction(0.06)),
-        interface_friction=0.13,
-    )
+    bearing = simple_bearing(friction=(VelocityFriction(0.05, 0.03, 12.0), CoulombFriction(0.06)))
     model: Frame = moment_frame((1, 1), 1, bearing=bearing)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -61,9 +53,7 @@ def test_the_motion_moves_every_column(runs: tuple[xr.Dataset, xr.Dataset]) -> N
 
 
 @pytest.mark.parametrize("name", BY_STEP)
-def test_compiled_code_and_histories_have_the_same_bits(
-    runs: tuple[xr.Dataset, xr.Dataset], name: str
-) -> None:
+def test_compiled_code_and_histories_have_the_same_bits(runs, name):
     data, batch = runs
     values, times = largest(data, name)
     kept = batch[f"reached_{name}"].isel(run=0), batch[f"reached_{name}_at"].isel(run=0)
@@ -143,10 +133,6 @@ def test_a_column_is_added_in_two_files(tmp_path: Path) -> None:
         text = (tmp_path / path).read_text(encoding="utf-8")
         assert text.count(old) == 1, path
         (tmp_path / path).write_text(text.replace(old, new), encoding="utf-8")
-    env = {**os.environ, "PYTHONPATH": str(tmp_path), "NUMBA_DISABLE_JIT": "1"}
-    command = [sys.executable, "-c", RUN]
-    done = subprocess.run(  # noqa: S603
-        command, env=env, cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = fresh(RUN, cwd=tmp_path, check=False, PYTHONPATH=str(tmp_path), NUMBA_DISABLE_JIT="1")
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) > 0.0

@@ -1,6 +1,7 @@
 """Damping: the given ratio in the structure, nothing of it in the isolation."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -15,40 +16,20 @@ from frames import (
     gravity,
     shear_building,
 )
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import plain_pendulum
 
 # Friction that holds whatever comes, on purpose.
-pytestmark = [
-    pytest.mark.meant("friction of 0.9", "the bearings hardly slide"),
-]
+pytestmark = [pytest.mark.meant("friction of 0.9", "the bearings hardly slide")]
 
 MASS = 1e5
 DT = 0.002
 
 
-def held_bearing() -> LIRBearing:
-    """Friction so high and stiff that small motions find it rigid."""
-    return LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=math.inf,
-        friction=CoulombFriction(0.9),
-        interface_friction=math.inf,
-        yield_displacement=1e-7,
-    )
+# Friction so high and stiff that small motions find it rigid.
+held_bearing = partial(plain_pendulum, friction=0.9, yield_displacement=1e-7)
 
 
-def frictionless_bearing() -> LIRBearing:
-    return LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=math.inf,
-        friction=CoulombFriction(0.0),
-        interface_friction=math.inf,
-        axial_damping=0.0,
-    )
+frictionless_bearing = partial(plain_pendulum, friction=0.0, axial_damping=0.0)
 
 
 def stiffness(period: float) -> float:

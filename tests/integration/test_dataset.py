@@ -1,7 +1,5 @@
 """The Dataset: complete, labelled, and in equilibrium with itself."""
 
-import math
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -21,8 +19,9 @@ from frames import (
     storey_drift,
     time_history,
 )
-from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, VelocityFriction
 from lir_element.kernels.rotation import rotate
+from tests.scenes import plain_pendulum, uneven_bearing
 
 DT = 0.005
 EACH = ("time", "bearing")
@@ -73,21 +72,16 @@ ATTRIBUTES = {
 }
 
 
-def device() -> LIRBearing:
-    return LIRBearing(
-        radius=(1.0, 0.8),
-        slider_height=0.1,
-        slider_radius=0.09,
-        capacity=0.08,
-        friction=(VelocityFriction(0.06, 0.03, 20.0), CoulombFriction(0.05)),
-        interface_friction=0.14,
-        axial_damping=0.0,
-    )
+DEVICE = uneven_bearing(
+    slider_radius=0.09,
+    friction=(VelocityFriction(0.06, 0.03, 20.0), CoulombFriction(0.05)),
+    axial_damping=0.0,
+)
 
 
 @pytest.fixture(scope="module")
 def frame() -> Frame:
-    frame = moment_frame(bays=(1, 1), storeys=2, bearing=device(), bay_width=(5.0, 4.0))
+    frame = moment_frame(bays=(1, 1), storeys=2, bearing=DEVICE, bay_width=(5.0, 4.0))
     frame.set_damping(ModalDamping(0.03))
     return frame
 
@@ -162,14 +156,7 @@ def test_supports_feel_the_ground(history):
 
 
 def test_total_acceleration_is_relative_plus_ground(run, pulse):
-    smooth = LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=math.inf,
-        friction=CoulombFriction(0.0),
-        interface_friction=math.inf,
-    )
+    smooth = plain_pendulum(friction=0.0)
     dt = 0.002
     motion = GroundMotion(x=pulse(2.0, 1.5, dt), y=pulse(1.0, 1.0, dt, cycles=3.0), dt=dt)
     data = run(lumped_mass(smooth, 1e5), motion, dt=dt)
@@ -201,8 +188,8 @@ def test_base_shear_is_the_sum_of_the_bearings(history):
 
 
 def test_a_spring_to_the_ground_counts_in_the_base_shear(run, motion):
-    frame = lumped_mass(device(), 1e5)
-    frame.add_node("wall", 2.0, 0.0, device().height)
+    frame = lumped_mass(DEVICE, 1e5)
+    frame.add_node("wall", 2.0, 0.0, DEVICE.height)
     frame.fix("wall", "all")
     stiffness = 8e5
     frame.add_spring("tie", "wall", "mass", (stiffness, 0.0, 0.0, 0.0, 0.0, 0.0))
@@ -231,7 +218,7 @@ def axes_of_plates(data: xr.Dataset, names: list[str]) -> np.ndarray:
 
 def test_kinematics_of_the_sliders(history):
     """Close d1 + d2 + s + (h - N / k) n = U + h e_z and d2 = -R2 (n - e_j)."""
-    bearing = device()
+    bearing = DEVICE
     r_1, r_2 = bearing.radii
     stiffness = bearing.resolved()["axial_stiffness"]
     d_1, d_2 = (history["slider_displacement"].sel(surface=s).to_numpy() for s in ("bottom", "top"))
@@ -256,7 +243,7 @@ def test_kinematics_of_the_sliders(history):
 def test_forces_and_moments_of_a_bearing_balance(history):
     force = history["bearing_force"].to_numpy()
     m_i, m_j = (history["bearing_moment"].sel(end=e).to_numpy() for e in ("i", "j"))
-    arm = history["bearing_displacement"].to_numpy() + np.array([0.0, 0.0, device().height])
+    arm = history["bearing_displacement"].to_numpy() + np.array([0.0, 0.0, DEVICE.height])
     gap = m_i + m_j + np.cross(arm, force)
     assert_allclose(gap, 0.0, rtol=0.0, atol=1e-12 * np.abs(force).max())  # round-off
 
@@ -307,7 +294,7 @@ def test_energies_against_their_definitions(history, frame):
 
 
 def test_save_and_load_hand_back_the_same(history, tmp_path, run, motion):
-    for number, data in enumerate((history, run(lumped_mass(device(), 1e5), motion, dt=DT))):
+    for number, data in enumerate((history, run(lumped_mass(DEVICE, 1e5), motion, dt=DT))):
         path = tmp_path / f"run-{number}.nc"
         save(data, path)
         xr.testing.assert_identical(load(path), data)
@@ -357,13 +344,10 @@ def test_longer_than_the_motion_the_ground_rests(run, frame, motion, history):
     assert_allclose(still, still[0], rtol=0.0, atol=0.0)  # no ground, no input
 
 
-@pytest.mark.parametrize(
-    ("dt", "count"),
-    [(0.24, 2), (0.08, 4), (0.04, 7)],
-)
+@pytest.mark.parametrize(("dt", "count"), [(0.24, 2), (0.08, 4), (0.04, 7)])
 def test_the_last_sample_counts_to_its_end(run, dt, count):
     motion = GroundMotion(x=np.ones(2), dt=0.24)
-    data = run(lumped_mass(device(), 1e5), motion, dt=dt)
+    data = run(lumped_mass(DEVICE, 1e5), motion, dt=dt)
     assert data.sizes["time"] == count
     inertia = 1e5 * data["node_acceleration"].sel(node="mass", dof="ux")
     # Newton's tolerance
@@ -396,14 +380,14 @@ def test_storey_drift_and_floor_acceleration_by_hand(history):
 
 
 def test_drift_of_a_model_without_levels_is_refused(run, motion):
-    data = run(lumped_mass(device(), 1e5), motion, dt=DT)
+    data = run(lumped_mass(DEVICE, 1e5), motion, dt=DT)
     with pytest.raises(ValueError, match="0 levels: drifts need at least two"):
         storey_drift(data)
 
 
 def on_column(section: Section) -> Frame:
     """Put a bearing on a column, and a second one on the ground under the same deck."""
-    frame, bearing = Frame("pier"), device()
+    frame, bearing = Frame("pier"), DEVICE
     frame.add_node("foot", 0.0, 0.0, -4.0)
     frame.fix("foot", "all")
     frame.add_node("head", 0.0, 0.0, 0.0)
@@ -451,7 +435,7 @@ def test_base_shear_holds_a_permanent_lateral_load_on_a_column(motion):
 
 
 def test_two_levels_at_one_elevation_do_not_give_nan(run, motion):
-    frame = lumped_mass(device(), 1e5)
+    frame = lumped_mass(DEVICE, 1e5)
     frame.add_level("deck", ["mass"])
     try:
         frame.add_level("again", ["mass"])

@@ -21,7 +21,8 @@ from frames import (
     time_history,
 )
 from frames.laws import Bilinear, HertzGap, PlasticHinge, Tie, ViscousDamper
-from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
+from lir_element import AnalysisWarning
+from tests.scenes import simple_bearing as device
 
 DT, HEIGHT = 0.005, 3.0
 TIME = np.arange(0.0, 4.0, DT)
@@ -31,18 +32,6 @@ MOTION = GroundMotion(
 )
 STIFFNESS, STRENGTH = 3e7, 6e4  # N/m, N
 YIELD = STRENGTH / STIFFNESS
-
-
-def device(**changes):
-    options = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": 0.12,
-        "friction": CoulombFriction(0.05),
-        "interface_friction": 0.13,
-    }
-    return LIRBearing(**(options | changes))
 
 
 def stick():

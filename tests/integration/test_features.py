@@ -1,5 +1,7 @@
 """Runs with features left out: exact where the feature is neutral; energy balances close."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -15,23 +17,14 @@ from frames import (
     shear_building,
 )
 from frames.statics.springs import exact_features, plane_coupling
-from lir_element import CoulombFriction, Features, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, Features, LIRBearing
+from tests.scenes import uneven_bearing
 
 DT = 0.004
 G = 9.80665
 
 
-def device(**changes) -> LIRBearing:
-    options = {
-        "radius": (1.0, 0.8),
-        "slider_height": 0.1,
-        "slider_radius": 0.12,
-        "capacity": 0.08,
-        "friction": VelocityFriction(0.06, 0.03, 20.0),
-        "interface_friction": 0.14,
-        "design_load": 3e5,
-    }
-    return LIRBearing(**(options | changes))
+device = partial(uneven_bearing, design_load=3e5)
 
 
 def building(bearing: LIRBearing) -> Frame:

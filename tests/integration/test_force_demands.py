@@ -20,20 +20,13 @@ from frames.design.histories.least_shears import Raise
 from frames.design.histories.suite import Suite
 from frames.library.moved_masses import with_moved_masses
 from frames.model.axes import default_up, local_axes
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import simple_bearing
 
 TIME = np.arange(0.0, 2.0, 0.01)
 BELL = np.exp(-(((TIME - 0.9) / 0.5) ** 2))
 BOUNDS = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
 RULES = HISTORY_RULES["ASCE 7-22"]
-BEARING = LIRBearing(
-    radius=1.0,
-    slider_height=0.2,
-    slider_radius=0.2,
-    capacity=0.2,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.13,
-)
+BEARING = simple_bearing(slider_height=0.2, slider_radius=0.2, capacity=0.2)
 
 
 def pulse(size, name):

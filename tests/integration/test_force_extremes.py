@@ -6,7 +6,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from frames import (
     Frame,
-    GroundMotion,
     Recording,
     Section,
     gravity,
@@ -21,24 +20,11 @@ from frames import (
 from frames.laws import Bilinear, PlasticHinge
 from frames.recording.force_rows import force_maps
 from frames.solve import recorder
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import simple_bearing, swell
 
 DT = 0.005
-TIME = np.arange(0.0, 2.5, DT)
-BELL = np.exp(-(((TIME - 1.2) / 0.7) ** 2))
-MOTION = GroundMotion(
-    x=2.2 * BELL * np.sin(2 * np.pi * TIME / 1.4),
-    y=1.0 * BELL * np.sin(2 * np.pi * TIME / 0.8),
-    dt=DT,
-)
-BEARING = LIRBearing(
-    radius=1.0,
-    slider_height=0.2,
-    slider_radius=0.2,
-    capacity=0.2,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.13,
-)
+MOTION = swell(x=(2.2, 1.4), y=(1.0, 0.8), middle=1.2, width=0.7, end=2.5)
+BEARING = simple_bearing(slider_height=0.2, slider_radius=0.2, capacity=0.2)
 FORCES = Recording(every=None, forces=True)
 BEAM = Section.rectangle(0.3, 0.4, elastic_modulus=30e9, poisson_ratio=0.2, density=0.0)
 

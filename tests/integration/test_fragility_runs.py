@@ -19,6 +19,7 @@ from frames.risk import (
     multiple_stripes,
 )
 from lir_element.errors import AnalysisWarning
+from tests.refusals import refused
 
 LOAD = 1000e3
 BEARING = bearing_for(LOAD)
@@ -117,20 +118,16 @@ def test_numerical_failures_count_as_neither_and_are_told(monkeypatch: pytest.Mo
 
 
 def test_what_makes_no_sense_is_refused() -> None:
-    with pytest.raises(FragilityError, match="levels is empty"):
-        multiple_stripes(MODEL, PULSES, [], intensity=PGV)
-    with pytest.raises(FragilityError, match="level"):
-        multiple_stripes(MODEL, PULSES, [-1.0], intensity=PGV)
-    with pytest.raises(FragilityError, match="scale"):
-        cloud_analysis(MODEL, PULSES, intensity=PGV, scales=[0.0])
+    refused(FragilityError, "levels is empty", multiple_stripes, MODEL, PULSES, [], intensity=PGV)
+    refused(FragilityError, "level", multiple_stripes, MODEL, PULSES, [-1.0], intensity=PGV)
+    refused(FragilityError, "scale", cloud_analysis, MODEL, PULSES, intensity=PGV, scales=[0.0])
     with pytest.raises(FragilityError, match="is decided here"):
         multiple_stripes(MODEL, PULSES, [1.0], intensity=PGV, scales=[1.0])
     other = lumped_mass(BEARING, LOAD / 9.80665, name="other")
     with pytest.raises(FragilityError, match="one at a time"):
         multiple_stripes([MODEL, other], PULSES, [1.0], intensity=PGV)  # type: ignore[arg-type]
     data = time_histories([MODEL, other], PULSES[0], scales=1.0)
-    with pytest.raises(FragilityError, match="name one"):
-        IntensityRuns.from_dataset(data, PULSES[0], PGV)
+    refused(FragilityError, "name one", IntensityRuns.from_dataset, data, PULSES[0], PGV)
     assert len(IntensityRuns.from_dataset(data, PULSES[0], PGV, model="other").table) == 1
     with pytest.raises(FragilityError, match="motion"):
         IntensityRuns.from_dataset(data, PULSES[1], PGV, model="other")

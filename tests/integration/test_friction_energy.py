@@ -1,21 +1,15 @@
 """A vertical motion does not drive a bearing sideways by way of its friction."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
-import xarray as xr
 
 from frames import GroundMotion, energy_error, lumped_mass
-from lir_element import LIRBearing
 
 WEIGHT = 286.73e3
 
 
 @pytest.mark.parametrize("frequency", [8.0, 8.25, 8.5])
-def test_vertical_shaking_at_twice_the_sticking_frequency(
-    frequency: float, newhall_bearing: LIRBearing, run: Callable[..., xr.Dataset]
-) -> None:
+def test_vertical_shaking_at_twice_the_sticking_frequency(frequency, newhall_bearing, run):
     """0.5 g vertically and 1 mm/s2 sideways: it sticks, and moves by micrometres as a spring does.
 
     The static a / omega^2 with omega^2 = g f_min (R_1^2 + R_2^2) / (L^2 u_y) + g / L, 27 rad/s, is
@@ -41,9 +35,7 @@ def test_vertical_shaking_at_twice_the_sticking_frequency(
 
 @pytest.mark.meant("the bearings hardly slide")
 @pytest.mark.parametrize("level", ["pendulum", "contact", "rigid_body"])
-def test_what_a_permanent_load_stored_may_be_given_back(
-    level: str, newhall_bearing: LIRBearing, run: Callable[..., xr.Dataset]
-) -> None:
+def test_what_a_permanent_load_stored_may_be_given_back(level, newhall_bearing, run):
     """A lateral load leaves friction half used; ground that pushes against it takes it away."""
     share, t = 0.5, np.arange(0.0, 0.3, 0.001)
     model = lumped_mass(newhall_bearing, WEIGHT / 9.80665)

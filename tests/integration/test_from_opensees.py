@@ -1,26 +1,20 @@
 """Frame.from_opensees: against the same building built here, and analysed wholly in OpenSees."""
 
 import importlib.util
+from functools import partial
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy import sparse
 
-from frames import (
-    Frame,
-    ModalDamping,
-    ModelWarning,
-    gravity,
-    modes,
-    moment_frame,
-    storey_drift,
-)
+from frames import Frame, ModalDamping, ModelWarning, gravity, modes, moment_frame, storey_drift
 from frames.demo import table_of
 from frames.solve import run as transient
 from frames.statics import gravity as static
-from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction
 from lir_element.device.bearing import STANDARD_GRAVITY as G
+from tests.scenes import uneven_bearing
 from validation.claims.opensees_superstructure import BEAM, COLUMN, PENDULUM
 from validation.opensees.frames import add_loads, build
 from validation.opensees.isolators import add_ground, damp, put_on_isolators, spring, waves
@@ -34,16 +28,7 @@ pytestmark = pytest.mark.skipif(
 FLOORS = ("floor-1", "floor-2")
 
 
-def lir(**options):
-    given = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.12,
-        "capacity": 0.15,
-        "friction": VelocityFriction(0.06, 0.03, 20.0),
-        "interface_friction": 0.14,
-    }
-    return LIRBearing(**(given | options))
+lir = partial(uneven_bearing, radius=1.0, capacity=0.15)
 
 
 def building(bearing, **options):

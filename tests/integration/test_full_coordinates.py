@@ -11,19 +11,17 @@ from numpy.testing import assert_allclose
 from frames import Frame, GroundMotion, RayleighDamping, gravity, moment_frame
 from frames.assembly.basis import bearing_rows
 from frames.solve import run as run_module
-from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, Element, VelocityFriction
+from tests.scenes import uneven_bearing
 
 DT, STEPS = 0.005, 240
 
 
 def two_storey_frame() -> Frame:
-    bearing = LIRBearing(
-        radius=(1.0, 0.8),
-        slider_height=0.1,
+    bearing = uneven_bearing(
         slider_radius=0.08,
         capacity=0.06,
         friction=(VelocityFriction(0.06, 0.03, 20.0), CoulombFriction(0.05)),
-        interface_friction=0.14,
     )
     frame = moment_frame(bays=(1, 1), storeys=2, bearing=bearing)
     frame.set_damping(RayleighDamping(0.03, (0.5, 0.1)))

@@ -1,15 +1,12 @@
 """What compiled code takes up of a run is what its histories say."""
 
 import warnings
-from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 import pytest
 
 from frames import (
     AuditWarning,
-    Frame,
     GroundMotion,
     audit_report,
     gravity,
@@ -18,13 +15,11 @@ from frames import (
     time_history,
 )
 from frames.recording.peak_tracking import can_track
-from lir_element import AnalysisWarning, Features, LIRBearing
+from lir_element import AnalysisWarning, Features
 
 
 @pytest.fixture(scope="module")
-def scenes(
-    newhall_bearing: LIRBearing, pulse: Callable[..., np.ndarray]
-) -> dict[str, tuple[Frame, GroundMotion]]:
+def scenes(newhall_bearing, pulse):
     x, y = pulse(4.5, 1.4, rest=0.1), pulse(2.0, 1.4, rest=0.1)
     thrown = GroundMotion(x=x, z=3.0 * y, dt=0.005)
     building = moment_frame((1, 1), 1, bearing=newhall_bearing)
@@ -37,9 +32,7 @@ def scenes(
 
 @pytest.mark.parametrize("scene", ["building", "thrown", "failing"])
 @pytest.mark.parametrize("left_out", ["", *Features.names()])
-def test_the_audit_is_that_of_the_histories(
-    scenes: dict[str, tuple[Frame, GroundMotion]], scene: str, left_out: str
-) -> None:
+def test_the_audit_is_that_of_the_histories(scenes, scene, left_out):
     model, motion = scenes[scene]
     options: dict[str, Any] = {}
     if left_out:
@@ -53,9 +46,7 @@ def test_the_audit_is_that_of_the_histories(
     assert judged == audit_report(data).splitlines()
 
 
-def test_what_is_not_in_the_states_is_read_off_histories(
-    scenes: dict[str, tuple[Frame, GroundMotion]],
-) -> None:
+def test_what_is_not_in_the_states_is_read_off_histories(scenes):
     model, _ = scenes["building"]
     assert can_track(gravity(model))
     for features in (Features(plate_rotation=False), Features(vertical_coupling=False)):

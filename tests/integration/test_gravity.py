@@ -1,6 +1,7 @@
 """Gravity: how the weight finds its way to the bearings, and what is refused."""
 
 import math
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -9,21 +10,14 @@ from numpy.testing import assert_allclose
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from frames import (
-    Frame,
-    GroundMotion,
-    ModelError,
-    Section,
-    gravity,
-    lumped_mass,
-    moment_frame,
-)
+from frames import Frame, GroundMotion, ModelError, Section, gravity, lumped_mass, moment_frame
 from frames.assembly.basis import bearing_rows
 from frames.kernels.integration import integrate_chunk
 from frames.model.components import bearing_axial_stiffness
 from frames.statics import equilibrium
 from frames.statics.springs import guessed_springs
 from lir_element import AnalysisError, CoulombFriction, LIRBearing, RunStatus
+from tests.scenes import plain_pendulum
 
 G = 9.80665
 SPAN, AXIAL = 8.0, 4e8
@@ -35,20 +29,17 @@ RIGID = Section(
     elastic_modulus=2e12,
     shear_modulus=8e11,
 )
+SLENDER = Section(
+    area=0.01,
+    inertia_y=2e-5,
+    inertia_z=2e-5,
+    torsion_constant=1e-5,
+    elastic_modulus=2e11,
+    shear_modulus=8e10,
+)
 
 
-def smooth_bearing(**options) -> LIRBearing:
-    """Without friction: a tilted plate asks for no moment but that of the string."""
-    given = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": math.inf,
-        "friction": CoulombFriction(0.0),
-        "interface_friction": math.inf,
-        "axial_stiffness": AXIAL,
-    }
-    return LIRBearing(**{**given, **options})
+smooth_bearing = partial(plain_pendulum, friction=0.0, axial_stiffness=AXIAL)
 
 
 def beam(places: tuple[float, ...], section: Section = RIGID, **options) -> Frame:
@@ -148,14 +139,6 @@ def test_uniform_load_on_one_span_of_a_beam_with_an_overhang():
 
 def guided_column(push: float) -> tuple[float, float]:
     """Return lowest omega2 times mass with a permanent push on top, and the column's load."""
-    section = Section(
-        area=0.01,
-        inertia_y=2e-5,
-        inertia_z=2e-5,
-        torsion_constant=1e-5,
-        elastic_modulus=2e11,
-        shear_modulus=8e10,
-    )
     frame, bearing, mass = Frame("stick"), smooth_bearing(), 2e3
     frame.add_node("g", 0.0, 0.0, 0.0)
     frame.fix("g", "all")
@@ -163,7 +146,7 @@ def guided_column(push: float) -> tuple[float, float]:
         frame.add_node(name, 0.0, 0.0, z)
         frame.fix(name, "rx", "ry", "rz")
         frame.add_mass(name, mass)
-    frame.add_member("column", "base", "top", section)
+    frame.add_member("column", "base", "top", SLENDER)
     frame.add_bearing("b", "g", "base", bearing)
     frame.add_load("top", (0.0, 0.0, -push, 0.0, 0.0, 0.0))
     omega2 = gravity(frame).basis.omega2
@@ -244,19 +227,11 @@ def test_permanent_lateral_load_is_carried_by_friction_and_pendulum():
 
 
 def test_load_on_a_part_without_mass_bends_it(run):
-    section = Section(
-        area=0.01,
-        inertia_y=2e-5,
-        inertia_z=2e-5,
-        torsion_constant=1e-5,
-        elastic_modulus=2e11,
-        shear_modulus=8e10,
-    )
     frame = lumped_mass(smooth_bearing(friction=CoulombFriction(0.05)), 1e5)
     for name, z in (("middle", 2.1), ("tip", 4.1)):
         frame.add_node(name, 0.0, 0.0, z)
-    frame.add_member("lower", "mass", "middle", section)
-    frame.add_member("upper", "middle", "tip", section)
+    frame.add_member("lower", "mass", "middle", SLENDER)
+    frame.add_member("upper", "middle", "tip", SLENDER)
     frame.add_load("tip", (0.0, 2e3, 0.0, 0.0, 0.0, 0.0))
     data = run(frame, GroundMotion(x=np.zeros(3), dt=0.01))
     u = data["node_displacement"].sel(dof="uy")

@@ -2,8 +2,6 @@
 
 import math
 import re
-import warnings
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,7 +9,6 @@ import pytest
 import xarray as xr
 
 from frames import (
-    AuditWarning,
     Frame,
     GroundMotion,
     Recording,
@@ -40,15 +37,8 @@ from frames.design import (
     slips_of_events,
     uplift_events,
 )
-from lir_element import AnalysisWarning, CoulombFriction, Features, LIRBearing
-
-
-def quietly(analyse: Callable[..., Any], *given: Any, **options: Any) -> Any:
-    """Analyse without the warnings of runs that stop or are doubtful."""
-    with warnings.catch_warnings():
-        for kind in (AnalysisWarning, AuditWarning):
-            warnings.simplefilter("ignore", kind)
-        return analyse(*given, **options)
+from lir_element import CoulombFriction, Features, LIRBearing
+from tests.scenes import full_sine, quietly
 
 
 def device(**other: Any) -> LIRBearing:
@@ -63,11 +53,6 @@ def device(**other: Any) -> LIRBearing:
     )
 
 
-def pulse(size: float, rest: float = 4.0) -> GroundMotion:
-    time = np.arange(0.0, 2.0 + rest, 0.01)
-    return GroundMotion(x=size * np.sin(math.pi * time) * (time < 2.0), dt=0.01, name="pulse")
-
-
 @pytest.fixture(scope="module")
 def frame() -> Frame:
     return shear_building(device(), [60e3, 60e3], 60e6, base_mass=60e3)
@@ -75,7 +60,7 @@ def frame() -> Frame:
 
 @pytest.fixture(scope="module")
 def run(frame: Frame) -> xr.Dataset:
-    data: xr.Dataset = quietly(time_history, frame, pulse(1.5))
+    data: xr.Dataset = quietly(time_history, frame, full_sine(1.5))
     assert data.attrs["status"] == "ok"
     return data
 
@@ -154,7 +139,7 @@ def test_demands_are_the_peaks_of_the_run(frame: Frame, run: xr.Dataset) -> None
     for title, value in expected.items():
         assert one(checks, title).demand == pytest.approx(value, rel=1e-12), title
     assert table["interface slip"] > 0.01
-    part = quietly(time_history, frame, pulse(1.5), recording=Recording.peaks())
+    part = quietly(time_history, frame, full_sine(1.5), recording=Recording.peaks())
     some = DesignLimits(
         rim_strength=1e6, interface_pressure=100e6, liner_pressure=100e6, lateral_force=1e6
     )
@@ -165,7 +150,7 @@ def test_demands_are_the_peaks_of_the_run(frame: Frame, run: xr.Dataset) -> None
 
 
 def test_a_failed_run_has_no_values(frame: Frame) -> None:
-    data = quietly(time_history, frame, pulse(4.0))
+    data = quietly(time_history, frame, full_sine(4.0))
     alone = lumped_mass(frame.bearings["bearing"].bearing, 180e3)  # nothing that overturns
     checks = impact_checks(data, alone)
     assert checks[0].title == "run is complete"
@@ -185,11 +170,11 @@ def test_a_failed_run_has_no_values(frame: Frame) -> None:
     assert row["value"] == pytest.approx(slip / overlap, rel=1e-3)
     assert row["time"] == pytest.approx(data.attrs["failed_at"], rel=1e-12)
     assert peaks(data).loc["interface slip", "value"] == check.demand
-    batch = quietly(time_histories, frame, {"a": pulse(4.0), "b": pulse(1.0)}, workers=1)
+    batch = quietly(time_histories, frame, {"a": full_sine(4.0), "b": full_sine(1.0)}, workers=1)
     found = batch["reached_slip"].max("bearing").to_numpy()
     assert found[0] == pytest.approx(check.demand, rel=1e-12)
     assert found[1] < overlap  # of another run
-    least = quietly(time_history, frame, pulse(4.0), recording=Recording.peaks())
+    least = quietly(time_history, frame, full_sine(4.0), recording=Recording.peaks())
     assert peaks(least).loc["interface slip", "value"] == pytest.approx(check.demand, rel=1e-12)
     early = data.sel(time=slice(0.0, 0.8 * data.attrs["failed_at"]))
     assert peaks(early).loc["interface slip over overlap", "value"] < 1.0
@@ -198,7 +183,7 @@ def test_a_failed_run_has_no_values(frame: Frame) -> None:
 def test_the_force_at_which_a_rim_broke_is_in_the_peaks() -> None:
     bearing = device(capacity=0.1, rim_overrun=0.005).as_dcfp()
     plain = lumped_mass(bearing, 1e5)
-    data = quietly(time_history, plain, pulse(8.0))
+    data = quietly(time_history, plain, full_sine(8.0))
     assert data.attrs["status"] == "rim_overrun"
     row, before = peaks(data).loc["rim force"], float(data["rim_force"].max())
     known = plain.bearings[row["where"]].bearing.resolved()
@@ -213,18 +198,18 @@ def test_rims_that_were_left_out_and_would_have_been_met_are_no_pass(frame: Fram
     title = "runs whose modelling assumptions are violated"
     for size, passed in ((0.5, True), (1.5, False)):
         out = Features.all().without("rims")
-        data = quietly(time_history, frame, pulse(size), features=out)
+        data = quietly(time_history, frame, full_sine(size), features=out)
         check = one(impact_checks(data, frame), title)
         assert check.passed is passed
         assert check.note == "rims"
-        runs = quietly(time_histories, frame, pulse(size), features=out)
+        runs = quietly(time_histories, frame, full_sine(size), features=out)
         assert one(history_checks(runs, frame, "EN 1998-1"), title).demand == check.demand
 
 
 def test_resultant_on_one_rim_is_where_the_formula_has_it() -> None:
     """Bottom rim alone: the upper slider's axis is (R - h / 2) mu_h - mu R off, that is s* / 2."""
     bearing = device(rims=(0.1053, 0.15))
-    data = quietly(time_history, lumped_mass(bearing, 2e5), pulse(1.5))
+    data = quietly(time_history, lumped_mass(bearing, 2e5), full_sine(1.5))
     slip = data["interface_slip_size"].to_numpy()[:, 0]
     k = int(np.argmax(slip > 0.2e-3))
     assert slip[k] < 2e-3
@@ -236,8 +221,8 @@ def test_resultant_on_one_rim_is_where_the_formula_has_it() -> None:
 
 
 def test_events_in_a_row_are_followed_one_by_one(frame: Frame, run: xr.Dataset) -> None:
-    motion, ends = repeated_motion(pulse(1.5), 2, pause=3.0)
-    assert motion.duration == pytest.approx(2 * (pulse(1.5).duration + 3.0) + 0.01)
+    motion, ends = repeated_motion(full_sine(1.5), 2, pause=3.0)
+    assert motion.duration == pytest.approx(2 * (full_sine(1.5).duration + 3.0) + 0.01)
     assert ends == pytest.approx((9.0, 17.99))
     data = quietly(time_history, frame, motion)
     assert data.attrs["status"] == "ok"
@@ -285,12 +270,12 @@ def test_a_mass_thrown_up_flies_and_lands() -> None:
 def test_resultant_offsets_say_what_pressed() -> None:
     """By loops over the histories; a rim is set to press alone, its other 1.5 mm away."""
     frame = shear_building(device(), [60e3], 60e6, base_mass=60e3)
-    data = quietly(time_history, frame, pulse(2.6))
+    data = quietly(time_history, frame, full_sine(2.6))
     offset = data["interface_eccentricity"][:, 0] / data["slider_radius"][0]
     k = int(np.argmax(offset.to_numpy()))
     row = resultant_offsets(data).iloc[0]
     assert (row["offset"], row["time"]) == (float(offset[k]), float(data["time"][k]))
-    kept = quietly(time_histories, frame, [pulse(2.6)])["reached_eccentricity"]
+    kept = quietly(time_histories, frame, [full_sine(2.6)])["reached_eccentricity"]
     assert row["offset"] == pytest.approx(float(kept[0, 0]))
     assert row["load"] == float(data["axial_force"][k, 0] / data["static_axial_force"][0])
     limit = 0.5 * row["offset"]
@@ -313,7 +298,7 @@ def test_resultant_offsets_say_what_pressed() -> None:
 
 def test_eccentricity_check_says_what_its_level_can_say() -> None:
     frame = shear_building(device(), [60e3], 60e6, base_mass=60e3)
-    data = quietly(time_history, frame, pulse(1.0))
+    data = quietly(time_history, frame, full_sine(1.0))
     (check,) = (c for c in impact_checks(data, frame) if c.title.startswith("normalised ecc"))
     assert check.note.startswith("counts while N > 0.5 of that at rest; a rim may press alone")
     assert "level 'contact'" in check.note
@@ -322,7 +307,7 @@ def test_eccentricity_check_says_what_its_level_can_say() -> None:
 def test_eccentricity_counts_while_half_of_the_load_at_rest_presses() -> None:
     """At the peak the load is set to 30 %: another instant governs, the note has what it was."""
     frame = shear_building(device(), [60e3], 60e6, base_mass=60e3)
-    data = quietly(time_history, frame, pulse(1.5)).load()
+    data = quietly(time_history, frame, full_sine(1.5)).load()
     offset = (data["interface_eccentricity"][:, 0] / data["slider_radius"][0]).to_numpy()
     k, rest = int(np.argmax(offset)), float(data["static_axial_force"][0])
     title, limits = "normalised eccentricity e/a", DesignLimits(eccentricity=0.9 * float(offset[k]))

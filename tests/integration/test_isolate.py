@@ -8,7 +8,6 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import Frame
-from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import (
     IsolationWarning,
     bearing_element,
@@ -17,6 +16,7 @@ from lir_element.opensees import (
     isolate,
     isolation,
 )
+from tests.scenes import simple_bearing
 from validation.opensees.isolators import waves
 from validation.opensees.model import gravity_analysis, permanent_loads, solver, static_steps
 from validation.opensees.runs import respond
@@ -25,15 +25,7 @@ pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed"
 )
 
-DEVICE = LIRBearing(
-    radius=1.0,
-    slider_height=0.1,
-    slider_radius=0.1,
-    capacity=0.15,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.12,
-    axial_stiffness=1e9,
-)
+DEVICE = simple_bearing(capacity=0.15, interface_friction=0.12, axial_stiffness=1e9)
 CORNERS = ((0.0, 0.0), (5.0, 0.0), (5.0, 4.0), (0.0, 4.0))
 WEIGHT, FLOOR = 2e5, 3.5  # N at each corner of the floor, its height in m
 YIELD = 2e7  # N/m2, of fibre columns
@@ -89,14 +81,7 @@ def shake(ops, nodes, elements, *, length=1.0, up="z", duration=2.5, system="Umf
         x, y, z = motion.components.T
         motion = type(motion)(x, z, -y, dt=motion.dt)
     track = respond(
-        ops,
-        motion,
-        0.005,
-        nodes,
-        elements,
-        duration=duration,
-        system=system,
-        length_unit=length,
+        ops, motion, 0.005, nodes, elements, duration=duration, system=system, length_unit=length
     )
     moved = length * track.displacement[..., :3]
     return moved if up == "z" else moved[..., [0, 2, 1]] * [1.0, -1.0, 1.0]

@@ -25,6 +25,7 @@ from frames.batch import completed_runs
 from frames.batch.batch_dataset import RunResult
 from frames.batch.batch_run import Worker
 from lir_element import AnalysisInterrupted, CoulombFriction, LIRBearing
+from tests.scenes import small_bearing
 
 SCALES = [0.1, 0.2, 0.3, 0.8]  # the interface fails under the last one
 pytestmark = pytest.mark.filterwarnings("ignore::lir_element.AnalysisWarning")
@@ -32,14 +33,7 @@ TIMED = ("seconds_loop", "seconds of the time loop")
 
 
 def bearing(friction: float = 0.05) -> LIRBearing:
-    return LIRBearing(
-        radius=0.75,
-        slider_height=0.085,
-        slider_radius=0.08,
-        capacity=0.175,
-        friction=CoulombFriction(friction),
-        interface_friction=0.15,
-    )
+    return small_bearing(friction=CoulombFriction(friction), interface_friction=0.15)
 
 
 def model(friction: float = 0.05) -> Frame:

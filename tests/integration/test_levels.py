@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -27,24 +28,14 @@ from lir_element import (
     AnalysisError,
     AnalysisWarning,
     CoulombFriction,
-    LIRBearing,
     RunStatus,
     VelocityFriction,
     cyclic_test,
 )
 from lir_element.device.sliders import slider_record
+from tests.scenes import small_bearing
 
 W = 150e3
-PAPER: dict[str, Any] = {
-    "radius": 0.75,
-    "slider_height": 0.085,
-    "slider_radius": 0.08,
-    "capacity": 0.175,
-    "friction": CoulombFriction(0.066),
-    "interface_friction": 0.126,
-    "yield_displacement": 1e-3,
-    "interface_yield_displacement": 0.05e-3,
-}
 UNEQUAL: dict[str, Any] = {
     "radius": (0.75, 1.1),
     "slider_height": 0.11,
@@ -71,8 +62,7 @@ CASES: dict[str, tuple[dict[str, Any], np.ndarray]] = {
 }
 
 
-def bearing(**changes: object) -> LIRBearing:
-    return LIRBearing(**(PAPER | changes))
+bearing = partial(small_bearing, yield_displacement=1e-3, interface_yield_displacement=5e-5)
 
 
 def dissipated(data: xr.Dataset) -> np.ndarray:
@@ -186,8 +176,6 @@ def test_failure_in_the_rig(level: str) -> None:
     assert caught.value.status is RunStatus.SLIP_EXCEEDED
     assert_allclose(caught.value.data["bearing_force"], data["bearing_force"], rtol=0.0, atol=0.0)
 
-
-# ------------------------------------------------------------------------------- time histories
 
 MASS = 15e3
 LEVELS = ("pendulum", "contact", "rigid_body")

@@ -6,7 +6,6 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from frames import (
     Frame,
-    GroundMotion,
     ModalDamping,
     Section,
     energy_error,
@@ -19,35 +18,20 @@ from frames import (
 )
 from frames.assembly.assemble import assemble
 from frames.design import isolator_combinations
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import simple_bearing, swell
 
-TIME = np.arange(0.0, 3.0, 0.005)
-BELL = np.exp(-(((TIME - 1.2) / 0.6) ** 2))
-MOTION = GroundMotion(
-    x=2.2 * BELL * np.sin(2 * np.pi * TIME / 1.4),
-    y=0.9 * BELL * np.sin(2 * np.pi * TIME / 0.8),
-    z=1.0 * BELL * np.sin(2 * np.pi * TIME / 0.2),
-    dt=0.005,
-)
+MOTION = swell(x=(2.2, 1.4), y=(0.9, 0.8), z=(1.0, 0.2), middle=1.2, width=0.6, end=3.0)
 DEAD, LIVE = 5e3, 3e3  # N/m2
 X, Y = 6.0, 4.5
 
 
-def bearing():
-    return LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=0.12,
-        friction=CoulombFriction(0.05),
-        interface_friction=0.13,
-    )
+BEARING = simple_bearing()
 
 
 def building(*, damping=None):
     frame = Frame("loaded")
     column, beam = Section.box(0.4, 0.4, 0.02), Section.rolled_i(0.3, 0.3, 0.019, 0.011, 0.027)
-    device = bearing()
+    device = BEARING
     places = {"a": (0.0, 0.0), "b": (X, 0.0), "c": (X, Y), "d": (0.0, Y)}
     for name, (x, y) in places.items():
         frame.add_node(f"g{name}", x, y, 0.0)
@@ -157,7 +141,7 @@ def test_reactions_are_the_weight_at_rest(shaken):
 
 def test_other_bearings_under_the_same_loads():
     frame = building(damping=ModalDamping(0.02))
-    plain = frame.with_bearings(bearing().as_dcfp())
+    plain = frame.with_bearings(BEARING.as_dcfp())
     ours, theirs = assemble(frame), assemble(plain)
     for name in ("node_load", "node_mass"):
         assert_array_equal(getattr(theirs, name), getattr(ours, name))

@@ -1,6 +1,7 @@
 """Modes against closed forms and an eigenproblem built another way."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -10,20 +11,12 @@ from scipy import linalg
 from frames import ModelError, gravity, lumped_mass, modes, moment_frame, shear_building
 from frames.assembly.basis import bearing_rows
 from lir_element import CoulombFriction, Element, LIRBearing
+from tests.scenes import simple_bearing
 
 G = 9.80665
 
 
-def bearing(**options) -> LIRBearing:
-    given = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": 0.3,
-        "friction": CoulombFriction(0.06),
-        "interface_friction": 0.2,
-    }
-    return LIRBearing(**{**given, **options})
+bearing = partial(simple_bearing, capacity=0.3, friction=0.06, interface_friction=0.2)
 
 
 def small_frame():

@@ -26,7 +26,8 @@ from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.design.report.numbers import bearing_table
 from frames.plots import storey_profiles
 from frames.results.quantities import DEMANDS
-from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
+from lir_element import AnalysisWarning
+from tests.scenes import paper_bearing
 
 TIME = np.arange(0.0, 4.0, 0.01)
 
@@ -39,14 +40,7 @@ def motion() -> GroundMotion:
 
 @pytest.fixture(scope="module")
 def frame() -> Frame:
-    bearing = LIRBearing(
-        radius=1.2,
-        slider_height=0.12,
-        slider_radius=0.15,
-        capacity=0.15,
-        friction=CoulombFriction(0.05),
-        interface_friction=0.11,
-    )
+    bearing = paper_bearing(radius=1.2, capacity=0.15, friction=0.05, interface_friction=0.11)
     return shear_building(bearing, [80e3, 60e3], 60e6, base_mass=60e3, plan=(1, 6.0))
 
 
@@ -97,9 +91,7 @@ def test_demands_of_one_run_are_its_peaks(data: xr.Dataset, batch: xr.Dataset, c
             assert value == pytest.approx(table[quantity], rel=1e-9, abs=1e-12), (row, column)
 
 
-def test_the_report_s_bearings_have_the_peaks(
-    frame: Frame, data: xr.Dataset, batch: xr.Dataset
-) -> None:
+def test_the_report_s_bearings_have_the_peaks(frame, data, batch):
     types = dict.fromkeys(frame.bearings, "standard")
     runs = {"": {"nominal": batch}}
     run = SimpleNamespace(frame=frame, loads=np.ones(4), runs=runs, kinds=types, moved={})
@@ -130,9 +122,7 @@ def test_the_figure_of_storeys_has_the_peaks(data: xr.Dataset) -> None:
     assert max(corners.get_xdata()) == pytest.approx(lines, rel=1e-12)
 
 
-def test_the_figure_of_storeys_has_them_where_steps_were_left_out(
-    frame: Frame, data: xr.Dataset
-) -> None:
+def test_the_figure_of_storeys_has_them_where_steps_were_left_out(frame, data):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AuditWarning)
         few = time_history(frame, motion(), recording=Recording(every=40))
@@ -142,9 +132,7 @@ def test_the_figure_of_storeys_has_them_where_steps_were_left_out(
             assert other.get_xdata() == pytest.approx(line.get_xdata(), rel=1e-9)
 
 
-def test_what_a_batch_reached_has_the_names_of_the_single_run(
-    data: xr.Dataset, batch: xr.Dataset
-) -> None:
+def test_what_a_batch_reached_has_the_names_of_the_single_run(data, batch):
     for name in ("displacement", "slip", "drift", "line_drift", "floor_plan", "storey_shear"):
         one, many = peaks_of_runs(data, name), peaks_of_runs(batch, name)
         assert many == pytest.approx(one, rel=1e-9, abs=1e-12), name

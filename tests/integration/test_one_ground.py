@@ -1,6 +1,5 @@
 """The ground that acts is the ground that is recorded, and the energy balance shows it."""
 
-import math
 import warnings
 
 import numpy as np
@@ -8,22 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import AuditWarning, GroundMotion, lumped_mass, shear_building, time_history
-from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
+from lir_element import AnalysisWarning
+from tests.scenes import plain_pendulum as device
 
 MASS = 1e5
 G = 9.80665
-
-
-def device(**options) -> LIRBearing:
-    given = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": math.inf,
-        "friction": CoulombFriction(0.05),
-        "interface_friction": math.inf,
-    }
-    return LIRBearing(**(given | options))
 
 
 def shocks(dt: float = 0.002) -> GroundMotion:

@@ -164,9 +164,7 @@ def test_each_integrator_gets_the_rates_of_its_committed_motion(stand: Any, name
                 assert data["temperature"].max() == pytest.approx(111.0, rel=0.04)
 
 
-def test_without_access_to_opensees_a_doubtful_clock_is_told(
-    stand: Any, monkeypatch: pytest.MonkeyPatch, recwarn: pytest.WarningsRecorder
-) -> None:
+def test_without_access_to_opensees_a_doubtful_clock_is_told(stand, monkeypatch, recwarn):
     """Its remedy, another integrator, is silent and right."""
     if stand.route == "fast":
         pytest.skip("it has the access")

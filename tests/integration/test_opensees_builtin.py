@@ -1,10 +1,9 @@
 """The plain bearing as elements of OpenSees: mapping, refusals, and short histories in both."""
 
 import math
-import subprocess  # a call that ends its process  # noqa: S404
-import sys
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -13,6 +12,8 @@ import pytest
 
 from frames import GroundMotion, lumped_mass, time_history
 from lir_element import CoulombFriction, Features, LIRBearing, VelocityFriction
+from tests.refusals import refused
+from tests.scenes import plain_pendulum
 
 pytest.importorskip("openseespy")
 
@@ -23,7 +24,7 @@ from lir_element.opensees import (
     builtin_values,
     opensees,
 )
-from tests.patience import patience
+from tests.patience import fresh, patience
 from validation.opensees.model import (
     gravity_analysis,
     ground_motion,
@@ -40,17 +41,7 @@ LOAD = 500e3
 MASS = LOAD / 9.80665
 
 
-def plain(**changes: Any) -> LIRBearing:
-    options: dict[str, Any] = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": math.inf,
-        "friction": CoulombFriction(0.057),
-        "interface_friction": math.inf,
-        "design_load": LOAD,
-    }
-    return LIRBearing(**{**options, **changes})
+plain = partial(plain_pendulum, friction=0.057, design_load=LOAD)
 
 
 @pytest.fixture
@@ -177,8 +168,7 @@ def test_friction_at_two_speeds(ops: Any, kind: str, frequency: float) -> None:
     ],
 )
 def test_refusals(kind: str, bearing: LIRBearing, message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        builtin_commands(kind, 1, 1, 2, bearing, LOAD)
+    refused(ValueError, message, builtin_commands, kind, 1, 1, 2, bearing, LOAD)
 
 
 def test_unlike_radii_with_like_rates_over_the_bearing() -> None:
@@ -188,8 +178,7 @@ def test_unlike_radii_with_like_rates_over_the_bearing() -> None:
 
 
 def test_lift_is_for_one_element_alone() -> None:
-    with pytest.raises(ValueError, match="lift = True"):
-        builtin_commands("TFP", 1, 1, 2, plain(), LOAD, lift=True)
+    refused(ValueError, "lift = True", builtin_commands, "TFP", 1, 1, 2, plain(), LOAD, lift=True)
     last = builtin_commands("singleFPBearing", 1, 1, 2, plain(), LOAD, lift=True)[-1]
     assert "-inclVertdisp" in last
 
@@ -198,11 +187,9 @@ def test_nodes_and_tags_are_checked(ops: Any) -> None:
     with pytest.raises(ValueError, match="node 7 of element 1 does not exist"):
         builtin_element("TFP", 1, 1, 7, plain())
     ops.node(3, 0.0, 0.0, 0.5)
-    with pytest.raises(ValueError, match=r"0\.5 m above node 1"):
-        builtin_element("TFP", 1, 1, 3, plain())
+    refused(ValueError, r"0\.5 m above node 1", builtin_element, "TFP", 1, 1, 3, plain())
     builtin_element("singleFPBearing", 1, 1, 2, plain(), first_tag=50)
-    with pytest.raises(ValueError, match="tag 1 is taken"):
-        builtin_element("singleFPBearing", 1, 1, 2, plain())
+    refused(ValueError, "tag 1 is taken", builtin_element, "singleFPBearing", 1, 1, 2, plain())
     with pytest.raises(ValueError, match="another first_tag"):
         builtin_element("singleFPBearing", 2, 1, 2, plain(), first_tag=50)
 
@@ -283,13 +270,7 @@ def test_zero_friction_would_end_the_process() -> None:
         "ops.frictionModel('Coulomb', 1, 0.0)\n"
         "print('still here')\n"
     )
-    done = subprocess.run(  # this script  # noqa: S603
-        [sys.executable, "-c", script],
-        capture_output=True,
-        text=True,
-        timeout=patience(),
-        check=False,
-    )
+    done = fresh(script, timeout=patience(), check=False)
     assert "still here" not in done.stdout
 
 

@@ -6,10 +6,12 @@ from functools import partial
 import numpy as np
 import pytest
 
+from tests.scenes import small_bearing as bearing
+
 pytest.importorskip("openseespy")
 
 from frames import GroundMotion
-from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
+from lir_element import DesignWarning, VelocityFriction
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import macro_model, opensees
 from tests.patience import patience
@@ -33,18 +35,6 @@ from validation.scenes import MASS
 LOAD = 150e3
 REACH = 0.185
 STEP = 2e-4
-
-
-def bearing(**changes):
-    options = {
-        "radius": 0.75,
-        "slider_height": 0.085,
-        "slider_radius": 0.08,
-        "capacity": 0.175,
-        "friction": CoulombFriction(0.066),
-        "interface_friction": 0.126,
-    }
-    return LIRBearing(**(options | changes))
 
 
 def outwards_and_back(device=macro, own=None):

@@ -7,18 +7,11 @@ from numpy.testing import assert_allclose
 from frames import Frame, GroundMotion, Recording, member_forces, time_history
 from frames.assembly.assemble import assemble
 from frames.opensees.structure import turning
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import simple_bearing
 
 pytest.importorskip("openseespy")
 
-BEARING = LIRBearing(
-    radius=1.0,
-    slider_height=0.1,
-    slider_radius=0.12,
-    capacity=0.25,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.14,
-)
+BEARING = simple_bearing(slider_radius=0.12, capacity=0.25, interface_friction=0.14)
 PLACES = {
     1: (0.0, 0.0, 0.0),
     2: (6.0, 0.0, 0.0),

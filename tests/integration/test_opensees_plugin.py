@@ -105,9 +105,7 @@ def test_transient_is_that_of_the_element(stand: Any, level: str) -> None:
         ("pendulum", True, 6e4),
     ],
 )
-def test_mass_under_a_pulse_moves_as_in_frames(
-    stand: Any, level: str, plain: bool, strength: float
-) -> None:
+def test_mass_under_a_pulse_moves_as_in_frames(stand, level, plain, strength):
     """Three components; the rim is met and, without `as_dcfp`, the interface slips."""
     bearing = stand.DEVICE.as_dcfp() if plain else stand.DEVICE
     bearing = replace(bearing, rim_yield_force=strength, rim_overrun=0.05)
@@ -377,9 +375,7 @@ def test_steps_that_begin_without_a_state_at_the_level_contact() -> None:
         pytest.param(("HHT", 0.7), 1e-3, False, marks=pytest.mark.nightly),
     ],
 )
-def test_integrators_under_strong_impacts(
-    integrator: tuple[Any, ...], dt: float, passes: bool
-) -> None:
+def test_integrators_under_strong_impacts(integrator, dt, passes):
     """The advice for the level contact: a frame on four bearings, failed steps halved."""
     bearing = example_bearing(friction=CoulombFriction(0.065))
     frame = slender_frame((1, 1), 1, bearing)

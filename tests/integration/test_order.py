@@ -1,11 +1,14 @@
 """Order of the time integration with friction that turns and depends on speed."""
 
+import math
+
 import numpy as np
 import pytest
 
 from frames import GroundMotion, lumped_mass, time_history
-from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, VelocityFriction
 from lir_element.element import Level
+from tests.scenes import small_bearing
 
 COULOMB = CoulombFriction(0.066)
 FAST = VelocityFriction(f_max=0.08, f_min=0.02, rate=15.0)
@@ -15,14 +18,7 @@ def orbit(friction: CoulombFriction | VelocityFriction, dt: float, level: Level)
     """Return the path (n, 2) every 10 ms under a motion whose direction turns."""
     t = np.arange(0.0, 3.0, 0.01)
     motion = GroundMotion(x=1.5 * np.sin(4.0 * t), y=0.6 * np.sin(5.0 * t), dt=0.01)
-    bearing = LIRBearing(
-        radius=0.75,
-        slider_height=0.085,
-        slider_radius=0.08,
-        capacity=np.inf,
-        friction=friction,
-        interface_friction=0.126,
-    )
+    bearing = small_bearing(capacity=math.inf, friction=friction)
     data = time_history(
         lumped_mass(bearing, mass=6e4), motion, dt=dt, record_every=round(0.01 / dt), level=level
     )

@@ -23,27 +23,12 @@ from frames import (
 )
 from frames.motion.spectra import response_spectrum
 from frames.results.findings import doubts_of
-from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
+from lir_element import AnalysisWarning
+from tests.scenes import simple_bearing as bearing
+from tests.scenes import swell
 
 TIME = np.arange(0.0, 4.0, 0.005)
-BELL = np.exp(-(((TIME - 1.5) / 0.9) ** 2))
-MOTION = GroundMotion(
-    x=1.7 * BELL * np.sin(2 * np.pi * TIME / 1.4),
-    y=1.0 * BELL * np.sin(2 * np.pi * TIME / 0.8),
-    dt=0.005,
-)
-
-
-def bearing(**changes):
-    options = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": 0.12,
-        "friction": CoulombFriction(0.05),
-        "interface_friction": 0.13,
-    }
-    return LIRBearing(**(options | changes))
+MOTION = swell(x=(1.7, 1.4), y=(1.0, 0.8))
 
 
 @pytest.fixture(scope="module")

@@ -6,6 +6,7 @@ N = k (|c| - L), force on the mass -N c / |c| ... pointing back to the centre. s
 """
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -16,24 +17,22 @@ from frames import GroundMotion, lumped_mass
 from lir_element import CoulombFriction, LIRBearing
 
 # Such bearings are meant here.
-pytestmark = [
-    pytest.mark.meant("axial_stiffness", "settles by"),
-]
+pytestmark = [pytest.mark.meant("axial_stiffness", "settles by")]
 
 MASS, STIFFNESS, GRAVITY = 50e3, 2e7, 9.80665
 
 
-def frictionless() -> LIRBearing:
-    return LIRBearing(
-        radius=(0.9, 0.7),
-        slider_height=0.1,
-        slider_radius=0.08,
-        capacity=math.inf,
-        friction=CoulombFriction(0.0),
-        interface_friction=math.inf,
-        axial_stiffness=STIFFNESS,
-        axial_damping=0.0,
-    )
+frictionless = partial(
+    LIRBearing,
+    radius=(0.9, 0.7),
+    slider_height=0.1,
+    slider_radius=0.08,
+    capacity=math.inf,
+    friction=CoulombFriction(0.0),
+    interface_friction=math.inf,
+    axial_stiffness=STIFFNESS,
+    axial_damping=0.0,
+)
 
 
 def exact(ground: np.ndarray, dt: float, times: np.ndarray) -> np.ndarray:

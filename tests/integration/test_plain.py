@@ -1,12 +1,11 @@
 """The time loop as plain Python: what the compiled one does, to round-off."""
 
 import json
-import os
-import subprocess  # the same with other settings of numba  # noqa: S404
-import sys
 
 import numpy as np
 from numpy.testing import assert_allclose
+
+from tests.patience import fresh
 
 SCRIPT = """
 import json, sys
@@ -34,13 +33,7 @@ json.dump([data.attrs["status"], data.attrs["steps"], *values], sys.stdout)
 def test_the_compiled_loop_is_plain_python() -> None:
     found = []
     for plain in ("0", "1"):
-        done = subprocess.run(  # noqa: S603
-            [sys.executable, "-c", SCRIPT],
-            env={**os.environ, "NUMBA_DISABLE_JIT": plain},
-            capture_output=True,
-            text=True,
-            check=True,
-        )
+        done = fresh(SCRIPT, NUMBA_DISABLE_JIT=plain)
         found.append(json.loads(done.stdout))
     compiled, python = found
     assert compiled[:2] == python[:2]

@@ -8,7 +8,6 @@ from numpy.testing import assert_allclose
 
 from frames import (
     Frame,
-    GroundMotion,
     ModelError,
     Section,
     force_tables,
@@ -24,8 +23,9 @@ from frames import (
 from frames.assembly.assemble import assemble
 from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from frames.model.axes import to_global
-from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_element
+from tests.scenes import simple_bearing as bearing
+from tests.scenes import swell
 from validation.claims.opensees_building import slender
 from validation.opensees.frames import add_loads, build
 from validation.opensees.model import (
@@ -37,26 +37,7 @@ from validation.opensees.model import (
     transient_steps,
 )
 
-TIME = np.arange(0.0, 4.0, 0.005)
-BELL = np.exp(-(((TIME - 1.5) / 0.9) ** 2))
-MOTION = GroundMotion(
-    x=1.7 * BELL * np.sin(2 * np.pi * TIME / 1.4),
-    y=1.0 * BELL * np.sin(2 * np.pi * TIME / 0.8),
-    z=1.5 * BELL * np.sin(2 * np.pi * TIME / 0.2),
-    dt=0.005,
-)
-
-
-def bearing(**changes):
-    options = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": 0.12,
-        "friction": CoulombFriction(0.05),
-        "interface_friction": 0.13,
-    }
-    return LIRBearing(**(options | changes))
+MOTION = swell(x=(1.7, 1.4), y=(1.0, 0.8), z=(1.5, 0.2))
 
 
 @pytest.fixture(scope="module")

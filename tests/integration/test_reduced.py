@@ -10,7 +10,6 @@ from scipy import sparse
 from frames import (
     AuditWarning,
     Frame,
-    GroundMotion,
     ModelError,
     RayleighDamping,
     Section,
@@ -33,34 +32,17 @@ from frames.results.peak_response import largest
 from frames.statics import basis_refinement
 from frames.statics.basis_refinement import differences
 from frames.statics.gravity import prepare
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import heavy_bearing, swell
 
 # Tall and soft on purpose: many modes on few bearings.
-pytestmark = [
-    pytest.mark.meant("the structure on a fixed base has a period"),
-]
+pytestmark = [pytest.mark.meant("the structure on a fixed base has a period")]
 
 DT = 0.005
-T = np.arange(0.0, 5.0, DT)
-BELL = np.exp(-(((T - 2.0) / 1.2) ** 2))
-MOTION = GroundMotion(
-    x=1.5 * BELL * np.sin(2 * np.pi * T / 1.6),
-    y=0.9 * BELL * np.sin(2 * np.pi * T / 0.9),
-    z=0.4 * BELL * np.sin(2 * np.pi * T / 0.4),
-    dt=DT,
-)
+MOTION = swell(x=(1.5, 1.6), y=(0.9, 0.9), z=(0.4, 0.4), middle=2.0, width=1.2, end=5.0)
 
 
 def bearing(capacity=0.25, load=1.5e6):
-    return LIRBearing(
-        radius=1.5,
-        slider_height=0.25,
-        slider_radius=0.3,
-        capacity=capacity,
-        friction=CoulombFriction(0.05),
-        interface_friction=0.16,
-        design_load=load,
-    )
+    return heavy_bearing(capacity=capacity, design_load=load)
 
 
 def uneven():

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,25 +17,15 @@ from lir_element import CoulombFriction, LIRBearing
 from lir_element.bundles.rigid_data import rigid_input, rigid_run, rigid_setup
 from lir_element.device.sliders import slider_record
 from lir_element.kernels.rigid_body.integrate import integrate_bodies, start
+from tests.scenes import small_bearing
 
 # Such bearings are meant here.
 pytestmark = pytest.mark.meant("slider_density")
 
 MASS, G = 15e3, 9.80665
-OPTIONS: dict[str, Any] = {
-    "radius": 0.75,
-    "slider_height": 0.085,
-    "slider_radius": 0.08,
-    "capacity": 0.175,
-    "friction": CoulombFriction(0.066),
-    "interface_friction": 0.126,
-    "yield_displacement": 1e-3,
-    "interface_yield_displacement": 0.05e-3,
-}
 
 
-def bearing(**changes: object) -> LIRBearing:
-    return LIRBearing(**(OPTIONS | changes))
+bearing = partial(small_bearing, yield_displacement=1e-3, interface_yield_displacement=5e-5)
 
 
 def rigid(model: Frame, motion: GroundMotion, **options: Any) -> xr.Dataset:
@@ -43,9 +34,6 @@ def rigid(model: Frame, motion: GroundMotion, **options: Any) -> xr.Dataset:
     assert data.attrs["status"] == "ok"
     assert energy_error(data) < 3e-9
     return data
-
-
-# ------------------------------------------------------------------------------- at rest
 
 
 @pytest.mark.parametrize("masses", [None, (40.0, 70.0)])
@@ -71,9 +59,6 @@ def test_gravity_is_the_same_at_both_levels() -> None:
     assert two.contacts is not None
     # the axis' contact is shared by points inclined by up to a / R
     assert_allclose(two.displacement, one.displacement, rtol=1e-2, atol=1e-12)
-
-
-# ------------------------------------------------------------------------------- flight
 
 
 @pytest.mark.parametrize("level", ["contact", "rigid_body"])
@@ -108,9 +93,6 @@ def test_flight_follows_the_parabola(level: str) -> None:
     assert (axial >= 0.0).all()
     assert_allclose(axial[-100:].mean(), MASS * G, rtol=0.02, atol=0.0)
     assert np.abs(rise[-1] - rise[0]) < 1e-3
-
-
-# ------------------------------------------------------------------------------- accuracy
 
 
 def test_difference_falls_with_the_tolerance(pulse: Callable[..., np.ndarray]) -> None:
@@ -155,9 +137,7 @@ def test_implicit_is_explicit(law: str, pulse: Callable[..., np.ndarray]) -> Non
         assert float(np.abs(one[name] - two[name]).max()) < 5e-3 * scale, name
 
 
-def test_accelerations_belong_to_the_forces_of_their_instant(
-    pulse: Callable[..., np.ndarray],
-) -> None:
+def test_accelerations_belong_to_the_forces_of_their_instant(pulse):
     """They balance these and integrate to the velocities; no assumption is violated."""
     motion = GroundMotion(x=pulse(2.6, 1.5, cycles=1.0, rest=0.2), dt=0.005)
     data = rigid(lumped_mass(bearing(), MASS), motion)
@@ -260,9 +240,6 @@ def test_converges_to_the_exact_pendulum(pulse: Callable[..., np.ndarray]) -> No
         assert float(np.abs(data["work_low_friction"]).max()) == 0.0
     assert errors[1] < 5e-5
     assert errors[1] < 0.5 * errors[0]
-
-
-# ------------------------------------------------------------------------------- free rotations
 
 
 def tilting(inertia: float, push: np.ndarray, dt: float) -> tuple[Any, Any, Any, int]:
@@ -375,9 +352,6 @@ def test_spinning_plate_in_flight() -> None:
 
 def skew(w: np.ndarray) -> np.ndarray:
     return np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
-
-
-# ------------------------------------------------------------------------------- options
 
 
 def test_outputs_and_chunks(pulse: Callable[..., np.ndarray]) -> None:

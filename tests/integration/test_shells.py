@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import Frame, gravity, modes
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import small_bearing
 
 pytest.importorskip("openseespy")
 
@@ -13,15 +13,7 @@ SIDE, G = 1.5, 9.80665
 WALL = {(0.0, 0.0), (0.0, 1.5), (0.0, 3.0), (6.0, 0.0)}  # its panels: x, and y where they begin
 
 
-def bearing():
-    return LIRBearing(
-        radius=0.75,
-        slider_height=0.085,
-        slider_radius=0.08,
-        capacity=0.175,
-        friction=CoulombFriction(0.066),
-        interface_friction=0.126,
-    )
+BEARING = small_bearing()
 
 
 def eccentric_box(ops):
@@ -85,7 +77,7 @@ def test_a_box_of_shells(ops):
     places, corners = eccentric_box(ops)
     theirs = 2.0 * np.pi / np.sqrt(ops.eigen(4))
     taken = Frame.from_opensees(
-        corners, bearing(), gravity=G, base_rotations="free", base_diaphragm=False
+        corners, BEARING, gravity=G, base_rotations="free", base_diaphragm=False
     )
     found = modes(taken, 4, bearings="fixed").periods
     # fixed base are springs of their axial stiffness, 2e5 times that of the slab

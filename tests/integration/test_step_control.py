@@ -1,25 +1,21 @@
 """Steps that the program chooses: accurate, the same under any turn, hardly troubled by modes."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
 
 from frames import Frame, GroundMotion, lumped_mass, shear_building, time_history
-from lir_element import AnalysisWarning, CoulombFriction, LIRBearing, VelocityFriction
+from lir_element import AnalysisWarning, CoulombFriction, VelocityFriction
+from tests.scenes import simple_bearing
 
-
-def bearing(**options) -> LIRBearing:
-    given = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": 0.12,
-        "friction": VelocityFriction(0.06, 0.03, 20.0),
-        "interface_friction": 0.12,
-        "yield_displacement": 1e-4,
-    }
-    return LIRBearing(**(given | options))
+bearing = partial(
+    simple_bearing,
+    friction=VelocityFriction(0.06, 0.03, 20.0),
+    interface_friction=0.12,
+    yield_displacement=1e-4,
+)
 
 
 def motion(seed: int, strength: float, turn: float = 0.0, vertical: float = 1.0) -> GroundMotion:
@@ -64,20 +60,13 @@ def test_chosen_steps_are_accurate_and_turn(run, scene, seed):
     assert peak(turned) == pytest.approx(peak(chosen), rel=1e-3)
 
 
-BARELY = {
-    "friction": CoulombFriction(0.1),
-    "interface_friction": 0.2,
-    "yield_displacement": 3e-4,
-}
+BARELY = {"friction": CoulombFriction(0.1), "interface_friction": 0.2, "yield_displacement": 3e-4}
 BOUC_WEN = {"friction_law": "bouc-wen", "bouc_wen_exponent": 1.0}
 
 
 @pytest.mark.parametrize(
     ("law", "scheme"),
-    [
-        (BOUC_WEN, {}),
-        ({}, {"integrator": "generalised-alpha", "spectral_radius": 0.0}),
-    ],
+    [(BOUC_WEN, {}), ({}, {"integrator": "generalised-alpha", "spectral_radius": 0.0})],
     ids=["bouc-wen", "generalised-alpha"],
 )
 @pytest.mark.meant("the generalised-alpha method took out")

@@ -11,12 +11,11 @@ from scipy import linalg
 
 from frames import GroundMotion, RayleighDamping, gravity, lumped_mass, moment_frame, shear_building
 from lir_element import CoulombFriction, Element, LIRBearing
+from tests.scenes import plain_pendulum
 from validation.measurements.performance import near_fault
 
 # Such bearings are meant here.
-pytestmark = [
-    pytest.mark.meant("friction of 0.5", "the bearings hardly slide"),
-]
+pytestmark = [pytest.mark.meant("friction of 0.5", "the bearings hardly slide")]
 
 MASS = 204e3
 TERMS = ["kinetic", "elastic", "gravity", "rims", "contact", "friction_elastic"]
@@ -24,15 +23,7 @@ TERMS = ["kinetic", "elastic", "gravity", "rims", "contact", "friction_elastic"]
 
 def sticking_building():
     """Two storeys on a bearing that small motions find elastic."""
-    bearing = LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=math.inf,
-        friction=CoulombFriction(0.5),
-        interface_friction=math.inf,
-        yield_displacement=2e-3,
-    )
+    bearing = plain_pendulum(friction=0.5, yield_displacement=0.002)
     return shear_building(
         bearing, [4e4, 3e4], [5e7, 4e7], base_mass=3e4, damping=RayleighDamping(0.2, (0.4, 0.1))
     )
@@ -98,16 +89,7 @@ def test_second_order_for_a_linear_building(run, integrator, radius):
 @pytest.mark.parametrize("radius", [1.0, 0.8, 0.3])
 def test_spectral_radius_at_infinite_frequency(run, radius):
     """Kick a mass on a stiff vertical contact, a thousand periods a step; all roots are -radius."""
-    bearing = LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=math.inf,
-        friction=CoulombFriction(0.5),
-        interface_friction=math.inf,
-        axial_stiffness=1e13,
-        axial_damping=0.0,
-    )
+    bearing = plain_pendulum(friction=0.5, axial_stiffness=1e13, axial_damping=0.0)
     wave = np.zeros(40)
     wave[1] = 1.0
     names = ["generalised-alpha"] + (["newmark"] if radius == 1.0 else [])

@@ -5,16 +5,9 @@ import pytest
 
 from frames import Frame, GroundMotion, gravity, moment_frame, shear_building, time_history
 from frames.design import Superstructure
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import large_bearing
 
-BEARING = LIRBearing(
-    radius=2.5,
-    slider_height=0.225,
-    slider_radius=0.225,
-    capacity=0.356,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.105,
-)
+BEARING = large_bearing()
 HEIGHT, WIDTH = 3.5, 6.0
 
 

@@ -1,6 +1,5 @@
 """Shear above the isolation: by the accelerations of the floors, and its least value by hand."""
 
-import math
 from typing import Any
 
 import numpy as np
@@ -33,30 +32,21 @@ from frames.design import (
 from frames.design.codes.bounds import BoundName
 from frames.design.histories.least_shears import Raise, raises_by_case
 from frames.results.peak_response import largest
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import full_sine, paper_bearing
 
 MASSES = (60e3, 50e3)
 
 
 @pytest.fixture(scope="module")
 def frame() -> Frame:
-    bearing = LIRBearing(
-        radius=1.185,
-        slider_height=0.12,
-        slider_radius=0.15,
-        capacity=0.4,
-        friction=CoulombFriction(0.06),
-        interface_friction=0.25,
-    )
+    bearing = paper_bearing(capacity=0.4, friction=0.06, interface_friction=0.25)
     return shear_building(
         bearing, list(MASSES), 60e6, base_mass=60e3, plan=((1, 1), (6.0, 6.0)), damping=None
     )
 
 
 def pulse(size: float) -> GroundMotion:
-    time = np.arange(0.0, 5.0, 0.01)
-    wave = 1.5 * size * np.sin(math.pi * time) * (time < 2.0)
-    return GroundMotion(x=wave, y=0.4 * wave, dt=0.01, name=f"pulse {size:.2f}")
+    return full_sine(1.5 * size, 0.4, rest=3.0)
 
 
 @pytest.fixture(scope="module")
@@ -103,14 +93,7 @@ def test_batches_keep_the_same_peaks(frame: Frame, runs: xr.Dataset, run: xr.Dat
 
 def test_bearings_between_storeys_carry_the_shear_there() -> None:
     """A mass on a bearing on a column: through the upper storey passes the bearing's force."""
-    bearing = LIRBearing(
-        radius=1.185,
-        slider_height=0.12,
-        slider_radius=0.15,
-        capacity=0.4,
-        friction=CoulombFriction(0.06),
-        interface_friction=0.25,
-    )
+    bearing = paper_bearing(capacity=0.4, friction=0.06, interface_friction=0.25)
     frame = Frame("isolated head")
     frame.add_node("foot", 0.0, 0.0, 0.0)
     frame.add_node("head", 0.0, 0.0, 3.0)

@@ -217,10 +217,7 @@ def test_a_slider_beyond_its_dish_is_a_failure():
             "outcome": COMPLETE,
             "status": "ok",
             "message": "",
-            device_numbers.DISPLACEMENT: [
-                own.lateral_capacity - 1e-6,
-                own.lateral_capacity + 1e-6,
-            ],
+            device_numbers.DISPLACEMENT: [own.lateral_capacity - 1e-6, own.lateral_capacity + 1e-6],
         }
     )
     runs = IntensityRuns(table, Intensity(kind="PGA"), {device_numbers.DISPLACEMENT: "m"})

@@ -23,10 +23,7 @@ def test_parts_agree_where_they_have_the_same_devices():
         (plan["LIR-DCFP"]["margin"], after["LIR-DCFP: ends"]),
         (plan["rims of 1 W"]["margin"], after["DCFP, rims of 1 W: ends"]),
         (plan["rims of 1 W"]["margin"], rims["DCFP, larger plan, rims of 1 W"]),
-        (
-            plan["rims of 0.5 W"]["margin"],
-            rims["DCFP, larger plan, rims of 0.5 W"],
-        ),
+        (plan["rims of 0.5 W"]["margin"], rims["DCFP, larger plan, rims of 0.5 W"]),
     )
     for one, other in same:  # other stripes, and a hair of friction
         assert one[0] == pytest.approx(other[0], rel=0.03)

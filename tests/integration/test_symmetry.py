@@ -20,21 +20,14 @@ from frames import (
 )
 from lir_element import LIRBearing, VelocityFriction
 from tests.irregular import Building
+from tests.scenes import uneven_bearing
 
 DT = 0.004
 N = 1  # bays a side
 G = 9.80665
 
 
-def device() -> LIRBearing:
-    return LIRBearing(
-        radius=(1.0, 0.8),
-        slider_height=0.1,
-        slider_radius=0.12,
-        capacity=0.08,
-        friction=VelocityFriction(0.06, 0.03, 20.0),
-        interface_friction=0.14,
-    )
+DEVICE = uneven_bearing()
 
 
 def ground(pulse) -> np.ndarray:
@@ -54,8 +47,8 @@ def record(run, model, waves: np.ndarray):
 @pytest.mark.parametrize("degrees", [30.0, 90.0, 211.0])
 def test_turned_motion_turns_the_response_of_a_mass(run, pulse, degrees):
     waves, turn = ground(pulse), turned(math.radians(degrees))
-    plain = record(run, lumped_mass(device(), 1e5), waves)
-    other = record(run, lumped_mass(device(), 1e5), waves @ turn.T)
+    plain = record(run, lumped_mass(DEVICE, 1e5), waves)
+    other = record(run, lumped_mass(DEVICE, 1e5), waves @ turn.T)
     assert float(plain["interface_slip_size"].max()) > 5e-3
     for name in ("bearing_displacement", "bearing_force", "interface_slip", "slider_displacement"):
         values = plain[name].to_numpy() @ turn.T
@@ -70,15 +63,15 @@ def test_turned_motion_turns_the_response_of_a_mass(run, pulse, degrees):
 def test_mirrored_motion_mirrors_the_response_of_a_mass(run, pulse, axis):
     waves, mirror = ground(pulse), np.eye(3)
     mirror[axis, axis] = -1.0
-    plain = record(run, lumped_mass(device(), 1e5), waves)
-    other = record(run, lumped_mass(device(), 1e5), waves @ mirror)
+    plain = record(run, lumped_mass(DEVICE, 1e5), waves)
+    other = record(run, lumped_mass(DEVICE, 1e5), waves @ mirror)
     for name in ("bearing_displacement", "bearing_force", "interface_slip"):
         values = plain[name].to_numpy() @ mirror
         assert_allclose(other[name], values, rtol=0.0, atol=1e-5 * np.abs(values).max())  # as above
 
 
 def building():
-    frame = moment_frame(bays=(N, N), storeys=2, bearing=device(), bay_width=5.0)
+    frame = moment_frame(bays=(N, N), storeys=2, bearing=DEVICE, bay_width=5.0)
     frame.set_damping(ModalDamping(0.03))
     return frame
 
@@ -137,7 +130,7 @@ def test_strong_vertical_motion_lifts_and_lands(run, pulse, strong_x):
     waves = np.column_stack(
         [pulse(strong_x, 1.0, dt), np.zeros(3001), pulse(1.5 * G, 0.5, dt, cycles=4.0)]
     )
-    data = run(lumped_mass(device(), mass), GroundMotion(*waves.T, dt=dt), dt=dt)
+    data = run(lumped_mass(DEVICE, mass), GroundMotion(*waves.T, dt=dt), dt=dt)
     axial = data["axial_force"][:, 0].to_numpy()
     weight = mass * G
     assert axial.min() == 0.0

@@ -9,22 +9,14 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, GroundMotion, Section, gravity, modes
 from frames.assembly.natural_modes import UnstableError, natural_modes
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import simple_bearing
 from validation.opensees.isolators import waves
 from validation.opensees.model import gravity_analysis
 
 G = 9.80665
 USUAL = 2e4  # kg m2: a node's mass at a lever of a metre
 SHARES = (0.0, 1e-16, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2)
-DEVICE = LIRBearing(
-    radius=1.0,
-    slider_height=0.1,
-    slider_radius=0.1,
-    capacity=0.3,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.12,
-    axial_stiffness=1e9,
-)
+DEVICE = simple_bearing(capacity=0.3, interface_friction=0.12, axial_stiffness=1e9)
 MAST = Section(0.02, 1e-4, 1e-4, 2e-4, 2e11, 8e10, density=0.0)
 TOP, HEIGHT = 2e4, 4.0  # kg, m
 

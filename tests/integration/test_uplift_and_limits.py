@@ -8,33 +8,20 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from frames import Frame, GroundMotion, lumped_mass, shear_building, time_histories
+from frames import Frame, lumped_mass, shear_building, time_histories
 from frames.design import Check, CheckError, Checks, DesignLimits, history_checks, overlap_area
 from frames.design.histories.suite_notes import doubted
 from frames.plots.bearing_geometry import _RIM_SHARE, rim_height
-from lir_element import CoulombFriction, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import full_sine, paper_bearing
 
 CODES = (("ASCE 7-22", ""), ("EN 1998-1", ""), ("NCh2745", "maximum"))
 RIMS = "maximum uplift over the rim height"
 
 
-def pulse(size: float) -> GroundMotion:
-    """A full sine of 2 s along x, and 4 s of rest."""
-    time = np.arange(0.0, 6.0, 0.01)
-    wave = size * np.sin(math.pi * time) * (time < 2.0)
-    return GroundMotion(x=wave, dt=0.01, name=f"pulse {size:g}")
-
-
 @pytest.fixture(scope="module")
 def bearing() -> LIRBearing:
-    return LIRBearing(
-        radius=1.185,
-        slider_height=0.12,
-        slider_radius=0.15,
-        capacity=0.2,
-        friction=VelocityFriction(0.065, 0.0325, 15.0),
-        interface_friction=0.14,
-    )
+    return paper_bearing(capacity=0.2, interface_friction=0.14)
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +32,7 @@ def frame(bearing: LIRBearing) -> Frame:
 @pytest.fixture(scope="module")
 def runs(frame: Frame) -> xr.Dataset:
     """Seven runs whose bearing stays on its plates and short of its rims."""
-    return time_histories(frame, [pulse(0.8 + 0.05 * k) for k in range(7)])
+    return time_histories(frame, [full_sine(0.8 + 0.05 * k) for k in range(7)])
 
 
 @pytest.fixture(scope="module")
@@ -119,9 +106,7 @@ def test_bearings_that_stay_down_have_no_landing(alone: Frame, runs: xr.Dataset)
 
 
 @pytest.mark.parametrize(("own", "word"), [(0.05, "laxer"), (0.001, "not laxer")])
-def test_a_limit_of_the_project_stands_beside_that_of_the_code(
-    frame: Frame, runs: xr.Dataset, own: float, word: str
-) -> None:
+def test_a_limit_of_the_project_stands_beside_that_of_the_code(frame, runs, own, word):
     checks = history_checks(runs, frame, "ASCE 7-22", limits=DesignLimits(drift=own))
     code = one(checks, "storey drift ratio", "ASCE 7-22 17.6.4.4")
     project = one(checks, "storey drift ratio", "no code: limit of the project")
@@ -191,9 +176,7 @@ def test_the_file_knows_every_limit() -> None:
     assert set(Limits.model_fields) == {f.name for f in fields(DesignLimits)}
 
 
-def test_gamma_x_raises_the_slip_as_well(
-    frame: Frame, bearing: LIRBearing, runs: xr.Dataset
-) -> None:
+def test_gamma_x_raises_the_slip_as_well(frame, bearing, runs):
     """Rims met at 200 mm; 190 mm of runs are 228 mm by EN 1998-1, of which 28 mm are slip."""
     moved = runs.assign(reached_displacement=0.19 + 0.0 * runs["reached_displacement"])
     checks = history_checks(moved, frame, "EN 1998-1")

@@ -32,21 +32,16 @@ from frames import (
 from frames.assembly.assemble import assemble
 from frames.laws import Bilinear, BoucWen, Gap, HertzGap, PlasticHinge, Tie, ViscousDamper
 from frames.statics.springs import is_plane
-from lir_element import CoulombFriction, LIRBearing
+from lir_element import CoulombFriction
+from tests.refusals import refused
+from tests.scenes import heavy_bearing
 
 DT = 0.005
 MASS, STIFFNESS = 2e5, 1.2e8
 
 
 def bearing(friction=0.05, capacity=0.2):
-    return LIRBearing(
-        radius=1.5,
-        slider_height=0.25,
-        slider_radius=0.3,
-        capacity=capacity,
-        friction=CoulombFriction(friction),
-        interface_friction=0.16,
-    )
+    return heavy_bearing(capacity=capacity, friction=CoulombFriction(friction))
 
 
 def waves(size=2.2, axes="xy"):
@@ -327,8 +322,7 @@ def test_thinned_recordings_have_the_same_rows(stack):
     for name in ("link_deformation", "link_force", "link_work"):
         assert_allclose(thin[name], data[name][::10], rtol=0.0, atol=0.0)
     few = time_history(frame, waves(), dt=DT, recording=Recording(channels=["node_displacement"]))
-    with pytest.raises(ValueError, match="data has no link_deformation"):
-        storey_forces(frame, few)
+    refused(ValueError, "data has no link_deformation", storey_forces, frame, few)
 
 
 def test_auto_chooses_with_parts_too():
@@ -340,8 +334,7 @@ def test_auto_chooses_with_parts_too():
 def test_the_level_of_bodies_takes_no_links():
     frame = lumped_mass(bearing(), MASS)
     frame.add_link("damper", "ground", "mass", ViscousDamper(coefficient=1e5), "ux")
-    with pytest.raises(ModelError, match="it has links or hinges"):
-        time_history(frame, waves(), level="rigid_body")
+    refused(ModelError, "it has links or hinges", time_history, frame, waves(), level="rigid_body")
     data = time_history(frame, waves(1.5), level="contact")
     assert float(data["energy"].sel(term="dampers")[-1]) > 0.0
 
@@ -408,8 +401,7 @@ def _braced(law, direction="axial"):
 def test_what_cannot_be_is_refused_and_changes_nothing(change, error, message):
     frame = stick(storeys=1)
     before = repr(frame)
-    with pytest.raises(error, match=message):
-        change(frame)
+    refused(error, message, change, frame)
     assert repr(frame) == before
 
 
@@ -418,13 +410,10 @@ def test_hinges_are_refused_where_they_do_not_belong():
     frame.add_member(
         "strut", "base-0-0", "floor-1-1-0", Section.circle(0.1, 0.01), releases={"i": ("My",)}
     )
-    with pytest.raises(ModelError, match="has releases"):
-        frame.add_hinges("strut", STEEL["beam"])
+    refused(ModelError, "has releases", frame.add_hinges, "strut", STEEL["beam"])
     frame.add_hinges("column-1-0-0", {"j": STEEL["column"]})
-    with pytest.raises(ModelError, match="column-1-0-0"):
-        frame.add_hinges("column-1-0-0", STEEL["column"])
-    with pytest.raises(ModelError, match="names no end"):
-        frame.add_hinges("column-1-1-0", {})
+    refused(ModelError, "column-1-0-0", frame.add_hinges, "column-1-0-0", STEEL["column"])
+    refused(ModelError, "names no end", frame.add_hinges, "column-1-1-0", {})
     with pytest.raises(ModelError, match="kind of member with hinges"):
         moment_frame((1, 1), 1, bearing=bearing(), hinges={"brace": STEEL["beam"]})
 
@@ -442,10 +431,8 @@ def test_what_yields_under_permanent_loads_is_refused():
 
 
 def test_storey_laws_must_fit_the_storeys():
-    with pytest.raises(ModelError, match="2 laws for 3 storeys"):
-        stick([yielding(1e8)] * 2)
-    with pytest.raises(TypeError, match="storey_law of storey 1"):
-        stick([Tie(stiffness=1e8)] * 3)
+    refused(ModelError, "2 laws for 3 storeys", stick, [yielding(1e8)] * 2)
+    refused(TypeError, "storey_law of storey 1", stick, [Tie(stiffness=1e8)] * 3)
 
 
 def test_a_node_that_only_a_damper_holds_is_refused():
@@ -455,8 +442,7 @@ def test_a_node_that_only_a_damper_holds_is_refused():
     frame.add_node("top", 0.0, 0.0, 1.0)
     frame.add_mass("top", 1.0)
     frame.add_link("damper", "ground", "top", ViscousDamper(coefficient=1.0))
-    with pytest.raises(ModelError, match="no member, spring"):
-        assemble(frame)
+    refused(ModelError, "no member, spring", assemble, frame)
 
 
 def test_the_audit_marks_hinges_that_turn_further_than_members_last():

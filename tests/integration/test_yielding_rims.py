@@ -28,6 +28,7 @@ from frames.design import impact_checks
 from lir_element import AnalysisWarning, DesignWarning, Element, LIRBearing, ring_strength
 from lir_element.kernels.rim import bend, bent, press_rim
 from lir_element.opensees import builtin_commands
+from tests.scenes import heavy_bearing
 
 MASS = 1e5
 WEIGHT = MASS * 9.80665
@@ -38,15 +39,7 @@ CAPACITY = 0.2
 def bearing(interface_friction: float = math.inf, **changes: Any) -> LIRBearing:
     """A bearing of which a rim yields under 60 % of the weight; a plain DCFP if nothing is said."""
     options = {"rim_yield_force": FORCE, "rim_overrun": 0.05, "slip_capacity": 1.0, **changes}
-    return LIRBearing(
-        radius=1.5,
-        slider_height=0.25,
-        slider_radius=0.3,
-        capacity=CAPACITY,
-        friction=0.05,
-        interface_friction=interface_friction,
-        **options,
-    )
+    return heavy_bearing(capacity=CAPACITY, interface_friction=interface_friction, **options)
 
 
 def pushed(device: LIRBearing, scale: float = 1.0, level: str = "pendulum", **options: Any) -> Any:
@@ -55,9 +48,6 @@ def pushed(device: LIRBearing, scale: float = 1.0, level: str = "pendulum", **op
     motion = GroundMotion(x=pulse, y=0.6 * pulse, dt=0.005)
     frame = lumped_mass(device, MASS)
     return time_history(frame, motion, dt=1e-3, level=level, **options)
-
-
-# ------------------------------------------------------------------------------------ the law
 
 
 def test_a_rim_follows_a_bilinear_law() -> None:
@@ -97,9 +87,6 @@ def test_a_dent_stays_where_it_was_pressed(angle: float) -> None:
         assert slant == pytest.approx(steep, abs=1e-16)
     assert bent(dent, -x, -y)[0] < 1e-17
     assert bent(dent, 0.0, 0.0) == (0.0, 0.0)  # a slider in the middle is near no rim
-
-
-# --------------------------------------------------------------------------- one push, one impact
 
 
 def test_the_force_of_a_slow_push_is_that_of_a_bilinear_rim() -> None:
@@ -160,9 +147,6 @@ def test_a_rim_that_stays_elastic_is_one_that_never_yields() -> None:
         assert_array_equal(strong[name], endless[name])
     assert "rim_plastic" not in endless
     assert float(strong["rim_plastic"].max()) == 0.0
-
-
-# ------------------------------------------------------------------------------ levels, tangents
 
 
 @pytest.mark.parametrize("interface", [math.inf, 0.2])
@@ -276,9 +260,6 @@ def test_a_turned_pulse_finds_the_same(turn: float) -> None:
     assert_allclose(ends[1], ends[0], rtol=0.0, atol=1e-9)
 
 
-# ------------------------------------------------------------------------------------ failure
-
-
 @pytest.mark.parametrize("level", ["pendulum", "contact"])
 def test_a_broken_rim_ends_the_run_or_lets_the_slider_on_the_flange(level: str) -> None:
     warnings.simplefilter("ignore", AnalysisWarning)  # that they end is what is looked at
@@ -314,9 +295,6 @@ def test_a_flange_counts_from_a_broken_rim_on(level: str, force: float) -> None:
         assert [run.attrs["status"] for run in runs] == [end, end]
         assert_array_equal(*(run["bearing_displacement"].to_numpy() for run in runs))
         assert float(runs[1]["rim_closure"].max()) > 1e-4
-
-
-# ------------------------------------------------------------------------------------ what is told
 
 
 def test_what_rims_did_is_told_by_any_recording(tmp_path: Path) -> None:
@@ -372,12 +350,7 @@ def test_elements_of_opensees_that_know_no_such_rims_refuse_them() -> None:
         builtin_commands("TripleFrictionPendulum", 1, 1, 2, bearing(), WEIGHT)
     with pytest.raises(ValueError, match="does not know flange"):
         builtin_commands(
-            "TripleFrictionPendulum",
-            1,
-            1,
-            2,
-            bearing(rim_yield_force=math.inf, flange=0.1),
-            WEIGHT,
+            "TripleFrictionPendulum", 1, 1, 2, bearing(rim_yield_force=math.inf, flange=0.1), WEIGHT
         )
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from frames import GroundMotion, moment_frame, time_history
 from frames.laws import PlasticHinge, Tie
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import heavy_bearing
 
 HINGES = {
     "beam": PlasticHinge(moment_y=1.3e5, hardening=0.02),
@@ -17,14 +17,7 @@ HINGES = {
 
 def hinged_frame():
     """Return a frame of two storeys with hinges, on bearings without rims."""
-    on = LIRBearing(
-        radius=1.5,
-        slider_height=0.25,
-        slider_radius=0.3,
-        capacity=math.inf,
-        friction=CoulombFriction(0.1),
-        interface_friction=0.16,
-    )
+    on = heavy_bearing(capacity=math.inf, friction=0.1)
     return moment_frame((1, 1), 2, bearing=on, hinges=HINGES, floor_load=3000.0)
 
 

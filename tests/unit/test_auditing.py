@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -39,22 +40,13 @@ from lir_element import (
 from lir_element.device.sliders import slider_record
 from lir_element.errors import RunStatus
 from lir_element.results.optional_variables import interface_eccentricity
+from tests.scenes import paper_bearing, simple_bearing
 
 DT = 0.005
 MASS = 3e4
 
 
-def device(**changes) -> LIRBearing:
-    options = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": 0.2,
-        "friction": CoulombFriction(0.05),
-        "interface_friction": 0.12,
-        "design_load": 3e5,
-    }
-    return LIRBearing(**(options | changes))
+device = partial(simple_bearing, capacity=0.2, interface_friction=0.12, design_load=3e5)
 
 
 def wave(peak: float, period: float = 1.5, rest: float = 1.0) -> np.ndarray:
@@ -509,14 +501,7 @@ def test_a_slip_near_the_end_of_the_overlap_is_marked():
 
 
 LATE = VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0)
-SLIPS = LIRBearing(
-    radius=1.185,
-    slider_height=0.12,
-    slider_radius=0.15,
-    capacity=0.25,
-    friction=LATE,
-    interface_friction=0.2,
-)
+SLIPS = paper_bearing(friction=LATE, interface_friction=0.2)
 
 
 def near_fault(until: float) -> GroundMotion:

@@ -8,18 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from lir_element import CoulombFriction, Element, LIRBearing
+from lir_element import Element
 from lir_element.kernels.levels import bearing_trial
+from tests.scenes import paper_bearing
 
-BEARING = LIRBearing(
-    radius=1.185,
-    slider_height=0.12,
-    slider_radius=0.15,
-    capacity=0.25,
-    design_load=286.73e3,
-    friction=CoulombFriction(0.065),
-    interface_friction=0.13,
-)
+BEARING = paper_bearing(design_load=286.73e3, friction=0.065)
 COMMITTED: dict[str, Any] = {
     "step": 0.005,
     "axis": (0.10804290204869181, -0.02594252458763105, 0.993807685991066),

@@ -25,6 +25,7 @@ from frames.design.project.sanity_checks import file_doubts
 from frames.motion.record_motions import record_doubts
 from lir_element import CoulombFriction, LIRBearing
 from lir_element._version import package_version
+from tests.scenes import BOUNDS, DEVICE, MOTIONS, SOIL
 
 pytestmark = pytest.mark.filterwarnings("default")  # the command prints warnings
 KINDS = ("far-field", "near-fault pulse", "near-fault no pulse")
@@ -62,9 +63,7 @@ def test_recorded_motions_pass_without_a_word(kind: str) -> None:
 
 
 @pytest.mark.parametrize("code", ["ASCE 7-22", "EN 1998", "NCh2745"])
-def test_examples_pass_without_a_word(
-    code: str, tmp_path: Path, put_example: Callable[..., Path]
-) -> None:
+def test_examples_pass_without_a_word(code, tmp_path, put_example):
     put_example(tmp_path, code)
     output = CliRunner().invoke(app, ["check", str(tmp_path / "project.toml")]).output
     assert "warning" not in output
@@ -198,9 +197,7 @@ def test_messages_of_a_file(old: str, new: str, words: str, example: Path, tmp_p
 
 
 @pytest.mark.parametrize("code", ["EN 1998"])
-def test_ground_that_moves_nothing(
-    code: str, tmp_path: Path, put_example: Callable[..., Path]
-) -> None:
+def test_ground_that_moves_nothing(code, tmp_path, put_example):
     put_example(tmp_path, code)
     file = tmp_path / "project.toml"
     text = file.read_text(encoding="utf-8")
@@ -283,9 +280,7 @@ def test_results_that_are_not_there(lazy: bool, tmp_path: Path) -> None:
         ('"7 m", "9 m"', '"0.9 m", "0.9 m"', ""),
     ],
 )
-def test_bays_that_bearings_do_not_fit_into(
-    example: Path, tmp_path: Path, old: str, new: str, words: str
-) -> None:
+def test_bays_that_bearings_do_not_fit_into(example, tmp_path, old, new, words):
     output = checked(example, tmp_path, old, new)
     assert (words in output) if words else ("takes in plan" not in output)
 
@@ -303,7 +298,8 @@ def test_storeys_that_are_far_too_soft(tmp_path: Path, stiffness: float, soft: b
         )
 
 
-STICK = """
+STICK = (
+    """
 [project]
 name = "Stick"
 code = "NCh2745"
@@ -315,18 +311,9 @@ storey_mass = ["100 t", "100 t"]
 storey_stiffness = ["STIFFNESS", "300 kN/mm"]
 storey_height = "3 m"
 base_mass = "100 t"
-[bearing]
-radius = "1.5 m"
-slider_height = "200 mm"
-slider_radius = "0.2 m"
-capacity = "180 mm"
-friction = 0.06
-interface_friction = 0.18
-[spectrum]
-soil = "II"
-zone = 2
-[motions]
-folder = "motions"
-[bounds]
-friction = [0.8, 1.3]
 """
+    + DEVICE
+    + SOIL
+    + MOTIONS
+    + BOUNDS
+)

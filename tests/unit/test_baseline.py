@@ -2,7 +2,6 @@
 
 import copy
 import pickle  # noqa: S403
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -122,9 +121,7 @@ def test_arrays_of_a_record_that_still_moves(offset: float) -> None:
     ],
 )
 @pytest.mark.parametrize("duration", [8.0, 9.1, 11.3, 20.0])
-def test_what_ends_at_full_strength_is_meant(
-    wave: Callable[[np.ndarray], np.ndarray], duration: float
-) -> None:
+def test_what_ends_at_full_strength_is_meant(wave, duration):
     motion = GroundMotion(x=wave(np.arange(0.0, duration, DT)), dt=DT)
     assert motion.n_steps > 2
 

@@ -23,25 +23,16 @@ from lir_element import (
 )
 from lir_element.device.sliders import face_records, slider_record
 from lir_element.layout import FRICTION_TABLE, PROPS_FIELDS
+from tests.scenes import small_bearing
+from tests.scenes import small_bearing as bearing
 
-PAPER: dict[str, Any] = {  # static cyclic test, section 2.2 of the paper
-    "radius": 0.75,
-    "slider_height": 0.085,
-    "slider_radius": 0.08,
-    "capacity": 0.175,
-    "friction": CoulombFriction(0.066),
-    "interface_friction": 0.126,
-}
+PAPER = small_bearing.keywords
 UNEQUAL: dict[str, Any] = PAPER | {
     "radius": (0.75, 1.1),
     "friction": (CoulombFriction(0.05), CoulombFriction(0.08)),
     "rims": (0.07, 0.12),
     "capacity": None,
 }
-
-
-def bearing(**changes: object) -> LIRBearing:
-    return LIRBearing(**(PAPER | changes))
 
 
 def refused(error: type[Exception], *words: str, **changes: object) -> None:
@@ -166,9 +157,6 @@ def test_bouc_wen_exponent_is_at_least_one(value: float) -> None:
     assert bearing(bouc_wen_exponent=1.0).bouc_wen_exponent == 1.0
 
 
-# ------------------------------------------------------------------------------- friction laws
-
-
 @pytest.mark.parametrize("value", [-0.01, 1.0, 2.0, math.nan, math.inf, -math.inf])
 def test_bounds_of_friction_coefficients(value: float) -> None:
     for make, name in (
@@ -223,9 +211,6 @@ def test_coulomb_friction() -> None:
     law = CoulombFriction(0.066)
     assert [law.at_speed(v) for v in (0.0, -0.5, 2.0)] == [0.066] * 3
     assert (law.f_max, law.f_min, law.rate) == (0.066, 0.066, 0.0)
-
-
-# ------------------------------------------------------------------------------- combinations
 
 
 @pytest.mark.parametrize("edge", [0.75, 0.8])
@@ -342,9 +327,6 @@ def test_other_sequences_serve_as_pairs(pair: object) -> None:
     assert hash(bearing(radius=pair)) == hash(bearing(radius=(0.75, 0.75)))
 
 
-# ------------------------------------------------------------------------------- derived values
-
-
 def test_paper_bearing() -> None:
     """Section 2.2: R_eff = 1.415 m; theory: a cap of 0.2497 W (small tilt) on the force."""
     b = bearing()
@@ -422,9 +404,6 @@ def test_as_dcfp(base: dict[str, Any]) -> None:
     assert with_rims.as_dcfp() == with_rims
 
 
-# ------------------------------------------------------------------------------- value semantics
-
-
 def test_frozen() -> None:
     b = bearing()
     for name in ("radius", "friction", "interface_friction", "new"):
@@ -488,9 +467,6 @@ def records(b: LIRBearing) -> bytes:
 def test_replace_checks_again() -> None:
     with pytest.raises(ValueError, match="interface_friction"):
         dataclasses.replace(bearing(), friction=CoulombFriction(0.2))
-
-
-# ------------------------------------------------------------------------------- the record
 
 
 def test_record_is_complete() -> None:

@@ -25,6 +25,7 @@ from lir_element import (
     VelocityFriction,
 )
 from lir_element.fields import unit_of
+from tests.scenes import BOUNDS, MOTIONS, SOIL, STICK, project_head
 
 pytestmark = pytest.mark.plain
 REQUIRED: dict[str, tuple[str, Any]] = {
@@ -88,26 +89,7 @@ OTHERS: dict[str, tuple[str, Any]] = {
         ),
     ),
 }
-HEAD = """
-[project]
-name = "One bearing"
-code = "NCh2745"
-[structure]
-kind = "shear building"
-bays = [1, 1]
-bay_width = ["6 m", "6 m"]
-storey_mass = ["100 t"]
-storey_stiffness = ["300 kN/mm"]
-storey_height = "3 m"
-[spectrum]
-soil = "II"
-zone = 2
-[motions]
-folder = "motions"
-[bounds]
-friction = [0.8, 1.3]
-[bearing]
-"""
+HEAD = project_head("One bearing") + STICK + SOIL + MOTIONS + BOUNDS + "[bearing]\n"
 
 
 def of_file(folder: Path, given: dict[str, str]) -> LIRBearing:
@@ -184,9 +166,7 @@ def test_rims_and_interface_can_be_left_out(tmp_path: Path) -> None:
         ("rims", '"200 mm"', r"\[bearing\].*rims"),
     ],
 )
-def test_what_is_wrong_is_said_at_its_place(
-    tmp_path: Path, key: str, text: str, words: str
-) -> None:
+def test_what_is_wrong_is_said_at_its_place(tmp_path, key, text, words):
     given = {name: each[0] for name, each in REQUIRED.items()} | {"capacity": '"180 mm"'}
     with pytest.raises(ProjectError, match=words):
         of_file(tmp_path, given | {key: text})

@@ -6,7 +6,6 @@ import shutil
 import subprocess  # what a new process does  # noqa: S404
 import sys
 import warnings
-from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -20,6 +19,7 @@ from frames.bundles.peak_data import ENERGY_TERMS
 from lir_element._compile import cache
 from lir_element._compile.jit import kernels_of
 from lir_element._compile.sources import compiled_sources
+from tests.patience import fresh
 
 pytestmark = pytest.mark.skipif(
     not isinstance(importlib.import_module("lir_element.kernels.rotation").rotate, Dispatcher),
@@ -107,9 +107,7 @@ ORDERS = (
 
 
 @pytest.mark.parametrize(("called", "factor"), [("inner", 1.0), ("outer", 2.0)])
-def test_fields_that_change_places_compile_a_kernel_anew(
-    package: Path, monkeypatch: pytest.MonkeyPatch, called: str, factor: float
-) -> None:
+def test_fields_that_change_places_compile_a_kernel_anew(package, monkeypatch, called, factor):
     for fields, compiled in ORDERS:
         module = ModuleType("package")  # whose classes are in no source that is hashed
         monkeypatch.setitem(sys.modules, "package", module)
@@ -199,9 +197,7 @@ def no_home(_: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("trouble", [as_a_file, below_a_file, full, no_home])
-def test_without_a_place_to_keep_them_kernels_compile_in_memory(
-    package: Path, monkeypatch: pytest.MonkeyPatch, trouble: Callable[..., None]
-) -> None:
+def test_without_a_place_to_keep_them_kernels_compile_in_memory(package, monkeypatch, trouble):
     folder = package.parent / "cache"
     trouble(folder, monkeypatch)
     for factor, expected in ((2.0, 3.0), (4.0, 5.0)):  # an edit is noticed here as well
@@ -235,9 +231,7 @@ def one_bit(content: bytes) -> bytes:
 
 
 @pytest.mark.parametrize("damage", [cut, emptied, foreign, one_bit])
-def test_a_damaged_file_is_compiled_anew_and_replaced(
-    package: Path, monkeypatch: pytest.MonkeyPatch, damage: Callable[[bytes], bytes]
-) -> None:
+def test_a_damaged_file_is_compiled_anew_and_replaced(package, monkeypatch, damage):
     start(package)(1.0)
     [path] = kept(package)
     path.write_bytes(damage(path.read_bytes()))
@@ -279,9 +273,7 @@ def test_a_missing_file_is_compiled_without_a_word(package: Path) -> None:
         ("file", None, "are of another user"),
     ],
 )
-def test_what_others_may_write_is_not_opened(
-    package: Path, monkeypatch: pytest.MonkeyPatch, what: str, mode: int | None, words: str
-) -> None:
+def test_what_others_may_write_is_not_opened(package, monkeypatch, what, mode, words):
     start(package)(1.0)
     [path] = kept(package)
     places = {"base": [path.parent.parent], "folder": [path.parent]}
@@ -329,11 +321,7 @@ def test_a_cache_that_is_only_read_is_taken(package: Path) -> None:
 
 
 def run(code: str, root: Path = ROOT, **environment: str) -> "subprocess.CompletedProcess[str]":
-    env = {**os.environ, "PYTHONPATH": str(root), **environment}
-    command = [sys.executable, "-c", code]
-    return subprocess.run(  # noqa: S603
-        command, env=env, cwd=root, capture_output=True, text=True, check=True
-    )
+    return fresh(code, cwd=root, PYTHONPATH=str(root), **environment)
 
 
 KERNEL = "from lir_element.kernels.rotation import coefficients; print(coefficients(1.0)[0])"

@@ -54,9 +54,6 @@ def one(dtype: np.dtype) -> Any:
     return np.zeros(1, dtype=dtype)[0]
 
 
-# ------------------------------------------------------------------------------- plain formulas
-
-
 def hysteresis(b: LIRBearing, old: np.ndarray, dw: np.ndarray, u_y: float) -> np.ndarray:
     """Return z after the sliding dw, by bisection where Bouc-Wen's equation has no closed form."""
     full = old + dw / u_y
@@ -274,9 +271,6 @@ def test_bond_pulls_both_ways() -> None:
     assert_allclose(new.push, STIFF * 3e-5, rtol=1e-12, atol=0.0)
 
 
-# ------------------------------------------------------------------------------- derivatives
-
-
 def fourth_order(function: Any, x: np.ndarray, step: float) -> np.ndarray:
     """Return central differences of fourth order, one column an entry of `x`."""
     columns = []
@@ -332,9 +326,6 @@ def test_slope_is_the_derivative(pair: str, law: str, dt: float) -> None:
         assert scale > 1e7
         # fourth order in 1e-6 over u_y 3e-4: 1e-10; round-off 1e-16 / 1e-6
         assert_allclose(slope / scale, expected / scale, rtol=0.0, atol=3e-9)
-
-
-# ------------------------------------------------------------------------------- all pairs
 
 
 CONFIGS: dict[str, dict[str, Any]] = {
@@ -550,9 +541,6 @@ def test_inverse_of_the_sliders_matrix() -> None:
     matrix[:, 5] = 0.0
     w.joint[:, :12] = matrix
     assert not invert(w)
-
-
-# ------------------------------------------------------------------------------- small tools
 
 
 def test_quaternions_against_scipy() -> None:

@@ -11,24 +11,11 @@ import pytest
 import xarray as xr
 
 from frames import Frame, GroundMotion, MotionError, Section
-from lir_element import (
-    AnalysisError,
-    CoulombFriction,
-    Element,
-    LIRBearing,
-    RunStatus,
-    VelocityFriction,
-)
+from lir_element import AnalysisError, CoulombFriction, Element, RunStatus, VelocityFriction
 from tests.patience import patience
+from tests.scenes import rimmed_bearing
 
-DEVICE = LIRBearing(
-    radius=(0.75, 1.1),
-    slider_height=0.11,
-    slider_radius=0.08,
-    rims=(0.07, 0.11),
-    friction=(VelocityFriction(0.07, 0.03, 12.0), CoulombFriction(0.08)),
-    interface_friction=0.15,
-)
+DEVICE = rimmed_bearing(friction=(VelocityFriction(0.07, 0.03, 12.0), CoulombFriction(0.08)))
 COPIES: dict[str, Callable[[Any], Any]] = {
     "copy": copy.copy,
     "deepcopy": copy.deepcopy,

@@ -19,22 +19,11 @@ from lir_element import (
     VelocityFriction,
     cyclic_test,
 )
+from tests.scenes import small_bearing as bearing
 
 W = 150e3
-PAPER: dict[str, Any] = {
-    "radius": 0.75,
-    "slider_height": 0.085,
-    "slider_radius": 0.08,
-    "capacity": 0.175,
-    "friction": CoulombFriction(0.066),
-    "interface_friction": 0.126,
-}
 L, MU_D, MU_H = 1.415, 0.066, 0.126
 SIGNS = pytest.mark.parametrize("sign", [1.0, -1.0])
-
-
-def bearing(**changes: object) -> LIRBearing:
-    return LIRBearing(**(PAPER | changes))
 
 
 def through(*corners: float, points: int = 400) -> np.ndarray:
@@ -46,9 +35,6 @@ def through(*corners: float, points: int = 400) -> np.ndarray:
 
 def along_x(data: xr.Dataset, name: str) -> np.ndarray:
     return data[name].sel(axis="x")[:, 0].to_numpy()
-
-
-# ------------------------------------------------------------------------------- the paper
 
 
 @SIGNS
@@ -151,8 +137,6 @@ def test_area_of_the_loop_with_rim_contacts(sign: float) -> None:
     assert_allclose(low[end] - low[start], MU_D * W * 1.5 * 4.0 * theta, rtol=0.02, atol=0.0)
     assert_allclose(high[end] - high[start], MU_H * W * 4.0 * s_0, rtol=0.04, atol=0.0)
 
-
-# ------------------------------------------------------------------------------- plain DCFP
 
 R_1, R_2, H_S, MU_1, MU_2 = 0.8, 1.3, 0.12, 0.04, 0.09
 UNEQUAL: dict[str, Any] = {
@@ -261,9 +245,6 @@ def test_capacity_and_rims_in_the_rig(sign: float) -> None:
         assert_allclose(rim[1, k], carried, rtol=2e-3, atol=0.0)
 
 
-# ------------------------------------------------------------------------------- friction, loads
-
-
 @pytest.mark.parametrize("velocity", [1e-3, 0.05, 0.2, 1.0])
 @SIGNS
 def test_friction_grows_with_the_speed(sign: float, velocity: float) -> None:
@@ -322,9 +303,6 @@ def test_axial_force_on_the_tilted_slider() -> None:
     c = (MU_1 * R_1 + MU_2 * R_2) / length
     n = W / (math.cos(phi) - c * math.sin(phi))
     assert_allclose(data["axial_force"][0, 0], n, rtol=1e-4, atol=0.0)  # l > L by N / k
-
-
-# ------------------------------------------------------------------------------- two directions
 
 
 @pytest.mark.parametrize("angle", [0.3, math.pi / 2, 2.0, -1.2, math.pi])
@@ -387,9 +365,6 @@ def test_circular_path_beyond_the_rim(sign: float) -> None:
     assert (np.diff(slip[120:]) > 0.0).all()
 
 
-# ------------------------------------------------------------------------------- failures
-
-
 @SIGNS
 def test_slip_beyond_capacity(sign: float) -> None:
     """Slip of 15 mm at U = 0.175 + 0.015 cos(theta): named with time, value, bound, remedy."""
@@ -450,9 +425,6 @@ def test_no_warning_without_failure() -> None:
     assert "failed_at" not in data.attrs
 
 
-# ------------------------------------------------------------------------------- bad input
-
-
 @pytest.mark.parametrize(
     ("changes", "error", "words"),
     [
@@ -490,8 +462,6 @@ def test_bad_input(changes: dict[str, Any], error: type[Exception], words: str) 
     with pytest.raises(error, match=words):
         cyclic_test(bearing(), **given_)
 
-
-# ------------------------------------------------------------------------------- the Dataset
 
 CONTRACT = {
     "bearing_displacement": (("step", "bearing", "axis"), "m"),
@@ -584,14 +554,7 @@ def test_bouc_wen_in_the_rig(sign: float) -> None:
     ("radius", "height", "slider_radius", "low"),
     [((2.59, 1.88), 0.077, 0.068, (0.027, 0.058)), ((2.67, 1.01), 0.06, 0.09, (0.098, 0.0235))],
 )
-def test_below_its_capacity_it_is_a_dcfp(
-    radius: tuple[float, float],
-    height: float,
-    slider_radius: float,
-    low: tuple[float, float],
-    level: str,
-    most: float,
-) -> None:
+def test_below_its_capacity_it_is_a_dcfp(radius, height, slider_radius, low, level, most):
     """The actuator holds its load as well as the sliders' own equilibrium is found."""
     device = bearing(
         radius=radius,

@@ -125,9 +125,7 @@ def set_first(part: xr.DataArray | np.ndarray) -> None:
 
 @pytest.mark.parametrize("looked_at", [False, True])
 @pytest.mark.parametrize("write", WRITES.values(), ids=WRITES)
-def test_what_is_written_to_a_part_is_where_it_would_be_in_an_array(
-    data: xr.Dataset, write: Callable[[xr.Dataset], object], *, looked_at: bool
-) -> None:
+def test_what_is_written_to_a_part_is_where_it_would_be_in_an_array(data, write, *, looked_at):
     plain = data.copy(deep=True).load()
     if looked_at:
         _ = data["move"].values

@@ -98,9 +98,7 @@ def test_table_names_a_bearing_that_failed(small_result: xr.Dataset) -> None:
     assert "bad stopped at t = 0.11 s" in text
 
 
-def test_earlier_results_stay_until_all_are_written(
-    small_result: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_earlier_results_stay_until_all_are_written(small_result, tmp_path, monkeypatch):
     write_results({"A": small_result}, tmp_path)
     before = (tmp_path / "results.nc").read_bytes()
     write, written = xr.Dataset.dump_to_store, []
@@ -123,9 +121,7 @@ def test_earlier_results_stay_until_all_are_written(
 
 
 @pytest.mark.parametrize("name", ["results.nc", "summary.csv"])
-def test_a_file_that_cannot_be_written_is_named(
-    small_result: xr.Dataset, tmp_path: Path, name: str
-) -> None:
+def test_a_file_that_cannot_be_written_is_named(small_result, tmp_path, name):
     (tmp_path / name).mkdir()
     with pytest.raises(OSError, match=f"{name} could not be written"):
         write_results({"A": small_result}, tmp_path)
@@ -142,9 +138,7 @@ def small_result() -> xr.Dataset:
     return time_history(frame, motion, dt=0.005)
 
 
-def test_missing_record_is_a_clear_message(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_missing_record_is_a_clear_message(monkeypatch, capsys, tmp_path):
     monkeypatch.setattr(demo, "find_spec", lambda name: None)
     assert demo.main(["--quick", "--output", str(tmp_path)]) == 2
     assert "pip install 'lir-dcfp[demo]'" in capsys.readouterr().err

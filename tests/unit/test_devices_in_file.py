@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -59,9 +58,7 @@ PULSE = GroundMotion(x=WAVE, y=-0.6 * WAVE, dt=0.01, name="pulse")
 
 
 @pytest.fixture(scope="module")
-def parts_of(
-    tmp_path_factory: pytest.TempPathFactory, put_example: Callable[..., Path]
-) -> Callable[[str], ProjectInputs]:
+def parts_of(tmp_path_factory, put_example):
     """Return projects of the structure with sections more."""
     folder = put_example(tmp_path_factory.mktemp("devices"))
 
@@ -185,9 +182,7 @@ def test_what_is_put_in_is_said_and_known(parts_of: Callable[[str], ProjectInput
         (DAMPERS.replace('pattern = "down"', 'directions = ["x"]'), "directions is for dampers"),
     ],
 )
-def test_wrong_values_are_refused(
-    parts_of: Callable[[str], ProjectInputs], more: str, words: str
-) -> None:
+def test_wrong_values_are_refused(parts_of, more, words):
     with pytest.raises(ProjectError) as refused:
         parts_of(more)
     assert words in str(refused.value)
@@ -201,8 +196,6 @@ def test_wrong_values_are_refused(
         ("storeys = [2, 2]", "storeys = [2, 5]", r"\[dampers.brace\] storeys"),
     ],
 )
-def test_what_stands_nowhere_is_refused(
-    parts_of: Callable[[str], ProjectInputs], old: str, new: str, words: str
-) -> None:
+def test_what_stands_nowhere_is_refused(parts_of, old, new, words):
     with pytest.raises(ProjectError, match=words):
         parts_of(DAMPERS.replace(old, new)).frame()

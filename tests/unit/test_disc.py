@@ -8,13 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import quad
 
-from lir_element.kernels.contact.disc import (
-    disc_load,
-    disc_load_slope,
-    rub,
-    rubbing,
-    segment,
-)
+from lir_element.kernels.contact.disc import disc_load, disc_load_slope, rub, rubbing, segment
 from lir_element.kernels.contact.disc_pair import torsion_radius
 from lir_element.kernels.slip import friction_map, kept_share
 from lir_element.layout import SCRATCH, TOUCH

@@ -1,6 +1,7 @@
 """Copies of frames, other bearings under the same structure, and parts that go."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -14,20 +15,9 @@ from frames import (
     shear_building,
     time_history,
 )
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import simple_bearing
 
-
-def bearing(**changes):
-    options = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": 0.12,
-        "friction": CoulombFriction(0.05),
-        "interface_friction": 0.13,
-        "plate_thickness": 0.05,
-    }
-    return LIRBearing(**(options | changes))
+bearing = partial(simple_bearing, plate_thickness=0.05)
 
 
 def test_a_copy_is_apart():

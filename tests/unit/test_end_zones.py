@@ -1,5 +1,7 @@
 """Rigid end zones of members: against nodes of their own with stiff members, and OpenSees."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -14,27 +16,9 @@ from frames.assembly.assemble import (
 )
 from frames.assembly.members import arms_geometric_stiffness
 from frames.plots.model_geometry import member_lines
+from tests.scenes import SECTION as PLAIN
 
-PLAIN = Section(
-    area=0.01,
-    inertia_y=8e-5,
-    inertia_z=3e-5,
-    torsion_constant=2e-5,
-    elastic_modulus=200e9,
-    shear_modulus=77e9,
-    density=0.0,
-)
-SHEAR = Section(
-    area=0.01,
-    inertia_y=8e-5,
-    inertia_z=3e-5,
-    torsion_constant=2e-5,
-    elastic_modulus=200e9,
-    shear_modulus=77e9,
-    density=0.0,
-    shear_area_y=5e-3,
-    shear_area_z=4e-3,
-)
+SHEAR = replace(PLAIN, shear_area_y=5e-3, shear_area_z=4e-3)
 STIFF = Section(
     area=1e2,
     inertia_y=1e2,

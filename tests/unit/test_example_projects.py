@@ -92,9 +92,7 @@ def test_plain_example_is_sound_before_any_run(code: str, tmp_path: Path) -> Non
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("code", CODES)
-def test_plain_example_runs_to_the_end_and_is_sound(
-    code: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_plain_example_runs_to_the_end_and_is_sound(code, tmp_path, monkeypatch):
     """`lir new`, `lir run` as they are: all motions, bounds and ways at the level "contact"."""
     runs = []
 

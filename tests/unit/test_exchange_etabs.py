@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import random
 import re
-import subprocess  # runs this interpreter  # noqa: S404
-import sys
 import warnings
 from dataclasses import astuple
 from pathlib import Path
@@ -20,6 +17,7 @@ from frames.design.report.words import Words
 from frames.exchange.etabs import read_etabs
 from lir_element.opensees import opensees
 from tests import etabs_models, sap2000_models
+from tests.patience import fresh
 
 TEXT = etabs_models.building(bays=(1, 1))
 BEARING = bearing_for(400e3)
@@ -207,16 +205,7 @@ def test_the_frame_does_not_depend_on_the_hashes_of_a_process(tmp_path: Path) ->
         "import sys; from frames import Frame; frame = Frame.from_etabs(sys.argv[1], mesh=1.5); "
         "print(list(frame.nodes), list(frame.members), frame.imported)"
     )
-    said = [
-        subprocess.run(  # noqa: S603  # this interpreter
-            [sys.executable, "-c", code, str(path)],
-            env=os.environ | {"PYTHONHASHSEED": seed},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
-        for seed in ("1", "2")
-    ]
+    said = [fresh(code, str(path), PYTHONHASHSEED=seed).stdout for seed in ("1", "2")]
     assert said[0] == said[1]
 
 

@@ -75,9 +75,7 @@ LINKS += [f'  LINKASSIGN  "K{k}"  PROPERTY  "FP"' for k, _, _ in PLAN]
 
 
 @pytest.mark.parametrize("units", [("KN", "M"), ("KIP", "IN")])
-def test_friction_isolators_are_bearings_of_their_radius_and_friction(
-    tmp_path: Path, units: tuple[str, str]
-) -> None:
+def test_friction_isolators_are_bearings_of_their_radius_and_friction(tmp_path, units):
     frame = Frame.from_etabs(model(tmp_path, isolator(units), LINKS, units))
     assert list(frame.bearings) == ["K1", "K2", "K3", "K4"]
     part = frame.bearings["K2"]

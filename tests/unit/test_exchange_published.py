@@ -53,9 +53,7 @@ def held(name: int, *words: str) -> dict[str, object]:
     ("pattern", "published"),
     [("LC1", (-0.01806, -0.03029)), ("LC2", (-0.03345, -0.0561)), ("LC3", (-0.08361, -0.14024))],
 )
-def test_a_cantilever_whose_axis_2_is_turned(
-    tmp_path: Path, pattern: str, published: tuple[float, float]
-) -> None:
+def test_a_cantilever_whose_axis_2_is_turned(tmp_path, pattern, published):
     section = {"SectionName": "W12X106", "Material": "STEEL", "Shape": "I/Wide Flange"}
     section |= {"t3": 12.9, "t2": 12.2, "Area": 31.2, "TorsConst": 9.13, "I33": 933, "I22": 301}
     along = {"Frame": 1, "LoadPat": "LC1", "Type": "Force", "Dir": "Gravity"}

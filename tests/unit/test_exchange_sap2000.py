@@ -338,10 +338,7 @@ def test_friction_isolators_become_bearings(tmp_path: Path) -> None:
     law, speed = bearing.frictions[0], 0.1 * 1.15 / 2.2
     assert_allclose(law.at_speed(speed) * 2.3 / 2.2, 0.06 - 0.03 * np.exp(-20.0 * 0.1))
     forces = dict(zip(frame.bearings, gravity(frame).axial_forces, strict=True))
-    for (
-        name,
-        part,
-    ) in frame.bearings.items():  # strength over 20 kN/mm
+    for name, part in frame.bearings.items():  # strength over 20 kN/mm
         slid = 0.06 * forces[name] / 20e6 / (2.3 / 2.2)
         assert_allclose(part.bearing.yield_displacement, slid, rtol=2e-2)
     assert_allclose(frame.links["5-U1"].direction, (-1.0, 0.0, 0.0))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +17,7 @@ from frames.exchange.pendulum_link import pendulum_link
 from frames.exchange.sap2000 import read_sap2000
 from frames.model.sections import Section
 from lir_element import LIRBearing, VelocityFriction
+from tests.scenes import paper_bearing
 
 
 def detailed() -> Frame:
@@ -100,9 +100,7 @@ def same(one: Frame, two: Frame, names: dict[str, str] | None = None) -> None:
 @pytest.mark.parametrize("program", ["sap2000", "etabs"])
 @pytest.mark.parametrize("make", [detailed, braced])
 @pytest.mark.parametrize("units", ["KN, m, C", "Kip, in, F", "N, mm, C"])
-def test_a_frame_comes_back_as_it_was(
-    tmp_path: Path, make: Callable[[], Frame], program: str, units: str
-) -> None:
+def test_a_frame_comes_back_as_it_was(tmp_path, make, program, units):
     frame, path = make(), tmp_path / "model.txt"
     for _ in range(2):
         names = getattr(frame, f"to_{program}")(path, units=units) or {}
@@ -149,14 +147,7 @@ def test_bearings_are_friction_isolator_links(tmp_path: Path) -> None:
 
 def test_the_link_has_the_friction_of_the_bearing_at_every_speed() -> None:
     law = VelocityFriction(0.06, 0.02, 30.0)
-    bearing = LIRBearing(
-        radius=1.6,
-        slider_height=0.2,
-        slider_radius=0.15,
-        capacity=0.25,
-        friction=law,
-        interface_friction=0.2,
-    )
+    bearing = paper_bearing(radius=1.6, slider_height=0.2, friction=law, interface_friction=0.2)
     link = pendulum_link(bearing, 1e6, 0.2)
     for speed in (0.0, 0.02, 0.1, 1.0):
         own = 2 * law.at_speed(speed * 1.6 / 3.0) * 1.6 / 3.0
@@ -222,12 +213,6 @@ def on_a_bearing() -> Frame:
         ),
     ],
 )
-def test_what_a_file_cannot_hold_is_refused(
-    tmp_path: Path,
-    program: str,
-    make: Callable[[], Frame],
-    more: dict[str, object],
-    message: str,
-) -> None:
+def test_what_a_file_cannot_hold_is_refused(tmp_path, program, make, more, message):
     with pytest.raises(ModelError, match=message):
         getattr(make(), f"to_{program}")(tmp_path / "model.txt", **more)

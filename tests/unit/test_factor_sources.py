@@ -13,23 +13,10 @@ from frames.design import ProjectError, PropertyBounds
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
 from frames.design.report.judged import factor_steps
+from tests.scenes import MOTIONS, STICK, project_head
 
-PROJECT = """
-[project]
-name = "Sources"
-code = "CODE"
-[structure]
-kind = "shear building"
-bays = [1, 1]
-bay_width = ["6 m", "6 m"]
-storey_mass = ["100 t"]
-storey_stiffness = ["300 kN/mm"]
-storey_height = "3 m"
-[motions]
-folder = "motions"
-[spectrum]
-points = [["0 s", "0.6 g"], ["1 s", "0.8 g"], ["5 s", "0.1 g"]]
-"""
+SPECTRUM = '[spectrum]\npoints = [["0 s", "0.6 g"], ["1 s", "0.8 g"], ["5 s", "0.1 g"]]\n'
+PROJECT = project_head("Sources", "CODE") + STICK + MOTIONS + SPECTRUM
 AGED = "ageing = [1.0, 1.2]\ncontamination = [0.9, 1.1]\n"
 TESTED = "test = [0.85, 1.25]\nspecification = [0.9, 1.15]\n"
 

@@ -1,26 +1,18 @@
 """Features: what they are called, what they refuse, and what they do to a bearing's properties."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from lir_element import CoulombFriction, Element, Features, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, Element, Features
 from lir_element.device.features import apply
 from lir_element.layout import PROPS_FIELDS
+from tests.scenes import uneven_bearing
 
-
-def device(**changes) -> LIRBearing:
-    options = {
-        "radius": (1.0, 0.8),
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": 0.1,
-        "friction": VelocityFriction(0.06, 0.03, 20.0),
-        "interface_friction": 0.12,
-    }
-    return LIRBearing(**(options | changes))
+device = partial(uneven_bearing, slider_radius=0.1, capacity=0.1, interface_friction=0.12)
 
 
 def changed(features: Features, **options) -> set[str]:

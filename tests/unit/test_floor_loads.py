@@ -6,21 +6,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from frames import Frame, ModelError, Section
+from frames import Frame, ModelError
 from frames.assembly.assemble import assemble
 from frames.model.applied_loads import applied_loads
 from frames.model.floors import nearest_edges, one_way, turning
 from frames.model.sanity_checks import sanity_warnings
+from tests.scenes import SECTION as BEAM
 
-BEAM = Section(
-    area=0.01,
-    inertia_y=8e-5,
-    inertia_z=3e-5,
-    torsion_constant=2e-5,
-    elastic_modulus=200e9,
-    shear_modulus=77e9,
-    density=0.0,
-)
 Q = 5e3  # N/m2
 PANELS = {
     "rectangle": [(0, 0), (8, 0), (8, 5), (0, 5)],

@@ -10,6 +10,7 @@ from scipy.special import expit, ndtr, ndtri
 from scipy.stats import linregress
 
 from frames.risk import FragilityError, fit_capacities, fit_cloud, fit_stripes, lognormal_fragility
+from tests.refusals import refused
 
 LEVELS = np.array([0.3, 0.5, 0.7, 0.9, 1.2, 1.6])
 
@@ -191,16 +192,11 @@ def test_what_determines_no_curve_is_refused() -> None:
         ((im > 0.8).astype(float), "must overlap"),
         (1.0 - over, "grow with the intensity"),
     ):
-        with pytest.raises(FragilityError, match=words):
-            fit_stripes(im, outcome, records)
-    with pytest.raises(FragilityError, match="one length"):
-        fit_stripes(im, over[1:], records)
-    with pytest.raises(FragilityError, match="positive"):
-        fit_stripes(-im, over, records)
-    with pytest.raises(FragilityError, match="3 at least"):
-        fit_capacities([1.0, 2.0], ["a", "b"])
-    with pytest.raises(FragilityError, match="a record once"):
-        fit_capacities([1.0, 2.0, 3.0], ["a", "a", "b"])
+        refused(FragilityError, words, fit_stripes, im, outcome, records)
+    refused(FragilityError, "one length", fit_stripes, im, over[1:], records)
+    refused(FragilityError, "positive", fit_stripes, -im, over, records)
+    refused(FragilityError, "3 at least", fit_capacities, [1.0, 2.0], ["a", "b"])
+    refused(FragilityError, "a record once", fit_capacities, [1.0, 2.0, 3.0], ["a", "a", "b"])
     with pytest.raises(FragilityError, match="censored"):
         fit_capacities([1.0, 2.0, 3.0, 4.0], names(4), censored=[0, 0, 0, 1], method="moments")
     with pytest.raises(FragilityError, match="must be positive"):
@@ -215,6 +211,5 @@ def test_what_determines_no_curve_is_refused() -> None:
 
 def test_without_the_package_an_error_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pyFragility", None)
-    with pytest.raises(ImportError, match=r"lir-dcfp\[fragility\]"):
-        fit_stripes(*striped(drawn(3)))
+    refused(ImportError, r"lir-dcfp\[fragility\]", fit_stripes, *striped(drawn(3)))
     assert fit_capacities(drawn(3), names(30), resamples=5).method.startswith("IDA, moments")

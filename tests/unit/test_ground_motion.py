@@ -19,6 +19,7 @@ from frames import MotionWarning
 from frames.motion.columns import ColumnLayout, read_columns
 from frames.motion.ground_motion import GroundMotion, MotionError
 from frames.motion.records import read_at2
+from tests.refusals import refused
 
 G = 9.80665
 VALUES = (0.1, -0.25, 0.5, 0.0, -0.05, 0.02, 0.01)
@@ -84,9 +85,7 @@ class TestAT2:
             ("ACCELERATION IN UNITS OF G/10", 0.1 * G),
         ],
     )
-    def test_unit_of_line_3(
-        self, write: Callable[[str, str], Path], line: str, factor: float
-    ) -> None:
+    def test_unit_of_line_3(self, write, line, factor):
         motion = GroundMotion.from_at2(write("rec.AT2", at2_text(unit=line)))
         assert_allclose(motion.x, np.array(VALUES) * factor, rtol=1e-12, atol=0.0)
 
@@ -100,16 +99,11 @@ class TestAT2:
             ("ACCELERATION IN UNITS OF LIGHT", "LIGHT"),
         ],
     )
-    def test_other_units_are_refused(
-        self, write: Callable[[str, str], Path], line: str, unit: str
-    ) -> None:
+    def test_other_units_are_refused(self, write, line, unit):
         path = write("rec.VT2", at2_text(unit=line))
-        with pytest.raises(MotionError, match=rf"rec.VT2: the unit '{unit}' in line 3.*give the f"):
-            read_at2(path)
+        refused(MotionError, rf"rec.VT2: the unit '{unit}' in line 3.*give the f", read_at2, path)
 
-    def test_decimal_commas_touching_numbers_and_zeros_that_fill_up(
-        self, write: Callable[[str, str], Path]
-    ) -> None:
+    def test_decimal_commas_touching_numbers_and_zeros_that_fill_up(self, write):
         """Each reads as the plain file does, because NPTS tells how many numbers there are."""
         wanted = read_at2(write("plain.AT2", at2_text()))
         comma = at2_text(sizes="NPTS= 7, DT= 5,0E-3").replace("0000E", "0000E")
@@ -128,18 +122,13 @@ class TestAT2:
         with pytest.raises(MotionError, match="DT = 5 in 'MS': write it in seconds"):
             read_at2(write("ms.AT2", at2_text(sizes="NPTS= 7, DT= 5 MS")))
 
-    def test_from_columns_reads_what_is_no_at2_file(
-        self, write: Callable[[str, str], Path]
-    ) -> None:
+    def test_from_columns_reads_what_is_no_at2_file(self, write):
         path = write("rec.AT2", at2_text(sizes="El Centro"))
-        with pytest.raises(MotionError, match='order="rows", skip=<lines of the header>, dt='):
-            read_at2(path)
+        refused(MotionError, 'order="rows", skip=<lines of the header>, dt=', read_at2, path)
         read = GroundMotion.from_columns(x=path, order="rows", skip=4, dt=0.005, unit="g")
         assert_allclose(read.x, np.array(VALUES) * G, rtol=1e-12, atol=0.0)
 
-    def test_a_peak_above_all_that_was_recorded_is_doubted(
-        self, write: Callable[[str, str], Path]
-    ) -> None:
+    def test_a_peak_above_all_that_was_recorded_is_doubted(self, write):
         path = write("rec.AT2", at2_text(tuple(80.0 * v for v in VALUES), unit="UNITS OF M/S2"))
         assert GroundMotion.from_at2(path).peak["x"] == pytest.approx(40.0)
         strong = write("gal.AT2", at2_text(tuple(784.0 * v for v in VALUES), unit="UNITS OF M/S2"))
@@ -150,11 +139,8 @@ class TestAT2:
         ("values", "message"),
         [(VALUES[:-1], r"cut short: 6 values.*NPTS = 7"), ((*VALUES, 0.3), r"more than.*8 values")],
     )
-    def test_number_of_values(
-        self, write: Callable[[str, str], Path], values: tuple[float, ...], message: str
-    ) -> None:
-        with pytest.raises(MotionError, match=message):
-            read_at2(write("rec.AT2", at2_text(values)))
+    def test_number_of_values(self, write, values, message):
+        refused(MotionError, message, read_at2, write("rec.AT2", at2_text(values)))
 
     @pytest.mark.parametrize(
         ("text", "message"),
@@ -168,8 +154,7 @@ class TestAT2:
         ],
     )
     def test_broken_files(self, write: Callable[[str, str], Path], text: str, message: str) -> None:
-        with pytest.raises(MotionError, match=message):
-            read_at2(write("rec.AT2", text))
+        refused(MotionError, message, read_at2, write("rec.AT2", text))
 
     def test_three_components(self, write: Callable[[str, str], Path]) -> None:
         east = write("E.AT2", at2_text())
@@ -180,9 +165,7 @@ class TestAT2:
         assert_allclose(motion.components[5:, 2], 0.0, rtol=0.0, atol=0.0)  # filled up
         assert motion.peak["z"] == pytest.approx(0.5 * G, rel=1e-12)
 
-    def test_records_that_were_cut_or_are_one_history(
-        self, write: Callable[[str, str], Path]
-    ) -> None:
+    def test_records_that_were_cut_or_are_one_history(self, write):
         """The strongest 3 s of 15 s, and one file for x and y; whole and different ones pass."""
         time = DT * np.arange(1501)
         envelope = np.sin(np.pi * time / 15.0) ** 2
@@ -205,8 +188,7 @@ class TestAT2:
             GroundMotion.from_at2(write("E.AT2", at2_text()), other)
 
     def test_no_file(self) -> None:
-        with pytest.raises(MotionError, match="at least one of x, y and z"):
-            GroundMotion.from_at2()
+        refused(MotionError, "at least one of x, y and z", GroundMotion.from_at2)
 
 
 DT = 0.01
@@ -278,16 +260,9 @@ class TestColumns:
             ),
         ],
     )
-    def test_refusals(
-        self,
-        write: Callable[[str, str], Path],
-        text: str,
-        options: dict[str, object],
-        message: str,
-    ) -> None:
+    def test_refusals(self, write, text, options, message):
         path = write("station.txt", text)
-        with pytest.raises(MotionError, match=message):
-            GroundMotion.from_columns(path, **options)
+        refused(MotionError, message, GroundMotion.from_columns, path, **options)
 
     def test_unclear_column(self, write: Callable[[str, str], Path]) -> None:
         with pytest.raises(MotionError, match=r"has 4 columns: say which one.*\(path, column\)"):
@@ -341,13 +316,10 @@ class TestColumns:
             ("1.0 *****\n3.0 4.0\n", r"line 1: '\*+' is not a number.*repair", "1.0 *****\n"),
         ],
     )
-    def test_causes_and_cures(
-        self, write: Callable[[str, str], Path], text: str, message: str, cure: object
-    ) -> None:
+    def test_causes_and_cures(self, write, text, message, cure):
         path = write("odd.txt", text)
         options = {"unit": "m/s2", "dt": 0.1}
-        with pytest.raises(MotionError, match=message):
-            GroundMotion.from_columns(x=(path, 0), **options)
+        refused(MotionError, message, GroundMotion.from_columns, x=(path, 0), **options)
         if isinstance(cure, dict):
             options |= cure
         else:
@@ -355,9 +327,7 @@ class TestColumns:
         read = GroundMotion.from_columns(path, x=0, y=1, **options)
         assert_allclose(read.components[-1, :2] - read.components[0, :2], CURED[message])
 
-    def test_spreadsheets_marks_and_what_is_no_text(
-        self, write: Callable[[str, str], Path]
-    ) -> None:
+    def test_spreadsheets_marks_and_what_is_no_text(self, write):
         path = write("semi.csv", "\ufeff0,0;1,5\n0,1;2,5D+00\n")
         read = GroundMotion.from_columns(x=path, time=0, unit="mm/s2")
         assert_allclose(read.x, [0.0015, 0.0025], rtol=1e-15)
@@ -399,8 +369,7 @@ class TestChecks:
         ],
     )
     def test_refusals(self, options: dict[str, object], message: str) -> None:
-        with pytest.raises(MotionError, match=message):
-            GroundMotion(**options)
+        refused(MotionError, message, GroundMotion, **options)
 
     @pytest.mark.parametrize("dt", ["soon", "0.01", None, True, [0.01]])
     def test_a_step_is_a_number(self, dt: object) -> None:
@@ -438,10 +407,8 @@ class TestCopies:
         one = motion.scaled((3.0, 0.0, 1.0))
         assert_allclose(one.components, motion.components * [3.0, 0.0, 1.0], rtol=0.0, atol=0.0)
         assert (one.name, one.z) == ("made", None)
-        with pytest.raises(MotionError, match="factor has 2 entries"):
-            motion.scaled((1.0, 2.0))
-        with pytest.raises(MotionError, match="factor = inf must be finite"):
-            motion.scaled(math.inf)
+        refused(MotionError, "factor has 2 entries", motion.scaled, (1.0, 2.0))
+        refused(MotionError, "factor = inf must be finite", motion.scaled, math.inf)
 
     def test_quarter_turn(self) -> None:
         motion = GroundMotion(x=[1.0, 2.0], z=[3.0, 4.0], dt=0.1).rotated(0.5 * math.pi)
@@ -473,15 +440,13 @@ class TestCopies:
         assert_allclose(fine.components[2::4], middle, rtol=0.0, atol=1e-14)
         assert motion.resampled(0.7).n_steps == 5  # 2.8 s of 3 s
         for bad in (0.0, 3.1):
-            with pytest.raises(MotionError, match=f"dt = {bad:g} s must be.*at most 3 s"):
-                motion.resampled(bad)
+            refused(MotionError, f"dt = {bad:g} s must be.*at most 3 s", motion.resampled, bad)
 
     def test_with_tail(self) -> None:
         motion = two_components().with_tail(0.025)
         assert motion.n_steps == 304
         assert not motion.components[301:].any()
-        with pytest.raises(MotionError, match=r"seconds = -1 must be at least 0.*trimmed"):
-            motion.with_tail(-1.0)
+        refused(MotionError, r"seconds = -1 must be at least 0.*trimmed", motion.with_tail, -1.0)
 
     def test_words(self) -> None:
         motion = two_components()

@@ -4,6 +4,7 @@ import copy
 import math
 import pickle  # noqa: S403
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -35,6 +36,7 @@ from lir_element import (
 )
 from lir_element.element import heat_parts, initial_state
 from lir_element.kernels.friction_law import covered, heat_up
+from tests.scenes import plain_pendulum
 
 LOAD = 3e6
 MU = 0.06
@@ -42,17 +44,7 @@ STEEL = {"conductivity": 18.0, "diffusivity": 4.44e-6}
 DT = 0.005
 
 
-def device(**changes: Any) -> LIRBearing:
-    options: dict[str, Any] = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.2,
-        "capacity": math.inf,
-        "friction": CoulombFriction(MU),
-        "interface_friction": math.inf,
-        "design_load": LOAD,
-    }
-    return LIRBearing(**(options | changes))
+device = partial(plain_pendulum, slider_radius=0.2, friction=CoulombFriction(MU), design_load=LOAD)
 
 
 HEATED = {"friction_heating": FrictionHeating()}

@@ -193,9 +193,7 @@ def test_sections_of_rows_may_be_turned_or_of_the_catalogue(tmp_path: Path) -> N
     assert frame.members["column-1-A1"].section.area == pytest.approx(149.1e-4, rel=1e-3)
 
 
-def test_a_changed_table_is_another_input(
-    tmp_path: Path, put_example: Callable[[Path], object]
-) -> None:
+def test_a_changed_table_is_another_input(tmp_path, put_example):
     """Results of other tables are not taken for those of these."""
     put_example(tmp_path)
     rest = LOADS
@@ -245,9 +243,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize(("columns", "beams", "said"), REFUSED.values(), ids=list(REFUSED))
-def test_tables_that_are_refused(
-    tmp_path: Path, columns: tuple[str, str] | str, beams: tuple[str, str] | str, said: str
-) -> None:
+def test_tables_that_are_refused(tmp_path, columns, beams, said):
     """Each with file, line and what to write."""
     pytest.importorskip("steel_sections")
     tables = [

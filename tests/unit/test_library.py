@@ -249,13 +249,7 @@ def test_shear_building_with_eccentric_masses_twists() -> None:
     """The first coupled periods of a one-storey building on held bearings, in closed form."""
     plan, mass, stiffness = ((2, 1), (6.0, 8.0)), 1e5, 4e7
     frame = shear_building(
-        bearing(),
-        mass,
-        stiffness,
-        storeys=1,
-        plan=plan,
-        eccentricity=(0.1, 0.0),
-        gravity=0.0,
+        bearing(), mass, stiffness, storeys=1, plan=plan, eccentricity=(0.1, 0.0), gravity=0.0
     )
     system = assemble(frame)
     assert "floor-1-mass" in system.node_names

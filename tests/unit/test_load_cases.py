@@ -11,21 +11,14 @@ from frames import Frame, ModelError, Section, gravity, moment_frame
 from frames.assembly.assemble import assemble
 from frames.design import isolator_combinations
 from frames.model.sanity_checks import sanity_warnings
-from lir_element import CoulombFriction, LIRBearing
+from tests.refusals import refused
+from tests.scenes import simple_bearing
 
 SECTION = Section.box(0.3, 0.3, 0.02)
 CASES = {"D": 1.2, "L": 0.5, "S": 0.0}
 
 
-def bearing():
-    return LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=0.12,
-        friction=CoulombFriction(0.05),
-        interface_friction=0.13,
-    )
+BEARING = simple_bearing()
 
 
 def table(loaded=("D", "L", "S")):
@@ -144,27 +137,21 @@ def test_masses_of_loads_stay_in_a_combination_or_follow_it():
     assert -followed.node_load[2::6].sum() == pytest.approx(-down)
     assert followed.node_mass[:, 2].sum() * frame.gravity == pytest.approx(-down)
     frame.add_mass("a", 1.0, weighs=False)
-    with pytest.raises(ModelError, match="masses that do not weigh"):
-        frame.combined(CASES, masses=True)
+    refused(ModelError, "masses that do not weigh", frame.combined, CASES, masses=True)
     with pytest.raises(ModelError, match="must be positive"):
         table().combined({"D": 0.0, "L": 1.0, "S": 1.0}, masses=True)
 
 
 def test_what_cannot_be_mass():
     frame = table()
-    with pytest.raises(TypeError, match=r'write {"D": 1.0'):
-        frame.set_mass_source(0.25)
-    with pytest.raises(TypeError, match=r'write {"D": 1.2'):
-        frame.combined(1.2)
-    with pytest.raises(ModelError, match='share of case "L"'):
-        frame.set_mass_source({"L": -0.1})
+    refused(TypeError, r'write {"D": 1.0', frame.set_mass_source, 0.25)
+    refused(TypeError, r'write {"D": 1.2', frame.combined, 1.2)
+    refused(ModelError, 'share of case "L"', frame.set_mass_source, {"L": -0.1})
     frame.add_load("d", (0.0, 0.0, 9e9, 0.0, 0.0, 0.0), case="wind")
     frame.set_mass_source({"wind": 1.0})
-    with pytest.raises(ModelError, match='node "d" that make mass pull upwards'):
-        assemble(frame)
+    refused(ModelError, 'node "d" that make mass pull upwards', assemble, frame)
     floating = Frame("space", gravity=0.0)
-    with pytest.raises(ModelError, match="gravity = 0 m/s2 makes no mass"):
-        floating.set_mass_source({"D": 1.0})
+    refused(ModelError, "gravity = 0 m/s2 makes no mass", floating.set_mass_source, {"D": 1.0})
 
 
 def test_a_mass_source_without_loads_is_a_doubt():
@@ -213,7 +200,7 @@ def test_copies_carry_everything_and_are_apart(how):
 
 def test_what_bearings_carry_in_the_combinations_of_asce_7():
     """Vertical equilibrium: the bearings carry the combination, whichever it is."""
-    frame = moment_frame((1, 1), 1, bearing=bearing())
+    frame = moment_frame((1, 1), 1, bearing=BEARING)
     corners = [f"floor-1-{i}-{j}" for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
     area = np.ptp([frame.nodes[c].x for c in corners]) * np.ptp([frame.nodes[c].y for c in corners])
     frame.add_floor_load("live", corners, 2e3, case="L")
@@ -229,5 +216,4 @@ def test_what_bearings_carry_in_the_combinations_of_asce_7():
         checked = combined.check()
         assert checked.weight == pytest.approx(forces.sum(), rel=1e-6)
         assert checked.mass * frame.gravity - checked.loads[2] == pytest.approx(checked.weight)
-    with pytest.raises(ValueError, match="s_ms"):
-        isolator_combinations(-1.0)
+    refused(ValueError, "s_ms", isolator_combinations, -1.0)

@@ -15,6 +15,7 @@ from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.structure_statement import structure_rows
 from frames.library.building_plan import fields_of
+from tests.scenes import STICK
 from tests.unit.test_structure_file import GRID, MEMBERS, REST
 
 G = 9.80665
@@ -159,17 +160,8 @@ def test_a_pressure_as_floor_load_is_told_where_it_goes(tmp_path: Path) -> None:
 
 def test_loads_go_with_a_moment_frame(tmp_path: Path) -> None:
     """A stick has masses of its own."""
-    stick = """
-[structure]
-kind = "shear building"
-bays = [1, 1]
-bay_width = ["6 m", "6 m"]
-storey_mass = ["100 t"]
-storey_stiffness = ["400 kN/mm"]
-storey_height = "3 m"
-"""
     with pytest.raises(ProjectError, match="has its own masses and loads"):
-        parts_of(tmp_path, stick + '[loads]\ndead = "3 kN/m2"\n').frame()
+        parts_of(tmp_path, STICK + '[loads]\ndead = "3 kN/m2"\n').frame()
 
 
 def test_check_says_the_loads(tmp_path: Path) -> None:
@@ -192,9 +184,7 @@ def test_check_says_the_loads(tmp_path: Path) -> None:
         'points = [["0 s", "0.4 g"], ["0.3 s", "1 g"], ["5 s", "0.1 g"]]',
     ],
 )
-def test_the_statement_has_the_combinations_that_are_analysed(
-    tmp_path: Path, spectrum: str
-) -> None:
+def test_the_statement_has_the_combinations_that_are_analysed(tmp_path, spectrum):
     """Of a spectrum by points too: 1.2 D + 0.2 S_MS D, and 0.9 D less the same."""
     parts = parts_of(tmp_path, BARE + LOADS)
     text = (tmp_path / "project.toml").read_text()

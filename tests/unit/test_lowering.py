@@ -121,9 +121,7 @@ def bundle() -> Outer:
 @pytest.mark.parametrize("i", [0, 1])
 @pytest.mark.parametrize("inlined", [False, True])
 @pytest.mark.parametrize("function", [reads, writes, renamed, changed, views])
-def test_a_kernel_gives_what_its_python_gives(
-    function: Any, inlined: bool, i: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_kernel_gives_what_its_python_gives(function, inlined, i, tmp_path, monkeypatch):
     monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path))
     sources = Sources(tmp_path)
     part = kernels_of(sources, inline=inlined)(function)

@@ -152,9 +152,7 @@ def frame() -> Frame:
     return moment_frame(bays=(3, 3), storeys=1, bearing=bearing_for(500e3))
 
 
-def test_what_the_structure_makes_of_a_correction(
-    frame: Frame, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_the_structure_makes_of_a_correction(frame, monkeypatch):
     """The tangent's product less the bearings', which the kernel takes element by element."""
     monkeypatch.setattr(frames.bundles.model_data, "MANY", 10)
     analysis._KEPT.clear()

@@ -7,16 +7,10 @@ import pytest
 
 import frames
 from frames import audit, audit_report, load, lumped_mass, modes, peaks, time_history
-from lir_element import CoulombFriction, DesignWarning, LIRBearing, cyclic_test
+from lir_element import DesignWarning, cyclic_test
+from tests.scenes import small_bearing
 
-BEARING = LIRBearing(
-    radius=0.75,
-    slider_height=0.085,
-    slider_radius=0.08,
-    capacity=0.175,
-    friction=CoulombFriction(0.066),
-    interface_friction=0.126,
-)
+BEARING = small_bearing()
 
 
 def test_a_load_in_kilonewtons_is_told() -> None:

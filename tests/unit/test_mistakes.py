@@ -2,7 +2,6 @@
 
 import re
 import warnings
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -338,9 +337,7 @@ def checked(file: Path) -> Result:
 
 
 @pytest.mark.parametrize("name", MISTAKES)
-def test_mistakes_are_named_in_the_words_of_the_file(
-    tmp_path: Path, name: str, put_example: Callable[..., Path]
-) -> None:
+def test_mistakes_are_named_in_the_words_of_the_file(tmp_path, name, put_example):
     text, old, new, code, words = MISTAKES[name]
     put_example(tmp_path)
     assert old in text
@@ -358,9 +355,7 @@ def test_mistakes_are_named_in_the_words_of_the_file(
         assert spanish.missing == set()
 
 
-def test_without_a_mistake_nothing_is_said(
-    tmp_path: Path, put_example: Callable[..., Path]
-) -> None:
+def test_without_a_mistake_nothing_is_said(tmp_path, put_example):
     """Doubts that are always there are none."""
     put_example(tmp_path)
     for k, text in enumerate((SHEAR, FRAME, NCH.replace("R = 6.0", "R = 2.0"))):

@@ -8,6 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tests.scenes import wide_bearing
+
 pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 
@@ -20,17 +22,9 @@ from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.schema_bearing import MoatTable
 from frames.design.report.words import Words
-from lir_element import LIRBearing
 from tests.unit.test_accidental_eccentricity import PROJECT
 
-BEARING = LIRBearing(
-    radius=1.5,
-    slider_height=0.2,
-    slider_radius=0.2,
-    capacity=0.3,
-    friction=0.05,
-    interface_friction=0.2,
-)
+BEARING = wide_bearing()
 
 
 def checked(gap: float | None, code: str, wall: MoatTable | None = None) -> list:
@@ -124,9 +118,7 @@ def test_walls_are_found_in_a_structure() -> None:
         ("450 mm", "400 mm", 'sides = ["x+", "x-", "y+"]\n', False, False),  # a neighbour at y-
     ],
 )
-def test_two_distances_to_one_wall(
-    tmp_path: Path, wall: str, clear: str, sides: str, refused: bool, doubted: bool
-) -> None:
+def test_two_distances_to_one_wall(tmp_path, wall, clear, sides, refused, doubted):
     file = tmp_path / "project.toml"
     walls = f'[moat]\ngap = "{wall}"\nstiffness = "1 MN/m"\n{sides}'
     file.write_text(PROJECT.replace("[limits]\n", f'{walls}[limits]\nmoat_gap = "{clear}"\n'))

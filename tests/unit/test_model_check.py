@@ -16,6 +16,7 @@ from frames.assembly.check import ModelError, free_motions
 from frames.frame import Frame
 from frames.library.models import lumped_mass, moment_frame
 from frames.model.sections import Section
+from tests.refusals import refused
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing
@@ -46,8 +47,7 @@ def on_bearing() -> Frame:
 
 
 def test_empty_frame() -> None:
-    with pytest.raises(ModelError, match=r'frame "nothing" has no nodes'):
-        assemble(Frame("nothing"))
+    refused(ModelError, r'frame "nothing" has no nodes', assemble, Frame("nothing"))
 
 
 def test_loose_node_is_named_but_a_fixed_one_is_not() -> None:
@@ -57,8 +57,7 @@ def test_loose_node_is_named_but_a_fixed_one_is_not() -> None:
     assemble(frame)
     frame.add_node("lost", 5.0, 0.0, 3.0)
     frame.fix("lost", "ux")
-    with pytest.raises(ModelError, match=r'node "lost": no member, spring, bearing or diaphragm'):
-        assemble(frame)
+    refused(ModelError, r'node "lost": no member, spring, bearing or diaphragm', assemble, frame)
 
 
 def test_part_without_support_is_named() -> None:
@@ -66,22 +65,19 @@ def test_part_without_support_is_named() -> None:
     frame.add_node("left", 5.0, 0.0, 3.0)
     frame.add_node("right", 8.0, 0.0, 3.0)
     frame.add_member("afloat", "left", "right", BOX)
-    with pytest.raises(ModelError, match=r'nodes "left", "right": this part .* no support'):
-        assemble(frame)
+    refused(ModelError, r'nodes "left", "right": this part .* no support', assemble, frame)
 
 
 def test_everything_fixed() -> None:
     frame = cantilever()
     frame.fix("head", "all")
-    with pytest.raises(ModelError, match=r"every degree of freedom is fixed"):
-        assemble(frame)
+    refused(ModelError, r"every degree of freedom is fixed", assemble, frame)
 
 
 def test_no_mass_at_all() -> None:
     frame = cantilever(density=0.0)
     frame.add_mass("foot", 500.0)
-    with pytest.raises(ModelError, match=r"has mass \(500 kg in all, on fixed nodes\)"):
-        assemble(frame)
+    refused(ModelError, r"has mass \(500 kg in all, on fixed nodes\)", assemble, frame)
 
 
 def test_no_mass_in_one_direction() -> None:
@@ -90,8 +86,7 @@ def test_no_mass_in_one_direction() -> None:
     frame.add_member("upper", "head", "shoulder", Section.box(0.3, 0.3, 0.01, density=0.0))
     frame.add_mass("shoulder", 100.0)
     frame.fix("shoulder", "uz")
-    with pytest.raises(ModelError, match=r'no mass along z: node "head" can move along z'):
-        assemble(frame)
+    refused(ModelError, r'no mass along z: node "head" can move along z', assemble, frame)
 
 
 def test_free_plate_on_a_bearing_is_a_mechanism() -> None:
@@ -109,8 +104,7 @@ def test_one_free_rotation_is_named(left_free: str) -> None:
     frame = on_bearing()
     frame.fix("plate", *({"rx", "ry", "rz"} - {left_free}))
     words = rf'1 independent motion.*motion 1: "plate {left_free}".*rotation {left_free} is not'
-    with pytest.raises(ModelError, match=words):
-        assemble(frame)
+    refused(ModelError, words, assemble, frame)
     frame.fix("plate", left_free)
     assemble(frame)
 
@@ -146,8 +140,7 @@ def test_diaphragm_that_nothing_holds_in_its_plane() -> None:
         frame.fix(f"deck-{k}", "rx", "ry")
         frame.add_spring(f"stilt-{k}", f"post-{k}", f"deck-{k}", (0, 0, 1e8, 0, 0, 0))
     frame.add_diaphragm("deck", ["deck-0", "deck-1"])
-    with pytest.raises(ModelError, match=r'"deck \(diaphragm\) u[xy]".*connect the diaphragm'):
-        assemble(frame)
+    refused(ModelError, r'"deck \(diaphragm\) u[xy]".*connect the diaphragm', assemble, frame)
 
 
 def test_single_bearing_under_a_free_torsion_is_refused_and_two_are_not() -> None:
@@ -159,8 +152,7 @@ def test_single_bearing_under_a_free_torsion_is_refused_and_two_are_not() -> Non
         frame.add_bearing(f"bearing-{k}", f"g{k}", f"b{k}", BEARING)
     frame.add_member("girder", "b0", "b1", BOX)
     # Two bearings in a row: the girder may still roll about its own axis.
-    with pytest.raises(ModelError, match=r'"b[01] rx".*rx is not restrained'):
-        assemble(frame)
+    refused(ModelError, r'"b[01] rx".*rx is not restrained', assemble, frame)
     frame.fix("b0", "rx")
     assemble(frame)
 
@@ -203,8 +195,7 @@ def test_large_mechanism_is_found_and_named() -> None:
     frame = moment_frame((4, 3), 6, bearing=BEARING)
     frame.add_node("antenna", 0.0, 0.0, 40.0)
     frame.add_spring("foot", "floor-6-0-0", "antenna", (1e5, 1e5, 1e5, 1e5, 1e5, 0.0))
-    with pytest.raises(ModelError, match=r'1 independent motion.*motion 1: "antenna rz"'):
-        assemble(frame)
+    refused(ModelError, r'1 independent motion.*motion 1: "antenna rz"', assemble, frame)
 
 
 def test_lumped_mass_is_sound() -> None:

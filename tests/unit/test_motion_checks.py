@@ -99,9 +99,7 @@ def test_pairs_are_counted(linear: EquivalentLinear) -> None:
         ({}, 7.0),  # nothing is known
     ],
 )
-def test_near_fault_pairs_are_turned(
-    linear: EquivalentLinear, facts: dict[str, float], odd: float
-) -> None:
+def test_near_fault_pairs_are_turned(linear, facts, odd):
     check = motion_checks(motions(near_fault=True, **facts), TARGET, linear)[-1]
     assert check.title.startswith("near-fault pairs")
     assert check.demand == odd

@@ -21,16 +21,9 @@ from frames import (
 )
 from frames.assembly.assemble import assemble
 from frames.library.moved_masses import with_moved_masses
-from lir_element import LIRBearing
+from tests.scenes import wide_bearing
 
-BEARING = LIRBearing(
-    radius=1.5,
-    slider_height=0.2,
-    slider_radius=0.2,
-    capacity=0.3,
-    friction=0.05,
-    interface_friction=0.2,
-)
+BEARING = wide_bearing()
 
 
 def stick(**options: object) -> Frame:

@@ -22,20 +22,19 @@ RIMS = (0.08, 0.09)
 LENGTH = sum(RADII) - HEIGHT
 
 
-def bearing() -> LIRBearing:
-    return LIRBearing(
-        radius=RADII,
-        slider_height=HEIGHT,
-        slider_radius=0.1,
-        rims=RIMS,
-        friction=(CoulombFriction(MU[0]), CoulombFriction(MU[1])),
-        interface_friction=MU_H,
-        yield_displacement=U_Y,
-        interface_yield_displacement=U_YH,
-        rim_stiffness=K_RIM,
-        axial_stiffness=5e9,
-        rim_overrun=0.05,
-    )
+BEARING = LIRBearing(
+    radius=RADII,
+    slider_height=HEIGHT,
+    slider_radius=0.1,
+    rims=RIMS,
+    friction=(CoulombFriction(MU[0]), CoulombFriction(MU[1])),
+    interface_friction=MU_H,
+    yield_displacement=U_Y,
+    interface_yield_displacement=U_YH,
+    rim_stiffness=K_RIM,
+    axial_stiffness=5e9,
+    rim_overrun=0.05,
+)
 
 
 def naive(path: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -69,7 +68,7 @@ def naive(path: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def element(path: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the same of the element, the vertical displacement found for constant load."""
-    e, u = Element(bearing()), np.zeros(12)
+    e, u = Element(BEARING), np.zeros(12)
     u[8] = -W / 5e9
     out = []
     for target in path:

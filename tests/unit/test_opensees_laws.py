@@ -12,21 +12,14 @@ from frames.laws import Gap
 from frames.opensees.checks import energy_shares
 from frames.opensees.model import read_model
 from frames.opensees.viscous import with_viscous_springs
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import simple_bearing
 from validation.opensees.model import solver
 
 pytestmark = pytest.mark.skipif(
     importlib.util.find_spec("openseespy") is None, reason="openseespy is not installed"
 )
 
-BEARING = LIRBearing(
-    radius=1.0,
-    slider_height=0.1,
-    slider_radius=0.1,
-    capacity=0.2,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.12,
-)
+BEARING = simple_bearing(capacity=0.2, interface_friction=0.12)
 STEEL = (0.02, 2.1e11, 8.1e10, 1e-4, 2e-4, 3e-4)
 
 

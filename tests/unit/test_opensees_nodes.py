@@ -3,19 +3,12 @@
 import numpy as np
 import pytest
 
-from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees.placement import PlacementWarning, place
+from tests.scenes import simple_bearing
 
 pytest.importorskip("openseespy")
 
-BEARING = LIRBearing(
-    radius=1.0,
-    slider_height=0.1,
-    slider_radius=0.1,
-    capacity=0.2,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.12,
-)
+BEARING = simple_bearing(capacity=0.2, interface_friction=0.12)
 
 
 def nodes(ops, rise):

@@ -68,9 +68,7 @@ def test_the_verdict_is_kept(door: Path, monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 @pytest.mark.parametrize("content", ["", "{", "[1]", '{"another": ""}'])
-def test_a_damaged_verdict_is_asked_for_again(
-    door: Path, monkeypatch: pytest.MonkeyPatch, content: str
-) -> None:
+def test_a_damaged_verdict_is_asked_for_again(door, monkeypatch, content):
     runs = instead(monkeypatch, "pass")
     door.write_text(content, encoding="utf-8")
     assert selftest.why_not_fast() == ""
@@ -82,9 +80,7 @@ def test_a_damaged_verdict_is_asked_for_again(
     ("code", "reason"), [(ABORT, "exit code -6"), (EXCEPTION, "RuntimeError: the spring is off")]
 )
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
-def test_a_failed_self_test_leads_to_the_portable_route(
-    door: Path, monkeypatch: pytest.MonkeyPatch, code: str, reason: str
-) -> None:
+def test_a_failed_self_test_leads_to_the_portable_route(door, monkeypatch, code, reason):
     runs = instead(monkeypatch, code)
     with pytest.warns(RouteWarning, match=f"its self-test failed .*{reason}"):
         assert bearing_element(1, 1, 2, DEVICE) == "portable"
@@ -116,9 +112,7 @@ def test_a_kept_failure_names_its_file(door: Path, monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.parametrize("folder_first", [False, True])
-def test_no_module_of_the_working_folder_runs_in_the_self_test(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder_first: bool
-) -> None:
+def test_no_module_of_the_working_folder_runs_in_the_self_test(tmp_path, monkeypatch, folder_first):
     (tmp_path / "numpy.py").write_text("raise SystemExit('numpy of the folder')")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", [""] * folder_first + sys.path)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -14,19 +13,12 @@ from numpy.testing import assert_allclose
 from frames import Frame, ModelError, gravity, lumped_mass, moment_frame, shear_building
 from frames.design import IsolationSystem
 from frames.statics.overturning import overturning_share, unknown_axial_forces
-from lir_element import CoulombFriction, LIRBearing
+from lir_element import CoulombFriction
+from tests.scenes import large_bearing
 
 Array = npt.NDArray[np.float64]
 
-BEARING = LIRBearing(
-    radius=2.5,
-    slider_height=0.225,
-    slider_radius=0.225,
-    capacity=0.356,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.105,
-    design_load=5e5,
-)
+BEARING = large_bearing(design_load=5e5)
 PLAN = ((2, 1), (6.0, 5.0))
 MASS, STIFFNESS, HEIGHT = 5e4, 8e7, 3.5
 G = 9.80665
@@ -146,9 +138,7 @@ def plane() -> Frame:
         (lambda: stick(plan=None), "one bearing carries the whole model"),
     ],
 )
-def test_whether_bearings_follow_overturning_is_told_by_the_model(
-    make: Callable[[], Frame], words: str
-) -> None:
+def test_whether_bearings_follow_overturning_is_told_by_the_model(make, words):
     found = unknown_axial_forces(make())
     assert words in found
     assert bool(found) == bool(words)

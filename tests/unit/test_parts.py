@@ -2,8 +2,6 @@
 
 import math
 import os
-import subprocess  # what a new process does  # noqa: S404
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +11,7 @@ import pytest
 import lir_element
 from lir_element._compile import cache
 from lir_element._compile.jit import WITH_PARTS, kernels_of
+from tests.patience import fresh
 
 COMPILES = pytest.mark.skipif(
     os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="nothing is compiled"
@@ -102,9 +101,7 @@ def test_a_later_process_takes_parts_from_the_cache(kernels: Any, tmp_path: Path
 
 
 @PARTS
-def test_a_part_is_left_whose_callee_another_process_has_replaced(
-    kernels: Any, tmp_path: Path
-) -> None:
+def test_a_part_is_left_whose_callee_another_process_has_replaced(kernels, tmp_path):
     kernels()["other"](X)
     [law] = files(tmp_path, "law")
     before = law.read_bytes()
@@ -158,11 +155,7 @@ print(q.tobytes().hex(), sum(turn_matrix.stats.cache_misses.values()))
 
 
 def run(code: str, cache: Path) -> list[str]:
-    env = {**os.environ, "PYTHONPATH": str(ROOT), "LIR_CACHE_DIR": str(cache)}
-    done = subprocess.run(  # noqa: S603
-        [sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True
-    )
-    return done.stdout.split()
+    return fresh(code, PYTHONPATH=str(ROOT), LIR_CACHE_DIR=str(cache)).stdout.split()
 
 
 @COMPILES

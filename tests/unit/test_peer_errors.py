@@ -15,7 +15,7 @@ from frames.design import (
     equivalent_linear,
     isolator_combinations,
 )
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import tall_bearing
 
 G = 9.81
 
@@ -120,14 +120,7 @@ def test_stiffness_has_no_factor_of_units() -> None:
 
 def test_a_double_pendulum_is_shorter_than_both_radii() -> None:
     """The same programs take 2 R: the slider's height goes off, and friction acts on R, not L."""
-    bearing = LIRBearing(
-        radius=1.5,
-        slider_height=0.3,
-        slider_radius=0.2,
-        capacity=0.45,
-        friction=CoulombFriction(0.06),
-        interface_friction=0.25,
-    )
+    bearing = tall_bearing()
     p = FrictionPendulum.of(bearing)
     assert p.effective_radius == pytest.approx(2.7)
     assert p.effective_friction == pytest.approx(0.06 * 3.0 / 2.7)

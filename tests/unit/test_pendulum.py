@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from frames.design import CheckError, FrictionPendulum
-from lir_element import CoulombFriction, LIRBearing, cyclic_test
+from lir_element import CoulombFriction, cyclic_test
+from tests.scenes import wide_bearing
 
 KIP, INCH = 4448.2216152605, 0.0254
 
@@ -88,14 +89,7 @@ def test_unlike_radii_and_frictions() -> None:
 def test_the_bearing_of_the_element_is_a_pendulum_below_its_rims() -> None:
     """Its rigid slider slides on both surfaces at once, whatever their frictions: no corner."""
     friction = (CoulombFriction(0.04), CoulombFriction(0.08))
-    bearing = LIRBearing(
-        radius=(1.0, 1.5),
-        slider_height=0.2,
-        slider_radius=0.2,
-        capacity=0.4,
-        friction=friction,
-        interface_friction=0.2,
-    )
+    bearing = wide_bearing(radius=(1.0, 1.5), capacity=0.4, friction=friction)
     p = FrictionPendulum.of(bearing)
     assert p.effective_radius == pytest.approx(2.3)
     assert p.effective_friction == pytest.approx((0.04 * 1.0 + 0.08 * 1.5) / 2.3)

@@ -8,6 +8,7 @@ from frames import GroundMotion, MotionError
 from frames.design import MotionSet, Spectrum, pair_spectrum
 from frames.design.plots import design_spectra, motion_spectra
 from lir_element.units import STANDARD_GRAVITY as G
+from tests.refusals import refused
 
 TARGET = Spectrum.asce7(1.0, 0.6)
 
@@ -72,13 +73,8 @@ def test_a_set_that_is_not_scaled() -> None:
 
 
 def test_what_makes_no_sense_is_refused() -> None:
-    with pytest.raises(MotionError, match="0 spectra"):
-        design_spectra([])
-    with pytest.raises(MotionError, match="dampings"):
-        design_spectra(TARGET, ())
-    with pytest.raises(MotionError, match="measure"):
-        motion_spectra(PULSES, measure="PGA")
-    with pytest.raises(TypeError, match="a MotionSet"):
-        motion_spectra(TARGET)  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match="a Spectrum"):
-        design_spectra([PULSES])  # type: ignore[list-item]
+    refused(MotionError, "0 spectra", design_spectra, [])
+    refused(MotionError, "dampings", design_spectra, TARGET, ())
+    refused(MotionError, "measure", motion_spectra, PULSES, measure="PGA")
+    refused(TypeError, "a MotionSet", motion_spectra, TARGET)  # type: ignore[arg-type]
+    refused(TypeError, "a Spectrum", design_spectra, [PULSES])  # type: ignore[list-item]

@@ -13,26 +13,18 @@ from frames import time_history as run
 from frames.assembly.assemble import assemble
 from frames.plots.model_geometry import STATIONS, member_lines
 from frames.plots.plot_model import LARGEST
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import simple_bearing
 
 TIME = np.arange(0.0, 1.5, 0.01)
 MOTION = GroundMotion(x=1.5 * np.sin(2 * np.pi * TIME), y=0.4 * np.sin(9.0 * TIME), dt=0.01)
 
 
-def bearing():
-    return LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=0.12,
-        friction=CoulombFriction(0.05),
-        interface_friction=0.13,
-    )
+BEARING = simple_bearing()
 
 
 @pytest.fixture(scope="module")
 def building():
-    frame = moment_frame((2, 1), 1, bearing=bearing())
+    frame = moment_frame((2, 1), 1, bearing=BEARING)
     return frame, run(frame, MOTION, dt=0.01)
 
 
@@ -43,7 +35,7 @@ def cantilever(up):
     frame.add_node("high", 1.2, 0.9, 3.1)
     frame.fix("foot", "all")
     frame.fix("low", "rx", "ry", "rz")
-    frame.add_bearing("one", "foot", "low", bearing())
+    frame.add_bearing("one", "foot", "low", BEARING)
     frame.add_member("mast", "low", "high", Section.box(0.3, 0.3, 0.01), up=up)
     frame.add_mass("high", 2e4, (1e3, 1e3, 1e3))
     frame.add_mass("low", 2e4)
@@ -133,18 +125,18 @@ def test_bearings_in_plan(building):
     u = np.linalg.norm(data["bearing_displacement"].to_numpy()[..., :2], axis=-1).max(axis=0)
     texts = [text.get_text() for text in panel.texts]
     for name, size, text in zip(data["bearing"].to_numpy(), u, texts, strict=True):
-        assert text.startswith(f"{name}\n{100.0 * size / bearing().lateral_capacity:.0f} %")
+        assert text.startswith(f"{name}\n{100.0 * size / BEARING.lateral_capacity:.0f} %")
 
 
 def test_one_bearing_in_plan():
-    data = run(lumped_mass(bearing(), 3e4), MOTION, dt=0.01)
+    data = run(lumped_mass(BEARING, 3e4), MOTION, dt=0.01)
     assert len(plots.bearing_plan(data).axes[0].texts) == 1
 
 
 def test_refusals(building):
     frame, data = building
     with pytest.raises(ModelError, match="not computed with this model"):
-        plots.model_view(lumped_mass(bearing(), 3e4), data)
+        plots.model_view(lumped_mass(BEARING, 3e4), data)
     with pytest.raises(ValueError, match=r"time = 9 s lies outside of the result, 0 to 1\.49 s"):
         plots.model_view(frame, data, time=9.0)
     with pytest.raises(ValueError, match="factor = -1 must be positive"):
@@ -154,11 +146,11 @@ def test_refusals(building):
 def test_twins_share_a_circle():
     frame = Frame("twins")
     frame.add_node("ground", 0.0, 0.0, 0.0)
-    frame.add_node("top", 0.0, 0.0, bearing().height)
+    frame.add_node("top", 0.0, 0.0, BEARING.height)
     frame.fix("ground", "all")
     frame.fix("top", "rx", "ry", "rz")
     for name in ("left", "right"):
-        frame.add_bearing(name, "ground", "top", bearing())
+        frame.add_bearing(name, "ground", "top", BEARING)
     frame.add_mass("top", 6e4)
     panel = plots.bearing_plan(run(frame, MOTION, dt=0.01)).axes[0]
     assert len(panel.patches) == 1

@@ -21,7 +21,7 @@ from frames.laws import Bilinear, Gap, PlasticHinge, Tie, ViscousDamper
 from frames.plots.model_geometry import HINGES, KINDS, SHARE
 from frames.plots.plot_parts import COLOURS
 from frames.plots.plot_summaries import ENERGY_GROUPS
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import simple_bearing
 
 TIME = np.arange(0.0, 2.0, 0.01)
 PULSE = np.where(TIME < 1.2, np.sin(2.0 * np.pi * TIME / 1.2), 0.0)
@@ -30,14 +30,7 @@ GAP = 0.06
 
 
 def bearing():
-    return LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=0.3,
-        friction=CoulombFriction(0.05),
-        interface_friction=0.13,
-    ).as_dcfp(rims=False)
+    return simple_bearing(capacity=0.3).as_dcfp(rims=False)
 
 
 def building():
@@ -231,10 +224,7 @@ def test_energies_of_parts_are_drawn_where_there_are_any(run):
 def test_a_stick_without_members(tmp_path):
     """Springs and links alone: storeys that yield stand beside their axial springs."""
     stick = shear_building(
-        bearing(),
-        [3e4] * 2,
-        [3e7] * 2,
-        storey_law=lambda k: Bilinear(stiffness=k, yield_force=3e4),
+        bearing(), [3e4] * 2, [3e7] * 2, storey_law=lambda k: Bilinear(stiffness=k, yield_force=3e4)
     )
     data = time_history(stick, MOTION, dt=0.01)
     for figure in (

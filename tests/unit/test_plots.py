@@ -28,26 +28,13 @@ from frames.plots.bearing_geometry import (
 from frames.plots.drawn_device import device_of
 from frames.plots.plot_choice import as_systems, label_of, worst_bearing
 from frames.plots.plot_style import PALETTE, engineering, wrapped
-from lir_element import CoulombFriction, LIRBearing, cyclic_test
+from lir_element import LIRBearing, cyclic_test
 from lir_element.results.dataset import bearing_coordinates, device_variables
+from tests.refusals import refused
+from tests.scenes import rimmed_bearing, small_bearing
 
-BEARING = LIRBearing(
-    radius=0.75,
-    slider_height=0.085,
-    slider_radius=0.08,
-    capacity=0.10,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.10,
-    design_load=250e3,
-)
-UNEVEN = LIRBearing(
-    radius=(1.0, 0.6),
-    slider_height=0.12,
-    slider_radius=0.10,
-    rims=(0.12, 0.08),
-    friction=CoulombFriction(0.05),
-    interface_friction=0.15,
-)
+BEARING = small_bearing(capacity=0.1, friction=0.05, interface_friction=0.1, design_load=250e3)
+UNEVEN = rimmed_bearing(radius=(1.0, 0.6), slider_height=0.12, slider_radius=0.1, rims=(0.12, 0.08))
 SYSTEMS = {"LIR": BEARING, "rims": BEARING.as_dcfp(), "free": BEARING.as_dcfp(rims=False)}
 NAME = "bearing-0-0"
 
@@ -245,8 +232,7 @@ def test_the_dataset_has_the_geometry_of_its_bearings() -> None:
             assert_allclose(getattr(found, key), getattr(device, key), rtol=1e-12, atol=0.0)
         assert found.is_dcfp == device.is_dcfp
         assert_allclose(found.lateral_capacity, device.lateral_capacity, rtol=1e-12, atol=0.0)
-    with pytest.raises(ValueError, match="the Dataset has no radius"):
-        device_of(data.drop_vars("radius"), "one")
+    refused(ValueError, "the Dataset has no radius", device_of, data.drop_vars("radius"), "one")
 
 
 def test_a_lifted_bearing_is_drawn_with_its_gap(results: dict[str, xr.Dataset]) -> None:
@@ -416,9 +402,7 @@ def test_a_component_without_motion_has_no_panel(results: dict[str, xr.Dataset])
     assert [bool(ax.get_xlabel()) for ax in five.axes] == [False, False, True, True, True]
 
 
-def test_a_quantity_without_any_value_is_left_out_unless_named(
-    results: dict[str, xr.Dataset],
-) -> None:
+def test_a_quantity_without_any_value_is_left_out_unless_named(results):
     one_piece = {name: results[name] for name in ("rims", "free")}
     assert len(plots.histories(one_piece).axes) == 3  # no interface slip
     assert len(plots.histories(results).axes) == 4
@@ -455,8 +439,7 @@ def test_windows_that_cannot_be_are_refused(results: dict[str, xr.Dataset]) -> N
         ValueError, match="start = 7 s: LIR has fewer than two steps there, it goes"
     ):
         plots.energy(results, start=7.0)
-    with pytest.raises(ValueError, match="end = nan"):
-        plots.hysteresis(results, end=math.nan)
+    refused(ValueError, "end = nan", plots.hysteresis, results, end=math.nan)
 
 
 def test_rims_are_drawn_as_the_dataset_has_them(results: dict[str, xr.Dataset]) -> None:
@@ -526,8 +509,7 @@ def test_only_the_bearing_of_the_dataset_is_drawn(results: dict[str, xr.Dataset]
         plots.bearing_sections(mixed, BEARING, NAME)
     with pytest.raises(TypeError, match="bearing is a dict: give a LIRBearing, or only the name"):
         plots.bearing_sections(data, {}, NAME)
-    with pytest.raises(ValueError, match="two names"):
-        plots.bearing_sections(data, NAME, "bearing-0-1")
+    refused(ValueError, "two names", plots.bearing_sections, data, NAME, "bearing-0-1")
 
 
 def test_long_names_fit(results: dict[str, xr.Dataset]) -> None:
@@ -559,14 +541,11 @@ def test_bad_requests_are_refused(results: dict[str, xr.Dataset]) -> None:
         plots.histories(results, ("temperature",))
     with pytest.raises(ValueError, match=r"no quantity 'displacment'.*did you mean .displacement"):
         plots.histories(results, "displacment")
-    with pytest.raises(ValueError, match="quantities is empty"):
-        plots.histories(results, ())
-    with pytest.raises(ValueError, match="no quantity 'shear'"):
-        plots.histories(results, limits={"shear": 1.0})
+    refused(ValueError, "quantities is empty", plots.histories, results, ())
+    refused(ValueError, "no quantity 'shear'", plots.histories, results, limits={"shear": 1.0})
     with pytest.raises(ValueError, match=r"limits\['base_shear'\] = 0.0 must be greater than 0"):
         plots.histories(results, limits={"base_shear": 0.0})
-    with pytest.raises(ValueError, match="force_limit = -1 must be"):
-        plots.hysteresis(results, force_limit=-1)
+    refused(ValueError, "force_limit = -1 must be", plots.hysteresis, results, force_limit=-1)
     for draw in (plots.histories, plots.hysteresis, plots.orbits):
         with pytest.raises(ValueError, match=r"no bearing 'bearing-0-7' in 'LIR'.*did you mean"):
             draw(results, bearing="bearing-0-7")
@@ -574,12 +553,9 @@ def test_bad_requests_are_refused(results: dict[str, xr.Dataset]) -> None:
         plots.bearing_sections(results["LIR"], "west")
     with pytest.raises(ValueError, match="no variable of bearings 'slip'"):
         plots.worst_bearing(results["LIR"], "slip")
-    with pytest.raises(ValueError, match="give 1 to 6"):
-        as_systems({})
-    with pytest.raises(TypeError, match="systems is a list: give a Dataset"):
-        plots.orbits([results["LIR"]])  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match="LIR is a float: give a Dataset"):
-        plots.orbits({"LIR": 1.0})  # type: ignore[dict-item]
+    refused(ValueError, "give 1 to 6", as_systems, {})
+    refused(TypeError, "systems is a list: give a Dataset", plots.orbits, [results["LIR"]])  # type: ignore[arg-type]
+    refused(TypeError, "LIR is a float: give a Dataset", plots.orbits, {"LIR": 1.0})  # type: ignore[dict-item]
     with pytest.raises(ValueError, match="has no dimension 'time', but step"):
         plots.hysteresis(cyclic_test(BEARING, [0.0, 0.01], 250e3))
     with pytest.raises(ValueError, match="has no weight: name a bearing"):

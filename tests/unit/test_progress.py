@@ -1,8 +1,6 @@
 """What is said while kernels compile."""
 
 import io
-import os
-import subprocess  # what a new process writes  # noqa: S404
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +11,7 @@ import pytest
 
 import lir_element
 from lir_element._compile.progress import Progress
+from tests.patience import fresh
 
 ROOT = Path(lir_element.__file__).parents[1]
 SAID = (
@@ -105,9 +104,7 @@ def test_a_small_kernel_is_not_worth_a_word(compiler: Compiler, written: Any) ->
     assert stream.getvalue().startswith(SAID)  # with the one before it is more than a second
 
 
-def test_silence_on_request(
-    compiler: Compiler, written: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_silence_on_request(compiler, written, monkeypatch):
     monkeypatch.setenv("LIR_QUIET", "1")
     stream = written(Terminal)
     compiler.compile("run", 20.0, ("trial", 3.0))
@@ -115,9 +112,7 @@ def test_silence_on_request(
 
 
 @pytest.mark.parametrize("closed", [True, False])
-def test_without_a_standard_error(
-    compiler: Compiler, monkeypatch: pytest.MonkeyPatch, closed: bool
-) -> None:
+def test_without_a_standard_error(compiler, monkeypatch, closed):
     stream = io.StringIO()
     stream.close()
     monkeypatch.setattr(sys, "stderr", stream if closed else None)
@@ -132,16 +127,10 @@ def test_the_compiler_is_followed(tmp_path: Path) -> None:
         "from lir_element.kernels.rotation import coefficients; coefficients(1.0)"
     )
     env = {
-        **os.environ,
         "PYTHONPATH": str(ROOT),
         "LIR_CACHE_DIR": str(tmp_path),
         "LIR_QUIET": "0",
         "NUMBA_DISABLE_JIT": "0",
     }
-    told = [
-        subprocess.run(  # noqa: S603
-            [sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True
-        ).stderr
-        for _ in range(2)
-    ]
+    told = [fresh(code, **env).stderr for _ in range(2)]
     assert told == [SAID.replace("/c", str(tmp_path)), ""]

@@ -24,9 +24,7 @@ kinds = pytest.mark.parametrize("kind", [io.StringIO, Notebook])
 
 
 @kinds
-def test_a_time_history_draws_a_bar(
-    kind: type[io.StringIO], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_time_history_draws_a_bar(kind, monkeypatch):
     written = kind()
     monkeypatch.setattr(sys, "stderr", written)
     data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), PULSE, progress=True)
@@ -38,9 +36,7 @@ def test_a_time_history_draws_a_bar(
 
 
 @kinds
-def test_many_time_histories_tell_how_many_are_done(
-    kind: type[io.StringIO], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_many_time_histories_tell_how_many_are_done(kind, monkeypatch):
     written = kind()
     monkeypatch.setattr(sys, "stderr", written)
     frame = lumped_mass(bearing_for(2000e3), mass=204e3)

@@ -92,9 +92,7 @@ def done(tmp_path: Path, run_once: tuple[Path, Any]) -> Path:
 
 
 @pytest.fixture(scope="module")
-def run_once(
-    tmp_path_factory: pytest.TempPathFactory, put_example: Callable[..., Path]
-) -> tuple[Path, Any]:
+def run_once(tmp_path_factory, put_example):
     """Folder of the small project that was run, and what the command returned."""
     folder = put_example(tmp_path_factory.mktemp("run"))
     (folder / "small.toml").write_text(SOON)
@@ -217,9 +215,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
         ("[bearing]", "[bearing]\n[bearing]", r"the section is there twice: keep one of them"),
     ],
 )
-def test_messages_name_file_key_value_and_remedy(
-    tmp_path: Path, old: str, new: str, words: str
-) -> None:
+def test_messages_name_file_key_value_and_remedy(tmp_path, old, new, words):
     with pytest.raises(ProjectError, match=words):
         read_project(changed(tmp_path, old, new))
 
@@ -235,9 +231,7 @@ def test_messages_name_file_key_value_and_remedy(
         ('"5 MN"', '"-5 MN"', "limits", r"\[limits\].*rim_strength"),
     ],
 )
-def test_a_section_that_cannot_be_is_named(
-    tmp_path: Path, old: str, new: str, part: str, words: str
-) -> None:
+def test_a_section_that_cannot_be_is_named(tmp_path, old, new, part, words):
     parts = ProjectInputs(read_project(changed(tmp_path, old, new)), tmp_path)
     with pytest.raises(ProjectError, match=words):
         getattr(parts, part)()
@@ -269,9 +263,7 @@ def test_new_writes_the_example_of_a_code(tmp_path: Path, put_example: Callable[
 
 
 @pytest.mark.parametrize("code", ["ASCE 7-22", "EN 1998", "NCh2745"])
-def test_each_code_has_an_example(
-    tmp_path: Path, code: str, put_example: Callable[..., Path]
-) -> None:
+def test_each_code_has_an_example(tmp_path, code, put_example):
     """Its motions follow its spectrum, so that the rule of the code hardly scales them."""
     folder = put_example(tmp_path / "own", code)
     file = read_project(folder / "project.toml")
@@ -300,9 +292,7 @@ def test_new_writes_over_nothing(folder: Path) -> None:
     assert "is there already" in again.stderr
 
 
-def test_a_report_without_figures_says_so_and_lir_report_draws_them(
-    done: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_report_without_figures_says_so_and_lir_report_draws_them(done, monkeypatch):
     monkeypatch.setattr(writing, "pictures", lambda *_: {"model": []})
     assert "Written without figures" in (done / "out" / "report.html").read_text(encoding="utf-8")
     run(app, ["report", str(done / "small.toml"), "--results", str(done / "out")])
@@ -516,8 +506,7 @@ def test_bearings_are_proposed_as_a_section(folder: Path, monkeypatch: pytest.Mo
 
 
 @pytest.mark.parametrize(
-    ("objective", "column"),
-    [("displacement", "displacement [m]"), ("plan", "plan diameter [m]")],
+    ("objective", "column"), [("displacement", "displacement [m]"), ("plan", "plan diameter [m]")]
 )
 def test_a_proposal_makes_least_what_is_asked(folder: Path, objective: str, column: str) -> None:
     words = [str(folder / "project.toml"), "--objective", objective, "--results", str(folder)]
@@ -559,9 +548,7 @@ def test_what_was_complete_is_kept(done: Path, monkeypatch: pytest.MonkeyPatch) 
     assert "interrupted.nc is of a later run that was interrupted" in report.output
 
 
-def test_a_run_goes_on_where_it_was_interrupted(
-    done: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_goes_on_where_it_was_interrupted(done, monkeypatch):
     """Interrupted after all of its runs but the governing one: they are kept, none is run twice."""
     folder = done
     file, cut = folder / "small.toml", folder / "cut"
@@ -597,9 +584,7 @@ def test_a_run_goes_on_where_it_was_interrupted(
         xr.testing.assert_identical(one.drop_attrs(deep=False), two.drop_attrs(deep=False))
 
 
-def test_a_run_that_was_not_written_whole_is_none(
-    done: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_run_that_was_not_written_whole_is_none(done, monkeypatch):
     def full(data: xr.Dataset, path: Path, *, compress: bool = False) -> None:
         if path.name == "governing.nc":
             raise OSError(28, "No space left on device")
@@ -617,9 +602,7 @@ def test_a_run_that_was_not_written_whole_is_none(
     assert "holds no run" in found.output
 
 
-def test_a_governing_run_whose_peaks_are_chance_says_so(
-    done: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_governing_run_whose_peaks_are_chance_says_so(done, monkeypatch):
     kept = load(done / "out" / "governing.nc")
     assert 0.0 <= float(kept.attrs["noise_displacement"]) < 1e-4  # of an ordinary run
     assert level_runs.sensitivity_warnings(kept) == ()
@@ -651,9 +634,7 @@ def test_what_the_disturbed_run_alone_reaches_is_all_of_the_difference(done: Pat
         ("import sys\nsys.exit(0)", "structure"),  # no model
     ],
 )
-def test_a_script_that_fails_is_input_that_cannot_be_used(
-    folder: Path, script: str, words: str
-) -> None:
+def test_a_script_that_fails_is_input_that_cannot_be_used(folder, script, words):
     pytest.importorskip("openseespy")
     (folder / "model.py").write_text(script)
     start, end = ASCE.index("[structure]"), ASCE.index("[bearing]")
@@ -694,9 +675,7 @@ def test_limits_are_refused_before_anything_is_run(folder: Path) -> None:
         ('capacity = "180 mm"', "capacity = inf", "give the displacement at which they are met"),
     ],
 )
-def test_devices_that_no_check_judges_are_refused_before_anything_is_run(
-    folder: Path, old: str, new: str, words: str
-) -> None:
+def test_devices_that_no_check_judges_are_refused_before_anything_is_run(folder, old, new, words):
     for command_ in ("check", "run"):
         done = run(app, [command_, str(changed(folder, old, new))])
         assert done.exit_code == 2

@@ -10,7 +10,8 @@ import xarray as xr
 from numpy.testing import assert_allclose
 
 from frames import gravity, moment_frame
-from lir_element import AnalysisError, CoulombFriction, LIRBearing, RunStatus
+from lir_element import AnalysisError, LIRBearing, RunStatus
+from tests.scenes import paper_bearing
 from validation.fuzzing import trial
 from validation.fuzzing.buildings import try_building
 from validation.fuzzing.checks import Report, check_gravity, check_result, forces_on_springs, same
@@ -307,14 +308,7 @@ def test_scenes_have_everything_in_them():
 
 @pytest.mark.parametrize(("lift", "is_found"), [(0.5, True), (1.5, False)])
 def test_uplift_is_believed_where_springs_pull(lift, is_found):
-    bearing = LIRBearing(
-        radius=1.185,
-        slider_height=0.12,
-        slider_radius=0.1,
-        capacity=0.25,
-        friction=CoulombFriction(0.05),
-        interface_friction=0.1,
-    )
+    bearing = paper_bearing(slider_radius=0.1, friction=0.05, interface_friction=0.1)
     model = moment_frame(bays=(1, 1), storeys=1, bearing=bearing)
     own = forces_on_springs(model)
     assert_allclose(own, own.mean(), rtol=1e-9, atol=0.0)  # four corners alike

@@ -194,10 +194,7 @@ def test_every_format_of_the_table_is_tried() -> None:
     [
         (csmip(2).replace("in cm/sec2", "in counts"), "numbers are in 'counts'.*volume 1 or 2"),
         (esm().replace("cm/s^2", "cm/s"), "numbers are in 'cm/s', which is no unit of acc"),
-        (
-            esm().replace("NDATA: 1000", "NDATA: 2000"),
-            "names 2000 samples, and the file holds 10",
-        ),
+        (esm().replace("NDATA: 1000", "NDATA: 2000"), "names 2000 samples, and the file holds 10"),
         (esm().replace("NDATA: 1000", "NDATA: 500"), "names 500 samples, and the file holds 1000"),
         (esm().replace("NDATA: 1000", "x"), "names no number of samples or no time step"),
         (cosmos().replace("0.010000", "0.005000"), "names 10 s, and 1000 .* of 0.005 s last 5 s"),
@@ -227,9 +224,7 @@ LONG = esm().replace("NDATA: 1000", "NDATA: 10000") + "0.0\n" * 9000
         (LONG, 10000, 100),  # 1 %
     ],
 )
-def test_padding_after_the_samples_is_left_out(
-    tmp_path: Path, text: str, count: int, spare: int
-) -> None:
+def test_padding_after_the_samples_is_left_out(tmp_path, text, count, spare):
     path = tmp_path / "padded.txt"
     path.write_text(text + "0.0\n" * spare)
     assert len(read_record(path)[0].trace.acceleration) == count
@@ -266,11 +261,7 @@ def test_components_are_put_on_axes(folder: Path) -> None:
     assert_allclose(turned.components.T[:2], WAVES[1::-1], rtol=0.0, atol=1e-4)
     for paths, options, words in (
         ((), {}, "no file is given"),
-        (
-            ("CE1.V2", "A.UD"),
-            {},
-            r"hold 4 components.*which directions are x, y and z, as in x",
-        ),
+        (("CE1.V2", "A.UD"), {}, r"hold 4 components.*which directions are x, y and z, as in x"),
         (("A.EW", "A.NS", "B.EW"), {}, r"hold 3 components.*which directions are x, y and z"),
         (("CE1.V2",), {"x": "45 Deg"}, "x = '45 Deg' is 0 of the directions 90 Deg, 360 Deg, Up"),
     ):
@@ -315,9 +306,7 @@ def test_a_table_of_all_kinds(folder: Path, separator: str) -> None:
         ("a,five.acc,m/s2,soon,rows,1", "dt = soon is no number", None),
     ],
 )
-def test_rows_of_a_table_are_refused_by_their_cause(
-    folder: Path, row: str, words: str, cure: str | None
-) -> None:
+def test_rows_of_a_table_are_refused_by_their_cause(folder, row, words, cure):
     path = folder / "motions.csv"
     path.write_text(f"name,x,unit,dt,order,skip\n{row}\n")
     with pytest.raises(MotionError, match=words):

@@ -10,18 +10,9 @@ from frames import Frame, ModelError, Section
 from frames.assembly.assemble import assemble, member_end_forces
 from frames.model.axes import to_global
 from frames.plots.model_geometry import member_lines
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import SECTION, simple_bearing
 
 LONG, E = 4.0, 200e9
-SECTION = Section(
-    area=0.01,
-    inertia_y=8e-5,
-    inertia_z=3e-5,
-    torsion_constant=2e-5,
-    elastic_modulus=E,
-    shear_modulus=77e9,
-    density=0.0,
-)
 HINGE = ("My", "Mz")
 
 
@@ -74,14 +65,7 @@ def test_a_strut_between_hinges_leans_as_a_string():
 def portal(hinged):
     """Return a portal with a hinged beam: by releases, or by nodes of its own at the hinges."""
     frame = Frame("portal")
-    device = LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=0.2,
-        friction=CoulombFriction(0.05),
-        interface_friction=0.13,
-    )
+    device = simple_bearing(capacity=0.2)
     shear = Section.box(0.3, 0.3, 0.012, density=0.0)
     for x, name in ((0.0, "left"), (6.0, "right")):
         frame.add_node(f"ground-{name}", x, 0.0, 0.0)
@@ -148,10 +132,7 @@ def test_end_forces_go_with_the_nodes():
         "foot-left",
         "head-right",
         Section.circle(0.1),
-        releases={
-            "i": ("T", "My", "Mz"),
-            "j": HINGE,
-        },
+        releases={"i": ("T", "My", "Mz"), "j": HINGE},
     )
     system = assemble(frame)
     u = np.random.default_rng(1).normal(size=6 * len(system.node_names)) * 1e-3

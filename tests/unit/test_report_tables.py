@@ -24,9 +24,7 @@ from frames.design.report.tables import in_mm_and_kn, rows_of
         (math.inf, "inf"),
     ],
 )
-def test_numbers_have_four_digits_and_no_power_of_ten_below_a_million(
-    value: float, said: str
-) -> None:
+def test_numbers_have_four_digits_and_no_power_of_ten_below_a_million(value, said):
     assert rows_of(pd.DataFrame({"force": [value]}, index=["A"])) == [("A", said)]
 
 

@@ -25,6 +25,7 @@ from frames.risk import (
     save_fragility,
 )
 from frames.risk.plots import fragility_curves
+from tests.refusals import refused
 
 MEDIAN, DISPERSION = 2.0, 0.30
 LIMIT = LimitState("demand 1", "demand", 1.0)
@@ -107,10 +108,8 @@ def test_the_usual_fit_is_that_of_the_plan() -> None:
     assert fragility_of(cloud, LIMIT, resamples=5).method.startswith("cloud")
     given = runs_of(table)
     assert fragility_of(given, LIMIT, resamples=5).method.startswith("maximum likelihood")
-    with pytest.raises(FragilityError, match="of an IDA"):
-        fragility_of(given, LIMIT, method="capacities")
-    with pytest.raises(FragilityError, match="plan = 'guess'"):
-        runs_of(table, "guess")
+    refused(FragilityError, "of an IDA", fragility_of, given, LIMIT, method="capacities")
+    refused(FragilityError, "plan = 'guess'", runs_of, table, "guess")
 
 
 def test_curves_and_hazards_of_unlike_measures_are_refused() -> None:
@@ -120,18 +119,13 @@ def test_curves_and_hazards_of_unlike_measures_are_refused() -> None:
         for measure, factor in ((SA, 1.0), (PGA, 5.0))
     )
     both = r"Sa\(3 s, 5 %\), RotD50 \[m/s2\].* PGA, RotD50"
-    with pytest.raises(FragilityError, match=both):
-        compare_fragility(of_sa, of_pga)
+    refused(FragilityError, both, compare_fragility, of_sa, of_pga)
     of_period = fit_capacities(values, records, intensity=replace(SA, period=2.0), resamples=20)
-    with pytest.raises(FragilityError, match=r"Sa\(3 s.*Sa\(2 s"):
-        compare_fragility(of_sa, of_period)
+    refused(FragilityError, r"Sa\(3 s.*Sa\(2 s", compare_fragility, of_sa, of_period)
     hazard = HazardCurve.power(1e-3, 2.0, 0.01, 100.0, intensity=PGA)
-    with pytest.raises(FragilityError, match=both):
-        mean_annual_frequency(of_sa, hazard)
-    with pytest.raises(FragilityError, match=both):
-        compare_fragility(of_sa, of_sa, hazard)
-    with pytest.raises(FragilityError, match=both):
-        fragility_curves([of_sa, of_pga])
+    refused(FragilityError, both, mean_annual_frequency, of_sa, hazard)
+    refused(FragilityError, both, compare_fragility, of_sa, of_sa, hazard)
+    refused(FragilityError, both, fragility_curves, [of_sa, of_pga])
     assert mean_annual_frequency(of_pga, hazard).intensity == PGA
     open_ = HazardCurve.power(1e-3, 2.0, 0.01, 100.0)  # its engineer answers for it
     assert mean_annual_frequency(of_sa, open_).rate > 0.0
@@ -168,8 +162,7 @@ def test_files_hold_all_of_it(tmp_path: object) -> None:
         assert {"source", "software", "date_created"} <= json.load(file)["origin"].keys()
     with open(path, "w", encoding="utf-8") as file:
         file.write("[1, 2]")
-    with pytest.raises(FragilityError, match="holds no 'lir-dcfp fragility"):
-        load_fragility(path)
+    refused(FragilityError, "holds no 'lir-dcfp fragility", load_fragility, path)
 
 
 def test_files_hold_the_periods_of_an_average(tmp_path: object) -> None:
@@ -188,12 +181,9 @@ def test_files_hold_the_periods_of_an_average(tmp_path: object) -> None:
 
 def test_what_cannot_be_written_is_told(tmp_path: object) -> None:
     curve = lognormal_fragility(2.0, 0.4)
-    with pytest.raises(TypeError, match=r"not a Fragility: .*save_fragility"):
-        save(curve, f"{tmp_path}/x.nc")  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match="give them by name"):
-        write_tables(curve, f"{tmp_path}/tables")  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match="found"):
-        save_fragility(3.0, f"{tmp_path}/x.json")  # type: ignore[arg-type]
+    refused(TypeError, r"not a Fragility: .*save_fragility", save, curve, f"{tmp_path}/x.nc")  # type: ignore[arg-type]
+    refused(TypeError, "give them by name", write_tables, curve, f"{tmp_path}/tables")  # type: ignore[arg-type]
+    refused(TypeError, "found", save_fragility, 3.0, f"{tmp_path}/x.json")  # type: ignore[arg-type]
     write_tables({"curve": curve}, f"{tmp_path}/tables")  # type: ignore[dict-item]
     written = pd.read_csv(f"{tmp_path}/tables/curve.csv")
     assert written["probability"].to_numpy() == pytest.approx(

@@ -1,14 +1,13 @@
 """The sliders as bodies: mass, inertia and contact points from a bearing's geometry."""
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import dblquad, quad
 
-from lir_element import CoulombFriction, LIRBearing, cyclic_test
+from lir_element import cyclic_test
 from lir_element.bundles.contact_data import as_rows, contact_arrays
 from lir_element.device.sliders import (
     face_records,
@@ -18,23 +17,10 @@ from lir_element.device.sliders import (
     ring_points,
     slider_record,
 )
+from tests.scenes import rimmed_bearing as bearing
+from tests.scenes import wide_bearing
 
-OPTIONS: dict[str, Any] = {
-    "radius": (0.75, 1.1),
-    "slider_height": 0.11,
-    "slider_radius": 0.08,
-    "friction": CoulombFriction(0.05),
-    "interface_friction": 0.15,
-    "rims": (0.07, 0.11),
-}
 QUADRATURE = {"rtol": 1e-9, "atol": 0.0}  # scipy's own error lies near 1e-13
-
-
-def bearing(**changes: object) -> LIRBearing:
-    return LIRBearing(**(OPTIONS | changes))
-
-
-# ------------------------------------------------------------------------------- mass, inertia
 
 
 def test_flat_half_is_a_cylinder() -> None:
@@ -146,9 +132,6 @@ def test_given_mass_and_inertia() -> None:
     assert_allclose(twice["mass"], 2.0 * plain["mass"], rtol=1e-14, atol=0.0)
 
 
-# ------------------------------------------------------------------------------- contact points
-
-
 @pytest.mark.parametrize("count", [4, 5, 6, 7, 8, 10, 12, 16, 96, 128])
 def test_points_of_an_interface(count: int) -> None:
     """A full disc under uniform pressure: int r dA = 2/3 a A, int x^2 dA = a^2 / 4 A."""
@@ -222,9 +205,6 @@ def test_bundle_of_several_bearings() -> None:
     bundle.bodies_old["displacement"][1, 0, 2] = 0.125
     assert (as_rows(bundle.bodies_old) == bundle.bodies_old_words).all()
     assert bundle.bodies_old_words[1].view(np.float64)[3] == 0.125  # after the step
-
-
-# ------------------------------------------------------------------------------- what is refused
 
 
 def refused(error: type[Exception], *words: str, **changes: object) -> None:
@@ -318,15 +298,7 @@ def test_levels_have_the_friction_of_a_test() -> None:
 
     What is left is rocking, by ``4/3 R h F / (k_v a^2)``, and the sliders' weight.
     """
-    wide = LIRBearing(
-        radius=1.5,
-        slider_height=0.2,
-        slider_radius=0.21,
-        capacity=0.3,
-        friction=CoulombFriction(0.08),
-        interface_friction=0.2,
-        slider_density=500.0,
-    )
+    wide = wide_bearing(slider_radius=0.21, friction=0.08, slider_density=500.0)
     heights = []
     for level in ("pendulum", "contact"):
         data = cyclic_test(wide, [0.1, 0.0, -0.1, 0.0], 1e6, level=level)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from lir_element import CoulombFriction, FrictionLaw, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, FrictionLaw, VelocityFriction
 from lir_element.kernels.friction_law import coefficient
 from lir_element.kernels.slip import (
     friction_map,
@@ -22,6 +22,7 @@ from lir_element.kernels.slip import (
     stored,
 )
 from lir_element.layout import Props
+from tests.scenes import simple_bearing
 
 U_Y = 0.25e-3
 KEPT = (1.0, 0.0)  # share of z that a constant axial force leaves, and its derivative
@@ -38,9 +39,7 @@ def turned(x: float, y: float, angle: float) -> tuple[float, float]:
 @pytest.mark.quick
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, u_y=st.floats(1e-5, 1e-2))
-def test_never_beyond_the_cone(
-    bouc_wen: int, eta: float, size: float, angle: float, d_1: float, d_2: float, u_y: float
-) -> None:
+def test_never_beyond_the_cone(bouc_wen, eta, size, angle, d_1, d_2, u_y):
     z_1, z_2 = turned(size, 0.0, angle)
     out = return_map(bouc_wen, eta, z_1, z_2, d_1, d_2, u_y)
     assert math.hypot(out[0], out[1]) <= 1.0 + 1e-15  # two ulp
@@ -50,9 +49,7 @@ def test_never_beyond_the_cone(
 @pytest.mark.quick
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, turn=ANGLE)
-def test_isotropy(
-    bouc_wen: int, eta: float, size: float, angle: float, d_1: float, d_2: float, turn: float
-) -> None:
+def test_isotropy(bouc_wen, eta, size, angle, d_1, d_2, turn):
     """Turning state and step by an angle turns z and its derivative, and keeps the slip."""
     z = turned(size, 0.0, angle)
     one = return_map(bouc_wen, eta, *z, d_1, d_2, U_Y)
@@ -88,9 +85,7 @@ def test_elastic_plastic_by_hand(sign: float) -> None:
 
 @pytest.mark.quick
 @given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP)
-def test_large_exponent_is_elastic_plastic(
-    size: float, angle: float, d_1: float, d_2: float
-) -> None:
+def test_large_exponent_is_elastic_plastic(size, angle, d_1, d_2):
     """The two radii differ by at most ln(2 + kappa) / eta or so: 1e-4 at eta = 1e5."""
     z = turned(size, 0.0, angle)
     plastic = return_map(0, 2.0, *z, d_1, d_2, U_Y)
@@ -102,9 +97,7 @@ def test_large_exponent_is_elastic_plastic(
 @pytest.mark.quick
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(size=st.floats(0.0, 0.999), angle=ANGLE, d_1=STEP, d_2=STEP)
-def test_derivative(
-    bouc_wen: int, eta: float, size: float, angle: float, d_1: float, d_2: float
-) -> None:
+def test_derivative(bouc_wen, eta, size, angle, d_1, d_2):
     """Against central differences of fourth order, away from the corners (start of slip)."""
     z = np.array(turned(size, 0.0, angle))
     b = z + np.array([d_1, d_2]) / U_Y
@@ -203,19 +196,9 @@ def test_bouc_wen_along_a_line(sign: float) -> None:
     assert back[6] == 0.0
 
 
-# ------------------------------------------------------------------------------- friction
-
-
 def rubbed(law: FrictionLaw) -> Props:
     """Return the properties of a bearing whose surfaces have a law."""
-    bearing = LIRBearing(
-        radius=1.0,
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=0.2,
-        friction=law,
-        interface_friction=0.2,
-    )
+    bearing = simple_bearing(capacity=0.2, friction=law, interface_friction=0.2)
     return bearing.to_record()[0]
 
 
@@ -237,9 +220,6 @@ def test_friction_of_coulomb() -> None:
     coulomb, level = rubbed(CoulombFriction(0.066)), rubbed(VelocityFriction(0.066, 0.046, 0.0))
     assert_allclose(coefficient(coulomb, 0, 0.3), (0.066, 0.0), rtol=0.0, atol=0.0)
     assert_allclose(coefficient(level, 0, 0.3)[1], 0.0, rtol=0.0, atol=0.0)
-
-
-# ------------------------------------------------------------------------------- contact
 
 
 @pytest.mark.quick
@@ -297,17 +277,7 @@ def test_contact_is_continuous(old: float, k: float, c: float) -> None:
     before=st.floats(0.1, 3.0),
     share=st.floats(0.1, 0.9),
 )
-def test_derivative_half_a_step_ahead(
-    bouc_wen: int,
-    eta: float,
-    size: float,
-    angle: float,
-    d_1: float,
-    d_2: float,
-    bend: float,
-    before: float,
-    share: float,
-) -> None:
+def test_derivative_half_a_step_ahead(bouc_wen, eta, size, angle, d_1, d_2, bend, before, share):
     """Against differences of fourth order, on paths that bend by `bend` from step to step."""
     z = np.array(turned(size, 0.0, angle))
     b = z + np.array([d_1, d_2]) / U_Y
@@ -384,16 +354,8 @@ def test_speed_at_the_end() -> None:
     floor=st.floats(0.0, 1e3),
 )
 def test_never_beyond_the_cone_under_a_changing_force(
-    bouc_wen: int,
-    eta: float,
-    size: float,
-    angle: float,
-    d_1: float,
-    d_2: float,
-    before: float,
-    push: float,
-    floor: float,
-) -> None:
+    bouc_wen, eta, size, angle, d_1, d_2, before, push, floor
+):
     """Whatever the axial force does, lift-off and landing among it; numbers stay finite."""
     kept = kept_share(before, push, floor)
     out = np.array(

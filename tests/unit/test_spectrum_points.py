@@ -22,29 +22,15 @@ from frames.design import (
 )
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
+from tests import scenes
+from tests.scenes import MOTIONS, STICK, project_head
 from tests.square_system import square_system
 
 G = 9.80665
 SYSTEM = square_system()
 BOUNDS = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
 GRID = np.concatenate([[0.0], np.geomspace(0.01, 10.0, 400)])
-PROJECT = """
-[project]
-name = "Site"
-code = "CODE"
-[structure]
-kind = "shear building"
-bays = [1, 1]
-bay_width = ["6 m", "6 m"]
-storey_mass = ["100 t"]
-storey_stiffness = ["300 kN/mm"]
-storey_height = "3 m"
-[motions]
-folder = "motions"
-[bounds]
-friction = [0.8, 1.3]
-[spectrum]
-"""
+PROJECT = project_head("Site", "CODE") + STICK + MOTIONS + scenes.BOUNDS + "[spectrum]\n"
 POINTS = ((0.0, 0.6), (0.2, 1.4), (0.5, 1.3), (1.0, 0.8), (2.0, 0.36), (4.0, 0.14), (10.0, 0.03))
 LIST = "points = [" + ", ".join(f'["{t} s", "{a} g"]' for t, a in POINTS) + "]\n"
 
@@ -77,9 +63,7 @@ def test_displacement_by_the_ordinate_at_the_period(tmp_path: Path) -> None:
         ("NCh2745", Spectrum.nch2745(soil="II", zone=3), ("D_D", "D_M", "D_TM")),
     ],
 )
-def test_points_of_a_codes_spectrum_give_what_its_formulas_give(
-    code: str, spectrum: Spectrum, symbols: tuple[str, ...]
-) -> None:
+def test_points_of_a_codes_spectrum_give_what_its_formulas_give(code, spectrum, symbols):
     chosen = code_named(code)
     points = chosen.by_points(GRID.tolist(), np.asarray(spectrum.acceleration(GRID)).tolist())
     method = chosen.analysis()
@@ -131,11 +115,7 @@ def test_lists_and_tables_are_the_same(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "code", "words"),
     [
-        (
-            "points = 3\n",
-            "ASCE 7-22",
-            r'must be a file, "spectrum.csv", or a list',
-        ),
+        ("points = 3\n", "ASCE 7-22", r'must be a file, "spectrum.csv", or a list'),
         ('points = [["0 s", "1 g"]]\n', "EN 1998", r"spectrum.points"),
         ('points = [["0 s", 1.0], ["3 s", "1 g"]]\n', "EN 1998", "has no unit"),
         ('points = [["1 s", "1 g"], ["0 s", "1 g"]]\n', "EN 1998", "rising: sort them"),

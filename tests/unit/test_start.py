@@ -15,8 +15,9 @@ from typer.testing import CliRunner
 from frames import GroundMotion, lumped_mass, moment_frame, precompile, time_history
 from frames.command.app import app
 from frames.design.project.example import BUILDINGS
-from lir_element import LIRBearing, VelocityFriction
 from lir_element._compile import shipped
+from tests.patience import fresh
+from tests.scenes import paper_bearing
 
 ROOT = Path(__file__).parents[2]
 COMPILES = pytest.mark.skipif(
@@ -45,13 +46,13 @@ def law_of():
 
 def test_imports_leave_out_what_most_runs_do_without() -> None:
     code = f"import frames, sys; print([name for name in {HEAVY} if name in sys.modules])"
-    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+    out = fresh(code)
     assert out.stdout.strip() == "[]"
 
 
 def told_by(code: str) -> str:
     """Return what a new process prints."""
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)  # noqa: S603
+    done = fresh(code)
     return done.stdout.strip()
 
 
@@ -100,22 +101,17 @@ def test_arrays_of_other_packages_are_imported_when_they_are_used() -> None:
 
 @COMPILES
 @pytest.mark.skipif(shipped.baseline(platform.machine()) is None, reason="none are shipped")
-def test_a_kernel_of_the_wheel_is_taken_and_gives_the_same_bits(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_kernel_of_the_wheel_is_taken_and_gives_the_same_bits(tmp_path, monkeypatch):
     package, wheel = tmp_path / "package", tmp_path / "wheel"
     (package / "kernels").mkdir(parents=True)
     (package / "kernels" / "law_of_a_wheel.py").write_text(KERNEL, encoding="utf-8")
     environment = {
-        **os.environ,
         "LIR_CACHE_DIR": str(wheel),
         "NUMBA_CPU_NAME": str(shipped.baseline(platform.machine())),
         "NUMBA_CPU_FEATURES": "",
         "PYTHONPATH": os.pathsep.join([str(package / "kernels"), *sys.path]),
     }
-    kept = subprocess.run(  # noqa: S603
-        [sys.executable, "-c", COMPILE], env=environment, capture_output=True, text=True, check=True
-    ).stdout.strip()
+    kept = fresh(COMPILE, **environment).stdout.strip()
     monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path / "cache"))
     monkeypatch.syspath_prepend(str(package / "kernels"))
     native = law_of()
@@ -149,9 +145,7 @@ def test_kernels_of_the_wheel_are_left_where_the_processor_lacks_what_they_use(
     assert shipped.shipped_for((triple, "znver3", has)) is None
 
 
-def test_processes_share_all_analyses_and_name_the_one_that_fails(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_processes_share_all_analyses_and_name_the_one_that_fails(monkeypatch):
     assert sorted(name for layer in precompile.LAYERS for name in layer) == sorted(precompile.USUAL)
     monkeypatch.setattr(precompile, "LAYERS", (("element",), ("of nobody",)))
     shared = precompile._compiled(2)
@@ -164,14 +158,7 @@ def test_processes_share_all_analyses_and_name_the_one_that_fails(
 @pytest.mark.slow
 def test_usual_analyses_compile_nothing_that_was_not_compiled_ahead() -> None:
     assert set(precompile.compile_usual()) == set(precompile.USUAL)
-    bearing = LIRBearing(
-        radius=1.185,
-        slider_height=0.12,
-        slider_radius=0.15,
-        capacity=0.25,
-        friction=VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
-        interface_friction=0.13,
-    )
+    bearing = paper_bearing()
     shaking = np.full(4, 0.5)
     motion = GroundMotion(x=shaking, y=shaking, z=0.1 * shaking, dt=0.005)
     with event.install_recorder("numba:compile") as recorder:

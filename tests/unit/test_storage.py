@@ -3,7 +3,6 @@
 import os
 import signal
 import subprocess  # noqa: S404
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,7 @@ import pytest
 import xarray as xr
 
 from frames import load, save
-from tests.patience import patience
+from tests.patience import fresh, patience
 
 
 def results(value: float = 1.0, count: int = 1000) -> xr.Dataset:
@@ -20,13 +19,7 @@ def results(value: float = 1.0, count: int = 1000) -> xr.Dataset:
 
 def script(code: str, *arguments: str) -> "subprocess.CompletedProcess[str]":
     head = "import os, sys, numpy as np, xarray as xr\nfrom frames import load, save\n"
-    return subprocess.run(  # noqa: S603
-        [sys.executable, "-c", head + code, *arguments],
-        capture_output=True,
-        text=True,
-        timeout=patience(),
-        check=False,
-    )
+    return fresh(head + code, *arguments, timeout=patience(), check=False)
 
 
 def test_round_trip_and_replacement(tmp_path: Path) -> None:

@@ -17,26 +17,10 @@ from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.structure_statement import structure_rows
+from tests.scenes import BOUNDS, DEVICE, MOTIONS, project_head
 
-REST = """
-[project]
-name = "A building"
-code = "ASCE 7-22"
-[bearing]
-radius = "1.5 m"
-slider_height = "200 mm"
-slider_radius = "0.2 m"
-capacity = "180 mm"
-friction = 0.05
-interface_friction = 0.18
-[spectrum]
-s_ms = 1.0
-s_m1 = 0.5
-[motions]
-folder = "motions"
-[bounds]
-friction = [0.8, 1.3]
-"""
+SPECTRUM = "[spectrum]\ns_ms = 1.0\ns_m1 = 0.5\n"
+REST = project_head("A building", "ASCE 7-22") + DEVICE + SPECTRUM + MOTIONS + BOUNDS
 GRID = """
 [structure]
 kind = "moment frame"

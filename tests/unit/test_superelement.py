@@ -8,7 +8,7 @@ from scipy import sparse
 from frames import Frame, ModelError, Section, shear_building
 from frames.assembly.assemble import assemble
 from frames.assembly.constraints import eliminate, separate_massless
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import large_bearing
 
 SECTION = Section.box(0.3, 0.3, 0.01)
 
@@ -108,14 +108,7 @@ def test_a_mass_at_a_lever_leaves_directions_without_mass():
 
 def test_masses_that_cancel_are_none():
     """A slab's mass on its middle, given as a plane through the bearings: they carry none of it."""
-    bearing = LIRBearing(
-        radius=2.5,
-        slider_height=0.225,
-        slider_radius=0.225,
-        capacity=0.356,
-        friction=CoulombFriction(0.05),
-        interface_friction=0.105,
-    )
+    bearing = large_bearing()
     frame = shear_building(bearing, 3e5, 9e8, storeys=5, storey_height=3.5, plan=((3, 2), 7.0))
     system = assemble(frame)
     has_mass = (system.node_mass[:, :3] != 0.0).any(axis=1)

@@ -17,6 +17,7 @@ from frames.design.hazard.stochastic_motion import (
 from frames.design.hazard.synthetic_motions import PulseScatter, with_pulse
 from frames.motion.spectra import response_spectrum
 from frames.motion.transforms import integrated
+from tests.refusals import refused
 
 PULSE = NearFaultPulse(velocity=1.2, period=3.0, gamma=1.7, phase=0.8, time=4.0)
 
@@ -154,22 +155,16 @@ def test_what_makes_no_sense_is_refused() -> None:
         ({"phase": math.nan}, "phase"),
     ):
         given = {"velocity": 1.0, "period": 2.0, "gamma": 2.0, "phase": 0.0} | wrong
-        with pytest.raises(MotionError, match=words):
-            NearFaultPulse(**given)
-    with pytest.raises(MotionError, match=r"10\.5|magnitude"):
-        synthetic_near_fault(1, 10.5, 5.0, seed=1)
-    with pytest.raises(MotionError, match="farther away"):
-        synthetic_near_fault(1, 6.5, 50.0, seed=1)
+        refused(MotionError, words, NearFaultPulse, **given)
+    refused(MotionError, r"10\.5|magnitude", synthetic_near_fault, 1, 10.5, 5.0, seed=1)
+    refused(MotionError, "farther away", synthetic_near_fault, 1, 6.5, 50.0, seed=1)
     source = PointSource(magnitude=6.5, distance=8.0)
     with pytest.raises(MotionError, match=r"source\.distance"):
         synthetic_near_fault(1, 6.5, 5.0, seed=1, source=source)
-    with pytest.raises(TypeError, match="seed"):
-        synthetic_near_fault(1, 6.5, 5.0, seed=None)  # type: ignore[arg-type]
-    with pytest.raises(MotionError, match="count"):
-        synthetic_near_fault(0, 6.5, 5.0, seed=1)
+    refused(TypeError, "seed", synthetic_near_fault, 1, 6.5, 5.0, seed=None)  # type: ignore[arg-type]
+    refused(MotionError, "count", synthetic_near_fault, 0, 6.5, 5.0, seed=1)
     with pytest.raises(MotionError, match="take more samples"):
         stochastic_acceleration(source, 0.01, 100, np.random.default_rng(1))
     with pytest.raises(MotionError, match="must rise"):
         PointSource(magnitude=6.0, distance=1.0, amplification=((2.0, 1.0), (1.0, 1.0)))
-    with pytest.raises(MotionError, match="gamma"):
-        PulseScatter(gamma=(0.5, 2.0))
+    refused(MotionError, "gamma", PulseScatter, gamma=(0.5, 2.0))

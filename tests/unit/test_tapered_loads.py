@@ -1,33 +1,17 @@
 """Loads of linear size along members: closed forms, many point loads, OpenSees."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from frames import Frame, ModelError, Section
+from frames import Frame, ModelError
 from frames.assembly.assemble import assemble, member_axial_forces, member_end_forces
+from tests.scenes import SECTION
 
 LONG = 4.0
-SECTION = Section(
-    area=0.01,
-    inertia_y=8e-5,
-    inertia_z=3e-5,
-    torsion_constant=2e-5,
-    elastic_modulus=200e9,
-    shear_modulus=77e9,
-    density=0.0,
-)
-SHEAR = Section(
-    area=0.01,
-    inertia_y=8e-4,
-    inertia_z=3e-4,
-    torsion_constant=2e-5,
-    elastic_modulus=200e9,
-    shear_modulus=77e9,
-    density=0.0,
-    shear_area_y=3e-3,
-    shear_area_z=2e-3,
-)
+SHEAR = replace(SECTION, inertia_y=8e-4, inertia_z=3e-4, shear_area_y=3e-3, shear_area_z=2e-3)
 
 
 def beam(section=SECTION, end=(LONG, 0.0, 0.0), releases=None, pieces=1):

@@ -22,16 +22,9 @@ from frames.design import (
     equivalent_linear,
     prototype_tests,
 )
-from lir_element import CoulombFriction, LIRBearing
+from tests.scenes import large_bearing
 
-BEARING = LIRBearing(
-    radius=2.5,
-    slider_height=0.225,
-    slider_radius=0.225,
-    capacity=0.356,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.105,
-)
+BEARING = large_bearing()
 SIDES = (24.0, 10.0)
 ASCE = Spectrum.asce7(s_ms=1.2, s_m1=0.5)
 EUROPE = Spectrum.en1998(a_g=3.0, ground_type="C")

@@ -14,23 +14,10 @@ import pytest
 from frames import Frame, GroundMotion, ModelError, MotionError, Section
 from frames.model.sanity_checks import sanity_warnings
 from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
+from tests.scenes import paper_bearing, small_bearing
 
-PAPER: dict[str, Any] = {
-    "radius": 0.75,
-    "slider_height": 0.085,
-    "slider_radius": 0.08,
-    "capacity": 0.175,
-    "friction": CoulombFriction(0.066),
-    "interface_friction": 0.126,
-}
-NEWHALL: dict[str, Any] = {
-    "radius": 1.185,
-    "slider_height": 0.12,
-    "slider_radius": 0.15,
-    "capacity": 0.25,
-    "friction": VelocityFriction(0.065, 0.0325, 15.0),
-    "interface_friction": 0.13,
-}
+PAPER = small_bearing.keywords
+NEWHALL = paper_bearing.keywords
 LENGTHS = ("radius", "slider_height", "slider_radius", "capacity")
 
 
@@ -131,13 +118,13 @@ STRANGE: dict[str, tuple[dict[str, Any], str]] = {
 @pytest.mark.parametrize(("changes", "words"), IMPOSSIBLE.values(), ids=IMPOSSIBLE)
 def test_impossible_bearings(changes: dict[str, Any], words: str) -> None:
     with pytest.raises(ValueError, match=words):
-        LIRBearing(**(PAPER | changes))
+        small_bearing(**changes)
 
 
 @pytest.mark.parametrize(("changes", "words"), STRANGE.values(), ids=STRANGE)
 def test_strange_bearings(changes: dict[str, Any], words: str) -> None:
     with pytest.warns(DesignWarning, match=words):
-        LIRBearing(**(PAPER | changes))
+        small_bearing(**changes)
 
 
 @pytest.mark.parametrize("law", [(6.6,), (0.066, 6.6, 20.0), (6.6, 3.3, 20.0)])
@@ -148,7 +135,7 @@ def test_friction_in_per_cent(law: tuple[float, ...]) -> None:
 
 
 def test_a_flat_surface_is_no_mistake() -> None:
-    flat = LIRBearing(**(PAPER | {"radius": (1e6, 0.75), "capacity": math.inf}))
+    flat = small_bearing(radius=(1e6, 0.75), capacity=math.inf)
     assert flat.effective_radius > 1e5
 
 
@@ -247,15 +234,15 @@ def test_a_bearing_in_m_under_a_frame_in_mm() -> None:
     frame.add_node("ground", 0.0, 0.0, 0.0)
     frame.add_node("base", 0.0, 0.0, 85.0)
     with pytest.raises(ModelError, match=r"coordinates are in m \(85 mm are 0.085 m\)"):
-        frame.add_bearing("b", "ground", "base", LIRBearing(**PAPER))
+        frame.add_bearing("b", "ground", "base", small_bearing())
 
 
 def test_warnings_point_at_the_caller() -> None:
     with pytest.warns(DesignWarning) as caught:
-        LIRBearing(**(PAPER | {"design_load": 603.0}))
+        small_bearing(design_load=603.0)
     assert caught[0].filename == __file__
     with pytest.warns(DesignWarning):
-        assert replace(LIRBearing(**PAPER), design_load=603.0).resolved()["design_load"] == 603.0
+        assert replace(small_bearing(), design_load=603.0).resolved()["design_load"] == 603.0
 
 
 def test_random_usual_bearings_pass() -> None:

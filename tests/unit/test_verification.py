@@ -100,9 +100,7 @@ def test_the_command_says_which_passes(folder: Path, told: tuple[Any, pd.DataFra
     assert done.stdout.count("[bearing]") == 1
 
 
-def test_candidates_are_run_when_they_are_asked_for(
-    folder: Path, found: Design, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_candidates_are_run_when_they_are_asked_for(folder, found, monkeypatch):
     asked = []
 
     def noted(parts: ProjectInputs, **_: object) -> None:
@@ -132,9 +130,7 @@ def test_sections_of_one_size_alone_are_verified(folder: Path, found: Design) ->
         next(verified(parts_of(folder / "few.toml"), [several]))
 
 
-def test_a_candidate_is_verified_alone_where_the_file_has_several_types(
-    folder: Path, found: Design
-) -> None:
+def test_a_candidate_is_verified_alone_where_the_file_has_several_types(folder, found):
     file = folder / "types.toml"
     file.write_text(FEW.replace("[spectrum]", TYPE + "[spectrum]", 1))
     parts = parts_of(file)

@@ -55,9 +55,7 @@ def require_close(found: Any, wanted: Any) -> None:
     assert np.all(np.abs(found - wanted) <= HALF * np.abs(wanted).max(axis=0) + 1e-12)
 
 
-def test_histories_are_those_of_the_dataset(
-    run: tuple[Frame, xr.Dataset], held: dict[str, Any]
-) -> None:
+def test_histories_are_those_of_the_dataset(run, held):
     data = run[1]
     assert_array_equal(held["time"], data["time"])
     axis, horizontal = ["x", "y", "z"], ["x", "y"]
@@ -78,9 +76,7 @@ def test_histories_are_those_of_the_dataset(
     require_close(found["base shear"][:, 0], data["base_shear"].sel(axis=horizontal))
 
 
-def test_contacts_are_those_of_the_dataset(
-    run: tuple[Frame, xr.Dataset], held: dict[str, Any]
-) -> None:
+def test_contacts_are_those_of_the_dataset(run, held):
     bits, data = held["bearings"]["contacts"], run[1]
     for k, surface in enumerate(("bottom", "top")):
         assert_array_equal(bits & (1 << k) > 0, data["rim_force"].sel(surface=surface) > 0.0)
@@ -98,9 +94,7 @@ def test_contacts_are_those_of_the_dataset(
     assert slides[left].mean() < 0.1
 
 
-def test_extremes_and_geometry_are_exact(
-    run: tuple[Frame, xr.Dataset], held: dict[str, Any]
-) -> None:
+def test_extremes_and_geometry_are_exact(run, held):
     data, names = run[1], list(run[1]["bearing"].to_numpy())
     slip = data["interface_slip_size"]
     for k, name in enumerate(names):
@@ -119,9 +113,7 @@ def test_extremes_and_geometry_are_exact(
         assert device["rimFaces"] == [rim_face(device_of(data, name), k) for k in (0, 1)]
 
 
-def test_nodes_and_members_move_as_the_model_does(
-    run: tuple[Frame, xr.Dataset], held: dict[str, Any]
-) -> None:
+def test_nodes_and_members_move_as_the_model_does(run, held):
     """Lines from what the page holds, as its script puts them together, are those of figures."""
     model, data = run
     system, step = assemble(model), int(data.sizes["time"] // 3)
@@ -138,9 +130,7 @@ def test_nodes_and_members_move_as_the_model_does(
     assert_allclose(straight + moved, wanted, rtol=0.0, atol=1e-5)  # single precision of 10 m
 
 
-def test_the_plate_of_a_lifted_bearing_is_where_its_node_is(
-    run: tuple[Frame, xr.Dataset],
-) -> None:
+def test_the_plate_of_a_lifted_bearing_is_where_its_node_is(run):
     """With contact points, too, whose sliding on a surface that is not touched says nothing."""
     data = run[1]
     for name in map(str, data["bearing"].to_numpy()):
@@ -166,9 +156,7 @@ def test_the_plate_of_a_lifted_bearing_is_where_its_node_is(
         assert_allclose(moved.lift[gap.argmax()], gap.max(), rtol=0.05)
 
 
-def test_fewer_steps_keep_extremes_and_say_what_they_miss(
-    run: tuple[Frame, xr.Dataset], held: dict[str, Any], tmp_path: Path
-) -> None:
+def test_fewer_steps_keep_extremes_and_say_what_they_miss(run, held, tmp_path):
     model, data = run
     said = write_view(data, model, tmp_path / "thin.html", size=0.1)
     thin = payload(tmp_path / "thin.html")
@@ -235,9 +223,7 @@ def test_other_models_have_a_page(kind: str, tmp_path: Path) -> None:
     require_close(held["bearings"]["displacement"], data["bearing_displacement"])
 
 
-def test_texts_stay_texts_and_nothing_is_fetched(
-    run: tuple[Frame, xr.Dataset], tmp_path: Path
-) -> None:
+def test_texts_stay_texts_and_nothing_is_fetched(run, tmp_path):
     model, data = run
     evil = "</script><script>alert(1)</script><!-- scripts -->"
     named = data.assign_attrs(title=evil)
@@ -254,9 +240,7 @@ def test_texts_stay_texts_and_nothing_is_fetched(
     assert "Permission is hereby granted, free of charge" in text  # three.js, MIT
 
 
-def test_what_cannot_be_shown_says_what_to_do(
-    run: tuple[Frame, xr.Dataset], tmp_path: Path
-) -> None:
+def test_what_cannot_be_shown_says_what_to_do(run, tmp_path):
     model, data = run
     path = tmp_path / "view.html"
     other = lumped_mass(BEARING, mass=50e3)

@@ -76,9 +76,7 @@ def numbers(page: Any) -> dict[str, str]:
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("width", [1280, 390])
-def test_it_shows_all_and_asks_for_nothing(
-    browser: Any, written: Path, width: int, scheme: str
-) -> None:
+def test_it_shows_all_and_asks_for_nothing(browser, written, width, scheme):
     page = opened(browser, written, width, scheme)
     page.click("#to-rim")
     assert page.said == [written.as_uri()]

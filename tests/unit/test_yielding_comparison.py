@@ -78,12 +78,7 @@ def row(system, drift, status="ok", **more):
     return (
         place
         | {"system": system, "status": status, "drift": drift}
-        | {
-            "rotation": 0.0,
-            "residual": 0.0,
-            "floor": 1.0,
-            "shear": 1.0,
-        }
+        | {"rotation": 0.0, "residual": 0.0, "floor": 1.0, "shear": 1.0}
         | more
     )
 
