@@ -10,10 +10,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import Bound, Check
-from frames.design.calculation.standing import Standing
 from frames.design.calculation.trace import Trace
-from frames.design.codes.secant import CheckBuilder
 from frames.results.peak_response import places_of, reached
 from frames.results.recorded import REACHED
 
@@ -269,39 +266,3 @@ def motion_of(data: xr.Dataset, k: int) -> str:
     """Return the motion of a run, with its scale where that is not 1."""
     name, scale = str(data["motion"].to_numpy()[k]), float(data["scale"][k])
     return name if abs(scale - 1.0) < 1e-12 else f"{name} x {scale:.4g}"
-
-
-class Calculation(NamedTuple):
-    """A calculation with its symbols of demand and limit."""
-
-    trace: Trace
-    demand: str
-    limit: str
-
-
-@dataclass(frozen=True)
-class Governing:
-    """Makes the check of what is worst."""
-
-    bound: Bound  # properties of the bearings that it is for
-    standing: Standing  # of its checks
-    note: str = ""  # goes with its checks
-    void: str = ""  # why its demands are no values for design
-
-    def __call__(self, clause: str, title: str, each: Mapping[str, Calculation]) -> list[Check]:
-        """Return the check of the largest ratio."""
-        # where no value is finite none is the worst
-        known = any(math.isfinite(c.trace.value(c.demand)) for c in each.values())
-        found = [
-            CheckBuilder(c.trace, self.bound, self.standing, void=self.void).worst(
-                clause,
-                title,
-                c.demand,
-                "<=",
-                c.limit,
-                subjects=(name if known else "",),
-                note=self.note,
-            )
-            for name, c in each.items()
-        ]
-        return [max(found, key=lambda check: check.compared)] if found else []
