@@ -31,7 +31,7 @@ from frames.design import (
     history_demands,
 )
 from frames.design.codes.bounds import BoundName
-from frames.design.histories.least_shears import Raise, raises_by_case
+from frames.design.histories.suite import Raise, raises_by_case
 from frames.results.peak_response import largest
 from lir_element import CoulombFriction, LIRBearing
 

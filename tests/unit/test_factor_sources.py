@@ -12,7 +12,7 @@ pytest.importorskip("pint")
 from frames.design import ProjectError, PropertyBounds
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
-from frames.design.report.judged import factor_steps
+from frames.design.report.cover import factor_steps
 
 PROJECT = """
 [project]

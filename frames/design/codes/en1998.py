@@ -17,8 +17,7 @@ from frames.design.codes.common import (
     enter_storeys,
 )
 from frames.design.codes.factor_sources import factors_of_en1998
-from frames.design.codes.history_rules import DESIGN, HistoryRules
-from frames.design.codes.load_rules import LoadRule, fixed_combinations
+from frames.design.codes.history_rules import DESIGN, HistoryRules, LoadRule, fixed_combinations
 from frames.design.codes.outcome import Symbols
 from frames.design.codes.prototype_programme import AcceptanceRule, DesignToTest, PlannedTest
 from frames.design.codes.registry import (

@@ -24,8 +24,9 @@ from frames.design.codes.history_rules import (
     NCH_MAXIMUM,
     ActionLevel,
     HistoryRules,
+    LoadRule,
+    fixed_combinations,
 )
-from frames.design.codes.load_rules import LoadRule, fixed_combinations
 from frames.design.codes.outcome import Iteration, Symbols
 from frames.design.codes.prototype_programme import (
     AcceptanceRule,

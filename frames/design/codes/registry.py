@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, cast, runtime_checkable
 from frames.design._errors import CheckError
 from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.codes.factor_sources import factors_by_source
-from frames.design.codes.history_rules import HistoryRules
-from frames.design.codes.load_rules import LOADS_OF_ASCE, LoadRule
+from frames.design.codes.history_rules import LOADS_OF_ASCE, HistoryRules, LoadRule
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, no_tests
 from frames.design.hazard.code_rules import (
     HazardRules,

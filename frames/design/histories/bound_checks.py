@@ -22,10 +22,12 @@ from frames.design.histories.bearing_demands import (
     devices_of,
 )
 from frames.design.histories.eccentricity import Case, named_by_way
-from frames.design.histories.least_shears import LEAST, raise_of, shear_checks
 from frames.design.histories.suite import (
+    LEAST,
     parted,
     peaks_of_runs,
+    raise_of,
+    shear_checks,
     stopped_runs,
     suite_of,
 )
@@ -241,7 +243,8 @@ class BoundChecks:
             return []
         storey = self.frame.levels[1].name if len(self.frame.levels) > 1 else ""
         known = self.equivalent.bounds[self.case.bound]
-        return shear_checks(self.case, known, storey, self._note)
+        case = self.case
+        return shear_checks(case.data, case.suite, case.rules, known, storey, self._note)
 
     def _drift(self) -> list[Check]:
         # That of the code, and that of the project beside it.

@@ -9,8 +9,7 @@ import numpy as np
 from frames.design._errors import CheckError
 from frames.design.histories.demand_table import said
 from frames.design.histories.eccentricity import Case, cases_of
-from frames.design.histories.least_shears import Raise
-from frames.design.histories.suite import peaks_of_runs
+from frames.design.histories.suite import Raise, peaks_of_runs
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
