@@ -49,6 +49,14 @@ from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.units import STANDARD_GRAVITY
 
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from frames.design.calculation.trace import Trace
+    from frames.design.codes.code_values import CodeValue
+    from frames.design.codes.isolation import Extremes, IsolationSystem
+    from frames.design.codes.superstructure import Superstructure
+
 MULTI_PERIOD = "asce7_multi_period"
 """Shape of spectra that are given by period."""
 
@@ -58,14 +66,6 @@ _BY_S_M1 = (
 )
 _NEAR_FAULT = 0.6  # g, S_1 from which on C_s has a further least value
 _STEPS = (0.25, 0.50, 0.67, 1.00)  # of D_M, in tests of increments
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
-    from frames.design.calculation.trace import Trace
-    from frames.design.codes.code_values import CodeValue
-    from frames.design.codes.isolation import Extremes, IsolationSystem
-    from frames.design.codes.superstructure import Superstructure
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -38,8 +38,6 @@ from frames.design.codes.values_of_en1998 import PROVISIONS, VALUES
 from frames.design.hazard.code_rules import DampingRule, ScalingRule
 from frames.design.hazard.spectrum import Spectrum
 
-_SMALLEST_ETA = 0.55
-
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
@@ -48,6 +46,7 @@ if TYPE_CHECKING:
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.superstructure import Superstructure
 
+_SMALLEST_ETA = 0.55
 _DRIFTS = {"brittle": 0.005, "ductile": 0.0075, "separate": 0.010}
 """Limits of nu d_r over the height by the non-structural elements (EN 1998-1 4.4.3.2)."""
 

@@ -111,18 +111,10 @@ class SpectrumKey(NamedTuple):
 
 
 class ExampleProject(NamedTuple):
-    """What the example of ``lir new`` is under a code.
+    """What the example of ``lir new`` is under a code."""
 
-    Attributes
-    ----------
-    spectrum : mapping of str to object
-        Keys of its spectrum [SI], which its motions follow.
-    sections : mapping of str to str
-        Sections of the file by name, in place of those of ASCE 7-22.
-    """
-
-    spectrum: Mapping[str, object]
-    sections: Mapping[str, str]
+    spectrum: Mapping[str, object]  # keys of its spectrum [SI], which its motions follow
+    sections: Mapping[str, str]  # sections of the file by name, in place of those of ASCE 7-22
 
 
 MOST_IMPORTANT = 3.0

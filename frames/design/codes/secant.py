@@ -44,18 +44,8 @@ def enter_system(system: IsolationSystem) -> Trace:
 def secant(t: Trace, displacement: str, symbols: Symbols, source: str, level: str = "") -> None:
     """Enter effective stiffness, damping and period of a system at a displacement.
 
-    Parameters
-    ----------
-    t : Trace
-        From `enter_system`, with the displacement.
-    displacement : str
-        Symbol of the displacement.
-    symbols : Symbols
-        How they are called.
-    source : str
-        Clause.
-    level : str
-        Ends the symbols F and E of force and energy, where there are several levels.
+    `t` is of `enter_system` and has the displacement; `level` ends the symbols F and E of force
+    and energy if there are several levels.
     """
     k, beta, d = symbols.stiffness, symbols.damping, displacement
     t.each(f"F{level}", f"P * ({d} / L + mu)", "N", note="force of each bearing")
@@ -119,36 +109,17 @@ def _severity(check: Check) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class CheckBuilder:
-    """Makes checks from what a calculation holds.
+    """Makes checks from what a calculation holds."""
 
-    Parameters
-    ----------
-    t : Trace
-        The calculation.
-    bound : {"lower", "nominal", "upper", ""}
-        Properties of the bearings that it is for.
-    standing : Standing
-        Of its checks.
-    scope : {"any", "demand", "procedure", "agreement", "minimum"}
-        Of its checks.
-    void : str
-        Why its demands are no values for design.
-    level : str
-        Level of the seismic action of its checks.
-    values : mapping of str to CodeValue
-        Of the code, which `resting_on` and `limit` name.
-    analysis : object, optional
-        Analysis of the code, with its factors.
-    """
-
-    t: Trace
-    bound: Bound
-    standing: Standing = MEMORY
-    scope: Scope = "any"
-    void: str = ""
-    level: str = ""
+    t: Trace  # the calculation
+    bound: Bound  # properties of the bearings that it is for
+    standing: Standing = MEMORY  # of its checks
+    scope: Scope = "any"  # of its checks
+    void: str = ""  # why its demands are no values for design
+    level: str = ""  # level of the seismic action of its checks
+    # of the code, which `resting_on` and `limit` name
     values: Mapping[str, CodeValue] = field(default_factory=dict)
-    analysis: object = None
+    analysis: object = None  # analysis of the code, with its factors
 
     def of(self, scope: Scope) -> CheckBuilder:
         """Return one that makes checks of this scope."""
