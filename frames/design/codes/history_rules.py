@@ -8,7 +8,6 @@ from typing import Literal, NamedTuple, get_args
 
 from frames.design._errors import CheckError
 from frames.design.calculation.standing import MEMORY, Standing
-from frames.design.codes.values_of_asce7 import VALUES
 from frames.model.load_combinations import isolator_combinations
 from lir_element.argument_checks import require_choice
 from lir_element.fields import check_numbers, number
@@ -297,10 +296,10 @@ def fixed_combinations(combinations: Combinations) -> Callable[[float | None], C
 
 
 LOADS_OF_ASCE = LoadRule(
-    VALUES["loads"].clause,
+    "ASCE/SEI 7-22, 12.7.2 and 17.2.7.1",
     {"D": 1.0, "L": 0.0, "S": 0.0},
     lambda s_ms: isolator_combinations(s_ms or 0.0),
-    VALUES["loads"].standing,
+    MEMORY,
     "of live load only that of storage counts as mass, 25 %",
 )
 """Seismic weight and combinations of ASCE 7, and of codes that give none of their own."""

@@ -17,10 +17,7 @@ from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.design.codes.registry import HISTORY_RULES, standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.capacity import engagement_checks
-from frames.design.histories.bearing_demands import (
-    BearingDemands,
-    devices_of,
-)
+from frames.design.histories.bearing_demands import BearingDemands, devices_of
 from frames.design.histories.eccentricity import Case, named_by_way
 from frames.design.histories.suite import (
     LEAST,

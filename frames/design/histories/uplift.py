@@ -14,12 +14,7 @@ from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import enter_geometry, overlap_area, pressure
 from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
 from frames.design.histories.bearing_demands import BearingDemands, Calculation
-from frames.design.histories.suite import (
-    Suite,
-    motion_of,
-    peaks_of_runs,
-    stopped_in,
-)
+from frames.design.histories.suite import Suite, motion_of, peaks_of_runs, stopped_in
 from lir_element.device.sliders import interface_height
 
 if TYPE_CHECKING:
