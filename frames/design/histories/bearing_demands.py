@@ -12,6 +12,7 @@ import numpy as np
 from frames.bundles.peak_data import LOADED, PRESSED
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
@@ -141,7 +142,7 @@ class BearingDemands:
         """Return the check of the largest ratio; none of nothing."""
         # where no value is finite none is the worst
         known = any(math.isfinite(c.trace.value(c.demand)) for c in each.values())
-        words = "; ".join(part for part in (note, self.note) if part)
+        words = joined(note, self.note)
         found = [
             CheckBuilder(c.trace, self.bound, standing, void=self.suite.void).worst(
                 clause,

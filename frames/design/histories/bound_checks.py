@@ -11,6 +11,7 @@ import numpy as np
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
@@ -107,7 +108,7 @@ class BoundChecks:
         )
         failed = sum(self.case.suite.failed)
         allowed = "" if self.case.suite.void or not failed else f"{failed} runs failed: as many may"
-        return "; ".join(part for part in (allowed, more) if part)
+        return joined(allowed, more)
 
     @cached_property
     def _bearings(self) -> BearingDemands:
@@ -147,8 +148,7 @@ class BoundChecks:
         t.given("n_allowed", float(allowed))
         clause = self._clause(self.case.rules.statistic_clause)
         judge = CheckBuilder(t, self.case.bound, MEMORY)
-        said = (self.case.suite.reason, self._small_gaps, self._audit)
-        note = "; ".join(part for part in said if part)
+        note = joined(self.case.suite.reason, self._small_gaps, self._audit)
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
 
     def _moved_failed(self) -> list[Check]:
@@ -160,7 +160,7 @@ class BoundChecks:
         t.given("n_failed", count, note=f"of {self.case.moved.sizes['run']} runs")
         t.given("n_allowed", 0.0)
         audit = audit_notes(named_by_way(self.case.moved))
-        note = "; ".join(part for part in (self.case.suite.moved_failed, audit) if part)
+        note = joined(self.case.suite.moved_failed, audit)
         clause = self._clause(self.case.rules.eccentricity_clause)
         judge = CheckBuilder(
             t, self.case.bound, self._known("moved masses", "accidental_eccentricity")
@@ -207,8 +207,8 @@ class BoundChecks:
         clause = self._clause(rules.uplift_clause) if rules.uplift_clause else ""
         devices, every = self._bearings.bearings, self.case.every
         more = "" if clause else self._uplift_by_the_project
-        failed = (self.case.suite.reason, self.case.suite.moved_failed)
-        suite = suite_of_uplift(every, "; ".join(part for part in failed if part))
+        reason = joined(self.case.suite.reason, self.case.suite.moved_failed)
+        suite = suite_of_uplift(every, reason)
         made = Uplift(every, suite, devices, self.limits, self.case.bound, more, clause=clause)
         return [*found, *made.rims(), *made.gaps(), *made.landings()]
 
@@ -251,7 +251,7 @@ class BoundChecks:
         for limit in (None,) if code is None else (code, None):
             for check in self._drift_within(limit):
                 more = [self._beside()] if limit is None else [self._gravity(check), self._elements]
-                note = "; ".join(part for part in (check.note, *more) if part)
+                note = joined(check.note, *more)
                 found.append(replace(check, note=note))
         return found
 

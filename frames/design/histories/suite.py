@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from frames.design._errors import CheckError
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.trace import Trace
 from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
@@ -73,7 +74,7 @@ class Suite:
     @property
     def void(self) -> str:
         """Why there is no value for design; empty where there is one."""
-        said = "; ".join(part for part in (self.reason, self.moved_failed) if part)
+        said = joined(self.reason, self.moved_failed)
         return "" if self.is_usable else said or "a run failed"
 
     def value(self, values: FloatArray, of: str = "") -> float:
@@ -307,7 +308,7 @@ def shear_checks(
         more = ""
         if not suite.void and 0.0 < demand < least:
             more = f"{what} are raised by {least / demand:.4g}"
-        said = "; ".join(part for part in (more, note) if part)
+        said = joined(more, note)
         standing = standing_in(rules.code, "history minima")
         judge = CheckBuilder(t, known.bound, standing, void=suite.void).of("minimum")
         return judge.worst(clause, title, symbol, ">=", "V_least", subjects=(subject,), note=said)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
@@ -112,7 +113,7 @@ def doubted(checks: list[Check], errors: Mapping[str, float], quantity: str) -> 
                 f'at the level "pendulum" the {quantity} may be off by {100.0 * error:.0f} %, '
                 'more than its margin: run at level = "contact"'
             )
-            check = replace(check, note="; ".join(part for part in (check.note, said) if part))
+            check = replace(check, note=joined(check.note, said))
         found.append(check)
     return found
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.unevaluated import not_evaluated
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.device import device_checks
@@ -229,7 +230,7 @@ def of_the_bearing(run: RunToCheck) -> list[Check]:
         for check in _of_type(run, kind.bearing, kind.asked):
             subject = check.subject
             if len(run.types) > 1:
-                subject = ", ".join(part for part in (f"type {name}", subject) if part)
+                subject = joined(f"type {name}", subject, by=", ")
             found.append(replace(check, subject=subject, level=run.rules.bearing_level))
     return found
 

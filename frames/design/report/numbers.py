@@ -17,6 +17,7 @@ from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands
 from frames.design.histories.suite import peaks_of_runs, raises_by_case, stopped_in
 from frames.design.report.page import Table
+from frames.design.report.tables import SHOWN
 from frames.library.building import ARM
 from frames.recording.force_rows import MEMBER_FORCES
 from frames.results.quantities import QUANTITIES
@@ -207,9 +208,7 @@ def group_names(frame: Frame) -> dict[str, str]:
     return found
 
 
-_SHOWN = {
-    "m": ("mm", 1e3),
-    "N": ("kN", 1e-3),
+_SHOWN = SHOWN | {
     "N/m": ("kN/m", 1e-3),
     "N s/m": ("kN s/m", 1e-3),
     "kg/m3": ("kg/m³", 1.0),
