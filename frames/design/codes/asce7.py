@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from frames._errors import MotionWarning
 from frames.design._errors import CheckError
-from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.check import Checks
 from frames.design.codes.common import (
     LinearAnalysis,
     capacity_check,
@@ -183,24 +184,19 @@ class ASCE7(LinearAnalysis):
     def device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
         """Return the checks of rims, restoring force and limits of the procedure."""
         enter_restoring(t, "D_M", self.restoring)
-        t.given("T_lim", self.longest_period, "s")
-        t.given("beta_lim", self.most_damping, shown="%")
         t("k_02", "sum(P * (0.2 * D_M / L + mu)) / (0.2 * D_M)", "N/m", note="at 0.2 D_M")
-        t.given("a_k", self.stiffness_ratio)
-        t("k_lim", "a_k * k_02", "N/m")
-        limits, stiffness = "ASCE 7-22 17.4.1", "effective stiffness ratio, D_M to 0.2 D_M"
-
         rims, back = judge.resting_on("rims"), judge.resting_on("restoring")
-        longest = judge.limit("longest period", "effective")
-        damping = judge.limit("most damping", "effective")
-        softening = judge.limit("stiffness ratio", "effective")
+        limit = partial(judge.procedure, also=("effective",))
+        stiffness = "effective stiffness ratio, D_M to 0.2 D_M"
         return Checks(
             [
                 capacity_check(t, system, rims, "ASCE 7-22 17.2.4.5, 17.4.1", "D_T"),
                 back("ASCE 7-22 17.2.4.4", "restoring force", "Delta_F", ">=", "Delta_F_lim"),
-                longest(limits, "effective period", "T_M", "<=", "T_lim"),
-                damping(limits, "effective damping", "beta_M", "<=", "beta_lim"),
-                softening(limits, stiffness, "k_M", ">=", "k_lim"),
+                limit("longest period", "effective period", "T_M", "<=", "T_lim", "s"),
+                limit("most damping", "effective damping", "beta_M", "<=", "beta_lim", shown="%"),
+                limit(
+                    "stiffness ratio", stiffness, "k_M", ">=", "k_lim", "N/m", of=("a_k", "k_02")
+                ),
             ]
         )
 
@@ -269,25 +265,20 @@ class ASCE7(LinearAnalysis):
 
     def structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
         """Return the limits of the procedure for the structure, and its drifts."""
-        limits = "ASCE 7-22 17.4.1"
-
-        t.given("a_fb", self.period_ratio)
-        t("T_least", "a_fb * T_fb", "s")
-        ratio = judge.limit("period ratio", "effective")
-        found: list[Check] = [ratio(limits, "period ratio T_M / T_fb", "T_M", ">=", "T_least")]
+        limit = judge.procedure
+        title, of = "period ratio T_M / T_fb", ("a_fb", "T_fb")
+        also = ("effective",)
+        found = [limit("period ratio", title, "T_M", ">=", "T_least", "s", of=of, also=also)]
         if self.irregular:
             t.given("n_irr", 1.0, note="irregular, as given")
             t.given("n_irr_lim", 0.0)
-            found.append(
-                judge.limit("regularity")(limits, "irregular structure", "n_irr", "<=", "n_irr_lim")
-            )
+            regular, clause = judge.limit("regularity"), self.values["regularity"].clause
+            found.append(regular(clause, "irregular structure", "n_irr", "<=", "n_irr_lim"))
         if not self.no_tension:
             t.given("n", float(len(above.storey_weights)))
-            t.given("n_lim", self.storeys)
             t("h_n", "max(h_x)", "m")
-            t.given("h_lim", self.height, "m")
-            found.append(judge.limit("storeys")(limits, "storeys", "n", "<=", "n_lim"))
-            found.append(judge.limit("height")(limits, "height", "h_n", "<=", "h_lim"))
+            found.append(limit("storeys", "storeys", "n", "<=", "n_lim"))
+            found.append(limit("height", "height", "h_n", "<=", "h_lim", "m"))
         clause = "ASCE 7-22 17.5.6"
         known = judge.resting_on("drift", "V_st", "exponent", "R_I", "F_x")
         drift = drift_checks(t, above, known, clause, limit=self.drift, factor="R_I")

@@ -165,12 +165,8 @@ class EN1998(LinearAnalysis):
 
     def device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
         """Return the checks of capacity, recentring and limits of the procedure."""
-        t.given("a_k", self.stiffness_ratio)
         t("K_02", "sum(P * (0.2 * d_dc / L + mu)) / (0.2 * d_dc)", "N/m", note="at 0.2 d_dc")
-        t("K_lim", "a_k * K_02", "N/m")
-        t.given("xi_lim", self.most_damping, shown="%")
         enter_restoring(t, "d_dc", self.restoring)
-        t.given("a_e_lim", self.total_eccentricity)
         t("a_tot", "max(e_x / b, e_y / d)", note="with the accidental one, over the side")
         t.given("a_S", self.energy_ratio)
         t.each("E_S", "P * d_dc**2 / (2 * L)", "J", source="EN 15129 4.3", note="stored, 0 to d_dc")
@@ -179,8 +175,9 @@ class EN1998(LinearAnalysis):
         t.given("a_r", self.recentring)
         t.each("d_r", "mu * L", "m", source="EN 1998-2 7.7.1", shown="mm", note="largest residual")
         t.each("d_least", "a_r * d_r", "m", shown="mm")
-        limits, names = "EN 1998-1 10.9.2", system.labels
+        limit, names = judge.procedure, system.labels
         title, stiffness = "recentring, energy", "effective stiffness ratio, d_dc to 0.2 d_dc"
+        eccentricity = "total eccentricity over the side of the plan"
         capacity = judge.resting_on("capacity", "reliability")
 
         found = [
@@ -199,24 +196,18 @@ class EN1998(LinearAnalysis):
                 subjects=names,
                 note="else capacity must be d_o + gamma_du rho_d d_bi,d",
             ),
-            judge.limit("stiffness ratio")(limits, stiffness, "K_eff", ">=", "K_lim"),
-            judge.limit("most damping")(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
-            judge.limit("restoring")(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
-            judge.limit("total eccentricity")(
-                "EN 1998-1 10.9.3",
-                "total eccentricity over the side of the plan",
-                "a_tot",
-                "<=",
-                "a_e_lim",
+            limit("stiffness ratio", stiffness, "K_eff", ">=", "K_lim", "N/m", of=("a_k", "K_02")),
+            limit("most damping", "effective damping", "xi_eff", "<=", "xi_lim", shown="%"),
+            judge.limit("restoring")(
+                "EN 1998-1 10.9.2", "restoring force", "Delta_F", ">=", "Delta_F_lim"
             ),
+            limit("total eccentricity", eccentricity, "a_tot", "<=", "a_e_lim"),
             self._accumulated(t, system, judge.limit("accumulated")),
         ]
         if self.property_variation is not None:
             t.given("v", self.property_variation, shown="%")
-            t.given("v_lim", self.most_variation, shown="%")
-            found.append(
-                judge.limit("variation")(limits, "variation of properties", "v", "<=", "v_lim")
-            )
+            title = "variation of properties"
+            found.append(limit("variation", title, "v", "<=", "v_lim", shown="%"))
         return Checks(found)
 
     def _accumulated(self, t: Trace, system: IsolationSystem, limit: CheckBuilder) -> Check:
@@ -260,28 +251,20 @@ class EN1998(LinearAnalysis):
         if not self.simplified:
             return Checks()
         t("B_plan", "max(b, d)", "m")
-        t.given("B_lim", self.largest_side, "m")
-        t.given("T_lim", self.longest_period, "s")
         t.given("r_f", self.fault_distance or 0.0, "m")
-        t.given("r_lim", self.least_distance, "m")
-        t.given("a_f", self.period_ratio)
-        t("T_least", "a_f * T_f", "s")
         t.given("T_v", above.vertical_period or 0.0, "s")
-        t.given("T_v_lim", self.vertical_period, "s")
         t("K_V", "W / g * (2 * pi / T_v)**2", "N/m", note="by T_v of the mass above")
         t("r_V", "K_V / K_eff")
-        t.given("r_V_lim", self.vertical_stiffness)
-        clause, ratio = "EN 1998-1 10.9.3", "period ratio T_eff / T_fb"
+        limit, ratio, of = judge.procedure, "period ratio T_eff / T_fb", ("a_f", "T_f")
         upright = "vertical over effective stiffness"
-
         return Checks(
             [
-                judge.limit("largest side")(clause, "side of the plan", "B_plan", "<=", "B_lim"),
-                judge.limit("longest period")(clause, "effective period", "T_eff", "<=", "T_lim"),
-                judge.limit("fault")(clause, "distance to the fault", "r_f", ">=", "r_lim"),
-                judge.limit("period ratio")(clause, ratio, "T_eff", ">=", "T_least"),
-                judge.limit("vertical period")(clause, "vertical period", "T_v", "<=", "T_v_lim"),
-                judge.limit("vertical stiffness")(clause, upright, "r_V", ">=", "r_V_lim"),
+                limit("largest side", "side of the plan", "B_plan", "<=", "B_lim", "m"),
+                limit("longest period", "effective period", "T_eff", "<=", "T_lim", "s"),
+                limit("fault", "distance to the fault", "r_f", ">=", "r_lim", "m"),
+                limit("period ratio", ratio, "T_eff", ">=", "T_least", "s", of=of),
+                limit("vertical period", "vertical period", "T_v", "<=", "T_v_lim", "s"),
+                limit("vertical stiffness", upright, "r_V", ">=", "r_V_lim"),
             ]
         )
 

@@ -133,6 +133,31 @@ class CheckBuilder:
         """Return one for limits of the procedure that rest on these values of the code."""
         return self.resting_on(*names).of("procedure")
 
+    def procedure(
+        self,
+        name: str,
+        title: str,
+        symbol: str,
+        relation: Literal["<=", ">="],
+        limit: str,
+        unit: str = "-",
+        *,
+        shown: str = "",
+        of: tuple[str, str] = ("", ""),
+        also: tuple[str, ...] = (),
+    ) -> Check:
+        """Enter a value of the code as a limit of the procedure, and return the check against it.
+
+        `of` has the symbols of a value that is a share, and of its whole; the check rests on the
+        values `also` as well.
+        """
+        value, (share, whole) = self.values[name], of
+        found = getattr(self.analysis, value.field)
+        self.t.given(share or limit, found, "-" if whole else unit, shown=shown)
+        if whole:
+            self.t(limit, f"{share} * {whole}", unit)
+        return self.limit(name, *also)(value.clause, title, symbol, relation, limit)
+
     def at(self, level: str) -> CheckBuilder:
         """Return one that makes checks at this level of the seismic action."""
         return replace(self, level=level)
