@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 from frames.command.app import app
 from frames.design._errors import ProjectError
 from frames.design.codes.registry import code_named
-from frames.design.plots import motion_spectra
+from frames.design.hazard.plot_hazard import motion_spectra
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project

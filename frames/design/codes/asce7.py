@@ -32,7 +32,7 @@ from frames.design.codes.prototype_programme import (
     wind_test,
 )
 from frames.design.codes.registry import DesignCode
-from frames.design.codes.secant import CheckBuilder, enter_system, secant
+from frames.design.codes.secant import CheckBuilder, enter_system, procedure_limit, secant
 from frames.design.codes.values_of_asce7 import NAME, PROVISIONS, RULES, VALUES
 from frames.design.hazard.spectrum import Spectrum
 
@@ -186,7 +186,7 @@ class ASCE7(LinearAnalysis):
         enter_restoring(t, "D_M", self.restoring)
         t("k_02", "sum(P * (0.2 * D_M / L + mu)) / (0.2 * D_M)", "N/m", note="at 0.2 D_M")
         rims, back = judge.resting_on("rims"), judge.resting_on("restoring")
-        limit = partial(judge.procedure, also=("effective",))
+        limit = partial(procedure_limit, judge, also=("effective",))
         stiffness = "effective stiffness ratio, D_M to 0.2 D_M"
         return Checks(
             [
@@ -265,7 +265,7 @@ class ASCE7(LinearAnalysis):
 
     def structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
         """Return the limits of the procedure for the structure, and its drifts."""
-        limit = judge.procedure
+        limit = partial(procedure_limit, judge)
         title, of = "period ratio T_M / T_fb", ("a_fb", "T_fb")
         also = ("effective",)
         found = [limit("period ratio", title, "T_M", ">=", "T_least", "s", of=of, also=also)]

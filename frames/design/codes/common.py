@@ -306,7 +306,23 @@ def capacity_check(
 ) -> Check:
     """Return the check of the rims' displacement against the demand, for the worst bearing.
 
-    `demand` is the symbol of the demand of each bearing in `t`, `words` its name in the title.
+    Parameters
+    ----------
+    t : Trace
+        With the demand of each bearing.
+    system : IsolationSystem
+        The system.
+    judge : CheckBuilder
+        Makes the check.
+    clause, demand : str
+        Clause, and symbol of the demand.
+    words : str
+        What the code calls the demand, for the title.
+
+    Returns
+    -------
+    Check
+        Its note says where the rim is met.
     """
     t.given_each(
         "d_rim",

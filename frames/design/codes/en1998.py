@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, ClassVar
 
 from frames.design._errors import CheckError
@@ -20,7 +21,7 @@ from frames.design.codes.history_rules import DESIGN
 from frames.design.codes.outcome import Symbols
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest
 from frames.design.codes.registry import DesignCode
-from frames.design.codes.secant import CheckBuilder, enter_system, secant
+from frames.design.codes.secant import CheckBuilder, enter_system, procedure_limit, secant
 from frames.design.codes.values_of_en1998 import NAME, PROVISIONS, RULES, VALUES
 from frames.design.hazard.spectrum import Spectrum
 
@@ -175,7 +176,7 @@ class EN1998(LinearAnalysis):
         t.given("a_r", self.recentring)
         t.each("d_r", "mu * L", "m", source="EN 1998-2 7.7.1", shown="mm", note="largest residual")
         t.each("d_least", "a_r * d_r", "m", shown="mm")
-        limit, names = judge.procedure, system.labels
+        limit, names = partial(procedure_limit, judge), system.labels
         title, stiffness = "recentring, energy", "effective stiffness ratio, d_dc to 0.2 d_dc"
         eccentricity = "total eccentricity over the side of the plan"
         capacity = judge.resting_on("capacity", "reliability")
@@ -255,7 +256,11 @@ class EN1998(LinearAnalysis):
         t.given("T_v", above.vertical_period or 0.0, "s")
         t("K_V", "W / g * (2 * pi / T_v)**2", "N/m", note="by T_v of the mass above")
         t("r_V", "K_V / K_eff")
-        limit, ratio, of = judge.procedure, "period ratio T_eff / T_fb", ("a_f", "T_f")
+        limit, ratio, of = (
+            partial(procedure_limit, judge),
+            "period ratio T_eff / T_fb",
+            ("a_f", "T_f"),
+        )
         upright = "vertical over effective stiffness"
         return Checks(
             [

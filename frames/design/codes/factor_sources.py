@@ -27,6 +27,22 @@ def factors_by_source(**given: Any) -> PropertyModificationFactors:
     """Return the product of factors by source: a code without a rule of its own.
 
     Nothing is taken off for effects that are not at their worst at once, which is on the safe side.
+
+    Parameters
+    ----------
+    **given
+        Lower and upper factor [-] of ageing, contamination, temperature, wear, test (heating, rate
+        and cycling, by prototype tests), and specification.
+
+    Returns
+    -------
+    PropertyModificationFactors
+        The products, with their calculation.
+
+    Raises
+    ------
+    CheckError
+        If a factor is out of bounds, or a key belongs to the rule of another code.
     """
     _refuse_others(given, tuple(_SYMBOLS))
     t, names = Trace(), []

@@ -44,8 +44,18 @@ def enter_system(system: IsolationSystem) -> Trace:
 def secant(t: Trace, displacement: str, symbols: Symbols, source: str, level: str = "") -> None:
     """Enter effective stiffness, damping and period of a system at a displacement.
 
-    `t` is of `enter_system` and has the displacement; `level` ends the symbols F and E of force
-    and energy if there are several levels.
+    Parameters
+    ----------
+    t : Trace
+        From `enter_system`, with the displacement.
+    displacement : str
+        Symbol of the displacement.
+    symbols : Symbols
+        How they are called.
+    source : str
+        Clause.
+    level : str
+        Ends the symbols F and E of force and energy, where there are several levels.
     """
     k, beta, d = symbols.stiffness, symbols.damping, displacement
     t.each(f"F{level}", f"P * ({d} / L + mu)", "N", note="force of each bearing")
@@ -133,31 +143,6 @@ class CheckBuilder:
         """Return one for limits of the procedure that rest on these values of the code."""
         return self.resting_on(*names).of("procedure")
 
-    def procedure(
-        self,
-        name: str,
-        title: str,
-        symbol: str,
-        relation: Literal["<=", ">="],
-        limit: str,
-        unit: str = "-",
-        *,
-        shown: str = "",
-        of: tuple[str, str] = ("", ""),
-        also: tuple[str, ...] = (),
-    ) -> Check:
-        """Enter a value of the code as a limit of the procedure, and return the check against it.
-
-        `of` has the symbols of a value that is a share, and of its whole; the check rests on the
-        values `also` as well.
-        """
-        value, (share, whole) = self.values[name], of
-        found = getattr(self.analysis, value.field)
-        self.t.given(share or limit, found, "-" if whole else unit, shown=shown)
-        if whole:
-            self.t(limit, f"{share} * {whole}", unit)
-        return self.limit(name, *also)(value.clause, title, symbol, relation, limit)
-
     def at(self, level: str) -> CheckBuilder:
         """Return one that makes checks at this level of the seismic action."""
         return replace(self, level=level)
@@ -227,3 +212,29 @@ class CheckBuilder:
             void=self.void,
             level=self.level,
         )
+
+
+def procedure_limit(
+    judge: CheckBuilder,
+    name: str,
+    title: str,
+    symbol: str,
+    relation: Literal["<=", ">="],
+    limit: str,
+    unit: str = "-",
+    *,
+    shown: str = "",
+    of: tuple[str, str] = ("", ""),
+    also: tuple[str, ...] = (),
+) -> Check:
+    """Enter a value of the code as a limit of the procedure, and return the check against it.
+
+    `of` has the symbols of a value that is a share, and of its whole; the check rests on the
+    values `also` as well.
+    """
+    value, (share, whole) = judge.values[name], of
+    found = getattr(judge.analysis, value.field)
+    judge.t.given(share or limit, found, "-" if whole else unit, shown=shown)
+    if whole:
+        judge.t(limit, f"{share} * {whole}", unit)
+    return judge.limit(name, *also)(value.clause, title, symbol, relation, limit)

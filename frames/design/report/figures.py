@@ -12,10 +12,10 @@ from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
+from frames.design.hazard.plot_hazard import motion_spectra
 from frames.design.histories.demand_table import worst_place
 from frames.design.histories.eccentricity import Case, cases_of, reached_by
 from frames.design.histories.suite import names_of, peaks_of_runs
-from frames.design.plots import motion_spectra
 from frames.design.report.numbers import devices_by_type
 from frames.design.report.page import Picture, picture
 from frames.plots import (
