@@ -16,6 +16,7 @@ from frames.plots.bearing_dimensions import bearing_dimensions as bearing_dimens
 from frames.plots.bearing_drawing import bearing_sections as bearing_sections
 from frames.plots.plot_choice import worst_bearing as worst_bearing
 from frames.plots.plot_histories import QUANTITIES as QUANTITIES
+from frames.plots.plot_histories import bearing_plan as bearing_plan
 from frames.plots.plot_histories import histories as histories
 from frames.plots.plot_loops import hysteresis as hysteresis
 from frames.plots.plot_loops import orbits as orbits
@@ -24,7 +25,6 @@ from frames.plots.plot_model import model_film as model_film
 from frames.plots.plot_model import model_view as model_view
 from frames.plots.plot_parts import hinge_map as hinge_map
 from frames.plots.plot_parts import link_loops as link_loops
-from frames.plots.plot_plan import bearing_plan as bearing_plan
 from frames.plots.plot_summaries import energy as energy
 from frames.plots.plot_summaries import floor_spectra as floor_spectra
 from frames.plots.plot_summaries import storey_profiles as storey_profiles

@@ -83,6 +83,11 @@ class Quantity(NamedTuple):
         return _IN_FIGURES.get(self.shown or self.unit, (self.pure_unit, 1.0))
 
     @property
+    def in_checks(self) -> str:
+        """Unit that checks show it in; empty for the usual one of its unit."""
+        return "mm" if self.unit == "m" else self.shown
+
+    @property
     def described(self) -> str:
         """What the variable that keeps it is."""
         whole = self.kind != "peak" or self.meaning.startswith("1:")

@@ -105,8 +105,7 @@ def _of_geometry(bearing: Specification) -> Iterator[str]:
 
 
 def _of_loads(bearing: Specification) -> Iterator[str]:
-    options = bearing.resolved()
-    load, stiffness = options["design_load"], options["axial_stiffness"]
+    load = bearing.resolved()["design_load"]
     pressure = load / slider_area(bearing)
     low, high = (limit * slider_area(bearing) for limit in USUAL_PRESSURE)
     if not low <= load <= high:
@@ -114,12 +113,19 @@ def _of_loads(bearing: Specification) -> Iterator[str]:
             f"design_load = {load:g} N makes a pressure of {1e-6 * pressure:.2g} MPa on the "
             f"slider: {meant(load, 'N', 10.0 * low, high)} if that is not meant"
         )
-    elif load > STRANGE_SHORTENING * stiffness * bearing.slider_height:
+        return
+    yield from (f"{msg} if that is not meant" for msg in shortening(bearing, STRANGE_SHORTENING))
+
+
+def shortening(bearing: Specification, part: float, why: str = "") -> Iterator[str]:
+    """Yield that the design load shortens the slider by more than a part of its height."""
+    options = bearing.resolved()
+    load, stiffness = options["design_load"], options["axial_stiffness"]
+    if load > part * stiffness * bearing.slider_height:
         least = load / (0.02 * bearing.slider_height)
         yield (
-            f"axial_stiffness = {stiffness:g} N/m settles by {1e3 * load / stiffness:.3g} mm "
-            f"under the design load of {load:.4g} N: "
-            f"{meant(stiffness, 'N/m', least, 200.0 * least)} if that is not meant"
+            f"axial_stiffness = {stiffness:g} N/m settles by {1e3 * load / stiffness:.3g} mm under "
+            f"the design load of {load:.4g} N{why}: {meant(stiffness, 'N/m', least, 200.0 * least)}"
         )
 
 

@@ -16,8 +16,7 @@ from frames.design import (
 )
 from frames.design._errors import CheckError
 from frames.design.histories.force_demands import force_demands
-from frames.design.histories.least_shears import Raise
-from frames.design.histories.suite import Suite
+from frames.design.histories.suite import Raise, Suite
 from frames.library.moved_masses import with_moved_masses
 from frames.model.axes import default_up, local_axes
 from tests.scenes import simple_bearing

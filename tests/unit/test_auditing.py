@@ -22,7 +22,7 @@ from frames import (
 )
 from frames.demo import bearing_for
 from frames.design import DesignLimits, impact_checks
-from frames.design.histories.bearing_demands import ON_AXIAL_STIFFNESS
+from frames.design.histories.suite_notes import ON_AXIAL_STIFFNESS
 from frames.results.assumption_checks import needed_level
 from frames.results.findings import doubts_of, findings_of
 from frames.results.level_doubts import level_doubts, travels

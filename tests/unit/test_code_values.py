@@ -90,14 +90,14 @@ def test_tables_of_2003_do_not_go_by_the_name_of_2013() -> None:
 
 
 def test_every_check_of_the_package_is_made_with_a_standing() -> None:
-    """`CheckBuilder` and `Governing` are given one wherever they are called."""
+    """`CheckBuilder` is given one wherever it is called."""
     calls, without = 0, []
     for path in DESIGN.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             name = getattr(getattr(node, "func", None), "id", "")
             if not isinstance(node, ast.Call) or path.parent.name in {"sizing", "report"}:
                 continue
-            place = {"CheckBuilder": 3, "Governing": 2}.get(name)
+            place = {"CheckBuilder": 3}.get(name)
             if place is None:
                 continue
             calls += 1

@@ -12,7 +12,7 @@ pytest.importorskip("pint")
 from frames.design import ProjectError, PropertyBounds
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
-from frames.design.report.judged import factor_steps
+from frames.design.report.cover import factor_steps
 from tests.scenes import MOTIONS, STICK, project_head
 
 SPECTRUM = '[spectrum]\npoints = [["0 s", "0.6 g"], ["1 s", "0.8 g"], ["5 s", "0.1 g"]]\n'

@@ -35,7 +35,7 @@ from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.reading import read_project
 from frames.design.report import printing
-from frames.design.report.cover import css_string
+from frames.design.report.cover import css_string, judged
 from frames.design.report.figures import (
     motions_figure,
     profiles_figure,
@@ -43,12 +43,10 @@ from frames.design.report.figures import (
     utilisation,
 )
 from frames.design.report.files import read_histories
-from frames.design.report.judged import judged
-from frames.design.report.numbers import mode_table, run_tables
+from frames.design.report.numbers import device_table, mode_table, run_tables
 from frames.design.report.page import Table
 from frames.design.report.printing import pages_of, print_report
 from frames.design.report.tables import in_parts
-from frames.design.report.terms import device_table
 from frames.design.report.words import Words
 from frames.design.report.writing import SECTIONS, report_in
 from lir_element import LIRBearing, VelocityFriction

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Literal, overload
+from typing import TYPE_CHECKING, Literal, get_args, overload
 
 from frames.design._errors import CheckError
-from frames.design.calculation.rendering import quantity, scale, usual_unit
+from frames.design.calculation.rendering import joined, quantity, scale, usual_unit
 from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.calculation.trace import Trace
 from lir_element.argument_checks import as_number, require_choice, require_type
@@ -110,10 +110,8 @@ class Check:
             raise CheckError(msg)
         require_choice("relation", self.relation, ("<=", ">="), error=CheckError)
         require_type("standing", self.standing, Standing, "a Standing")
-        bounds = ("lower", "nominal", "upper", "")
-        require_choice("bound", self.bound, bounds, error=CheckError)
-        scopes = ("any", "demand", "procedure", "agreement", "minimum")
-        require_choice("scope", self.scope, scopes, error=CheckError)
+        require_choice("bound", self.bound, get_args(Bound), error=CheckError)
+        require_choice("scope", self.scope, get_args(Scope), error=CheckError)
         object.__setattr__(self, "shown", self.shown or usual_unit(self.unit))
         try:
             scale(self.unit, self.shown)
@@ -175,7 +173,7 @@ class Check:
     @property
     def concerns(self) -> str:
         """Subject, bound of the properties and level of the action, on one line."""
-        return ", ".join(part for part in (self.subject, self.bound, self.level) if part)
+        return joined(self.subject, self.bound, self.level, by=", ")
 
     @property
     def cited(self) -> str:
@@ -226,6 +224,9 @@ class Check:
         word = {"ok": "passed", "FAILS": "FAILED", "no value": "FAILED"}
         return f"{self.statement}, {word.get(self.verdict, self.verdict)} [{self.clause}]"
 
+
+COLUMNS = tuple(f.name for f in fields(Check) if f.name not in {"trace", "shown", "scope"})
+"""Fields that tables have."""
 
 _HEAD = ("check", "concerns", "bound", "level", "demand", "", "limit", "ratio", "", "clause")
 
@@ -337,13 +338,12 @@ class Checks(Sequence[Check]):
         """Return a table with a row for each check, numbers in SI units."""
         import pandas as pd
 
-        names = [f.name for f in fields(Check) if f.name not in {"trace", "shown", "scope"}]
+        columns = [*COLUMNS, "ratio", "passed", "verdict"]
         rows = [
-            {name: getattr(c, name) for name in (*names, "ratio", "passed", "verdict")}
-            | {"standing": str(c.standing)}
+            {name: getattr(c, name) for name in columns} | {"standing": str(c.standing)}
             for c in self
         ]
-        return pd.DataFrame(rows, columns=[*names, "ratio", "passed", "verdict"])
+        return pd.DataFrame(rows, columns=columns)
 
     def __str__(self) -> str:
         """Return a table for people."""

@@ -14,6 +14,7 @@ from frames.design.calculation.rendering import (
     Style,
     Value,
     evaluate,
+    joined,
     mathml,
     names,
     parse,
@@ -347,5 +348,5 @@ class Step:
     @property
     def said(self) -> str:
         """Its source and note in brackets, empty if it has none."""
-        said = "; ".join(part for part in (self.source, self.note) if part)
+        said = joined(self.source, self.note)
         return f"[{said}]" if said else ""

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from functools import partial
+from typing import TYPE_CHECKING, ClassVar
 
 from frames._errors import MotionWarning
 from frames.design._errors import CheckError
-from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.check import Checks
 from frames.design.codes.common import (
     LinearAnalysis,
     capacity_check,
@@ -19,11 +20,9 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
 )
-from frames.design.codes.factor_sources import factors_of_asce7
-from frames.design.codes.history_rules import MCE_R, ActionLevel, HistoryRules
+from frames.design.codes.history_rules import MCE_R
 from frames.design.codes.outcome import Symbols
 from frames.design.codes.prototype_programme import (
-    AcceptanceRule,
     DesignToTest,
     PlannedTest,
     increments,
@@ -32,22 +31,18 @@ from frames.design.codes.prototype_programme import (
     static_tests,
     wind_test,
 )
-from frames.design.codes.registry import (
-    NO_LIMITS,
-    DesignCode,
-    ExampleProject,
-    RimRule,
-    SpectrumKey,
-)
-from frames.design.codes.secant import (
-    CheckBuilder,
-    enter_system,
-    secant,
-)
-from frames.design.codes.values_of_asce7 import PROVISIONS, VALUES
-from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
+from frames.design.codes.registry import DesignCode
+from frames.design.codes.secant import CheckBuilder, enter_system, procedure_limit, secant
+from frames.design.codes.values_of_asce7 import NAME, PROVISIONS, RULES, VALUES
 from frames.design.hazard.spectrum import Spectrum
-from lir_element.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from frames.design.calculation.trace import Trace
+    from frames.design.codes.code_values import CodeValue
+    from frames.design.codes.isolation import Extremes, IsolationSystem
+    from frames.design.codes.superstructure import Superstructure
 
 MULTI_PERIOD = "asce7_multi_period"
 """Shape of spectra that are given by period."""
@@ -58,14 +53,6 @@ _BY_S_M1 = (
 )
 _NEAR_FAULT = 0.6  # g, S_1 from which on C_s has a further least value
 _STEPS = (0.25, 0.50, 0.67, 1.00)  # of D_M, in tests of increments
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
-
-    from frames.design.calculation.trace import Trace
-    from frames.design.codes.code_values import CodeValue
-    from frames.design.codes.isolation import Extremes, IsolationSystem
-    from frames.design.codes.superstructure import Superstructure
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,7 +117,7 @@ class ASCE7(LinearAnalysis):
     history_share: float = 1.0
     irregular: bool = False
     no_tension: bool = False
-    name: ClassVar[str] = "ASCE 7-22"
+    name: ClassVar[str] = NAME
     symbols: ClassVar[Symbols] = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
     each: ClassVar[str] = "D_T"
     level: ClassVar[str] = MCE_R
@@ -197,24 +184,19 @@ class ASCE7(LinearAnalysis):
     def device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
         """Return the checks of rims, restoring force and limits of the procedure."""
         enter_restoring(t, "D_M", self.restoring)
-        t.given("T_lim", self.longest_period, "s")
-        t.given("beta_lim", self.most_damping, shown="%")
         t("k_02", "sum(P * (0.2 * D_M / L + mu)) / (0.2 * D_M)", "N/m", note="at 0.2 D_M")
-        t.given("a_k", self.stiffness_ratio)
-        t("k_lim", "a_k * k_02", "N/m")
-        limits, stiffness = "ASCE 7-22 17.4.1", "effective stiffness ratio, D_M to 0.2 D_M"
-
         rims, back = judge.resting_on("rims"), judge.resting_on("restoring")
-        longest = judge.limit("longest period", "effective")
-        damping = judge.limit("most damping", "effective")
-        softening = judge.limit("stiffness ratio", "effective")
+        limit = partial(procedure_limit, judge, also=("effective",))
+        stiffness = "effective stiffness ratio, D_M to 0.2 D_M"
         return Checks(
             [
                 capacity_check(t, system, rims, "ASCE 7-22 17.2.4.5, 17.4.1", "D_T"),
                 back("ASCE 7-22 17.2.4.4", "restoring force", "Delta_F", ">=", "Delta_F_lim"),
-                longest(limits, "effective period", "T_M", "<=", "T_lim"),
-                damping(limits, "effective damping", "beta_M", "<=", "beta_lim"),
-                softening(limits, stiffness, "k_M", ">=", "k_lim"),
+                limit("longest period", "effective period", "T_M", "<=", "T_lim", "s"),
+                limit("most damping", "effective damping", "beta_M", "<=", "beta_lim", shown="%"),
+                limit(
+                    "stiffness ratio", stiffness, "k_M", ">=", "k_lim", "N/m", of=("a_k", "k_02")
+                ),
             ]
         )
 
@@ -283,25 +265,20 @@ class ASCE7(LinearAnalysis):
 
     def structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
         """Return the limits of the procedure for the structure, and its drifts."""
-        limits = "ASCE 7-22 17.4.1"
-
-        t.given("a_fb", self.period_ratio)
-        t("T_least", "a_fb * T_fb", "s")
-        ratio = judge.limit("period ratio", "effective")
-        found: list[Check] = [ratio(limits, "period ratio T_M / T_fb", "T_M", ">=", "T_least")]
+        limit = partial(procedure_limit, judge)
+        title, of = "period ratio T_M / T_fb", ("a_fb", "T_fb")
+        also = ("effective",)
+        found = [limit("period ratio", title, "T_M", ">=", "T_least", "s", of=of, also=also)]
         if self.irregular:
             t.given("n_irr", 1.0, note="irregular, as given")
             t.given("n_irr_lim", 0.0)
-            found.append(
-                judge.limit("regularity")(limits, "irregular structure", "n_irr", "<=", "n_irr_lim")
-            )
+            regular, clause = judge.limit("regularity"), self.values["regularity"].clause
+            found.append(regular(clause, "irregular structure", "n_irr", "<=", "n_irr_lim"))
         if not self.no_tension:
             t.given("n", float(len(above.storey_weights)))
-            t.given("n_lim", self.storeys)
             t("h_n", "max(h_x)", "m")
-            t.given("h_lim", self.height, "m")
-            found.append(judge.limit("storeys")(limits, "storeys", "n", "<=", "n_lim"))
-            found.append(judge.limit("height")(limits, "height", "h_n", "<=", "h_lim"))
+            found.append(limit("storeys", "storeys", "n", "<=", "n_lim"))
+            found.append(limit("height", "height", "h_n", "<=", "h_lim", "m"))
         clause = "ASCE 7-22 17.5.6"
         known = judge.resting_on("drift", "V_st", "exponent", "R_I", "F_x")
         drift = drift_checks(t, above, known, clause, limit=self.drift, factor="R_I")
@@ -313,12 +290,6 @@ def _of_importance(factor: float) -> str:
     if math.isclose(factor, 1.0):
         return "of isolated structures by 17.2.1"
     return "as given; 17.2.1 has 1.0 for isolated structures"
-
-
-def _by_points(periods: Sequence[float], accelerations: Sequence[float], **keys: Any) -> Spectrum:
-    # A multi-period or site-specific spectrum, points in m/s2.
-    in_g = [level / STANDARD_GRAVITY for level in accelerations]
-    return Spectrum.asce7_multi_period(periods, in_g, **keys)
 
 
 def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
@@ -343,98 +314,5 @@ def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
     yield from static_tests(d, "ASCE 7-22 17.8.2.5")
 
 
-CODE = DesignCode(
-    name=ASCE7.name,
-    aliases=("ASCE 7", "ASCE/SEI 7-22"),
-    title="Minimum Design Loads and Associated Criteria for Buildings and Other Structures",
-    edition="ASCE/SEI 7-22, chapter 17; compared with public texts that follow 7-05 and 7-16",
-    values=VALUES,
-    provisions=PROVISIONS,
-    analysis=ASCE7,
-    damping=DampingRule(
-        "ASCE/SEI 7-22, table 17.5-1 (7-16 alike)",
-        LINEAR,
-        table=(
-            (0.02, 0.8),
-            (0.05, 1.0),
-            (0.10, 1.2),
-            (0.20, 1.5),
-            (0.30, 1.7),
-            (0.40, 1.9),
-            (0.50, 2.0),
-        ),
-        standing=VALUES["damping factor"].standing,
-    ),
-    scaling=(
-        ScalingRule(
-            "ASCE 7-22",
-            "RotD100",
-            1.0,
-            0.0,
-            7,
-            "ASCE 7-22 17.3.3",
-            (0.75, 1.25),
-            fault_axes=True,
-            standing=VALUES["scaling"].standing,
-        ),
-        ScalingRule(
-            "ASCE 7-16", "SRSS", 1.0, 0.0, 7, "ASCE 7-16 17.3.3", (0.75, 1.25), fault_axes=True
-        ),
-    ),
-    histories=HistoryRules(
-        code=ASCE7.name,
-        least=7,
-        mean_from=7,
-        drift=0.020,
-        second_order=0.010,
-        uplift_allowed=True,
-        has_minima=True,
-        accidental_eccentricity=0.05,
-        levels=(ActionLevel(MCE_R),),
-        statistic_clause="17.3.3",
-        displacement_clause="17.6.4",
-        drift_clause="17.6.4.4",
-        force_clause="17.6.4",
-        uplift_clause="17.2.4.7",
-        eccentricity_clause="17.6.2.1",
-    ),
-    spectrum=Spectrum.asce7,
-    spectrum_keys={
-        "s_ms": SpectrumKey(),
-        "s_m1": SpectrumKey(),
-        "t_l": SpectrumKey(unit="s", default=8.0),
-        "s_1": SpectrumKey(optional=True),
-    },
-    factors=factors_of_asce7,
-    spectrum_by_points=_by_points,
-    points_keys={
-        "s_ms": SpectrumKey(),
-        "s_m1": SpectrumKey(),
-        "s_1": SpectrumKey(),
-        "t_l": SpectrumKey(unit="s"),
-        "v_s30": SpectrumKey(unit="m/s"),
-    },
-    rims=RimRule(
-        "ASCE 7-22 17.2.4.5",
-        "D_TM",
-        0.60,
-        "needs time histories with the rims",
-        VALUES["rims"].standing,
-    ),
-    tests=_tests,
-    accepted=tuple(
-        AcceptanceRule(tests, VALUES[name])
-        for tests, name in (
-            (("increments", "maximum displacement", "many cycles"), "accepted slope"),
-            (("increments", "maximum displacement"), "accepted k_d and EDC"),
-            (("increments", "maximum displacement"), "specimens"),
-            (("many cycles",), "many cycles, stiffness"),
-            (("many cycles",), "many cycles, damping"),
-            (("static",), "stable"),
-            (("production",), "production"),
-        )
-    ),
-    acceptance=f"{NO_LIMITS}, not of ASCE 7-22 17.8.4",
-    example=ExampleProject({"s_ms": 1.2, "s_m1": 0.7}, {}),
-)
+CODE = DesignCode(analysis=ASCE7, tests=_tests, values=VALUES, provisions=PROVISIONS, **RULES)
 """ASCE 7-22, chapter 17."""

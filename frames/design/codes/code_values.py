@@ -79,24 +79,12 @@ class Provision(NamedTuple):
 
 
 class ProvisionState(NamedTuple):
-    """Whether a provision is checked in a project.
+    """Whether a provision is checked in a project."""
 
-    Attributes
-    ----------
-    clause : str
-        Clause, with a star where it is from memory.
-    what : str
-        What it asks.
-    state : {"checked", "not checked", "yours"}
-        Whether a check of it was made.
-    how : str
-        Titles of its checks, why there is none, or how the engineer shows it.
-    """
-
-    clause: str
-    what: str
-    state: State
-    how: str
+    clause: str  # clause, with a star where it is from memory
+    what: str  # what it asks
+    state: State  # whether a check of it was made
+    how: str  # titles of its checks, why there is none, or how the engineer shows it
 
     @property
     def said(self) -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Literal
+from functools import partial
+from typing import TYPE_CHECKING, ClassVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
@@ -16,30 +17,13 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
 )
-from frames.design.codes.factor_sources import factors_of_en1998
-from frames.design.codes.history_rules import DESIGN, HistoryRules
-from frames.design.codes.load_rules import LoadRule, fixed_combinations
+from frames.design.codes.history_rules import DESIGN
 from frames.design.codes.outcome import Symbols
-from frames.design.codes.prototype_programme import AcceptanceRule, DesignToTest, PlannedTest
-from frames.design.codes.registry import (
-    MOST_IMPORTANT,
-    NO_LIMITS,
-    DesignCode,
-    ExampleProject,
-    RimRule,
-    SpectrumKey,
-    example_bearing,
-)
-from frames.design.codes.secant import (
-    CheckBuilder,
-    enter_system,
-    secant,
-)
-from frames.design.codes.values_of_en1998 import PROVISIONS, VALUES
-from frames.design.hazard.code_rules import DampingRule, ScalingRule
+from frames.design.codes.prototype_programme import DesignToTest, PlannedTest
+from frames.design.codes.registry import DesignCode
+from frames.design.codes.secant import CheckBuilder, enter_system, procedure_limit, secant
+from frames.design.codes.values_of_en1998 import NAME, PROVISIONS, RULES, VALUES
 from frames.design.hazard.spectrum import Spectrum
-
-_SMALLEST_ETA = 0.55
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -48,9 +32,6 @@ if TYPE_CHECKING:
     from frames.design.codes.code_values import CodeValue
     from frames.design.codes.isolation import Extremes, IsolationSystem
     from frames.design.codes.superstructure import Superstructure
-
-_DRIFTS = {"brittle": 0.005, "ductile": 0.0075, "separate": 0.010}
-"""Limits of nu d_r over the height by the non-structural elements (EN 1998-1 4.4.3.2)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,7 +106,7 @@ class EN1998(LinearAnalysis):
     accumulated: float = 0.5
     drift: float = 0.005
     reduction: float = 0.5
-    name: ClassVar[str] = "EN 1998"
+    name: ClassVar[str] = NAME
     symbols: ClassVar[Symbols] = Symbols(
         "d_dc", "d_bd", "K_eff", "xi_eff", "T_eff", "eta", "V_b", "V_s", allowed="d_max"
     )
@@ -185,12 +166,8 @@ class EN1998(LinearAnalysis):
 
     def device_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
         """Return the checks of capacity, recentring and limits of the procedure."""
-        t.given("a_k", self.stiffness_ratio)
         t("K_02", "sum(P * (0.2 * d_dc / L + mu)) / (0.2 * d_dc)", "N/m", note="at 0.2 d_dc")
-        t("K_lim", "a_k * K_02", "N/m")
-        t.given("xi_lim", self.most_damping, shown="%")
         enter_restoring(t, "d_dc", self.restoring)
-        t.given("a_e_lim", self.total_eccentricity)
         t("a_tot", "max(e_x / b, e_y / d)", note="with the accidental one, over the side")
         t.given("a_S", self.energy_ratio)
         t.each("E_S", "P * d_dc**2 / (2 * L)", "J", source="EN 15129 4.3", note="stored, 0 to d_dc")
@@ -199,8 +176,9 @@ class EN1998(LinearAnalysis):
         t.given("a_r", self.recentring)
         t.each("d_r", "mu * L", "m", source="EN 1998-2 7.7.1", shown="mm", note="largest residual")
         t.each("d_least", "a_r * d_r", "m", shown="mm")
-        limits, names = "EN 1998-1 10.9.2", system.labels
+        limit, names = partial(procedure_limit, judge), system.labels
         title, stiffness = "recentring, energy", "effective stiffness ratio, d_dc to 0.2 d_dc"
+        eccentricity = "total eccentricity over the side of the plan"
         capacity = judge.resting_on("capacity", "reliability")
 
         found = [
@@ -219,24 +197,18 @@ class EN1998(LinearAnalysis):
                 subjects=names,
                 note="else capacity must be d_o + gamma_du rho_d d_bi,d",
             ),
-            judge.limit("stiffness ratio")(limits, stiffness, "K_eff", ">=", "K_lim"),
-            judge.limit("most damping")(limits, "effective damping", "xi_eff", "<=", "xi_lim"),
-            judge.limit("restoring")(limits, "restoring force", "Delta_F", ">=", "Delta_F_lim"),
-            judge.limit("total eccentricity")(
-                "EN 1998-1 10.9.3",
-                "total eccentricity over the side of the plan",
-                "a_tot",
-                "<=",
-                "a_e_lim",
+            limit("stiffness ratio", stiffness, "K_eff", ">=", "K_lim", "N/m", of=("a_k", "K_02")),
+            limit("most damping", "effective damping", "xi_eff", "<=", "xi_lim", shown="%"),
+            judge.limit("restoring")(
+                "EN 1998-1 10.9.2", "restoring force", "Delta_F", ">=", "Delta_F_lim"
             ),
+            limit("total eccentricity", eccentricity, "a_tot", "<=", "a_e_lim"),
             self._accumulated(t, system, judge.limit("accumulated")),
         ]
         if self.property_variation is not None:
             t.given("v", self.property_variation, shown="%")
-            t.given("v_lim", self.most_variation, shown="%")
-            found.append(
-                judge.limit("variation")(limits, "variation of properties", "v", "<=", "v_lim")
-            )
+            title = "variation of properties"
+            found.append(limit("variation", title, "v", "<=", "v_lim", shown="%"))
         return Checks(found)
 
     def _accumulated(self, t: Trace, system: IsolationSystem, limit: CheckBuilder) -> Check:
@@ -280,28 +252,24 @@ class EN1998(LinearAnalysis):
         if not self.simplified:
             return Checks()
         t("B_plan", "max(b, d)", "m")
-        t.given("B_lim", self.largest_side, "m")
-        t.given("T_lim", self.longest_period, "s")
         t.given("r_f", self.fault_distance or 0.0, "m")
-        t.given("r_lim", self.least_distance, "m")
-        t.given("a_f", self.period_ratio)
-        t("T_least", "a_f * T_f", "s")
         t.given("T_v", above.vertical_period or 0.0, "s")
-        t.given("T_v_lim", self.vertical_period, "s")
         t("K_V", "W / g * (2 * pi / T_v)**2", "N/m", note="by T_v of the mass above")
         t("r_V", "K_V / K_eff")
-        t.given("r_V_lim", self.vertical_stiffness)
-        clause, ratio = "EN 1998-1 10.9.3", "period ratio T_eff / T_fb"
+        limit, ratio, of = (
+            partial(procedure_limit, judge),
+            "period ratio T_eff / T_fb",
+            ("a_f", "T_f"),
+        )
         upright = "vertical over effective stiffness"
-
         return Checks(
             [
-                judge.limit("largest side")(clause, "side of the plan", "B_plan", "<=", "B_lim"),
-                judge.limit("longest period")(clause, "effective period", "T_eff", "<=", "T_lim"),
-                judge.limit("fault")(clause, "distance to the fault", "r_f", ">=", "r_lim"),
-                judge.limit("period ratio")(clause, ratio, "T_eff", ">=", "T_least"),
-                judge.limit("vertical period")(clause, "vertical period", "T_v", "<=", "T_v_lim"),
-                judge.limit("vertical stiffness")(clause, upright, "r_V", ">=", "r_V_lim"),
+                limit("largest side", "side of the plan", "B_plan", "<=", "B_lim", "m"),
+                limit("longest period", "effective period", "T_eff", "<=", "T_lim", "s"),
+                limit("fault", "distance to the fault", "r_f", ">=", "r_lim", "m"),
+                limit("period ratio", ratio, "T_eff", ">=", "T_least", "s", of=of),
+                limit("vertical period", "vertical period", "T_v", "<=", "T_v_lim", "s"),
+                limit("vertical stiffness", upright, "r_V", ">=", "r_V_lim"),
             ]
         )
 
@@ -324,106 +292,5 @@ def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
         yield PlannedTest(name, share * total, load, cycles, speed, shows, clause)
 
 
-def _factor(damping: float) -> float:
-    # B = 1 / eta.
-    return 1.0 / max(math.sqrt(10.0 / (5.0 + 100.0 * damping)), _SMALLEST_ETA)
-
-
-_LOADS = LoadRule(
-    VALUES["loads"].clause,
-    {"D": 1.0, "L": 0.3, "S": 0.0},
-    fixed_combinations(
-        {
-            "average": {"D": 1.0, "L": 0.3, "S": 0.0},
-            "maximum": {"D": 1.0, "L": 0.3, "S": 0.2},
-            "minimum": {"D": 1.0, "L": 0.0, "S": 0.0},
-        }
-    ),
-    VALUES["loads"].standing,
-    "psi_2 = 0.3 of dwellings and offices, phi = 1; no vertical earthquake in the combinations",
-)
-
-CODE = DesignCode(
-    name=EN1998.name,
-    aliases=("EN 1998-1", "EN 1998-1:2004", "Eurocode 8"),
-    unread={"R": "has the behaviour factor q = 1.5 in its place (EN 1998-1 10.10)"},
-    title="Design of structures for earthquake resistance, with EN 15129, Anti-seismic devices",
-    edition="EN 1998-1:2004, EN 1998-2:2005, EN 15129:2009; not the second generation",
-    values=VALUES,
-    provisions=PROVISIONS,
-    analysis=EN1998,
-    damping=DampingRule(
-        "EN 1998-1:2004, 3.2.2.2(3)",
-        "B = 1 / eta, eta = sqrt(10 / (5 + damping in %)) >= 0.55",
-        formula=_factor,
-        standing=VALUES["damping factor"].standing,
-    ),
-    scaling=(
-        ScalingRule(
-            "EN 1998",
-            "arithmetic mean",
-            0.9,
-            1.0,
-            7,
-            "EN 1998-1:2004 3.2.3.1.2 and 4.3.3.4.3",
-            (0.2, 2.0),
-            standing=VALUES["scaling"].standing,
-        ),
-        ScalingRule("EN 1998-2", "SRSS", 1.3, 0.0, 7, "EN 1998-2:2005 3.2.3", (0.2, 1.5)),
-    ),
-    loads=_LOADS,
-    histories=HistoryRules(
-        code=EN1998.name,
-        standard="EN 1998-1",
-        least=3,
-        mean_from=7,
-        drift=_DRIFTS["brittle"],
-        drift_factor=0.5,
-        drift_classes=tuple(_DRIFTS.items()),
-        displacement_factor=1.2,
-        accidental_eccentricity=0.05,
-        statistic_clause="4.3.3.4.3(3)",
-        displacement_clause="10.3(2)",
-        drift_clause="4.4.3.2",
-        force_clause="10.10",
-        eccentricity_clause="4.3.2",
-    ),
-    factors=factors_of_en1998,
-    spectrum=Spectrum.en1998,
-    spectrum_keys={
-        "a_g": SpectrumKey(unit="m/s^2"),
-        "ground_type": SpectrumKey(Literal["A", "B", "C", "D", "E"]),
-        "kind": SpectrumKey(Literal[1, 2], default=1),
-        "importance": SpectrumKey(default=1.0, most=MOST_IMPORTANT),
-    },
-    rims=RimRule(
-        "EN 1998-1 10.3(2), EN 15129",
-        "gamma_x d_bd",
-        1.0,
-        "rims met by intent: these standards have no rule for it; NTC 2018 7.10.6.2.2, which "
-        "implements them, wants end stops that leave this displacement free. Needs the agreement "
-        "of the authority, time histories with the rims, and tests of impact and return",
-        VALUES["rims"].standing,
-    ),
-    tests=_tests,
-    accepted=tuple(
-        AcceptanceRule(tests, VALUES[name])
-        for tests, name in (
-            (("P1", "D1", "D2", "D3"), "accepted k_d"),
-            (("D", "B"), "accepted friction"),
-            (("D", "B"), "accepted cycles"),
-            (("D4", "D5"), "stable"),
-        )
-    ),
-    acceptance=f"{NO_LIMITS}, not of EN 15129 8.3.4",
-    example=ExampleProject(
-        {"a_g": 3.4, "ground_type": "B"},
-        {
-            "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
-            "kind = 1\n",
-            "superstructure": "importance = 1.0\n",
-            "bearing": example_bearing("2 m", 200, 270, 0.04, 0.098, "beyond gamma_x d_bd"),
-        },
-    ),
-)
+CODE = DesignCode(analysis=EN1998, tests=_tests, values=VALUES, provisions=PROVISIONS, **RULES)
 """EN 1998-1 chapter 10, EN 1998-2 chapter 7, EN 15129."""

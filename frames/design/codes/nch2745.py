@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -18,17 +18,9 @@ from frames.design.codes.common import (
     enter_restoring,
     enter_storeys,
 )
-from frames.design.codes.history_rules import (
-    DESIGN,
-    MAXIMUM,
-    NCH_MAXIMUM,
-    ActionLevel,
-    HistoryRules,
-)
-from frames.design.codes.load_rules import LoadRule, fixed_combinations
+from frames.design.codes.history_rules import DESIGN, MAXIMUM, NCH_MAXIMUM
 from frames.design.codes.outcome import Iteration, Symbols
 from frames.design.codes.prototype_programme import (
-    AcceptanceRule,
     DesignToTest,
     PlannedTest,
     increments,
@@ -37,14 +29,7 @@ from frames.design.codes.prototype_programme import (
     static_tests,
     wind_test,
 )
-from frames.design.codes.registry import (
-    NO_LIMITS,
-    DesignCode,
-    ExampleProject,
-    RimRule,
-    SpectrumKey,
-    example_bearing,
-)
+from frames.design.codes.registry import DesignCode
 from frames.design.codes.secant import (
     CheckBuilder,
     enter_system,
@@ -52,12 +37,8 @@ from frames.design.codes.secant import (
     iterate_displacement,
     secant,
 )
-from frames.design.codes.values_of_nch2745 import PROVISIONS, VALUES
-from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
-from frames.design.hazard.spectral_shapes import (
-    NCH433_SHEAR,
-    NCH433_ZONE,
-)
+from frames.design.codes.values_of_nch2745 import NAME, PROVISIONS, RULES, VALUES
+from frames.design.hazard.spectral_shapes import NCH433_SHEAR, NCH433_ZONE
 from frames.design.hazard.spectrum import Spectrum
 
 if TYPE_CHECKING:
@@ -115,7 +96,7 @@ class NCh2745(LinearAnalysis):
     largest_reduction: float = 2.0
     activation: float = 1.5
     drift: float = 0.0025
-    name: ClassVar[str] = "NCh2745"
+    name: ClassVar[str] = NAME
     symbols: ClassVar[Symbols] = Symbols("D_M", "D_TM", "k_M", "beta_M", "T_M", "B_M", "V_b", "V_s")
     each: ClassVar[str] = "D_TM_i"
     sliding: ClassVar[str] = "D_D"
@@ -291,108 +272,5 @@ def _tests(d: DesignToTest) -> Iterable[PlannedTest]:
     yield from static_tests(d, clause)
 
 
-_LOADS = LoadRule(
-    VALUES["loads"].clause,
-    {"D": 1.0, "L": 0.25, "S": 0.0},
-    fixed_combinations(
-        {
-            "average": {"D": 1.0, "L": 0.5, "S": 0.0},
-            "maximum": {"D": 1.2, "L": 1.0, "S": 0.2},
-            "minimum": {"D": 0.8, "L": 0.0, "S": 0.0},
-        }
-    ),
-    VALUES["loads"].standing,
-    "as UBC-97 1661, 25 % of the live load of dwellings and offices is mass; no vertical "
-    "earthquake in the combinations",
-)
-
-CODE = DesignCode(
-    name=NCh2745.name,
-    aliases=("NCh 2745", "NCh2745:2003"),
-    title="Earthquake-resistant design of base-isolated buildings (Chile)",
-    edition="tables of NCh2745 Of.2003; that those of 2013 are the same is not confirmed",
-    values=VALUES,
-    provisions=PROVISIONS,
-    analysis=NCh2745,
-    damping=DampingRule(
-        VALUES["damping factor"].clause,
-        LINEAR,
-        table=(
-            (0.02, 0.65),
-            (0.05, 1.0),
-            (0.10, 1.37),
-            (0.15, 1.67),
-            (0.20, 1.94),
-            (0.25, 2.17),
-            (0.30, 2.38),
-            (0.50, 3.02),
-        ),
-        standing=VALUES["damping factor"].standing,
-    ),
-    # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
-    scaling=(
-        ScalingRule(
-            "NCh2745",
-            "SRSS",
-            1.17,
-            0.0,
-            7,
-            "NCh2745 8.4",
-            (0.5, 1.25),
-            standing=VALUES["scaling"].standing,
-        ),
-    ),
-    loads=_LOADS,
-    histories=HistoryRules(
-        code=NCh2745.name,
-        least=3,
-        mean_from=7,
-        drift=0.003,
-        accidental_eccentricity=0.05,
-        statistic_clause="8.4",
-        displacement_clause="8",
-        drift_clause="8.8",
-        force_clause="8",
-        eccentricity_clause="8.3",
-        levels=(
-            ActionLevel(DESIGN, judges="superstructure"),
-            ActionLevel(MAXIMUM, NCH_MAXIMUM, judges="isolation"),
-        ),
-    ),
-    unread={"importance": "has formulas and a spectrum without an importance factor here"},
-    spectrum=Spectrum.nch2745,
-    spectrum_keys={
-        "soil": SpectrumKey(Literal["I", "II", "III"]),
-        "zone": SpectrumKey(Literal[1, 2, 3]),
-    },
-    rims=RimRule(
-        "NCh2745 7.3",
-        "D_TM",
-        1.0,
-        "rims met by intent: no clause that allows it was read in NCh2745 (UBC-97, from which it "
-        "descends, wants none below 0.75 D_TD, and the maximum level analysed with them). Needs "
-        "the reviewer's agreement (13), time histories with the rims, tests of impact and return",
-        VALUES["rims"].standing,
-    ),
-    tests=_tests,
-    accepted=tuple(
-        AcceptanceRule(tests, VALUES[name])
-        for tests, name in (
-            (("increments", "maximum displacement", "many cycles"), "accepted slope"),
-            (("increments",), "accepted k_eff"),
-            (("increments",), "specimens"),
-            (("many cycles",), "many cycles, stiffness"),
-            (("many cycles",), "many cycles, damping"),
-            (("static",), "stable"),
-        )
-    ),
-    acceptance=f"{NO_LIMITS}, not of NCh2745 14",
-    example=ExampleProject(
-        {"soil": "II", "zone": 3},
-        {
-            "spectrum": 'soil = "II"\nzone = 3\n',
-            "bearing": example_bearing("1.7 m", 200, 420, 0.03, 0.1, "beyond D_TM"),
-        },
-    ),
-)
+CODE = DesignCode(analysis=NCh2745, tests=_tests, values=VALUES, provisions=PROVISIONS, **RULES)
 """NCh2745, isolated buildings in Chile."""

@@ -17,82 +17,40 @@ if TYPE_CHECKING:
 
 
 class Symbols(NamedTuple):
-    """How a code calls what its equivalent-linear analysis finds.
+    """How a code calls what its equivalent-linear analysis finds."""
 
-    Attributes
-    ----------
-    displacement, total : str
-        Displacement at the centre, and the largest of a bearing with torsion.
-    stiffness, damping, period : str
-        Effective stiffness, damping ratio and period.
-    factor : str
-        Damping factor.
-    base_shear, shear : str
-        Shear of the isolation system, and design shear above it.
-    allowed : str
-        Displacement that bearings must allow, where that is more than the total one.
-    """
-
-    displacement: str
-    total: str
-    stiffness: str
+    displacement: str  # at the centre
+    total: str  # the largest of a bearing, with torsion
+    stiffness: str  # effective ones
     damping: str
     period: str
-    factor: str
-    base_shear: str
-    shear: str
+    factor: str  # damping factor
+    base_shear: str  # shear of the isolation system
+    shear: str  # design shear above it
+    # displacement that bearings must allow, where that is more than the total one
     allowed: str = ""
 
 
 class Iteration(NamedTuple):
-    """A round of the search for the displacement.
+    """A round of the search for the displacement."""
 
-    Attributes
-    ----------
-    assumed, found : float
-        Displacement that stiffness and damping were taken at, and that which they give [m].
-    stiffness : float
-        Effective stiffness [N/m].
-    damping : float
-        Effective damping ratio [-].
-    period : float
-        Effective period [s].
-    """
-
-    assumed: float
-    stiffness: float
-    damping: float
-    period: float
-    found: float
+    assumed: float  # displacement that stiffness and damping are of [m]
+    stiffness: float  # effective stiffness [N/m]
+    damping: float  # effective damping ratio [-]
+    period: float  # effective period [s]
+    found: float  # displacement that these give [m]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BoundResult:
-    """The equivalent-linear analysis at one bound of the bearings' properties.
-
-    Attributes
-    ----------
-    bound : {"lower", "nominal", "upper"}
-        Which.
-    trace : Trace
-        The whole calculation, by the code's symbols.
-    symbols : Symbols
-        How the code calls displacement, stiffness and so on.
-    iterations : tuple of Iteration
-        How the displacement was found.
-    displacements : tuple of float, (n_bearings,)
-        Largest displacement of each bearing, torsion included [m].
-    storey_forces : tuple of float, (1 + n_storeys,)
-        Design forces at the base level and at each floor above [N]; empty without superstructure.
-    checks : Checks
-        Checks at this bound.
-    """
+    """The equivalent-linear analysis at one bound of the bearings' properties."""
 
     bound: Bound
-    trace: Trace
-    symbols: Symbols
-    iterations: tuple[Iteration, ...]
-    displacements: tuple[float, ...]
+    trace: Trace  # the whole calculation, by the code's symbols
+    symbols: Symbols  # how the code calls displacement, stiffness and so on
+    iterations: tuple[Iteration, ...]  # how the displacement was found
+    displacements: tuple[float, ...]  # the largest of each bearing, torsion included [m]
+    # at the base level and at each floor above, for design [N]; empty without superstructure
     storey_forces: tuple[float, ...]
     checks: Checks
 

@@ -137,29 +137,15 @@ class ProgrammeDemands:
 
 @dataclass(frozen=True)
 class DesignToTest:
-    """What the tests of one kind of bearing are made of.
+    """What the tests of one kind of bearing are made of."""
 
-    Attributes
-    ----------
-    result : BoundResult
-        Equivalent-linear analysis at the bound of the largest displacement.
-    bearing : LIRBearing or FrictionPendulum
-        The bearing, friction nominal.
-    ends : list of LIRBearing or FrictionPendulum
-        It at the lower and at the upper bound.
-    average, least, largest : float
-        Axial loads [N].
-    demands : ProgrammeDemands
-        What is asked for besides.
-    """
-
-    result: BoundResult
-    bearing: LIRBearing | FrictionPendulum
-    ends: list[LIRBearing | FrictionPendulum]
-    average: float
-    least: float
-    largest: float
-    demands: ProgrammeDemands
+    result: BoundResult  # equivalent-linear analysis at the bound of the largest displacement
+    bearing: LIRBearing | FrictionPendulum  # the bearing, friction nominal
+    ends: list[LIRBearing | FrictionPendulum]  # it at the lower and at the upper bound
+    average: float  # axial load [N]
+    least: float  # axial load [N]
+    largest: float  # axial load [N]
+    demands: ProgrammeDemands  # what is asked for besides
 
     def speed_at(self, displacement: float, period: float | None = None) -> float:
         """Peak speed of harmonic motion, with the effective period unless another is given."""

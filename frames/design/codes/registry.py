@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, cast, runtime_checkable
 from frames.design._errors import CheckError
 from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.codes.factor_sources import factors_by_source
-from frames.design.codes.history_rules import HistoryRules
-from frames.design.codes.load_rules import LOADS_OF_ASCE, LoadRule
+from frames.design.codes.history_rules import LOADS_OF_ASCE, HistoryRules, LoadRule
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, no_tests
 from frames.design.hazard.code_rules import (
     HazardRules,
@@ -112,18 +111,10 @@ class SpectrumKey(NamedTuple):
 
 
 class ExampleProject(NamedTuple):
-    """What the example of ``lir new`` is under a code.
+    """What the example of ``lir new`` is under a code."""
 
-    Attributes
-    ----------
-    spectrum : mapping of str to object
-        Keys of its spectrum [SI], which its motions follow.
-    sections : mapping of str to str
-        Sections of the file by name, in place of those of ASCE 7-22.
-    """
-
-    spectrum: Mapping[str, object]
-    sections: Mapping[str, str]
+    spectrum: Mapping[str, object]  # keys of its spectrum [SI], which its motions follow
+    sections: Mapping[str, str]  # sections of the file by name, in place of those of ASCE 7-22
 
 
 MOST_IMPORTANT = 3.0

@@ -119,36 +119,17 @@ def _severity(check: Check) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class CheckBuilder:
-    """Makes checks from what a calculation holds.
+    """Makes checks from what a calculation holds."""
 
-    Parameters
-    ----------
-    t : Trace
-        The calculation.
-    bound : {"lower", "nominal", "upper", ""}
-        Properties of the bearings that it is for.
-    standing : Standing
-        Of its checks.
-    scope : {"any", "demand", "procedure", "agreement", "minimum"}
-        Of its checks.
-    void : str
-        Why its demands are no values for design.
-    level : str
-        Level of the seismic action of its checks.
-    values : mapping of str to CodeValue
-        Of the code, which `resting_on` and `limit` name.
-    analysis : object, optional
-        Analysis of the code, with its factors.
-    """
-
-    t: Trace
-    bound: Bound
-    standing: Standing = MEMORY
-    scope: Scope = "any"
-    void: str = ""
-    level: str = ""
+    t: Trace  # the calculation
+    bound: Bound  # properties of the bearings that it is for
+    standing: Standing = MEMORY  # of its checks
+    scope: Scope = "any"  # of its checks
+    void: str = ""  # why its demands are no values for design
+    level: str = ""  # level of the seismic action of its checks
+    # of the code, which `resting_on` and `limit` name
     values: Mapping[str, CodeValue] = field(default_factory=dict)
-    analysis: object = None
+    analysis: object = None  # analysis of the code, with its factors
 
     def of(self, scope: Scope) -> CheckBuilder:
         """Return one that makes checks of this scope."""
@@ -231,3 +212,29 @@ class CheckBuilder:
             void=self.void,
             level=self.level,
         )
+
+
+def procedure_limit(
+    judge: CheckBuilder,
+    name: str,
+    title: str,
+    symbol: str,
+    relation: Literal["<=", ">="],
+    limit: str,
+    unit: str = "-",
+    *,
+    shown: str = "",
+    of: tuple[str, str] = ("", ""),
+    also: tuple[str, ...] = (),
+) -> Check:
+    """Enter a value of the code as a limit of the procedure, and return the check against it.
+
+    `of` has the symbols of a value that is a share, and of its whole; the check rests on the
+    values `also` as well.
+    """
+    value, (share, whole) = judge.values[name], of
+    found = getattr(judge.analysis, value.field)
+    judge.t.given(share or limit, found, "-" if whole else unit, shown=shown)
+    if whole:
+        judge.t(limit, f"{share} * {whole}", unit)
+    return judge.limit(name, *also)(value.clause, title, symbol, relation, limit)

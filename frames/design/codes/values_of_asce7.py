@@ -1,5 +1,9 @@
 """What chapter 17 of ASCE 7-22 gives, value by value, and how well each is known."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from frames.design.codes.code_values import (
     BNBC,
     E031,
@@ -11,6 +15,18 @@ from frames.design.codes.code_values import (
     Provision,
     yours,
 )
+from frames.design.codes.factor_sources import factors_of_asce7
+from frames.design.codes.history_rules import LOADS_OF_ASCE, MCE_R, ActionLevel, HistoryRules
+from frames.design.codes.prototype_programme import AcceptanceRule
+from frames.design.codes.registry import NO_LIMITS, ExampleProject, RimRule, SpectrumKey
+from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
+from frames.design.hazard.spectrum import Spectrum
+from lir_element.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+NAME = "ASCE 7-22"
 
 VALUES = {
     "damping factor": CodeValue("ASCE 7-22 table 17.5-1", "B_M by the damping", E031),
@@ -61,7 +77,7 @@ VALUES = {
         "ASCE 7-22 (17.2-1), (17.2-2)", "75 % of ageing and environment", E031_FACTORS
     ),
     "ends of factors": CodeValue("ASCE 7-22 17.2.8.4", "1.8 and 0.60 without full-scale tests"),
-    "loads": CodeValue("ASCE/SEI 7-22, 12.7.2 and 17.2.7.1", "seismic mass and combinations"),
+    "loads": CodeValue(LOADS_OF_ASCE.clause, "seismic mass and combinations"),
     "number of motions": CodeValue("ASCE 7-22 17.3.3", "7 motions at least"),
     "mean": CodeValue("ASCE 7-22 17.3.3", "the mean counts from 7 motions on", UFC_BNBC),
     "scaling": CodeValue("ASCE 7-22 17.3.3", "RotD100, 0.75 T to 1.25 T"),
@@ -97,131 +113,228 @@ VALUES = {
 }
 """By name; of what no text was compared it is from memory."""
 
-_CLAUSE = "ASCE 7-22"
-
 PROVISIONS = (
     Provision(
-        f"{_CLAUSE} 17.2.4.5, 17.4.1",
+        f"{NAME} 17.2.4.5, 17.4.1",
         "rims are not met at D_TM",
         ("no restrainer contact at the total displacement",),
     ),
     Provision(
-        f"{_CLAUSE} 17.2.4.5",
+        f"{NAME} 17.2.4.5",
         "share of D_TM from which rims may be met",
         ("displacement where a rim engages",),
     ),
-    Provision(f"{_CLAUSE} 17.2.4.4", "restoring force", ("restoring force",)),
+    Provision(f"{NAME} 17.2.4.4", "restoring force", ("restoring force",)),
     Provision(
-        f"{_CLAUSE} 17.4.1",
+        f"{NAME} 17.4.1",
         "limits of the procedure: T_M, beta_M, stiffness",
         ("effective period", "effective damping", "effective stiffness ratio"),
     ),
     Provision(
-        f"{_CLAUSE} 17.4.1",
+        f"{NAME} 17.4.1",
         "limits of the procedure: T_M over T_fb, storeys, height",
         ("period ratio T_M / T_fb", "storeys", "height"),
         ("superstructure",),
     ),
     Provision(
-        f"{_CLAUSE} 17.4.1, 12.3.2",
+        f"{NAME} 17.4.1, 12.3.2",
         "regularity in plan and height, torsional irregularity",
         why="since the largest drift over the mean one is held against no limit",
     ),
     Provision(
-        f"{_CLAUSE} 17.5.6",
+        f"{NAME} 17.5.6",
         "storey drift, equivalent-linear",
         ("storey drift",),
         ("superstructure", "storey stiffness"),
     ),
     Provision(
-        f"{_CLAUSE} 17.6.4.4",
+        f"{NAME} 17.6.4.4",
         "storey drift of time histories",
         ("storey drift ratio",),
         ("storeys",),
     ),
     Provision(
-        f"{_CLAUSE} 17.6.4.4",
+        f"{NAME} 17.6.4.4",
         "P-Delta from a drift of 0.010 / R_I on",
         why="since the note of the drifts alone says whether the analysis has it",
     ),
     Provision(
-        f"{_CLAUSE} 17.2.4.7",
+        f"{NAME} 17.2.4.7",
         "overturning of the whole structure",
         ("overturning of the whole structure",),
         ("superstructure",),
     ),
     Provision(
-        f"{_CLAUSE} 17.2.4.6, 17.2.4.7",
+        f"{NAME} 17.2.4.6, 17.2.4.7",
         "uplift by the combinations",
         ("no uplift",),
         ("superstructure", "combinations"),
     ),
     Provision(
-        f"{_CLAUSE} 17.2.4.7", "uplift in time histories", ("maximum uplift over the rim height",)
+        f"{NAME} 17.2.4.7", "uplift in time histories", ("maximum uplift over the rim height",)
     ),
-    Provision(f"{_CLAUSE} 17.2.4.2", "sliding under wind", ("sliding under wind",), ("wind",)),
+    Provision(f"{NAME} 17.2.4.2", "sliding under wind", ("sliding under wind",), ("wind",)),
     Provision(
-        f"{_CLAUSE} 17.2.5.2",
+        f"{NAME} 17.2.5.2",
         "separation to walls and neighbours",
         ("clearance to the moat wall, equivalent-linear",),
         ("room",),
     ),
     Provision(
-        f"{_CLAUSE} 17.3.3",
+        f"{NAME} 17.3.3",
         "number and scaling of motions",
         ("number of motions", "pairs of motions", "mean spectrum of the motions"),
     ),
     Provision(
-        f"{_CLAUSE} 17.3.3",
+        f"{NAME} 17.3.3",
         "near-fault pairs in the axes of the fault",
         ("near-fault pairs that are not turned to the fault",),
         ("near fault",),
     ),
-    Provision(f"{_CLAUSE} 17.3.3", "runs that failed", ("runs that failed",)),
+    Provision(f"{NAME} 17.3.3", "runs that failed", ("runs that failed",)),
     Provision(
-        f"{_CLAUSE} 17.6.2.1",
+        f"{NAME} 17.6.2.1",
         "accidental eccentricity of time histories",
         ("runs with moved masses that failed",),
         ("moved",),
     ),
-    Provision(f"{_CLAUSE} 17.6.4", "displacement of time histories", ("isolator displacement",)),
+    Provision(f"{NAME} 17.6.4", "displacement of time histories", ("isolator displacement",)),
     Provision(
-        f"{_CLAUSE} 17.6.4",
+        f"{NAME} 17.6.4",
         "least shears of time histories",
         ("base shear of time histories", "storey shear of time histories"),
         ("superstructure", "storeys", "bounds"),
     ),
     Provision(
-        f"{_CLAUSE} 12.4.3, 17.5.4",
+        f"{NAME} 12.4.3, 17.5.4",
         "overstrength of members and connections",
         why="since no force with overstrength is formed",
     ),
     Provision(
-        f"{_CLAUSE} 17.2.5.1",
+        f"{NAME} 17.2.5.1",
         "diaphragm that brings forces to the bearings",
         why="since forces in slabs are not formed",
     ),
     yours(
-        f"{_CLAUSE} 11.4, (17.5-1)",
+        f"{NAME} 11.4, (17.5-1)",
         "spectrum at the long periods of isolation",
         "D_M by S_M1 alone was up to 10 % low at one site: give [spectrum] points",
     ),
-    yours(f"{_CLAUSE} 17.2.4.1, 17.2.4.3", "environment and fire", "state it in the specification"),
+    yours(f"{NAME} 17.2.4.1, 17.2.4.3", "environment and fire", "state it in the specification"),
     yours(
-        f"{_CLAUSE} 17.2.4.8, 17.2.4.9",
+        f"{NAME} 17.2.4.8, 17.2.4.9",
         "inspection, replacement and quality control",
         "state it in the specification",
     ),
     yours(
-        f"{_CLAUSE} 17.2.6",
+        f"{NAME} 17.2.6",
         "parts that cross the isolation interface",
         "they must follow the total displacement",
     ),
-    yours(f"{_CLAUSE} 17.7", "review of the design", "by a reviewer of the project"),
+    yours(f"{NAME} 17.7", "review of the design", "by a reviewer of the project"),
     yours(
-        f"{_CLAUSE} 17.8",
+        f"{NAME} 17.8",
         "tests of the bearings",
         "the programme is in the report; acceptance_checks judges loops that were measured",
     ),
 )
 """Provisions of chapter 17, checked or not; `OF_BEARINGS` has those beside the code."""
+
+
+def _by_points(periods: Sequence[float], accelerations: Sequence[float], **keys: Any) -> Spectrum:
+    # A multi-period or site-specific spectrum, points in m/s2.
+    in_g = [level / STANDARD_GRAVITY for level in accelerations]
+    return Spectrum.asce7_multi_period(periods, in_g, **keys)
+
+
+RULES: dict[str, Any] = {
+    "name": NAME,
+    "aliases": ("ASCE 7", "ASCE/SEI 7-22"),
+    "title": "Minimum Design Loads and Associated Criteria for Buildings and Other Structures",
+    "edition": "ASCE/SEI 7-22, chapter 17; compared with public texts that follow 7-05 and 7-16",
+    "damping": DampingRule(
+        "ASCE/SEI 7-22, table 17.5-1 (7-16 alike)",
+        LINEAR,
+        table=(
+            (0.02, 0.8),
+            (0.05, 1.0),
+            (0.10, 1.2),
+            (0.20, 1.5),
+            (0.30, 1.7),
+            (0.40, 1.9),
+            (0.50, 2.0),
+        ),
+        standing=VALUES["damping factor"].standing,
+    ),
+    "scaling": (
+        ScalingRule(
+            "ASCE 7-22",
+            "RotD100",
+            1.0,
+            0.0,
+            7,
+            "ASCE 7-22 17.3.3",
+            (0.75, 1.25),
+            fault_axes=True,
+            standing=VALUES["scaling"].standing,
+        ),
+        ScalingRule(
+            "ASCE 7-16", "SRSS", 1.0, 0.0, 7, "ASCE 7-16 17.3.3", (0.75, 1.25), fault_axes=True
+        ),
+    ),
+    "histories": HistoryRules(
+        code=NAME,
+        least=7,
+        mean_from=7,
+        drift=0.020,
+        second_order=0.010,
+        uplift_allowed=True,
+        has_minima=True,
+        accidental_eccentricity=0.05,
+        levels=(ActionLevel(MCE_R),),
+        statistic_clause="17.3.3",
+        displacement_clause="17.6.4",
+        drift_clause="17.6.4.4",
+        force_clause="17.6.4",
+        uplift_clause="17.2.4.7",
+        eccentricity_clause="17.6.2.1",
+    ),
+    "spectrum": Spectrum.asce7,
+    "spectrum_keys": {
+        "s_ms": SpectrumKey(),
+        "s_m1": SpectrumKey(),
+        "t_l": SpectrumKey(unit="s", default=8.0),
+        "s_1": SpectrumKey(optional=True),
+    },
+    "factors": factors_of_asce7,
+    "spectrum_by_points": _by_points,
+    "points_keys": {
+        "s_ms": SpectrumKey(),
+        "s_m1": SpectrumKey(),
+        "s_1": SpectrumKey(),
+        "t_l": SpectrumKey(unit="s"),
+        "v_s30": SpectrumKey(unit="m/s"),
+    },
+    "rims": RimRule(
+        "ASCE 7-22 17.2.4.5",
+        "D_TM",
+        0.60,
+        "needs time histories with the rims",
+        VALUES["rims"].standing,
+    ),
+    "accepted": tuple(
+        AcceptanceRule(tests, VALUES[name])
+        for tests, name in (
+            (("increments", "maximum displacement", "many cycles"), "accepted slope"),
+            (("increments", "maximum displacement"), "accepted k_d and EDC"),
+            (("increments", "maximum displacement"), "specimens"),
+            (("many cycles",), "many cycles, stiffness"),
+            (("many cycles",), "many cycles, damping"),
+            (("static",), "stable"),
+            (("production",), "production"),
+        )
+    ),
+    "acceptance": f"{NO_LIMITS}, not of ASCE 7-22 17.8.4",
+    "example": ExampleProject({"s_ms": 1.2, "s_m1": 0.7}, {}),
+}
+"""All else of its `DesignCode`, but formulas and tests."""

@@ -1,7 +1,27 @@
 """What EN 1998 and EN 15129 give for isolation, value by value, and how well each is known."""
 
+from __future__ import annotations
+
+import math
+from typing import Any, Literal
+
 from frames.design.codes.code_values import NO_CODE, NTC, NTC_SLIDERS, CodeValue, Provision, yours
+from frames.design.codes.factor_sources import factors_of_en1998
+from frames.design.codes.history_rules import HistoryRules, LoadRule, fixed_combinations
+from frames.design.codes.prototype_programme import AcceptanceRule
+from frames.design.codes.registry import (
+    MOST_IMPORTANT,
+    NO_LIMITS,
+    ExampleProject,
+    RimRule,
+    SpectrumKey,
+    example_bearing,
+)
+from frames.design.hazard.code_rules import DampingRule, ScalingRule
 from frames.design.hazard.spectral_shapes import EN1998_TABLES
+from frames.design.hazard.spectrum import Spectrum
+
+NAME = "EN 1998"
 
 VALUES = {
     "spectrum": CodeValue(
@@ -213,3 +233,110 @@ PROVISIONS = (
     yours("EN 15129 4.4, 10", "durability, fire, replacement", "state it in the specification"),
 )
 """Provisions of EN 1998 and EN 15129, checked or not; `OF_BEARINGS` has those beside them."""
+
+
+_SMALLEST_ETA = 0.55
+_DRIFTS = {"brittle": 0.005, "ductile": 0.0075, "separate": 0.010}
+"""Limits of nu d_r over the height by the non-structural elements (EN 1998-1 4.4.3.2)."""
+
+
+def _factor(damping: float) -> float:
+    # B = 1 / eta.
+    return 1.0 / max(math.sqrt(10.0 / (5.0 + 100.0 * damping)), _SMALLEST_ETA)
+
+
+_LOADS = LoadRule(
+    VALUES["loads"].clause,
+    {"D": 1.0, "L": 0.3, "S": 0.0},
+    fixed_combinations(
+        {
+            "average": {"D": 1.0, "L": 0.3, "S": 0.0},
+            "maximum": {"D": 1.0, "L": 0.3, "S": 0.2},
+            "minimum": {"D": 1.0, "L": 0.0, "S": 0.0},
+        }
+    ),
+    VALUES["loads"].standing,
+    "psi_2 = 0.3 of dwellings and offices, phi = 1; no vertical earthquake in the combinations",
+)
+
+
+RULES: dict[str, Any] = {
+    "name": NAME,
+    "aliases": ("EN 1998-1", "EN 1998-1:2004", "Eurocode 8"),
+    "unread": {"R": "has the behaviour factor q = 1.5 in its place (EN 1998-1 10.10)"},
+    "title": "Design of structures for earthquake resistance, with EN 15129, Anti-seismic devices",
+    "edition": "EN 1998-1:2004, EN 1998-2:2005, EN 15129:2009; not the second generation",
+    "damping": DampingRule(
+        "EN 1998-1:2004, 3.2.2.2(3)",
+        "B = 1 / eta, eta = sqrt(10 / (5 + damping in %)) >= 0.55",
+        formula=_factor,
+        standing=VALUES["damping factor"].standing,
+    ),
+    "scaling": (
+        ScalingRule(
+            "EN 1998",
+            "arithmetic mean",
+            0.9,
+            1.0,
+            7,
+            "EN 1998-1:2004 3.2.3.1.2 and 4.3.3.4.3",
+            (0.2, 2.0),
+            standing=VALUES["scaling"].standing,
+        ),
+        ScalingRule("EN 1998-2", "SRSS", 1.3, 0.0, 7, "EN 1998-2:2005 3.2.3", (0.2, 1.5)),
+    ),
+    "loads": _LOADS,
+    "histories": HistoryRules(
+        code=NAME,
+        standard="EN 1998-1",
+        least=3,
+        mean_from=7,
+        drift=_DRIFTS["brittle"],
+        drift_factor=0.5,
+        drift_classes=tuple(_DRIFTS.items()),
+        displacement_factor=1.2,
+        accidental_eccentricity=0.05,
+        statistic_clause="4.3.3.4.3(3)",
+        displacement_clause="10.3(2)",
+        drift_clause="4.4.3.2",
+        force_clause="10.10",
+        eccentricity_clause="4.3.2",
+    ),
+    "factors": factors_of_en1998,
+    "spectrum": Spectrum.en1998,
+    "spectrum_keys": {
+        "a_g": SpectrumKey(unit="m/s^2"),
+        "ground_type": SpectrumKey(Literal["A", "B", "C", "D", "E"]),
+        "kind": SpectrumKey(Literal[1, 2], default=1),
+        "importance": SpectrumKey(default=1.0, most=MOST_IMPORTANT),
+    },
+    "rims": RimRule(
+        "EN 1998-1 10.3(2), EN 15129",
+        "gamma_x d_bd",
+        1.0,
+        "rims met by intent: these standards have no rule for it; NTC 2018 7.10.6.2.2, which "
+        "implements them, wants end stops that leave this displacement free. Needs the agreement "
+        "of the authority, time histories with the rims, and tests of impact and return",
+        VALUES["rims"].standing,
+    ),
+    "accepted": tuple(
+        AcceptanceRule(tests, VALUES[name])
+        for tests, name in (
+            (("P1", "D1", "D2", "D3"), "accepted k_d"),
+            (("D", "B"), "accepted friction"),
+            (("D", "B"), "accepted cycles"),
+            (("D4", "D5"), "stable"),
+        )
+    ),
+    "acceptance": f"{NO_LIMITS}, not of EN 15129 8.3.4",
+    "example": ExampleProject(
+        {"a_g": 3.4, "ground_type": "B"},
+        {
+            "spectrum": '# the ground of type 1, elastic\na_g = "3.4 m/s2"\nground_type = "B"\n'
+            "kind = 1\n",
+            "superstructure": "importance = 1.0\n",
+            "bearing": example_bearing("2 m", 200, 270, 0.04, 0.098, "beyond gamma_x d_bd"),
+        },
+    ),
+}
+"""All else of its `DesignCode`, but formulas and tests."""

@@ -1,7 +1,32 @@
 """What NCh2745 gives, value by value, and how well each is known."""
 
+from __future__ import annotations
+
+from typing import Any, Literal
+
 from frames.design.codes.code_values import NO_CODE, CodeValue, Provision, yours
+from frames.design.codes.history_rules import (
+    DESIGN,
+    MAXIMUM,
+    NCH_MAXIMUM,
+    ActionLevel,
+    HistoryRules,
+    LoadRule,
+    fixed_combinations,
+)
+from frames.design.codes.prototype_programme import AcceptanceRule
+from frames.design.codes.registry import (
+    NO_LIMITS,
+    ExampleProject,
+    RimRule,
+    SpectrumKey,
+    example_bearing,
+)
+from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
 from frames.design.hazard.spectral_shapes import NCH2745_TABLES
+from frames.design.hazard.spectrum import Spectrum
+
+NAME = "NCh2745"
 
 VALUES = {
     "spectrum": CodeValue("NCh2745 Of.2003", "elastic spectra by soil and zone", NCH2745_TABLES),
@@ -162,3 +187,107 @@ PROVISIONS = (
     ),
 )
 """Provisions of NCh2745, checked or not; `OF_BEARINGS` has those beside the code."""
+
+
+_LOADS = LoadRule(
+    VALUES["loads"].clause,
+    {"D": 1.0, "L": 0.25, "S": 0.0},
+    fixed_combinations(
+        {
+            "average": {"D": 1.0, "L": 0.5, "S": 0.0},
+            "maximum": {"D": 1.2, "L": 1.0, "S": 0.2},
+            "minimum": {"D": 0.8, "L": 0.0, "S": 0.0},
+        }
+    ),
+    VALUES["loads"].standing,
+    "as UBC-97 1661, 25 % of the live load of dwellings and offices is mass; no vertical "
+    "earthquake in the combinations",
+)
+
+
+RULES: dict[str, Any] = {
+    "name": NAME,
+    "aliases": ("NCh 2745", "NCh2745:2003"),
+    "title": "Earthquake-resistant design of base-isolated buildings (Chile)",
+    "edition": "tables of NCh2745 Of.2003; that those of 2013 are the same is not confirmed",
+    "damping": DampingRule(
+        VALUES["damping factor"].clause,
+        LINEAR,
+        table=(
+            (0.02, 0.65),
+            (0.05, 1.0),
+            (0.10, 1.37),
+            (0.15, 1.67),
+            (0.20, 1.94),
+            (0.25, 2.17),
+            (0.30, 2.38),
+            (0.50, 3.02),
+        ),
+        standing=VALUES["damping factor"].standing,
+    ),
+    # 8.4 of 2013: 1.3 less 10 %, as in UBC-97
+    "scaling": (
+        ScalingRule(
+            "NCh2745",
+            "SRSS",
+            1.17,
+            0.0,
+            7,
+            "NCh2745 8.4",
+            (0.5, 1.25),
+            standing=VALUES["scaling"].standing,
+        ),
+    ),
+    "loads": _LOADS,
+    "histories": HistoryRules(
+        code=NAME,
+        least=3,
+        mean_from=7,
+        drift=0.003,
+        accidental_eccentricity=0.05,
+        statistic_clause="8.4",
+        displacement_clause="8",
+        drift_clause="8.8",
+        force_clause="8",
+        eccentricity_clause="8.3",
+        levels=(
+            ActionLevel(DESIGN, judges="superstructure"),
+            ActionLevel(MAXIMUM, NCH_MAXIMUM, judges="isolation"),
+        ),
+    ),
+    "unread": {"importance": "has formulas and a spectrum without an importance factor here"},
+    "spectrum": Spectrum.nch2745,
+    "spectrum_keys": {
+        "soil": SpectrumKey(Literal["I", "II", "III"]),
+        "zone": SpectrumKey(Literal[1, 2, 3]),
+    },
+    "rims": RimRule(
+        "NCh2745 7.3",
+        "D_TM",
+        1.0,
+        "rims met by intent: no clause that allows it was read in NCh2745 (UBC-97, from which it "
+        "descends, wants none below 0.75 D_TD, and the maximum level analysed with them). Needs "
+        "the reviewer's agreement (13), time histories with the rims, tests of impact and return",
+        VALUES["rims"].standing,
+    ),
+    "accepted": tuple(
+        AcceptanceRule(tests, VALUES[name])
+        for tests, name in (
+            (("increments", "maximum displacement", "many cycles"), "accepted slope"),
+            (("increments",), "accepted k_eff"),
+            (("increments",), "specimens"),
+            (("many cycles",), "many cycles, stiffness"),
+            (("many cycles",), "many cycles, damping"),
+            (("static",), "stable"),
+        )
+    ),
+    "acceptance": f"{NO_LIMITS}, not of NCh2745 14",
+    "example": ExampleProject(
+        {"soil": "II", "zone": 3},
+        {
+            "spectrum": 'soil = "II"\nzone = 3\n',
+            "bearing": example_bearing("1.7 m", 200, 420, 0.03, 0.1, "beyond D_TM"),
+        },
+    ),
+}
+"""All else of its `DesignCode`, but formulas and tests."""

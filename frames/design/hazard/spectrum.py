@@ -12,12 +12,7 @@ from frames._errors import MotionError, MotionWarning
 from frames.design.hazard import spectral_shapes as sh
 from frames.design.hazard.code_rules import rules_named
 from frames.design.hazard.elastic_spectrum import ElasticSpectrum
-from lir_element.argument_checks import (
-    require_between,
-    require_choice,
-    require_positive,
-    unreal,
-)
+from lir_element.argument_checks import require_between, require_choice, require_positive, unreal
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

@@ -22,11 +22,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import MotionError
-from lir_element.argument_checks import (
-    require_between,
-    require_positive,
-    require_type,
-)
+from lir_element.argument_checks import require_between, require_positive, require_type
 from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:

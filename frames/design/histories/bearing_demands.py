@@ -5,23 +5,22 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from frames.bundles.peak_data import LOADED, PRESSED
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import OWN, Standing
 from frames.design.calculation.trace import Trace
+from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing, liner_pressure, pressure
-from frames.design.histories.suite import Calculation, Governing, names_of, peaks_of_runs
-from frames.design.histories.suite_notes import doubted, level_errors
-from frames.results.bearing_findings import IMPACT
+from frames.design.histories.suite import names_of, peaks_of_runs
+from frames.design.histories.suite_notes import doubted, level_errors, note_of_impacts
 from frames.results.level_doubts import DOUBTED
 from frames.results.quantities import JUDGED
-from frames.results.recorded import REACHED
-from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -37,28 +36,16 @@ _ALONE = (
     "the sliders turn until both press (resultant_offsets says when)"
 )
 
-ON_AXIAL_STIFFNESS = (
-    "rims met with a slip: it goes with the root of axial_stiffness, here the default, an estimate "
-    "from 0.3 to 3 times"
-)
-"""Note of checks of forces that rest on a default (docs/theory.md, 2.9)."""
-
 _QUANTITIES = {name.replace(" ", "_"): name for name in DOUBTED}
 """What the level 'pendulum' may have wrong, by its name among what runs reached."""
 
 
-def note_of_impacts(data: xr.Dataset, bearings: Mapping[str, LIRBearing]) -> str:
-    """Return what checks of forces say where bearings of default stiffness met rims with a slip."""
-    if "run" in data.dims and f"{REACHED}closing" not in data.variables:
-        return ""  # of an earlier version
-    closing = np.nan_to_num(peaks_of_runs(data, "closing")).max(axis=0)
-    devices = [bearings[name] for name in names_of(data, "displacement")]
-    for speed, device in zip(closing.tolist(), devices, strict=True):
-        own = device.resolved()
-        rise = speed * math.sqrt(own["axial_stiffness"] / own["design_load"] / STANDARD_GRAVITY)
-        if rise > IMPACT and device.axial_stiffness is None:
-            return ON_AXIAL_STIFFNESS
-    return ""
+class Calculation(NamedTuple):
+    """A calculation with its symbols of demand and limit."""
+
+    trace: Trace
+    demand: str
+    limit: str
 
 
 Fill = Callable[[int], Calculation]
@@ -77,16 +64,98 @@ def devices_of(data: xr.Dataset, frame: Frame) -> dict[str, LIRBearing]:
 
 @dataclass(frozen=True)
 class BearingDemands:
-    """Makes checks of bearings from what runs reached."""
+    """Makes checks of what runs asked for: of bearings, and of what is worst of anything."""
 
     data: xr.Dataset  # the runs
     suite: Suite  # how they are taken together
     bearings: Mapping[str, LIRBearing]  # the bearings as they were in these runs
-    limits: DesignLimits  # what they may be asked for
-    bound: Bound  # bound of their properties
+    limits: DesignLimits  # of the project
+    bound: Bound  # properties of the bearings
     note: str = ""  # goes with each check
     # on the displacement [-]: where that is beyond the rims, the slip is at least the rest
     factor: float = 1.0
+
+    def against(
+        self,
+        name: str,
+        enter: Callable[[Trace, FloatArray], str] | None = None,
+        *,
+        limit: float | None = None,
+        clause: str = "",
+        standing: Standing = OWN,
+        title: str = "",
+        note: str = "",
+    ) -> list[Check]:
+        """Return the check of a quantity against a limit, without `limit` that of the project.
+
+        `enter` enters the demand of a place by the values of the runs, and returns its symbol.
+        """
+        quantity, each, own = JUDGED[name], dict[str, Calculation](), limit is None
+        if own:
+            limit, clause = self.limit(name), self.limits.clause_of(quantity.limit)
+        if limit is None:
+            return []
+        values = peaks_of_runs(self.data, name)
+        values = values.reshape(len(values), -1)
+        for k, place in enumerate(names_of(self.data, name)):
+            t, symbol = Trace(), quantity.symbol
+            if enter is None:
+                unit, shown = quantity.pure_unit, quantity.in_checks
+                self.suite.enter(t, symbol, values[:, k], unit, shown, of=name)
+            else:
+                symbol = enter(t, values[:, k])
+            each[place] = self.within(t, symbol, name, None if own else limit)
+        return self.worst(standing, clause, title or quantity.heading, each, note)
+
+    def limit(self, name: str) -> float | None:
+        """Return the limit of the project of a quantity."""
+        found: float | None = getattr(self.limits, JUDGED[name].limit)
+        return found
+
+    def within(
+        self,
+        t: Trace,
+        symbol: str,
+        name: str,
+        limit: float | None = None,
+        *,
+        value: float | None = None,
+        note: str = "",
+    ) -> Calculation:
+        """Enter the limit of a quantity, that of the project if None, and its value if given."""
+        unit, shown, end = JUDGED[name].pure_unit, JUDGED[name].in_checks, f"{symbol}_lim"
+        if value is not None:
+            t.given(symbol, float(value), unit, shown=shown, note=note)
+        given = "as given" if limit is None else ""
+        limit = self.limit(name) if limit is None else limit
+        t.given(end, math.inf if limit is None else limit, unit, shown=shown, note=given)
+        return Calculation(t, symbol, end)
+
+    def worst(
+        self,
+        standing: Standing,
+        clause: str,
+        title: str,
+        each: Mapping[str, Calculation],
+        note: str = "",
+    ) -> list[Check]:
+        """Return the check of the largest ratio; none of nothing."""
+        # where no value is finite none is the worst
+        known = any(math.isfinite(c.trace.value(c.demand)) for c in each.values())
+        words = joined(note, self.note)
+        found = [
+            CheckBuilder(c.trace, self.bound, standing, void=self.suite.void).worst(
+                clause,
+                title,
+                c.demand,
+                "<=",
+                c.limit,
+                subjects=(name if known else "",),
+                note=words,
+            )
+            for name, c in each.items()
+        ]
+        return [max(found, key=lambda check: check.compared)] if found else []
 
     def displacement(self, clause: str, standing: Standing, least: float = 0.0) -> list[Check]:
         """Return the check of the displacement against what rims and overlap allow."""
@@ -114,7 +183,7 @@ class BearingDemands:
             return Calculation(t, "D_d", "U_max")
 
         places = [k for k in self._all if math.isfinite(self._at(k).lateral_capacity)]
-        found = self._worst(clause, "isolator displacement", fill, places, standing)
+        found = self._of(clause, "isolator displacement", fill, places, standing)
         return self._doubted(found, "displacement")
 
     def slips(self) -> list[Check]:
@@ -138,11 +207,9 @@ class BearingDemands:
         holds = f"{NO_CODE} (2.7)"
         overlap = of("s", most, "s_cap")
         found = [
-            *self._worst(f"{NO_CODE}, section 2", "slip over the overlap", overlap, self._lir),
-            *self._worst(
-                holds, "slip over its stable limit s*", of("s", most, "s_star"), self._lir
-            ),
-            *self._worst(holds, "residual slip", of("s_left", left, after), self._lir),
+            *self._of(f"{NO_CODE}, section 2", "slip over the overlap", overlap, self._lir),
+            *self._of(holds, "slip over its stable limit s*", of("s", most, "s_star"), self._lir),
+            *self._of(holds, "residual slip", of("s_left", left, after), self._lir),
         ]
         return self._doubted(found, "interface slip")
 
@@ -166,7 +233,8 @@ class BearingDemands:
         found = self._bent_rims()
         for name, quantity in JUDGED.items():
             if quantity.limit and quantity.dims == ("bearing",) and name != "gap":
-                found += self._against(name, notes.get(name, ""))
+                checks = self.against(name, note=notes.get(name, ""))
+                found += self._doubted(checks, _QUANTITIES.get(name, ""))
         title = "pressure on the sliders' overlap"
         found += self._pressure(title, limits.interface_pressure, self._on_overlap)
         title = "pressure on the liner around its resultant"
@@ -188,7 +256,7 @@ class BearingDemands:
             t("g_lim", "g_u - P_y / k_r", "m", shown="mm", source="docs/theory.md (3.11)")
             return Calculation(t, "g_p", "g_lim")
 
-        return self._worst(f"{NO_CODE} (3.11)", "plastic deformation of rims", fill, places)
+        return self._of(f"{NO_CODE} (3.11)", "plastic deformation of rims", fill, places)
 
     def _entered(self, k: int) -> Trace:
         # A bearing's numbers; where friction goes by the pressure, at the forces that runs reached.
@@ -217,7 +285,7 @@ class BearingDemands:
         impacts = note_of_impacts(self.data, self.bearings)
         taken = "largest load and largest slip taken together"
         note = f"{taken}; {impacts}" if impacts else taken
-        return self._worst("no code: liner's maker", title, fill, self._lir, note=note)
+        return self._of("no code: liner's maker", title, fill, self._lir, note=note)
 
     @staticmethod
     def _on_overlap(t: Trace) -> None:
@@ -229,25 +297,6 @@ class BearingDemands:
             t("p", "max(p_1, p_2)", "Pa")
         else:
             t.given("p", math.inf, "Pa", note=t["p_1"].note or t["p_2"].note)
-
-    def _against(self, name: str, note: str) -> list[Check]:
-        # Against a limit of the project; none where it is not given.
-        quantity = JUDGED[name]
-        limit, symbol = getattr(self.limits, quantity.limit), quantity.symbol
-        unit, shown = quantity.pure_unit, "mm" if quantity.unit == "m" else ""
-        if limit is None:
-            return []
-        values = peaks_of_runs(self.data, name)
-
-        def fill(k: int) -> Calculation:
-            t = Trace()
-            self.suite.enter(t, symbol, values[:, k], unit, shown, of=name)
-            t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
-            return Calculation(t, symbol, f"{symbol}_lim")
-
-        clause = self.limits.clause_of(quantity.limit)
-        found = self._worst(clause, quantity.heading, fill, self._all, note=note)
-        return self._doubted(found, _QUANTITIES.get(name, ""))
 
     def _doubted(self, checks: list[Check], quantity: str) -> list[Check]:
         # Those whose margin is less than what the level of the runs may have wrong say so.
@@ -273,7 +322,7 @@ class BearingDemands:
             return counted
         return f"{counted}; {_ALONE}"
 
-    def _worst(
+    def _of(
         self,
         clause: str,
         title: str,
@@ -282,10 +331,8 @@ class BearingDemands:
         standing: Standing = OWN,
         note: str = "",
     ) -> list[Check]:
-        words = "; ".join(part for part in (note, self.note) if part)
-        places_of = {self._names[k]: k for k in places}
-        judge = Governing(self.bound, standing, words, self.suite.void)
-        return judge(clause, title, {name: fill(k) for name, k in places_of.items()})
+        each = {self._names[k]: fill(k) for k in places}
+        return self.worst(standing, clause, title, each, note)
 
     def _at(self, k: int) -> LIRBearing:
         return self.bearings[self._names[k]]

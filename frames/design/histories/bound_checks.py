@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
@@ -12,32 +11,32 @@ import numpy as np
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.design.codes.registry import HISTORY_RULES, standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.capacity import engagement_checks
-from frames.design.devices.limits import PROJECT_LIMIT
-from frames.design.histories.bearing_demands import (
-    BearingDemands,
-    devices_of,
-    note_of_impacts,
-)
-from frames.design.histories.eccentricity import Case, named_by_way, reached_by
-from frames.design.histories.least_shears import LEAST, raise_of, shear_checks
+from frames.design.histories.bearing_demands import BearingDemands, devices_of
+from frames.design.histories.eccentricity import Case, named_by_way
 from frames.design.histories.suite import (
-    Calculation,
-    Governing,
-    names_of,
+    LEAST,
     parted,
     peaks_of_runs,
+    raise_of,
+    shear_checks,
     stopped_runs,
     suite_of,
 )
-from frames.design.histories.suite_notes import audit_notes, contact_notes, left_out_checks
-from frames.design.histories.uplift import Uplift
-from frames.results.quantities import QUANTITIES
+from frames.design.histories.suite_notes import (
+    audit_notes,
+    contact_notes,
+    left_out_checks,
+    note_of_impacts,
+)
+from frames.design.histories.uplift import Uplift, suite_of_uplift
+from frames.results.quantities import JUDGED
 from frames.statics.overturning import unknown_axial_forces
 
 if TYPE_CHECKING:
@@ -109,19 +108,14 @@ class BoundChecks:
         )
         failed = sum(self.case.suite.failed)
         allowed = "" if self.case.suite.void or not failed else f"{failed} runs failed: as many may"
-        return "; ".join(part for part in (allowed, more) if part)
+        return joined(allowed, more)
 
     @cached_property
     def _bearings(self) -> BearingDemands:
         devices = devices_of(self.case.data, self.frame)
+        case, factor = self.case, self.case.rules.displacement_factor
         return BearingDemands(
-            self.case.data,
-            self.case.suite,
-            devices,
-            self.limits,
-            self.case.bound,
-            self._note,
-            self.case.rules.displacement_factor,
+            case.data, case.suite, devices, self.limits, case.bound, self._note, factor
         )
 
     def _motions(self) -> Check:
@@ -154,8 +148,7 @@ class BoundChecks:
         t.given("n_allowed", float(allowed))
         clause = self._clause(self.case.rules.statistic_clause)
         judge = CheckBuilder(t, self.case.bound, MEMORY)
-        said = (self.case.suite.reason, self._small_gaps, self._audit)
-        note = "; ".join(part for part in said if part)
+        note = joined(self.case.suite.reason, self._small_gaps, self._audit)
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
 
     def _moved_failed(self) -> list[Check]:
@@ -167,7 +160,7 @@ class BoundChecks:
         t.given("n_failed", count, note=f"of {self.case.moved.sizes['run']} runs")
         t.given("n_allowed", 0.0)
         audit = audit_notes(named_by_way(self.case.moved))
-        note = "; ".join(part for part in (self.case.suite.moved_failed, audit) if part)
+        note = joined(self.case.suite.moved_failed, audit)
         clause = self._clause(self.case.rules.eccentricity_clause)
         judge = CheckBuilder(
             t, self.case.bound, self._known("moved masses", "accidental_eccentricity")
@@ -212,12 +205,12 @@ class BoundChecks:
             found.append(judge(clause, title, "t_up", "<=", "t_allowed", note=note))
         rules = self.case.rules
         clause = self._clause(rules.uplift_clause) if rules.uplift_clause else ""
-        devices = self._bearings.bearings
+        devices, every = self._bearings.bearings, self.case.every
         more = "" if clause else self._uplift_by_the_project
-        failed = (self.case.suite.reason, self.case.suite.moved_failed)
-        reason = "; ".join(part for part in failed if part)
-        made = Uplift(self.case.every, devices, self.limits, self.case.bound, clause, more, reason)
-        return found + made.checks()
+        reason = joined(self.case.suite.reason, self.case.suite.moved_failed)
+        suite = suite_of_uplift(every, reason)
+        made = Uplift(every, suite, devices, self.limits, self.case.bound, more, clause=clause)
+        return [*found, *made.rims(), *made.gaps(), *made.landings()]
 
     @property
     def _uplift_by_the_project(self) -> str:
@@ -227,21 +220,18 @@ class BoundChecks:
         return f"runs with uplift count by the project, not by {code.cited}: to be agreed"
 
     def _base_shear(self) -> list[Check]:
-        limit, least = self.limits.base_shear, self._least("V_b_dyn")
-        if limit is None:
-            return []
+        least = self._least("V_b_dyn")
 
-        def fill(values: FloatArray) -> Trace:
-            t = Trace()
+        def enter(t: Trace, values: FloatArray) -> str:
             self.case.suite.enter(t, "V", values, "N", of="base_shear")
-            if least > 0.0:
-                t.given("V_least", least, "N", note=LEAST)
-                self.case.suite.form(t, "V_d", "max(V, V_least)", "N", of="V")
-            return t
+            if not least > 0.0:
+                return "V"
+            t.given("V_least", least, "N", note=LEAST)
+            self.case.suite.form(t, "V_d", "max(V, V_least)", "N", of="V")
+            return "V_d"
 
-        symbol = "V_d" if least > 0.0 else "V"
         impacts = note_of_impacts(self.case.data, self._bearings.bearings)
-        return self._worst("", "base_shear", limit, symbol, fill=fill, of=impacts)
+        return self._bearings.against("base_shear", enter, note=impacts)
 
     @cached_property
     def _least_shears(self) -> list[Check]:
@@ -250,21 +240,18 @@ class BoundChecks:
             return []
         storey = self.frame.levels[1].name if len(self.frame.levels) > 1 else ""
         known = self.equivalent.bounds[self.case.bound]
-        return shear_checks(self.case, known, storey, self._note)
+        case = self.case
+        return shear_checks(case.data, case.suite, case.rules, known, storey, self._note)
 
     def _drift(self) -> list[Check]:
         # That of the code, and that of the project beside it.
-        own, found = self.limits.drift, list[Check]()
         if len(self.frame.levels) < 2:
-            return found
-        if self.case.rules.drift is not None:
-            for check in self._drift_within(self.case.rules.drift, self.case.rules.drift_clause):
-                said = (check.note, self._gravity(check), self._elements)
-                note = "; ".join(part for part in said if part)
-                found.append(replace(check, note=note))
-        if own is not None:
-            for check in self._drift_within(own, ""):
-                note = "; ".join(part for part in (check.note, self._beside()) if part)
+            return []
+        code, found = self.case.rules.drift, list[Check]()
+        for limit in (None,) if code is None else (code, None):
+            for check in self._drift_within(limit):
+                more = [self._beside()] if limit is None else [self._gravity(check), self._elements]
+                note = joined(check.note, *more)
                 found.append(replace(check, note=note))
         return found
 
@@ -300,60 +287,38 @@ class BoundChecks:
         clause = self._clause(self.case.rules.drift_clause)
         return f"{word} than {100.0 * code:g} % of {clause}, which is checked beside it"
 
-    def _drift_within(self, limit: float, clause: str) -> list[Check]:
-        least = self._least_shears
-        nu = self.case.rules.drift_factor if clause else 1.0
+    def _drift_within(self, limit: float | None) -> list[Check]:
+        # Within the limit of the code, or that of the project.
+        least, suite = self._least_shears, self.case.suite
+        nu = 1.0 if limit is None else self.case.rules.drift_factor
 
-        def fill(values: FloatArray, of: str) -> Trace:
-            t = Trace()
-            self.case.suite.enter(t, "theta", values, "-", "%", of=of)
+        def enter(t: Trace, values: FloatArray, of: str) -> str:
+            suite.enter(t, "theta", values, "-", "%", of=of)
             if least:
                 more = "least shear over that of the runs, as its own check has it; 1 at least"
                 t.given("f_V", raise_of(least).above, note=more)
-                self.case.suite.form(t, "theta_d", "f_V * theta", "-", "%", of="theta")
+                suite.form(t, "theta_d", "f_V * theta", "-", "%", of="theta")
             if nu < 1.0:
                 t.given("nu", nu, note="of the earthquake of damage limitation")
-                self.case.suite.form(t, "theta_nu", "nu * theta", "-", "%", of="theta")
-            return t
+                suite.form(t, "theta_nu", "nu * theta", "-", "%", of="theta")
+            return "theta_d" if least else "theta_nu" if nu < 1.0 else "theta"
 
-        symbol = "theta_d" if least else "theta_nu" if nu < 1.0 else "theta"
         found: list[Check] = []
         for name, of in _DRIFTS.items():
-            if f"reached_{name}" in self.case.data:
-                filled = partial(fill, of=name)
-                found += self._worst(clause, name, limit, symbol, fill=filled, of=of)
+            if self.case.keeps(name):
+                found += self._bearings.against(
+                    name,
+                    partial(enter, of=name),
+                    limit=limit,
+                    clause=self._clause(self.case.rules.drift_clause),
+                    standing=OWN if limit is None else self._known("history drift", "drift"),
+                    title=JUDGED["drift"].demand,
+                    note=of,
+                )
         return [max(found, key=lambda check: check.compared)] if found else []
 
     def _acceleration(self) -> list[Check]:
-        limit = self.limits.floor_acceleration
-        if limit is None or not self.frame.levels:
-            return []
-        return self._worst("", "floor_plan", limit)
-
-    def _worst(
-        self,
-        clause: str,
-        name: str,
-        limit: float,
-        symbol: str = "",
-        *,
-        fill: Callable[[FloatArray], Trace] | None = None,
-        of: str = "",
-    ) -> list[Check]:
-        # The worst of what a quantity is reached by; `of`: which of several it is, in words.
-        note = "; ".join(part for part in (of, self._note) if part)
-        values, each, quantity = reached_by(self.case.data, name), {}, QUANTITIES[name]
-        symbol, unit, shown = symbol or quantity.symbol, quantity.pure_unit, quantity.shown
-        for k, label in enumerate(names_of(self.case.data, name)):
-            t = Trace() if fill is None else fill(values[:, k])
-            if fill is None:
-                self.case.suite.enter(t, symbol, values[:, k], unit, shown, of=name)
-            t.given(f"{symbol}_lim", limit, unit, shown=shown)
-            each[label] = Calculation(t, symbol, f"{symbol}_lim")
-        where = self._clause(clause) if clause else PROJECT_LIMIT
-        standing = self._known("history drift", "drift") if clause else OWN
-        title = QUANTITIES["drift" if name in _DRIFTS else name].demand
-        return Governing(self.case.bound, standing, note, self.case.suite.void)(where, title, each)
+        return self._bearings.against("floor_plan") if self.frame.levels else []
 
     def _least(self, symbol: str) -> float:
         # A minimum of the equivalent-linear analysis at this bound, 0 where there is none.

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from frames.design.calculation.rendering import joined
 from frames.design.histories.eccentricity import WAY, cases_of, reached_by
 from frames.design.histories.suite import (
     end_of,
@@ -76,7 +77,7 @@ def _numbers(cases: Sequence[Case], name: str, sign: float) -> dict[str, Any]:
         if largest.max() > worst:
             worst, one = float(largest.max()), int(largest.argmax())
             named = f"{motion_of(case.every, one)}{end_of(case.every, one)}"
-            run = ", ".join(part for part in (named, case.bound) if part)
+            run = joined(named, case.bound, by=", ")
     found = {"envelope": envelope, "worst": worst}
     known = {key: sign * v + 0.0 if math.isfinite(v) else math.nan for key, v in found.items()}
     return cells | {
@@ -299,7 +300,7 @@ class FailedRuns(NamedTuple):
 
     def __str__(self) -> str:
         """Return the runs and their cause on one line."""
-        where = ", ".join(part for part in (self.level, self.bound) if part)
+        where = joined(self.level, self.bound, by=", ")
         return f"{where}: {self.failed} of {self.of} runs failed: {self.cause}: {self.motions}"
 
 
@@ -334,7 +335,7 @@ def _named(ones: list[Failure]) -> str:
     for one in ones[:_NAMED]:
         at = f"{one.at:.2f} s" if math.isfinite(one.at) else ""
         where = one.where.removeprefix("bearing ").strip('"')
-        there = ", ".join(part for part in (at, where) if part)
+        there = joined(at, where, by=", ")
         said.append(f"{one.motion} ({there})" if there else one.motion)
     more = len(ones) - len(said)
     return "; ".join(said) + (f"; {more} more" if more else "")

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.design._errors import CheckError
+from frames.design.calculation.rendering import joined
 from frames.design.histories.demand_table import said
 from frames.design.histories.eccentricity import Case, cases_of
-from frames.design.histories.least_shears import Raise
-from frames.design.histories.suite import peaks_of_runs
+from frames.design.histories.suite import Raise, peaks_of_runs
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
@@ -160,7 +160,7 @@ def _void(suite: Suite) -> str:
         return ""
     own = f"{sum(suite.failed)} of {len(suite.failed)} runs failed" if suite.reason else ""
     moved = "runs with moved masses failed" if suite.moved_failed else ""
-    return "; ".join(part for part in (own, moved) if part)
+    return joined(own, moved)
 
 
 def _drifts(case: Case, factor: float) -> pd.DataFrame:

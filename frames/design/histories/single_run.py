@@ -14,23 +14,22 @@ from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
-from frames.design.histories.bearing_demands import BearingDemands, devices_of
+from frames.design.histories.bearing_demands import BearingDemands, Calculation, devices_of
 from frames.design.histories.impacts import (
     impact_demand,
     rim_engagement,
     slips_of_events,
     uplift_events,
 )
-from frames.design.histories.suite import Calculation, Governing, Suite
+from frames.design.histories.suite import Suite
 from frames.design.histories.suite_notes import left_out_checks
-from frames.design.histories.uplift import Uplift
+from frames.design.histories.uplift import Uplift, suite_of_uplift
 from frames.results.findings import doubts_of
-from frames.results.quantities import QUANTITIES, Quantity
+from frames.results.quantities import JUDGED
 from frames.statics.overturning import unknown_axial_forces
 from lir_element.argument_checks import require_positive
 
 if TYPE_CHECKING:
-    import pandas as pd
     import xarray as xr
 
     from frames.frame import Frame
@@ -91,13 +90,15 @@ def impact_checks(
     failed = str(data.attrs["status"]) != "ok"
     reason = str(data.attrs["message"]) if failed else ""
     suite = Suite(statistic="single", failed=(failed,), reason=reason)
-    bearings = BearingDemands(data, suite, devices_of(data, frame), limits, bound, reason)
+    devices = devices_of(data, frame)
+    bearings = BearingDemands(data, suite, devices, limits, bound, reason)
     found = [_complete(data, bound)]
     found += left_out_checks(data, ["; ".join(doubts_of(data))], bound)
     found += bearings.displacement(f"{NO_CODE}, section 2", OWN)
     found += [*bearings.slips(), *bearings.forces()]
-    found += [*_structure(data, limits, bound), *_uplift(data, limits, bound)]
-    lifted = Uplift(data, devices_of(data, frame), limits, bound, reason=reason)
+    found += [*_structure(bearings), *_uplift(bearings)]
+    landing = suite_of_uplift(data, reason)
+    lifted = Uplift(data, landing, devices, limits, bound)
     found += [*lifted.rims(), *([] if limits.axial_force else lifted.landings())]
     if total_displacement is not None:
         require_positive("total_displacement", total_displacement, "m", error=CheckError)
@@ -157,6 +158,8 @@ def event_checks(
     limits = DesignLimits() if limits is None else limits
     void = "" if str(data.attrs["status"]) == "ok" else str(data.attrs["message"])
     found, devices = [_complete(data, bound)], devices_of(data, frame)
+    suite = Suite(statistic="single", failed=(bool(void),), reason=void)
+    demands = BearingDemands(data, suite, devices, limits, bound)
     for event, rows in slips_of_events(data, ends).groupby("event"):
         left = "s_star" if limits.slip_left is None else "s_allowed"
         for column, symbol, limit, what in (
@@ -169,7 +172,7 @@ def event_checks(
                 if not devices[name].is_dcfp
             }
             title = f"{what}, event {event}"
-            found += Governing(bound, OWN)(f"{NO_CODE} (2.7)", title, each)
+            found += demands.worst(OWN, f"{NO_CODE} (2.7)", title, each)
     return Checks(replace(check, void=void) for check in found)
 
 
@@ -183,51 +186,40 @@ def _complete(data: xr.Dataset, bound: Bound) -> Check:
     return judge("no code", "run is complete", "n_failed", "<=", "n_allowed", note=note)
 
 
-def _structure(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]:
+def _structure(demands: BearingDemands) -> list[Check]:
     wanted = {"base shear": "base_shear", "acceleration": "floor_plan", "drift": "drift"}
-    given = {kind: getattr(limits, QUANTITIES[name].limit) for kind, name in wanted.items()}
-    if all(limit is None for limit in given.values()):
+    asked = {kind: name for kind, name in wanted.items() if demands.limit(name) is not None}
+    if not asked:
         return []
-    table, found = impact_demand(data), []
-    for kind, limit in given.items():
-        rows = table[table.index.str.startswith(kind)] if len(table) else table
-        if limit is not None:
-            each = {
-                label.partition(" of ")[2]: _felt(row, QUANTITIES[wanted[kind]], limit)
-                for label, row in rows.iterrows()
-            }
-            found += Governing(bound, OWN)(PROJECT_LIMIT, f"{kind} at an impact", each)
+    table, found = impact_demand(demands.data), []
+    for kind, name in asked.items():
+        each, symbol = {}, JUDGED[name].symbol
+        for label, row in table[table.index.astype(str).str.startswith(kind)].iterrows():
+            note = f"t = {row['time']:.4g} s; {row['ratio']:.3g} times the largest before impacts"
+            place, t = str(label).partition(" of ")[2], Trace()
+            each[place] = demands.within(t, symbol, name, value=row["at_impact"], note=note)
+        found += demands.worst(OWN, PROJECT_LIMIT, f"{kind} at an impact", each)
     return found
 
 
-def _felt(row: pd.Series, quantity: Quantity, limit: float) -> Calculation:
-    t, symbol, unit, shown = Trace(), quantity.symbol, quantity.pure_unit, quantity.shown
-    note = f"t = {row['time']:.4g} s; {row['ratio']:.3g} times the largest before impacts"
-    t.given(symbol, float(row["at_impact"]), unit, shown=shown, note=note)
-    t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
-    return Calculation(t, symbol, f"{symbol}_lim")
-
-
-def _uplift(data: xr.Dataset, limits: DesignLimits, bound: Bound) -> list[Check]:
-    wanted = {
-        "gap": ("maximum uplift", "g", "m", "mm", limits.uplift_gap),
-        "landing_force": ("force of landing", "N_land", "N", "kN", limits.axial_force),
-    }
-    if all(limit is None for *_, limit in wanted.values()):
+def _uplift(demands: BearingDemands) -> list[Check]:
+    wanted = (
+        ("gap", "gap", "maximum uplift", "g"),
+        ("landing_force", "axial_force", "force of landing", "N_land"),
+    )
+    asked = [each for each in wanted if demands.limit(each[1]) is not None]
+    if not asked:
         return []
-    table, found = uplift_events(data), []
-    note = f"{len(table)} times lifted off, {int(table['at_impact'].sum())} of them at an impact"
-    for column, (title, symbol, unit, shown, limit) in wanted.items():
+    table, found = uplift_events(demands.data), []
+    said = f"{len(table)} times lifted off, {int(table['at_impact'].sum())} of them at an impact"
+    for column, name, title, symbol in asked:
         rows = table.dropna(subset=[column])
-        if limit is None or rows.empty:
+        if rows.empty:
             continue
-        row = rows.loc[rows[column].idxmax()]
-        t = Trace()
+        row, t = rows.loc[rows[column].idxmax()], Trace()
         when = f"lifted off at t = {row['begin']:.4g} s for {row['duration']:.4g} s"
-        t.given(symbol, float(row[column]), unit, shown=shown, note=when)
-        t.given(f"{symbol}_lim", limit, unit, shown=shown, note="as given")
-        each = {str(row["bearing"]): Calculation(t, symbol, f"{symbol}_lim")}
-        found += Governing(bound, OWN, note)(PROJECT_LIMIT, title, each)
+        one = demands.within(t, symbol, name, value=row[column], note=when)
+        found += demands.worst(OWN, PROJECT_LIMIT, title, {str(row["bearing"]): one}, said)
     return found
 
 

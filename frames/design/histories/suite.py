@@ -1,4 +1,4 @@
-"""What a suite of runs gives for design: mean or largest; where runs failed, what was reached."""
+"""What a suite of runs gives for design: mean or largest, least shears; where runs failed."""
 
 from __future__ import annotations
 
@@ -10,18 +10,22 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.check import Bound, Check
-from frames.design.calculation.standing import Standing
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.trace import Trace
+from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.results.peak_response import places_of, reached
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import xarray as xr
 
     from frames._types import BoolArray, FloatArray
+    from frames.design.calculation.check import Check
     from frames.design.codes.history_rules import HistoryRules
+    from frames.design.codes.outcome import BoundResult
 
 
 class Amplification(NamedTuple):
@@ -70,7 +74,7 @@ class Suite:
     @property
     def void(self) -> str:
         """Why there is no value for design; empty where there is one."""
-        said = "; ".join(part for part in (self.reason, self.moved_failed) if part)
+        said = joined(self.reason, self.moved_failed)
         return "" if self.is_usable else said or "a run failed"
 
     def value(self, values: FloatArray, of: str = "") -> float:
@@ -271,37 +275,77 @@ def motion_of(data: xr.Dataset, k: int) -> str:
     return name if abs(scale - 1.0) < 1e-12 else f"{name} x {scale:.4g}"
 
 
-class Calculation(NamedTuple):
-    """A calculation with its symbols of demand and limit."""
-
-    trace: Trace
-    demand: str
-    limit: str
+BASE = "base shear of time histories"
+STOREY = "storey shear of time histories"
+LEAST = "least one, of the equivalent-linear analysis"
 
 
-@dataclass(frozen=True)
-class Governing:
-    """Makes the check of what is worst."""
+class Raise(NamedTuple):
+    """Factors on the earthquake's part of forces and drifts, 1 at least."""
 
-    bound: Bound  # properties of the bearings that it is for
-    standing: Standing  # of its checks
-    note: str = ""  # goes with its checks
-    void: str = ""  # why its demands are no values for design
+    # above the isolation: the larger ratio of least shear to that of the runs, of the lowest
+    # storey and at the base
+    above: float = 1.0
+    isolation: float = 1.0  # of what bearings exert, and below: that at the base
 
-    def __call__(self, clause: str, title: str, each: Mapping[str, Calculation]) -> list[Check]:
-        """Return the check of the largest ratio."""
-        # where no value is finite none is the worst
-        known = any(math.isfinite(c.trace.value(c.demand)) for c in each.values())
-        found = [
-            CheckBuilder(c.trace, self.bound, self.standing, void=self.void).worst(
-                clause,
-                title,
-                c.demand,
-                "<=",
-                c.limit,
-                subjects=(name if known else "",),
-                note=self.note,
-            )
-            for name, c in each.items()
-        ]
-        return [max(found, key=lambda check: check.compared)] if found else []
+
+def shear_checks(
+    data: xr.Dataset,
+    suite: Suite,
+    rules: HistoryRules,
+    known: BoundResult,
+    storey: str = "",
+    note: str = "",
+) -> list[Check]:
+    """Return the shears of runs against their least values, at the base and over it.
+
+    Less is no failure: it is the shear to design for, and the ratio the factor on the forces.
+    """
+    clause = f"{rules.cited} {rules.force_clause}".strip()
+
+    def judged(t: Trace, title: str, symbol: str, subject: str, what: str) -> Check:
+        demand, least = t.value(symbol), t.value("V_least")
+        more = ""
+        if not suite.void and 0.0 < demand < least:
+            more = f"{what} are raised by {least / demand:.4g}"
+        said = joined(more, note)
+        standing = standing_in(rules.code, "history minima")
+        judge = CheckBuilder(t, known.bound, standing, void=suite.void).of("minimum")
+        return judge.worst(clause, title, symbol, ">=", "V_least", subjects=(subject,), note=said)
+
+    t = Trace()
+    suite.enter(t, "V", peaks_of_runs(data, "base_shear"), "N")
+    t.given("V_least", known.trace.value("V_b_dyn"), "N", note=LEAST)
+    found = [judged(t, BASE, "V", "", "forces and drifts")]
+    if not storey:
+        return found
+    if f"{REACHED}storey_shear" not in data.variables:
+        msg = "runs have no storey shears (reached_storey_shear): compute them anew"
+        raise CheckError(msg)
+    t = Trace()
+    suite.enter(t, "V_st", peaks_of_runs(data, "storey_shear")[:, 0], "N")
+    t.given("R_I", known.trace.value("R_I"), source=known.trace["R_I"].source)
+    suite.form(t, "V_run", "V_st / R_I", "N", of="V_st")
+    t.given("V_s", known.trace.value("V_s"), "N", note="of the equivalent-linear analysis")
+    t.given("a_dyn", known.trace.value("a_dyn"), source=known.trace["a_dyn"].source)
+    t("V_least", "a_dyn * V_s", "N")
+    what = "forces and drifts above the isolation"
+    return [*found, judged(t, STOREY, "V_run", storey, what)]
+
+
+def raise_of(checks: list[Check]) -> Raise:
+    """Return by what the least shears raise forces."""
+    factors = {BASE: 1.0, STOREY: 1.0}
+    for check in checks:
+        if not check.void and check.demand > 0.0:
+            factors[check.title] = max(check.limit / check.demand, 1.0)
+    return Raise(above=max(factors.values()), isolation=factors[BASE])
+
+
+def raises_by_case(checks: Iterable[Check]) -> dict[tuple[str, str], Raise]:
+    """Return by what the least shears raise the forces of runs."""
+    cases: dict[tuple[str, str], list[Check]] = {}
+    for check in checks:
+        if check.scope == "minimum" and check.title in {BASE, STOREY}:
+            cases.setdefault((check.level, check.bound), []).append(check)
+    return {case: raise_of(each) for case, each in cases.items()}

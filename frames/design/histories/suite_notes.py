@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
-from frames.design.histories.suite import motion_of, parted, peaks_of_runs
+from frames.design.histories.suite import motion_of, names_of, parted, peaks_of_runs
+from frames.results.bearing_findings import IMPACT
 from frames.results.level_doubts import (
     DOUBTED,
     errors_of,
@@ -20,6 +22,8 @@ from frames.results.level_doubts import (
     rims_are_unequal,
     travels,
 )
+from frames.results.recorded import REACHED
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,6 +31,27 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.design.calculation.check import Bound, Check
     from lir_element import LIRBearing
+
+
+ON_AXIAL_STIFFNESS = (
+    "rims met with a slip: it goes with the root of axial_stiffness, here the default, an estimate "
+    "from 0.3 to 3 times"
+)
+"""Note of checks of forces that rest on a default (docs/theory.md, 2.9)."""
+
+
+def note_of_impacts(data: xr.Dataset, bearings: Mapping[str, LIRBearing]) -> str:
+    """Return what checks of forces say where bearings of default stiffness met rims with a slip."""
+    if "run" in data.dims and f"{REACHED}closing" not in data.variables:
+        return ""  # of an earlier version
+    closing = np.nan_to_num(peaks_of_runs(data, "closing")).max(axis=0)
+    devices = [bearings[name] for name in names_of(data, "displacement")]
+    for speed, device in zip(closing.tolist(), devices, strict=True):
+        own = device.resolved()
+        rise = speed * math.sqrt(own["axial_stiffness"] / own["design_load"] / STANDARD_GRAVITY)
+        if rise > IMPACT and device.axial_stiffness is None:
+            return ON_AXIAL_STIFFNESS
+    return ""
 
 
 def contact_notes(data: xr.Dataset, least: float) -> str:
@@ -88,7 +113,7 @@ def doubted(checks: list[Check], errors: Mapping[str, float], quantity: str) -> 
                 f'at the level "pendulum" the {quantity} may be off by {100.0 * error:.0f} %, '
                 'more than its margin: run at level = "contact"'
             )
-            check = replace(check, note="; ".join(part for part in (check.note, said) if part))
+            check = replace(check, note=joined(check.note, said))
         found.append(check)
     return found
 

@@ -3,26 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.design.calculation.check import Bound, Check
-from frames.design.calculation.standing import MEMORY, OWN, Standing
+from frames.design.calculation.check import Check
+from frames.design.calculation.standing import MEMORY, OWN
 from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import enter_geometry, overlap_area, pressure
 from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
-from frames.design.histories.suite import (
-    Calculation,
-    Governing,
-    Suite,
-    motion_of,
-    names_of,
-    peaks_of_runs,
-    stopped_in,
-)
+from frames.design.histories.bearing_demands import BearingDemands, Calculation
+from frames.design.histories.suite import Suite, motion_of, peaks_of_runs, stopped_in
 from lir_element.device.sliders import interface_height
 
 if TYPE_CHECKING:
@@ -31,28 +23,26 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import BoolArray
-    from frames.design.devices.limits import DesignLimits
     from lir_element import LIRBearing
 
 _FREE_SHARE = 0.5  # of the height that has place for a rim, where its height is not given
 
 
+def suite_of_uplift(data: xr.Dataset, reason: str = "") -> Suite:
+    """Return how lift-offs count: the largest of runs, none where one failed or keeps no gap."""
+    stopped, lifted = stopped_in(data), _lifted_in(data)
+    unknown = (np.isnan(peaks_of_runs(data, "gap")) & lifted).any(axis=1)
+    if not stopped.any():
+        reason = "a bearing lifted off by a gap that was not recorded"
+    failed = tuple((stopped | unknown).tolist())
+    return Suite(statistic="largest", failed=failed, reason=reason)
+
+
 @dataclass(frozen=True)
-class Uplift:
+class Uplift(BearingDemands):
     """Makes the checks of bearings that lift off: the worst run counts, never a mean."""
 
-    data: xr.Dataset  # the runs, or one
-    bearings: Mapping[str, LIRBearing]  # the bearings as they were in these runs
-    limits: DesignLimits  # what they may be asked for
-    bound: Bound  # bound of their properties
-    # clause of the code that asks for stability after uplift; empty where it has none
-    clause: str = ""
-    note: str = ""  # goes with each check
-    reason: str = ""  # which runs failed, in words; goes with each check where some did
-
-    def checks(self) -> list[Check]:
-        """Return the checks of gap and landing."""
-        return [*self.rims(), *self.gaps(), *self.landings()]
+    clause: str = ""  # of the code that asks for stability after uplift; empty where it has none
 
     def rims(self) -> list[Check]:
         """Return the check of the gap over the height of the rims; none without rims."""
@@ -67,18 +57,18 @@ class Uplift:
             else:
                 t = Trace()
                 t.given("h_rim", own, "m", shown="mm", note="height of the rims, as given")
-            each[name] = self._with_gap(t, k, "h_rim")
-        asked = (self.clause, MEMORY) if self.clause else (PROPOSED_LIMIT, OWN)
-        return self._worst(asked, "maximum uplift over the rim height", each)
+            each[name] = Calculation(self._with_gap(t, k), "g", "h_rim")
+        known, clause = (MEMORY, self.clause) if self.clause else (OWN, PROPOSED_LIMIT)
+        return self.worst(known, clause, "maximum uplift over the rim height", each, self._told)
 
     def gaps(self) -> list[Check]:
         """Return the check of the gap over `uplift_gap`; none where it is not given."""
-        limit, each = self.limits.uplift_gap, {}
-        for k, name in enumerate(self._names if limit is not None else ()):
-            t = Trace()
-            t.given("g_lim", limit or 0.0, "m", shown="mm", note="as given")
-            each[name] = self._with_gap(t, k, "g_lim")
-        return self._worst((PROJECT_LIMIT, OWN), "maximum uplift", each)
+        each = {
+            name: self.within(self._with_gap(Trace(), k), "g", "gap")
+            for k, name in enumerate(self._names)
+            if self.limit("gap") is not None
+        }
+        return self.worst(OWN, PROJECT_LIMIT, "maximum uplift", each, self._told)
 
     def landings(self) -> list[Check]:
         """Return the check of the landing's force or pressure; none where nothing lifted off."""
@@ -88,11 +78,12 @@ class Uplift:
             runs = [int(run) for run in np.flatnonzero(lifted[:, k])]
             if runs:
                 each[name] = self._landing(k, self.bearings[name], runs)
+        clause, title = PROJECT_LIMIT, "pressure of a landing on the sliders"
         if limits.axial_force is not None:
-            return self._worst((PROJECT_LIMIT, OWN), "axial force with a landing", each)
-        given = limits.interface_pressure is not None
-        clause = PROJECT_LIMIT if given else PROPOSED_LIMIT
-        return self._worst((clause, OWN), "pressure of a landing on the sliders", each)
+            title = "axial force with a landing"
+        elif limits.interface_pressure is None:
+            clause = PROPOSED_LIMIT
+        return self.worst(OWN, clause, title, each, self._told)
 
     def _landing(self, k: int, bearing: LIRBearing, runs: Sequence[int]) -> Calculation:
         # Of the runs in which the bearing lifts off, the one that presses it most.
@@ -126,29 +117,10 @@ class Uplift:
         t.given("p_lim", LANDING_PRESSURE if own is None else own, "Pa", note=note)
         return "p_land", "p_lim"
 
-    def _with_gap(self, t: Trace, k: int, limit: str) -> Calculation:
-        gap, lifted = peaks_of_runs(self.data, "gap")[:, k], self._lifted[:, k]
-        known = np.where(lifted, gap, 0.0)
-        failed = tuple(map(bool, self._failed | np.isnan(known)))
-        suite = Suite(statistic="largest", failed=failed, reason=self._void)
-        suite.enter(t, "g", known, "m", "mm")
-        return Calculation(t, "g", limit)
-
-    def _worst(
-        self, asked: tuple[str, Standing], title: str, each: Mapping[str, Calculation]
-    ) -> list[Check]:
-        # `asked`: clause and its standing.
-        clause, standing = asked
-        words = "; ".join(part for part in (self._told, self.note) if part)
-        return Governing(self.bound, standing, words, self._void)(clause, title, each)
-
-    @property
-    def _void(self) -> str:
-        # Why there is no value for design.
-        if self._failed.any():
-            return self.reason or "a run failed"
-        unknown = np.isnan(peaks_of_runs(self.data, "gap")) & self._lifted
-        return "a bearing lifted off by a gap that was not recorded" if unknown.any() else ""
+    def _with_gap(self, t: Trace, k: int) -> Trace:
+        gap = np.where(self._lifted[:, k], peaks_of_runs(self.data, "gap")[:, k], 0.0)
+        self.suite.enter(t, "g", gap, "m", "mm")
+        return t
 
     @property
     def _told(self) -> str:
@@ -171,16 +143,12 @@ class Uplift:
         return motion_of(self.data, k) if "run" in self.data.dims else "this one"
 
     @property
-    def _names(self) -> tuple[str, ...]:
-        return names_of(self.data, "displacement")
-
-    @property
     def _lifted(self) -> BoolArray:
-        return np.asarray(peaks_of_runs(self.data, "time_lifted") > 0.0)
+        return _lifted_in(self.data)
 
-    @property
-    def _failed(self) -> BoolArray:
-        return stopped_in(self.data)
+
+def _lifted_in(data: xr.Dataset) -> BoolArray:
+    return np.asarray(peaks_of_runs(data, "time_lifted") > 0.0)
 
 
 def _enter_rim(bearing: LIRBearing) -> Trace:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.unevaluated import not_evaluated
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.device import device_checks
@@ -34,39 +35,20 @@ if TYPE_CHECKING:
 
 
 class BearingDemand(NamedTuple):
-    """What bearings are checked and tested for.
+    """What bearings are checked and tested for."""
 
-    Attributes
-    ----------
-    loads : (float, float)
-        Least axial load that presses at all, and the largest, of combinations and histories [N].
-    slip : float
-        Of the interface [m].
-    void : str
-        Why neither is a value for design, as after runs that failed; "" if they are.
-    """
-
+    # least axial load that presses, and the largest, of combinations and histories [N]
     loads: tuple[float, float]
-    slip: float
-    void: str
+    slip: float  # of the interface [m]
+    void: str  # why neither is a value for design, as after runs that failed; "" if they are
 
 
 class TypeOfBearing(NamedTuple):
-    """A type of bearing of a project, and what its time histories ask of it.
+    """A type of bearing of a project, and what its time histories ask of it."""
 
-    Attributes
-    ----------
-    bearing : LIRBearing
-        The device, friction nominal.
-    columns : tuple of str
-        Names of the frame's bearings that are of this type.
-    asked : BearingDemand
-        What the time histories ask of these.
-    """
-
-    bearing: LIRBearing
-    columns: tuple[str, ...]
-    asked: BearingDemand
+    bearing: LIRBearing  # the device, friction nominal
+    columns: tuple[str, ...]  # names of the frame's bearings that are of this type
+    asked: BearingDemand  # what the time histories ask of these
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -248,7 +230,7 @@ def of_the_bearing(run: RunToCheck) -> list[Check]:
         for check in _of_type(run, kind.bearing, kind.asked):
             subject = check.subject
             if len(run.types) > 1:
-                subject = ", ".join(part for part in (f"type {name}", subject) if part)
+                subject = joined(f"type {name}", subject, by=", ")
             found.append(replace(check, subject=subject, level=run.rules.bearing_level))
     return found
 

@@ -33,12 +33,7 @@ from pydantic import (
 )
 
 from frames.design.project.quantities import number_or_infinity
-from lir_element.device.friction import (
-    CoulombFriction,
-    FrictionLaw,
-    VelocityFriction,
-    known_laws,
-)
+from lir_element.device.friction import CoulombFriction, FrictionLaw, VelocityFriction, known_laws
 from lir_element.fields import unit_of
 
 _NUMBER, _PAIR = "[number]", "[pair]"

@@ -52,21 +52,9 @@ T = TypeVar("T")
 
 
 class ProjectInputs:
-    """What a project's file becomes.
+    """What a project's file becomes; an error of its methods names the section that cannot be."""
 
-    Parameters
-    ----------
-    file : ProjectFile
-        The file.
-    folder : Path
-        Its folder: other files are found from there.
-
-    Raises
-    ------
-    ProjectError
-        From its methods: a section that cannot be, with the section's name.
-    """
-
+    # other files are found from the folder
     def __init__(self, file: ProjectFile, folder: Path) -> None:
         self.file, self.folder = file, folder
         self.sources = SourceFiles(file, folder)

@@ -38,42 +38,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Preliminary:
-    """What is known of a project before its time histories.
+    """What is known of a project before its time histories."""
 
-    Attributes
-    ----------
-    frame : Frame
-        The structure on its bearings, friction nominal, under the average combination of loads.
-    system : IsolationSystem
-        The bearings with their places, and their loads in all combinations.
-    spectrum : Spectrum
-        The design spectrum.
-    superstructure : Superstructure, optional
-        What stands on the bearings.
-    equivalent : EquivalentLinear
-        Equivalent-linear analysis at both bounds.
-    motions : MotionSet
-        Scaled as the file asks.
-    moved : mapping of str to Frame
-        The structure with its floors' masses moved, by the way; none where accidental eccentricity
-        is left out.
-    types : mapping of str to str
-        Type of each bearing of the frame.
-    doubts : tuple of str
-        What was warned of on the way: of the file, the bearing and the motions.
-    checks : Checks
-        Those of the equivalent-linear analysis, and of the clear distance to walls by it.
-    """
-
-    frame: Frame
-    system: IsolationSystem
-    spectrum: Spectrum
-    superstructure: Superstructure | None
-    equivalent: EquivalentLinear
-    motions: MotionSet
+    frame: Frame  # on its bearings, friction nominal, under the average combination of loads
+    system: IsolationSystem  # the bearings with their places, and their loads in all combinations
+    spectrum: Spectrum  # the design spectrum
+    superstructure: Superstructure | None  # what stands on the bearings
+    equivalent: EquivalentLinear  # equivalent-linear analysis at both bounds
+    motions: MotionSet  # scaled as the file asks
+    # the structure with its floors' masses moved, by the way; none where accidental
+    # eccentricity is left out
     moved: Mapping[str, Frame] = field(default_factory=dict)
-    types: Mapping[str, str] = field(default_factory=dict)
+    types: Mapping[str, str] = field(default_factory=dict)  # type of each bearing of the frame
+    # what was warned of on the way: of the file, the bearing and the motions
     doubts: tuple[str, ...] = ()
+    # those of the equivalent-linear analysis, and of the clear distance to walls by it
     checks: Checks = field(default_factory=Checks)
 
 

@@ -45,19 +45,7 @@ def tell(text: str) -> None:
 class RunningScript:
     """A script that runs in its own folder, where it may read files; its failure names the line.
 
-    Parameters
-    ----------
-    script : Path
-        The script.
-    key : str
-        Of the project's file, which names it.
-    folder : Path
-        That of the project's file, in which it must be.
-
-    Raises
-    ------
-    ProjectError
-        If it is elsewhere and `ANYWHERE` is not set, or if it fails.
+    `key` of the project's file names it. It must be in the project's folder, or `ANYWHERE` is set.
     """
 
     def __init__(self, script: Path, key: str, folder: Path) -> None:

@@ -13,7 +13,7 @@ from frames.library.building_loads import Pressures, add_base_inertia, load_floo
 from frames.library.moment_frames import DEFAULT_BASE_DEPTH
 
 if TYPE_CHECKING:
-    from frames.design.codes.load_rules import LoadRule
+    from frames.design.codes.history_rules import LoadRule
     from frames.frame import Frame
     from frames.library.building_plan import BuildingPlan
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 import pandas as pd
 
 from frames.design._errors import ProjectError
-from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.check import COLUMNS, Check, Checks
 from frames.design.calculation.standing import standing_of
 from frames.design.histories.demand_table import headed
 from frames.design.project.design_run import Histories
@@ -252,19 +252,8 @@ def _labelled(
     }
 
 
-_TEXTS = (
-    "clause",
-    "title",
-    "symbol",
-    "unit",
-    "relation",
-    "standing",
-    "bound",
-    "subject",
-    "note",
-    "void",
-    "level",
-)
+_NUMBERS = ("demand", "limit")
+_TEXTS = tuple(name for name in COLUMNS if name not in _NUMBERS)
 _SHOWN = {"m": "mm"}
 
 
@@ -279,7 +268,7 @@ def read_checks(folder: Path) -> Checks:
     except (OSError, ValueError) as cause:
         msg = f"{path} cannot be read ({cause}): `lir report` writes it anew"
         raise ProjectError(msg) from cause
-    missing = sorted({*_TEXTS, "demand", "limit", "verdict"} - {*map(str, table.columns)})
+    missing = sorted({*_TEXTS, *_NUMBERS, "verdict"} - {*map(str, table.columns)})
     if missing:
         msg = f"{path} has no column {', '.join(missing)}: `lir report` writes it anew"
         raise ProjectError(msg)
@@ -295,6 +284,6 @@ def _check(row: dict[Any, Any]) -> Check:
     }
     scope = beyond.get(row["verdict"], "any")
     shown = _SHOWN.get(row["unit"], "")
-    numbers = {name: float(row[name]) for name in ("demand", "limit")}
+    numbers = {name: float(row[name]) for name in _NUMBERS}
     texts["standing"] = standing_of(row["standing"])
     return Check(**texts, **numbers, scope=scope, shown=shown)  # type: ignore[arg-type]  # Check judges them

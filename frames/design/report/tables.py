@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
 
 _NAME = 18  # letters of a name that stays on one line
-_SHOWN = {"m": ("mm", 1e3), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3)}
+SHOWN = {"m": ("mm", 1e3), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3)}
+"""Units that tables show others in, with the factor."""
 
 
 class Table(NamedTuple):
@@ -37,7 +38,7 @@ def rows_of(frame: pd.DataFrame, text: Callable[[object], str] = str) -> list[tu
         row = dict(zip(frame.columns, cells, strict=True))
         factor = 1.0
         if "unit" in row:
-            row["unit"], factor = _SHOWN.get(row["unit"], (row["unit"], 1.0))
+            row["unit"], factor = SHOWN.get(row["unit"], (row["unit"], 1.0))
         shown = (
             _number(factor * value) if isinstance(value, float) else text(value)
             for value in row.values()
@@ -55,7 +56,7 @@ def in_mm_and_kn(frame: pd.DataFrame) -> pd.DataFrame:
     columns = {}
     for title, values in frame.items():
         name, _, unit = str(title).partition(" [")
-        shown, factor = _SHOWN.get(unit.removesuffix("]"), ("", 1.0))
+        shown, factor = SHOWN.get(unit.removesuffix("]"), ("", 1.0))
         if not shown or name in {"x", "y"}:
             columns[str(title)] = values
         else:

@@ -11,19 +11,27 @@ from frames.design.calculation.standing import LEGEND, MEMORY, standing_of
 from frames.design.codes.code_values import left_to_the_engineer
 from frames.design.codes.registry import code_named
 from frames.design.histories.demand_table import largest_of_links, tables_of_levels
-from frames.design.report.cover import cover_of, css_string, verdict_of
+from frames.design.report.cover import (
+    cover_of,
+    css_string,
+    factor_steps,
+    judged,
+    verdict_of,
+    what_governs,
+)
 from frames.design.report.figures import pictures
-from frames.design.report.judged import factor_steps, judged, what_governs
 from frames.design.report.numbers import (
     BY_MOTION,
     ECCENTRICITY,
     LINKS,
     WITHOUT_FORCES,
+    device_table,
     devices_by_type,
+    loads_table,
+    model_table,
 )
 from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn, in_parts
-from frames.design.report.terms import device_table, loads_table, model_table
 from frames.design.report.words import Words
 from frames.design.testing.programme import OWN_RULES
 from frames.results.findings import findings_of

@@ -20,25 +20,15 @@ if TYPE_CHECKING:
 
 
 class Size(NamedTuple):
-    """Loads of the bearings that have sliders of one radius [N].
+    """Loads of the bearings that have sliders of one radius [N]."""
 
-    Attributes
-    ----------
-    least, average, largest : float
-        Least load of all combinations, largest of the average combination, and of all.
-    lightest, typical : float
-        Of the average combination: the least, and the mean weighted by the loads themselves,
-        which is the load under which the friction of all of them together is developed.
-    number : int
-        Number of bearings.
-    """
-
-    least: float
-    average: float
-    largest: float
-    lightest: float
+    least: float  # of all combinations
+    average: float  # the largest of the average combination
+    largest: float  # of all combinations
+    lightest: float  # the least of the average combination
+    # its mean weighted by the loads: under it the friction of all of them together is developed
     typical: float
-    number: int
+    number: int  # of bearings
 
 
 def grouped(system: IsolationSystem, sizes: int) -> tuple[tuple[int, ...], tuple[Size, ...]]:
@@ -98,41 +88,20 @@ class Governing(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Candidate:
-    """A radius and a friction with what fits them.
+    """A radius and a friction with what fits them."""
 
-    Attributes
-    ----------
-    radius : float
-        Of both concave surfaces [m].
-    friction : FrictionLaw
-        Nominal, of both surfaces.
-    bearings : tuple of LIRBearing
-        A bearing for each size of slider; none where their plates would be too deep.
-    analysis : EquivalentLinear
-        Of the same bearings without rims.
-    checks : Checks
-        Of each size by its own numbers, at the slip that the rims leave to the interface.
-    trace : Trace
-        The calculation of rims and interface.
-    lacks : tuple of str
-        What it does not keep; empty if it can be taken.
-    groups : tuple of Size
-        Loads and number of the bearings of each size.
-    governing : Governing
-        What limits it most, and its ratio: over 1 where it lacks something.
-    least_pressure : float
-        Pressure of the target below which liners rub more than they are meant to [Pa].
-    """
-
-    radius: float
-    friction: FrictionLaw
+    radius: float  # of both concave surfaces [m]
+    friction: FrictionLaw  # nominal, of both surfaces
+    # A bearing for each size of slider; none where their plates would be too deep
     bearings: tuple[LIRBearing, ...]
-    analysis: EquivalentLinear
+    analysis: EquivalentLinear  # of the same bearings without rims
+    # of each size by its own numbers, at the slip that the rims leave to the interface
     checks: Checks
-    trace: Trace
-    lacks: tuple[str, ...]
-    groups: tuple[Size, ...]
-    governing: Governing
+    trace: Trace  # the calculation of rims and interface
+    lacks: tuple[str, ...]  # what it does not keep; empty if it can be taken
+    groups: tuple[Size, ...]  # loads and number of the bearings of each size
+    governing: Governing  # what limits it most, and its ratio: over 1 where it lacks something
+    # pressure of the target below which liners rub more than they are meant to [Pa]
     least_pressure: float
 
     @property

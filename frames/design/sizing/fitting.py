@@ -38,18 +38,10 @@ _WHATEVER_SLIDER = frozenset({"P_1", "P_2", "H_slip"})
 
 
 class Asked(NamedTuple):
-    """Demands of time histories on one mass, beside those of the formula.
+    """Demands of time histories on one mass, beside those of the formula."""
 
-    Attributes
-    ----------
-    displacement : float
-        Largest displacement that bearings without rims must allow [m].
-    slip : float
-        Slip that the interface must bear [m].
-    """
-
-    displacement: float = 0.0
-    slip: float = 0.0
+    displacement: float = 0.0  # largest displacement that bearings without rims must allow [m]
+    slip: float = 0.0  # slip that the interface must bear [m]
 
 
 def fitted(

@@ -28,19 +28,11 @@ _WEIGHED = ("displacement", "base shear", "plan diameter")
 
 
 class Impossible(NamedTuple):
-    """A pair of radius and friction of which no bearing can be made.
+    """A pair of radius and friction of which no bearing can be made."""
 
-    Attributes
-    ----------
-    radius, friction : float
-        Of the concave surfaces [m, -].
-    reason : str
-        Why, with value, bound and remedy.
-    """
-
-    radius: float
-    friction: float
-    reason: str
+    radius: float  # of the concave surfaces [m]
+    friction: float  # of these [-]
+    reason: str  # why, with value, bound and remedy
 
 
 class NoCandidateError(CheckError):
@@ -89,19 +81,12 @@ class NoCandidateError(CheckError):
 
 
 class Place(NamedTuple):
-    """A candidate among the others.
+    """A candidate among the others."""
 
-    Attributes
-    ----------
-    candidate : Candidate
-        Which.
-    outcome : str
-        "proposed", "Pareto-optimal" (no other that keeps what is asked has less displacement, base
-        shear and plan diameter at once, or is as good in some and better in another), "keeps what
-        is asked", or "falls out".
-    """
-
-    candidate: Candidate
+    candidate: Candidate  # which
+    # "proposed", "Pareto-optimal" (no other that keeps what is asked has less displacement,
+    # base shear and plan diameter at once, or is as good in some and better in another),
+    # "keeps what is asked", or "falls out"
     outcome: Literal["proposed", "Pareto-optimal", "keeps what is asked", "falls out"]
 
 

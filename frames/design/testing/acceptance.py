@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING, Literal
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.pendulum import FrictionPendulum
 from frames.design.codes.registry import code_named
 from frames.design.codes.secant import CheckBuilder
+from frames.design.devices.limits import PROPOSED_LIMIT
 from frames.design.testing.acceptance_of_code import checks_of_code
-from frames.design.testing.programme import PROPOSAL, pressure_factor
+from frames.design.testing.programme import pressure_factor
 from lir_element import LIRBearing
 from lir_element.fields import check_numbers, number
 
@@ -189,7 +191,7 @@ class _Set:
     @property
     def _labels(self) -> tuple[str, ...]:
         return tuple(
-            ", ".join(part for part in (self.name, test.specimen, f"cycle {k}") if part)
+            joined(self.name, test.specimen, f"cycle {k}", by=", ")
             for test in self.tests
             for k in range(1, len(test.cycles) + 1)
         )
@@ -312,7 +314,7 @@ class _Set:
     def _drops(self, judge: CheckBuilder, symbols: tuple[str, ...], least: int) -> list[Check]:
         # Largest drop against the first cycle, of the tests with so many cycles.
         several = [test for test in self.tests if len(test.cycles) >= least]
-        names = tuple(", ".join(p for p in (self.name, test.specimen) if p) for test in several)
+        names = tuple(joined(self.name, test.specimen, by=", ") for test in several)
         found = []
         for symbol in symbols if several else ():
             values = [[_VALUES[symbol](cycle) for cycle in test.cycles] for test in several]
@@ -333,7 +335,7 @@ class _Set:
         return found
 
     def _cited(self, judge: CheckBuilder) -> str:
-        return PROPOSAL if judge.standing.kind == "own" else self.clause
+        return PROPOSED_LIMIT if judge.standing.kind == "own" else self.clause
 
 
 def _range(low: str, high: str) -> tuple[tuple[Literal[">=", "<="], str], ...]:

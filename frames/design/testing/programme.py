@@ -19,6 +19,7 @@ from frames.design.codes.prototype_programme import (
     accepted_of,
 )
 from frames.design.codes.registry import code_named
+from frames.design.devices.limits import PROPOSED_LIMIT
 from lir_element import LIRBearing
 from lir_element.argument_checks import require_positive
 
@@ -31,23 +32,23 @@ if TYPE_CHECKING:
     from frames.design.codes.isolation import IsolationSystem
     from frames.design.codes.outcome import BoundResult, EquivalentLinear
 
-PROPOSAL = "no code: a proposal"
-"""Clause of tests that no code has."""
 
 OWN_RULES = (
     AcceptanceRule(
         ("interface alone",),
         CodeValue(
-            PROPOSAL, "friction of the interface within the bounds that the design counts on", OWN
+            PROPOSED_LIMIT,
+            "friction of the interface within the bounds that the design counts on",
+            OWN,
         ),
     ),
     AcceptanceRule(
         ("impact and return",),
-        CodeValue(PROPOSAL, "rims, liner and welds whole; the slider comes back", OWN),
+        CodeValue(PROPOSED_LIMIT, "rims, liner and welds whole; the slider comes back", OWN),
     ),
     AcceptanceRule(
         ("after the impacts",),
-        CodeValue(PROPOSAL, "the interface does not slip; EDC as before the impacts", OWN),
+        CodeValue(PROPOSED_LIMIT, "the interface does not slip; EDC as before the impacts", OWN),
     ),
 )
 """What is proposed to be accepted of the tests that no code has."""
@@ -201,7 +202,7 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
                 3.0,
                 at,
                 "friction of the interface: what holds it, and limits the impact",
-                PROPOSAL,
+                PROPOSED_LIMIT,
                 alone=True,
             )
     for words, load in (("average", d.average), ("largest", d.largest)):
@@ -212,7 +213,7 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
             3.0,
             speed,
             "rims met, interface slips and comes back; residual slip, liner and rims looked at",
-            PROPOSAL,
+            PROPOSED_LIMIT,
         )
     moved = min(d.result.displacement, 0.9 * rim)
     yield PlannedTest(
@@ -222,7 +223,7 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
         3.0,
         slow,
         "the interface holds again: loop as before",
-        PROPOSAL,
+        PROPOSED_LIMIT,
     )
 
 

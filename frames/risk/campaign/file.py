@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import create_model
 from scipy import stats
 
-from frames.design.codes.load_rules import LOADS_OF_ASCE
+from frames.design.codes.history_rules import LOADS_OF_ASCE
 from frames.design.project.derived import DerivedTable
 from frames.design.project.inputs import bearing_of, frame_of, in_section, motions_of
 from frames.design.project.reading import read_file
