@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Mapping
 from dataclasses import replace
 from itertools import accumulate
 from typing import TYPE_CHECKING
@@ -9,8 +11,8 @@ from typing import TYPE_CHECKING
 from frames._errors import ModelError
 from frames.frame import Frame
 from frames.library.building_plan import BuildingPlan, fields_of, level_name, wall_node
-from frames.library.grid import require_device
-from frames.library.moment_frames import DEFAULT_DAMPING
+from frames.library.grid import add_bearings, require_device
+from frames.model.damping import ModalDamping
 from frames.model.names import likely
 from lir_element.units import STANDARD_GRAVITY
 
@@ -20,26 +22,29 @@ if TYPE_CHECKING:
     from frames.model.sections import Section
     from lir_element import LIRBearing
 
+DEFAULT_DAMPING = ModalDamping(0.02)
+"""Two per cent in every mode of the structure, customary for steel above an isolation level."""
+
 
 def build(
     plan: BuildingPlan,
-    bearing: LIRBearing,
+    bearing: LIRBearing | Mapping[str, LIRBearing],
     *,
     name: str = "building",
     damping: Damping | None = DEFAULT_DAMPING,
     gravity: float = STANDARD_GRAVITY,
 ) -> Frame:
-    """Return the frame of a building, without loads and masses but those of its members."""
-    require_device("bearing", bearing)
+    """Return the frame of a building, without loads and masses but those of its members.
+
+    `bearing` is one for all lines at the base, or one by line.
+    """
     require_whole(plan)
     frame = Frame(name, gravity)
-    heights = [bearing.height + z for z in accumulate(plan.heights, initial=0.0)]
-    for line in plan.at_level(0):
-        x, y = plan.lines[line]
-        frame.add_node(f"ground-{line}", x, y, 0.0)
-        frame.fix(f"ground-{line}", "all")
-        frame.add_node(f"base-{line}", x, y, heights[0])
-        frame.add_bearing(f"bearing-{line}", f"ground-{line}", f"base-{line}", bearing)
+    if not isinstance(bearing, Mapping):
+        require_device("bearing", bearing)
+        bearing = dict.fromkeys(plan.at_level(0), bearing)
+    base = add_bearings(frame, bearing, plan.lines)
+    heights = [base + z for z in accumulate(plan.heights, initial=0.0)]
     _add_level(frame, plan, 0)
     for storey in range(1, len(plan.heights) + 1):
         floor, below = level_name(storey), level_name(storey - 1)
@@ -63,10 +68,11 @@ def _add_level(frame: Frame, plan: BuildingPlan, level: int) -> None:
     floor, lines = level_name(level), plan.at_level(level)
     beams = plan.beams_at(level)
     order = {line: k for k, line in enumerate(lines)}
+    begun = Counter((beam.name, beam.start) for beam in beams)
     for part in sorted(beams, key=lambda part: order[part.start]):
         start, end = f"{floor}-{part.start}", f"{floor}-{part.end}"
         name = f"{part.name}-{start}"
-        alone = sum((b.name, b.start) == (part.name, part.start) for b in beams) == 1
+        alone = begun[part.name, part.start] == 1
         frame.add_member(name if alone else f"{name}-{part.end}", start, end, part.section)
     nodes = [f"{floor}-{line}" for line in lines]
     axes = add_wall_nodes(frame, plan, level)

@@ -23,19 +23,10 @@ def require_device(name: str, device: object) -> None:
         raise TypeError(msg)
 
 
-def bearing_grid(
-    frame: Frame,
-    bearing: Bearings,
-    places: Sequence[tuple[int, int]],
-    width: tuple[float, float],
-    corner: tuple[float, float],
-) -> float:
-    """Add a bearing at every place of a grid, between a ground and a base node.
-
-    The base is level: ground nodes under bearings of less height stand higher.
-
-    Shapes: places (ix, iy).
-    """
+def bearings_at(
+    places: Sequence[tuple[int, int]], bearing: Bearings
+) -> dict[tuple[int, int], LIRBearing]:
+    """Return the device at every place (ix, iy) of a grid."""
     chosen = bearing if isinstance(bearing, Mapping) else dict.fromkeys(places, bearing)
     missing = [place for place in places if place not in chosen]
     unused = [place for place in chosen if place not in places]
@@ -48,14 +39,23 @@ def bearing_grid(
         raise ModelError(message)
     for place, device in chosen.items():
         require_device(f"bearing at {place}" if isinstance(bearing, Mapping) else "bearing", device)
-    level = max(chosen[place].height for place in places)
-    for ix, iy in places:
-        device = chosen[ix, iy]
-        x, y = corner[0] + ix * width[0], corner[1] + iy * width[1]
-        frame.add_node(f"ground-{ix}-{iy}", x, y, level - device.height)
-        frame.fix(f"ground-{ix}-{iy}", "all")
-        frame.add_node(f"base-{ix}-{iy}", x, y, level)
-        frame.add_bearing(f"bearing-{ix}-{iy}", f"ground-{ix}-{iy}", f"base-{ix}-{iy}", device)
+    return {place: chosen[place] for place in places}
+
+
+def add_bearings(
+    frame: Frame, devices: Mapping[str, LIRBearing], points: Mapping[str, tuple[float, float]]
+) -> float:
+    """Add a bearing at every point in plan, between a ground and a base node; return their height.
+
+    The base is level: ground nodes under bearings of less height stand higher.
+    """
+    level = max(device.height for device in devices.values())
+    for name, device in devices.items():
+        x, y = points[name]
+        frame.add_node(f"ground-{name}", x, y, level - device.height)
+        frame.fix(f"ground-{name}", "all")
+        frame.add_node(f"base-{name}", x, y, level)
+        frame.add_bearing(f"bearing-{name}", f"ground-{name}", f"base-{name}", device)
     return level
 
 
