@@ -14,8 +14,8 @@ from frames._remedies import argument
 from frames.exchange.building import FrameSection, Modifiers
 from frames.exchange.fields import LENGTHS
 from frames.exchange.tables import Row
-from frames.model.rolled_shapes import catalogue_dimensions
 from frames.model.sections import Section
+from frames.model.shapes import catalogue_dimensions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

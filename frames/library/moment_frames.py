@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
-from frames.library.building import DEFAULT_DAMPING, build
+from frames.library.building import DEFAULT_DAMPING, bearings_at, build, pair
 from frames.library.building_plan import level_name, regular_plan
-from frames.library.grid import bearings_at, pair
 from frames.model.damping import Damping
 from frames.model.laws import PlasticHinge
 from frames.model.sections import Section
@@ -25,7 +24,7 @@ from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.frame import Frame
-    from frames.library.grid import Bearings
+    from frames.library.building import Bearings
 
 DEFAULT_FLOOR_LOAD = 1450.0
 """Mass of a floor besides its steel [kg/m2]: slab, finishes, cladding, part of the live load."""

@@ -10,8 +10,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.frame import Frame
-from frames.library.building import DEFAULT_DAMPING
-from frames.library.grid import add_bearings, bearings_at, pair, require_device
+from frames.library.building import DEFAULT_DAMPING, add_bearings, bearings_at, pair, require_device
 from frames.library.tilting_base import VERTICAL_PERIOD, GridPlan, add_tilting_base
 from frames.model.components import bearing_axial_stiffness
 from frames.model.damping import Damping
@@ -21,7 +20,7 @@ from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
-    from frames.library.grid import Bearings
+    from frames.library.building import Bearings
 
     Storeys: TypeAlias = float | Sequence[float] | FloatArray
     """One number for every storey, or one for each from below."""
