@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -11,7 +11,7 @@ from frames._remedies import argument
 from lir_element.tables import text_table
 
 if TYPE_CHECKING:
-    from frames.exchange.tables import Row
+    from frames.exchange.tables import Row, Tables
 
 READ, READ_AS, LEFT_OUT = "read", "read as something else", "left out"
 """What becomes of objects of a file."""
@@ -159,6 +159,31 @@ class Account:
             first = tuple(str(name) for name in list(names)[: self.SHOWN])
             entry = Entry(fate, table, what, len(names), first, weight, stiffness)
             self.entries.append(entry)
+
+
+def judge_rest(
+    tables: Tables,
+    account: Account,
+    refused: Collection[tuple[str, str, str]],
+    known: Mapping[str, str],
+    objects: tuple[str, ...] = (),
+    harmless: tuple[str, ...] = (),
+    row_word: str = "rows",
+) -> None:
+    """Refuse or note the tables of a file that nobody read, by the beginnings of their names."""
+    other = [(start, "other tables", "a table that is not known here") for start in objects]
+    for name, count in tables.unread().items():
+        which = refused if name.startswith(harmless) else [*refused, *other]
+        found = next((each for each in which if name.startswith(each[0])), None)
+        if found is not None:
+            row, (_, key, what) = tables.rows(name)[0], found
+            first = str(next(iter(row.values.values()), ""))
+            account.refuse(key, row.table, f"{what}, {count} {row_word}", [first], row.place)
+    account.unknown(tables.unknown(known))
+    rest = [f"{name} ({count})" for name, count in tables.unread().items()]
+    table = "other lines" if row_word == "lines" else "other tables"
+    what = f"what the linear model does not need, with their {row_word}"
+    account.left_out(table, what, rest)
 
 
 def _more(count: int) -> str:

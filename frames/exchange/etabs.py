@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from frames.exchange import etabs_fields as dialect
-from frames.exchange.account import Account
+from frames.exchange.account import Account, judge_rest
 from frames.exchange.building import Building, JointLoad, MassSource, Pattern
 from frames.exchange.etabs_links import EtabsLinks, read_groups
 from frames.exchange.etabs_objects import Objects
 from frames.exchange.etabs_properties import read_properties, read_stories
-from frames.exchange.fields import FORCES, LENGTHS, Units, numbers, units_of
+from frames.exchange.fields import FORCES, LENGTHS, Units, refused, units_of, values
 from frames.exchange.loads import add_area_load, add_combinations, add_line_load, cases_of
 from frames.exchange.options import Options
 from frames.exchange.reading import TEXT, read_e2k
@@ -37,19 +37,7 @@ def read_etabs(path: str | Path, options: Options | None = None) -> Building:
     read_groups(tables, building)
     read_loads(tables, building)
     _refuse_stages(tables, account)
-    for name, count in tables.unread().items():
-        key, what = next(
-            (v for start, v in dialect.REFUSED.items() if name.startswith(start)), ("", "")
-        )
-        if key:
-            rows = tables.rows(name)
-            first = next(iter(rows[0].values.values()), "")
-            account.refuse(
-                key, rows[0].table, f"{what}, {count} lines", [str(first)], rows[0].place
-            )
-    account.unknown(tables.unknown(dialect.KNOWN))
-    rest = [f"{name} ({count})" for name, count in tables.unread().items()]
-    account.left_out("other lines", "what the linear model does not need, by first word", rest)
+    judge_rest(tables, account, dialect.REFUSED, dialect.KNOWN, row_word="lines")
     return building
 
 
@@ -57,7 +45,7 @@ def _refuse_stages(tables: Tables, account: Account) -> None:
     rows = tables.rows("LOADCASE")
     staged = [r for r in rows if r.has("STAGE") or "STAGED" in r.text("TYPE", "").upper()]
     if staged:
-        key, what = dialect.REFUSED["STAGE"]
+        key, what = next(refused[1:] for refused in dialect.REFUSED if refused[0] == "STAGE")
         names = list(dict.fromkeys(row.text("Case") for row in staged))
         account.refuse(key, staged[0].table, what, names, staged[0].place)
 
@@ -80,8 +68,7 @@ def read_loads(tables: Tables, building: Building) -> None:
     rows = merged(tables.rows("LOADPATTERN"), "Pattern")
     old = merged([r for r in tables.rows("LOADCASE") if r.has("SELFWEIGHT")], "Case")
     for (name,), row in (rows or old).items():
-        kind, factor = row.text("TYPE", "Other"), row.number("SELFWEIGHT", 0.0)
-        building.patterns[name] = Pattern(name, kind, factor)
+        building.patterns[name] = Pattern(name, **values(row, dialect.PATTERN, building.units))
     account.read("LOAD PATTERNS", "load patterns", len(building.patterns))
     for row in tables.rows("POINTLOAD"):
         _add_point_load(row, building)
@@ -125,11 +112,9 @@ def _add_point_load(row: Row, building: Building) -> None:
     if joint not in building.joints:
         message = f'a load on point "{row.text("Point")}" of story "{row.text("Story")}", at which '
         raise row.error(message + "no object ends")
-    if row.text("TYPE", "FORCE").upper() != "FORCE":
-        what = f'loads of type "{row.text("TYPE")}" on points'
-        building.account.refuse("imposed strains", row.table, what, [joint], row.place)
+    if refused(row, joint, building.account, dialect.POINT_LOAD):
         return
-    forces = tuple(numbers(row, dialect.FORCES, building.units).values())
+    forces = tuple(values(row, dialect.FORCES, building.units).values())
     building.joint_loads.append(JointLoad(joint, _pattern(row, building), forces))
 
 
@@ -140,9 +125,7 @@ def _add_line(row: Row, building: Building) -> None:
         what = "loads on lines without a section"
         building.account.refuse("loads on nothing", row.table, what, [name], row.place)
         return
-    if kind not in {"UNIFF", "TRAPF", "POINTF"}:
-        what = f'loads of type "{kind}" on lines'
-        building.account.refuse("imposed strains", row.table, what, [name], row.place)
+    if refused(row, name, building.account, dialect.LINE_LOAD):
         return
     point = kind == "POINTF"
     a, b = 0.0, 1.0
@@ -184,9 +167,11 @@ def _add_area(row: Row, building: Building, sets: dict[str, list[tuple[str, floa
 
 
 def _read_source(tables: Tables, building: Building) -> None:
-    sources = merged(tables.rows("MASSSOURCE"), "Source")
-    chosen = [k[0] for k, r in sources.items() if r.text("ISDEFAULT", "No").lower() == "yes"]
-    name = chosen[0] if chosen else next((k[0] for k in sources), "")
+    sources = {
+        key[0]: values(row, dialect.MASS_SOURCE, building.units)
+        for key, row in merged(tables.rows("MASSSOURCE"), "Source").items()
+    }
+    name = next((k for k, given in sources.items() if given["default"]), next(iter(sources), ""))
     loads = {
         _pattern(row, building, "Pattern"): row.number("Factor")
         for row in tables.rows("MASSSOURCELOAD")
@@ -194,17 +179,13 @@ def _read_source(tables: Tables, building: Building) -> None:
     }
     if not sources:
         return
-    row = sources[name,]
-
-    def says(word: str) -> bool:
-        return row.text(word, "No").lower() == "yes"
-
-    loads = loads if says("INCLUDELOADS") else {}
-    building.mass_source = MassSource(says("INCLUDEELEMENTS"), says("INCLUDEADDEDMASS"), loads)
+    given = sources[name]
+    loads = loads if given["loads"] else {}
+    building.mass_source = MassSource(given["elements"], given["added"], loads)
     account = building.account
     account.read("MASS SOURCE", "mass source", 1)
-    others = [k[0] for k in sources if k[0] != name]
+    others = [other for other in sources if other != name]
     account.left_out("MASS SOURCE", "mass sources besides the default", others)
-    if says("LUMPATSTORIES"):
+    if given["lumped"]:
         what = "masses lumped at stories by ETABS, here where they are"
         account.read_as("MASS SOURCE", what, [name])

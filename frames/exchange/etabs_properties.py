@@ -7,14 +7,12 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
 from frames.exchange import etabs_fields as dialect
-from frames.exchange.building import AreaSection, Building, FrameSection
-from frames.exchange.fields import Units, numbers
+from frames.exchange.building import AreaSection, Building, FrameSection, Modifiers
+from frames.exchange.fields import Units, refused, values
 from frames.exchange.properties import (
     by_constants,
     material_of,
-    modifiers_of,
     shell_factors,
-    sizes_of,
 )
 from frames.exchange.section_shapes import (
     FILLED,
@@ -118,17 +116,17 @@ def _named(
 
 def _section(row: Row, name: str, building: Building, kept: Section | Shape | None) -> FrameSection:
     units, of = building.units, f' of section "{name}"'
-    shape = row.text("SHAPE", "General")
-    material = known(row, "MATERIAL", row.text("MATERIAL", ""), building.materials, of)
-    sizes = sizes_of(row, dialect.SECTION, units)
-    modifiers = modifiers_of(row, dialect.MODIFIERS, units)
+    material, shape = values(row, dialect.SECTION[:2], units).values()
+    known(row, "MATERIAL", material, building.materials, of)
+    sizes = tuple(values(row, dialect.SIZES, units).values())
+    modifiers = Modifiers(**values(row, dialect.MODIFIERS, units))
     if isinstance(kept, Shape):
-        own = Units(1.0, kept.length)
-        found = by_constants(kept.row, name, material, shape, dialect.SECTION, own)
+        found = by_constants(kept.row, name, dialect.SECTION, Units(1.0, kept.length))
+        found = replace(found, material=material, shape=shape)
     elif kept is not None:
         found = with_constants(name, material, shape, kept)
     elif row.has("AREA", "I33", "I22"):
-        found = by_constants(row, name, material, shape, dialect.SECTION, units)
+        found = by_constants(row, name, dialect.SECTION, units)
     elif shape.strip().lower() in FILLED:
         fill = known(row, "FILLMATERIAL", row.text("FILLMATERIAL", ""), building.materials, of)
         steel, inside = building.materials[material], building.materials[fill]
@@ -140,24 +138,18 @@ def _section(row: Row, name: str, building: Building, kept: Section | Shape | No
 
 
 def _shell(row: Row, name: str, building: Building) -> AreaSection:
-    units, account, of = building.units, building.account, f' of section "{name}"'
+    units, of = building.units, f' of section "{name}"'
+    refused(row, name, building.account, dialect.SHELL_WORDS)
     kind = row.text("MODELINGTYPE", row.text("TYPE", "ShellThin")).lower()
-    if "layered" in kind:
-        what = "a layered shell, taken as a linear one of its thickness"
-        account.refuse("layered shells", row.table, what, [name], row.place)
-    shape = row.text("SLABTYPE", "Slab").lower()
-    if shape in {"ribbed", "waffle"}:
-        what = "a ribbed or waffle slab, taken as a flat one of its slab's thickness"
-        account.refuse("ribbed slabs", row.table, what, [name], row.place)
     deck = row.text("PROPTYPE", "").lower() == "deck"
     word = "CONCMATERIAL" if deck else "MATERIAL"
     material = known(row, word, row.text(word, ""), building.materials, of)
     bending = extra_weight = 0.0
     if deck:
-        slab, depth, top, spacing, bottom, extra_weight = numbers(row, dialect.DECK, units).values()
+        slab, depth, top, spacing, bottom, extra_weight = values(row, dialect.DECK, units).values()
         thickness = slab + (depth * 0.5 * (top + bottom) / spacing if spacing else 0.0)
     else:
-        given = numbers(row, dialect.THICKNESS, units, only_given=True)
+        given = values(row, dialect.THICKNESS, units, only_given=True)
         if not given:
             words = ", ".join(dialect.THICKNESS[0].names.split("|"))
             msg = f'section "{name}" has no thickness: {words}'
@@ -172,7 +164,7 @@ def _shell(row: Row, name: str, building: Building) -> AreaSection:
         kind="membrane" if deck else next((k for k in ("membrane", "plate") if k in kind), "shell"),
         thickness=thickness,
         bending_thickness=bending or thickness,
-        one_way=deck or row.text("ONEWAYLOADDIST", "No").lower() == "yes",
+        one_way=deck or row.yes("ONEWAYLOADDIST", default=False),
         extra_weight=extra_weight,
         **shell_factors(row, dialect.SHELL, building),
     )

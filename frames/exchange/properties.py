@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
-from frames.exchange.building import Building, FrameSection, Material, Modifiers
-from frames.exchange.fields import numbers
+from frames.exchange.building import Building, FrameSection, Material
+from frames.exchange.fields import values
 from frames.exchange.members import MOMENTS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from frames.exchange.building import Vector
-    from frames.exchange.fields import Fields, SectionMap, Units
+    from frames.exchange.fields import Fields, Units
     from frames.exchange.tables import Row
 
 
@@ -25,30 +24,15 @@ def in_use(rows: dict[str, Row], names: Iterable[str]) -> tuple[dict[str, Row], 
 
 def material_of(row: Row, name: str, map_: Fields, units: Units) -> Material:
     """Return a material; without a shear modulus it is isotropic."""
-    found = numbers(row, map_, units, f' of material "{name}"')
+    found = values(row, map_, units, f' of material "{name}"')
     isotropic = 0.5 * found["elastic_modulus"] / (1.0 + found["poisson_ratio"])
     return Material(name, **found | {"shear_modulus": found.get("shear_modulus") or isotropic})
 
 
-def sizes_of(row: Row, map_: SectionMap, units: Units) -> tuple[float, float, float, float]:
-    """Return the sizes of a cross-section [m]: depth, width, flange and web."""
-    depth, width, flange, web = numbers(row, map_.sizes, units).values()
-    return depth, width, flange, web
-
-
-def by_constants(
-    row: Row, name: str, material: str, shape: str, map_: SectionMap, units: Units
-) -> FrameSection:
-    """Return a cross-section by its constants; a shear area of none does not shear."""
-    found = numbers(row, map_.constants, units)
-    depth, width, *_ = sizes_of(row, map_, units)
-    shear = {key: found[key] or math.inf for key in ("shear_2", "shear_3")}
-    return FrameSection(name, material, shape, depth=depth, width=width or depth, **found | shear)
-
-
-def modifiers_of(row: Row, map_: Fields, units: Units) -> Modifiers:
-    """Return the factors of a row of sections or of assignments, 1 where it has none."""
-    return Modifiers(**numbers(row, map_, units))
+def by_constants(row: Row, name: str, map_: Fields, units: Units) -> FrameSection:
+    """Return a cross-section by its constants; without a width it is as wide as deep."""
+    found = values(row, map_, units)
+    return FrameSection(name, **found | {"width": found["width"] or found["depth"]})
 
 
 def released(
@@ -64,20 +48,20 @@ def released(
 
 def offsets_of(row: Row, map_: Fields, units: Units) -> tuple[Vector, Vector]:
     """Return the offsets of both ends of a frame object."""
-    a, b, c, d, e, f = numbers(row, map_, units).values()
+    a, b, c, d, e, f = values(row, map_, units).values()
     return (a, b, c), (d, e, f)
 
 
 def shell_factors(row: Row, map_: Fields, building: Building) -> dict[str, Any]:
     """Return the factors of a shell [-]: in plane, of bending, on mass and on weight."""
-    given = numbers(row, map_, building.units)
+    given = values(row, map_, building.units)
     found = {word: given[word] for word in ("mass", "weight")}
     for letter, word in (("F", "in_plane"), ("M", "bending")):
-        values = [given[f"{letter}{d}"] for d in ("11", "22", "12")]
-        if max(values) - min(values) > 1e-9:
+        factors = [given[f"{letter}{d}"] for d in ("11", "22", "12")]
+        if max(factors) - min(factors) > 1e-9:
             what = "stiffness modifiers of an area that differ by direction, taken by their mean"
             name = next(f.names.split("|")[0] for f in map_ if f.ours == f"{letter}11")
             key = "directional area modifiers"
             building.account.refuse(key, row.table, what, [name], row.place)
-        found[word] = sum(values) / 3.0
+        found[word] = sum(factors) / 3.0
     return found
