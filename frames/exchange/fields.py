@@ -90,10 +90,16 @@ class Units:
         return self.mass / self.length**3
 
 
-def units_of(force: str, length: str) -> Units | None:
-    """Return the units that two words stand for, None if one is unknown."""
-    first, second = FORCES.get(force.strip().upper()), LENGTHS.get(length.strip().upper())
-    return None if first is None or second is None else Units(first, second)
+def units_of(words: str, name: str, error: Callable[[str], ValueError]) -> Units:
+    """Return the units that a force and a length stand for, "KN, m", or raise an error."""
+    force, length, *_ = [*(word.strip().upper() for word in words.split(",")), ""]
+    if force not in FORCES or length not in LENGTHS:
+        message = (
+            f'{name} = "{words}" must be a force of {", ".join(FORCES)} and a length of '
+            f'{", ".join(LENGTHS)}, such as "KN, m, C"'
+        )
+        raise error(message)
+    return Units(FORCES[force], LENGTHS[length])
 
 
 class Bound(NamedTuple):

@@ -52,11 +52,7 @@ def building_of(
     frame: FrameData, displacement: float | None, words: str, program: str = "SAP2000"
 ) -> Building:
     """Return a frame as a building for a program, in whose file units are those words say."""
-    parts = words.split(",")
-    units = units_of(parts[0], parts[1]) if len(parts) > 1 else None
-    if units is None:
-        message = f'units = "{words}" must be a force and a length, such as "KN, m, C"'
-        raise ModelError(message)
+    units = units_of(words, "units", ModelError)
     _refuse(frame, displacement, program)
     building = Building(frame.name, program, words, units, Account(frame.name))
     _add_joints(frame, building)

@@ -24,7 +24,7 @@ from frames.exchange.building import (
     Modifiers,
     Pattern,
 )
-from frames.exchange.fields import FORCES, LENGTHS, Units, refused, units_of, values
+from frames.exchange.fields import Units, refused, units_of, values
 from frames.exchange.loads import (
     add_area_load,
     add_combinations,
@@ -39,11 +39,11 @@ from frames.exchange.properties import (
     by_constants,
     in_use,
     material_of,
+    section_by_shape,
     shell_factors,
 )
 from frames.exchange.reading import read_excel, read_s2k
 from frames.exchange.sap2000_objects import read_objects, section_of
-from frames.exchange.section_shapes import section_by_shape
 from frames.exchange.tables import ACTIVE, Row, Tables, by_name, known, require_space
 
 _BOOKS = {".xlsx", ".xlsm"}
@@ -54,32 +54,16 @@ def read_sap2000(path: str | Path, options: Options | None = None) -> Building:
     file, given = Path(path), options or Options()
     tables = read_excel(file) if file.suffix.lower() in _BOOKS else read_s2k(file, given.decimal)
     account = Account(file.name, given.allow)
-    units, version = _units(tables)
-    building = Building(file.stem, "SAP2000", version, units, account)
-    _refuse_plane(tables)
+    row = tables.needed("PROGRAM CONTROL", "it has the units; export it with the others")[0]
+    units = units_of(row.text("CurrUnits"), "CurrUnits", row.error)
+    building = Building(file.stem, "SAP2000", row.text("Version", ""), units, account)
+    for row in tables.rows("ACTIVE DEGREES OF FREEDOM"):
+        require_space(row, {name for name in ACTIVE if row.yes(name)})
     read_properties(tables, building)
     read_objects(tables, building)
     read_loads(tables, building)
     judge_rest(tables, account, dialect.REFUSED, dialect.KNOWN, dialect.OBJECTS, dialect.HARMLESS)
     return building
-
-
-def _units(tables: Tables) -> tuple[Units, str]:
-    row = tables.needed("PROGRAM CONTROL", "it has the units; export it with the others")[0]
-    words = [word.strip() for word in row.text("CurrUnits").split(",")]
-    found = units_of(words[0], words[1]) if len(words) >= 2 else None
-    if found is None:
-        message = (
-            f'CurrUnits = "{row.text("CurrUnits")}" must be a force of {", ".join(FORCES)} and a '
-            f'length of {", ".join(LENGTHS)}, such as "KN, m, C"'
-        )
-        raise row.error(message)
-    return found, row.text("Version", "")
-
-
-def _refuse_plane(tables: Tables) -> None:
-    for row in tables.rows("ACTIVE DEGREES OF FREEDOM"):
-        require_space(row, {name for name in ACTIVE if row.yes(name)})
 
 
 def read_properties(tables: Tables, building: Building) -> None:
