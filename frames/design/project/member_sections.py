@@ -37,25 +37,13 @@ DEFAULT_STEEL = "A992"
 
 
 class Material(NamedTuple):
-    """Elastic constants of a material.
+    """Elastic constants of a material."""
 
-    Attributes
-    ----------
-    name : str
-        As the file calls it.
-    elastic_modulus, shear_modulus : float
-        [Pa].
-    poisson_ratio : float
-        [-].
-    density : float
-        [kg/m3].
-    """
-
-    name: str
-    elastic_modulus: float
-    shear_modulus: float
-    poisson_ratio: float
-    density: float
+    name: str  # as the file calls it
+    elastic_modulus: float  # [Pa]
+    shear_modulus: float  # [Pa]
+    poisson_ratio: float  # [-]
+    density: float  # [kg/m3]
 
 
 def material_of(given: str | MaterialTable | None) -> Material:
