@@ -54,28 +54,16 @@ class Account:
         if count:
             self.entries.append(Entry(READ, table, what, count))
 
-    def read_as(
-        self,
-        table: str,
-        what: str,
-        names: Collection[str],
-        weight: float | None = None,
-        stiffness: float | None = None,
-    ) -> None:
-        """Note objects that were read as something else; none is not noted."""
-        self._add(READ_AS, table, what, names, weight, stiffness)
+    def read_as(self, table: str, what: str, names: Collection[str], *shares: float | None) -> None:
+        """Note objects that were read as something else; none is not noted.
 
-    def left_out(
-        self,
-        table: str,
-        what: str,
-        names: Collection[str],
-        *,
-        weight: float | None = None,
-        stiffness: float | None = None,
-    ) -> None:
+        `shares` are those of the weight and of the stiffness [-].
+        """
+        self._add(READ_AS, table, what, names, *shares)
+
+    def left_out(self, table: str, what: str, names: Collection[str]) -> None:
         """Note objects that were left out and do not change the answer; none is not noted."""
-        self._add(LEFT_OUT, table, what, names, weight, stiffness)
+        self._add(LEFT_OUT, table, what, names)
 
     def unknown(self, fields: Collection[tuple[str, str, Row, int]]) -> None:
         """Doubt fields of known tables that are not known here, once for each table."""
@@ -106,7 +94,7 @@ class Account:
             )
             raise ModelError(message)
         self._used.add(key)
-        self._add(LEFT_OUT, table, f'{what}; accepted by allow = "{key}"', names, None, None)
+        self._add(LEFT_OUT, table, f'{what}; accepted by allow = "{key}"', names)
 
     def finish(self) -> None:
         """Raise where `allow` names something that the file does not have."""
@@ -147,18 +135,11 @@ class Account:
         return f"import of {self.file}\n" + text_table([head, *self.rows()], left=3)
 
     def _add(
-        self,
-        fate: str,
-        table: str,
-        what: str,
-        names: Collection[str],
-        weight: float | None,
-        stiffness: float | None,
+        self, fate: str, table: str, what: str, names: Collection[str], *shares: float | None
     ) -> None:
         if names:
             first = tuple(str(name) for name in list(names)[: self.SHOWN])
-            entry = Entry(fate, table, what, len(names), first, weight, stiffness)
-            self.entries.append(entry)
+            self.entries.append(Entry(fate, table, what, len(names), first, *shares))
 
 
 def judge_rest(
