@@ -23,9 +23,9 @@ from frames.assembly.nonlinear import nonlinear_parts
 from frames.assembly.system import MemberTable as MemberTable
 from frames.assembly.system import PlacedBearing, element_dofs
 from frames.assembly.system import System as System
-from frames.model.applied_loads import applied_loads
 from frames.model.axes import default_up, matrix_to_global, to_local
 from frames.model.components import RELEASABLE, bearing_axial_stiffness, bearing_rocking_stiffness
+from frames.model.load_combinations import applied_loads
 from frames.model.superelement import Placed, element_table, lumped, placed
 from lir_element.device.features import Features
 
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
     from frames._types import FloatArray, IntArray, SparseMatrix
-    from frames.model.applied_loads import AppliedLoads
     from frames.model.frame_data import FrameData
+    from frames.model.load_combinations import AppliedLoads
 
 
 def assemble(

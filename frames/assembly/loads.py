@@ -17,15 +17,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.assembly.members import shear_parameters
-from frames.model.applied_loads import load_masses
 from frames.model.axes import to_global
+from frames.model.load_combinations import load_masses
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.assembly.members import MemberArrays
     from frames.assembly.system import MemberTable
-    from frames.model.applied_loads import AppliedLoads, SpanLoad
     from frames.model.frame_data import FrameData
+    from frames.model.load_combinations import AppliedLoads, SpanLoad
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)  # exact to degree 5: load 1, shapes 3
 

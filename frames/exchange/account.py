@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -11,7 +11,7 @@ from frames._remedies import argument
 from lir_element.tables import text_table
 
 if TYPE_CHECKING:
-    from frames.exchange.tables import Row
+    from frames.exchange.tables import Row, Tables
 
 READ, READ_AS, LEFT_OUT = "read", "read as something else", "left out"
 """What becomes of objects of a file."""
@@ -54,28 +54,16 @@ class Account:
         if count:
             self.entries.append(Entry(READ, table, what, count))
 
-    def read_as(
-        self,
-        table: str,
-        what: str,
-        names: Collection[str],
-        weight: float | None = None,
-        stiffness: float | None = None,
-    ) -> None:
-        """Note objects that were read as something else; none is not noted."""
-        self._add(READ_AS, table, what, names, weight, stiffness)
+    def read_as(self, table: str, what: str, names: Collection[str], *shares: float | None) -> None:
+        """Note objects that were read as something else; none is not noted.
 
-    def left_out(
-        self,
-        table: str,
-        what: str,
-        names: Collection[str],
-        *,
-        weight: float | None = None,
-        stiffness: float | None = None,
-    ) -> None:
+        `shares` are those of the weight and of the stiffness [-].
+        """
+        self._add(READ_AS, table, what, names, *shares)
+
+    def left_out(self, table: str, what: str, names: Collection[str]) -> None:
         """Note objects that were left out and do not change the answer; none is not noted."""
-        self._add(LEFT_OUT, table, what, names, weight, stiffness)
+        self._add(LEFT_OUT, table, what, names)
 
     def unknown(self, fields: Collection[tuple[str, str, Row, int]]) -> None:
         """Doubt fields of known tables that are not known here, once for each table."""
@@ -106,7 +94,7 @@ class Account:
             )
             raise ModelError(message)
         self._used.add(key)
-        self._add(LEFT_OUT, table, f'{what}; accepted by allow = "{key}"', names, None, None)
+        self._add(LEFT_OUT, table, f'{what}; accepted by allow = "{key}"', names)
 
     def finish(self) -> None:
         """Raise where `allow` names something that the file does not have."""
@@ -147,18 +135,36 @@ class Account:
         return f"import of {self.file}\n" + text_table([head, *self.rows()], left=3)
 
     def _add(
-        self,
-        fate: str,
-        table: str,
-        what: str,
-        names: Collection[str],
-        weight: float | None,
-        stiffness: float | None,
+        self, fate: str, table: str, what: str, names: Collection[str], *shares: float | None
     ) -> None:
         if names:
             first = tuple(str(name) for name in list(names)[: self.SHOWN])
-            entry = Entry(fate, table, what, len(names), first, weight, stiffness)
-            self.entries.append(entry)
+            self.entries.append(Entry(fate, table, what, len(names), first, *shares))
+
+
+def judge_rest(
+    tables: Tables,
+    account: Account,
+    refused: Collection[tuple[str, str, str]],
+    known: Mapping[str, str],
+    objects: tuple[str, ...] = (),
+    harmless: tuple[str, ...] = (),
+    row_word: str = "rows",
+) -> None:
+    """Refuse or note the tables of a file that nobody read, by the beginnings of their names."""
+    other = [(start, "other tables", "a table that is not known here") for start in objects]
+    for name, count in tables.unread().items():
+        which = refused if name.startswith(harmless) else [*refused, *other]
+        found = next((each for each in which if name.startswith(each[0])), None)
+        if found is not None:
+            row, (_, key, what) = tables.rows(name)[0], found
+            first = str(next(iter(row.values.values()), ""))
+            account.refuse(key, row.table, f"{what}, {count} {row_word}", [first], row.place)
+    account.unknown(tables.unknown(known))
+    rest = [f"{name} ({count})" for name, count in tables.unread().items()]
+    table = "other lines" if row_word == "lines" else "other tables"
+    what = f"what the linear model does not need, with their {row_word}"
+    account.left_out(table, what, rest)
 
 
 def _more(count: int) -> str:

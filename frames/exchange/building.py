@@ -7,7 +7,7 @@ through it (+X for a vertical one), turned by its angle.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import astuple, dataclass, field
 from typing import TypeAlias
 
 from frames.exchange.account import Account
@@ -73,16 +73,7 @@ class Modifiers:
 
     def all(self) -> tuple[float, ...]:
         """Return the factors in the order of the programs: A, A2, A3, J, I22, I33, mass, weight."""
-        return (
-            self.area,
-            self.shear_2,
-            self.shear_3,
-            self.torsion,
-            self.inertia_22,
-            self.inertia_33,
-            self.mass,
-            self.weight,
-        )
+        return astuple(self)
 
 
 @dataclass(frozen=True)

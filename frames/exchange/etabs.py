@@ -3,20 +3,46 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from frames._errors import ModelError
 from frames.exchange import etabs_fields as dialect
-from frames.exchange.account import Account
-from frames.exchange.building import Building, JointLoad, MassSource, Pattern
+from frames.exchange.account import Account, judge_rest
+from frames.exchange.building import (
+    AreaSection,
+    Building,
+    FrameSection,
+    JointLoad,
+    MassSource,
+    Modifiers,
+    Pattern,
+)
 from frames.exchange.etabs_links import EtabsLinks, read_groups
 from frames.exchange.etabs_objects import Objects
-from frames.exchange.etabs_properties import read_properties, read_stories
-from frames.exchange.fields import FORCES, LENGTHS, Units, numbers, units_of
+from frames.exchange.fields import Units, refused, units_of, values
 from frames.exchange.loads import add_area_load, add_combinations, add_line_load, cases_of
 from frames.exchange.options import Options
+from frames.exchange.properties import (
+    FILLED,
+    Shape,
+    by_constants,
+    filled_section,
+    material_of,
+    read_libraries,
+    section_by_shape,
+    shell_factors,
+    with_constants,
+)
 from frames.exchange.reading import TEXT, read_e2k
-from frames.exchange.section_shapes import read_libraries
 from frames.exchange.tables import Row, Tables, known, merged, require_space
+from lir_element.units import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from frames.model.sections import Section
 
 
 def read_etabs(path: str | Path, options: Options | None = None) -> Building:
@@ -26,7 +52,9 @@ def read_etabs(path: str | Path, options: Options | None = None) -> Building:
     account = Account(file.name, given.allow)
     program = tables.rows("PROGRAM")
     version = program[0].text("VERSION", "") if program else ""
-    building = Building(file.stem, "ETABS", version, _units(tables), account)
+    row = tables.needed("UNITS", "$ CONTROLS has the units; export it with the others")[0]
+    units = units_of(f"{row.text('Force')}, {row.text('Length')}", "UNITS", row.error)
+    building = Building(file.stem, "ETABS", version, units, account)
     for row in tables.rows("ACTIVEDOF"):
         require_space(row, row.text("Name", "").upper().split())
     read_stories(tables, building)
@@ -37,19 +65,7 @@ def read_etabs(path: str | Path, options: Options | None = None) -> Building:
     read_groups(tables, building)
     read_loads(tables, building)
     _refuse_stages(tables, account)
-    for name, count in tables.unread().items():
-        key, what = next(
-            (v for start, v in dialect.REFUSED.items() if name.startswith(start)), ("", "")
-        )
-        if key:
-            rows = tables.rows(name)
-            first = next(iter(rows[0].values.values()), "")
-            account.refuse(
-                key, rows[0].table, f"{what}, {count} lines", [str(first)], rows[0].place
-            )
-    account.unknown(tables.unknown(dialect.KNOWN))
-    rest = [f"{name} ({count})" for name, count in tables.unread().items()]
-    account.left_out("other lines", "what the linear model does not need, by first word", rest)
+    judge_rest(tables, account, dialect.REFUSED, dialect.KNOWN, row_word="lines")
     return building
 
 
@@ -57,21 +73,9 @@ def _refuse_stages(tables: Tables, account: Account) -> None:
     rows = tables.rows("LOADCASE")
     staged = [r for r in rows if r.has("STAGE") or "STAGED" in r.text("TYPE", "").upper()]
     if staged:
-        key, what = dialect.REFUSED["STAGE"]
+        key, what = next(refused[1:] for refused in dialect.REFUSED if refused[0] == "STAGE")
         names = list(dict.fromkeys(row.text("Case") for row in staged))
         account.refuse(key, staged[0].table, what, names, staged[0].place)
-
-
-def _units(tables: Tables) -> Units:
-    row = tables.needed("UNITS", "$ CONTROLS has the units; export it with the others")[0]
-    found = units_of(row.text("Force"), row.text("Length"))
-    if found is None:
-        message = (
-            f'UNITS "{row.text("Force")}" "{row.text("Length")}" must be a force of '
-            f"{', '.join(FORCES)} and a length of {', '.join(LENGTHS)}"
-        )
-        raise row.error(message)
-    return found
 
 
 def read_loads(tables: Tables, building: Building) -> None:
@@ -80,8 +84,7 @@ def read_loads(tables: Tables, building: Building) -> None:
     rows = merged(tables.rows("LOADPATTERN"), "Pattern")
     old = merged([r for r in tables.rows("LOADCASE") if r.has("SELFWEIGHT")], "Case")
     for (name,), row in (rows or old).items():
-        kind, factor = row.text("TYPE", "Other"), row.number("SELFWEIGHT", 0.0)
-        building.patterns[name] = Pattern(name, kind, factor)
+        building.patterns[name] = Pattern(name, **values(row, dialect.PATTERN, building.units))
     account.read("LOAD PATTERNS", "load patterns", len(building.patterns))
     for row in tables.rows("POINTLOAD"):
         _add_point_load(row, building)
@@ -125,11 +128,9 @@ def _add_point_load(row: Row, building: Building) -> None:
     if joint not in building.joints:
         message = f'a load on point "{row.text("Point")}" of story "{row.text("Story")}", at which '
         raise row.error(message + "no object ends")
-    if row.text("TYPE", "FORCE").upper() != "FORCE":
-        what = f'loads of type "{row.text("TYPE")}" on points'
-        building.account.refuse("imposed strains", row.table, what, [joint], row.place)
+    if refused(row, joint, building.account, dialect.POINT_LOAD):
         return
-    forces = tuple(numbers(row, dialect.FORCES, building.units).values())
+    forces = tuple(values(row, dialect.FORCES, building.units).values())
     building.joint_loads.append(JointLoad(joint, _pattern(row, building), forces))
 
 
@@ -140,9 +141,7 @@ def _add_line(row: Row, building: Building) -> None:
         what = "loads on lines without a section"
         building.account.refuse("loads on nothing", row.table, what, [name], row.place)
         return
-    if kind not in {"UNIFF", "TRAPF", "POINTF"}:
-        what = f'loads of type "{kind}" on lines'
-        building.account.refuse("imposed strains", row.table, what, [name], row.place)
+    if refused(row, name, building.account, dialect.LINE_LOAD):
         return
     point = kind == "POINTF"
     a, b = 0.0, 1.0
@@ -184,9 +183,11 @@ def _add_area(row: Row, building: Building, sets: dict[str, list[tuple[str, floa
 
 
 def _read_source(tables: Tables, building: Building) -> None:
-    sources = merged(tables.rows("MASSSOURCE"), "Source")
-    chosen = [k[0] for k, r in sources.items() if r.text("ISDEFAULT", "No").lower() == "yes"]
-    name = chosen[0] if chosen else next((k[0] for k in sources), "")
+    sources = {
+        key[0]: values(row, dialect.MASS_SOURCE, building.units)
+        for key, row in merged(tables.rows("MASSSOURCE"), "Source").items()
+    }
+    name = next((k for k, given in sources.items() if given["default"]), next(iter(sources), ""))
     loads = {
         _pattern(row, building, "Pattern"): row.number("Factor")
         for row in tables.rows("MASSSOURCELOAD")
@@ -194,17 +195,152 @@ def _read_source(tables: Tables, building: Building) -> None:
     }
     if not sources:
         return
-    row = sources[name,]
-
-    def says(word: str) -> bool:
-        return row.text(word, "No").lower() == "yes"
-
-    loads = loads if says("INCLUDELOADS") else {}
-    building.mass_source = MassSource(says("INCLUDEELEMENTS"), says("INCLUDEADDEDMASS"), loads)
+    given = sources[name]
+    loads = loads if given["loads"] else {}
+    building.mass_source = MassSource(given["elements"], given["added"], loads)
     account = building.account
     account.read("MASS SOURCE", "mass source", 1)
-    others = [k[0] for k in sources if k[0] != name]
+    others = [other for other in sources if other != name]
     account.left_out("MASS SOURCE", "mass sources besides the default", others)
-    if says("LUMPATSTORIES"):
+    if given["lumped"]:
         what = "masses lumped at stories by ETABS, here where they are"
         account.read_as("MASS SOURCE", what, [name])
+
+
+def read_stories(tables: Tables, building: Building) -> None:
+    """Read the stories, which stand from the top; elevations are counted from the lowest."""
+    towers = tables.rows("TOWER")
+    if len({row.text("Name", "") for row in towers}) > 1:
+        message = "models of several towers are not read: export them one by one"
+        raise towers[1].error(message)
+    rows = tables.needed("STORY", "an ETABS model has stories")
+    one = building.units.length
+    base = rows[-1]
+    elevation = one * base.number("ELEV", 0.0)
+    building.stories.append((base.text("Story"), elevation))
+    for row in reversed(rows[:-1]):
+        height = one * row.number("HEIGHT")
+        if height <= 0.0:
+            msg = f'HEIGHT of story "{row.text("Story")}" must be positive'
+            raise row.error(msg)
+        elevation += height
+        building.stories.append((row.text("Story"), elevation))
+    names = [name for name, _ in building.stories]
+    if len(set(names)) < len(names):
+        msg = "two stories have one name: rename one of them"
+        raise base.error(msg)
+    building.account.read("STORIES", "stories", len(names))
+
+
+def read_properties(
+    tables: Tables,
+    building: Building,
+    constants: Mapping[str, Section] | None = None,
+    library: Mapping[str, Shape] | None = None,
+) -> None:
+    """Read materials, and the sections that objects have."""
+    account = building.account
+    frames = {row.text("SECTION", "") for row in tables.rows("LINEASSIGN")}
+    areas = {row.text("SECTION", "") for row in tables.rows("AREAASSIGN")}
+    given = merged(tables.rows("FRAMESECTION"), "Section")
+    shells = merged(tables.rows("SHELLPROP"), "Section")
+    used = {row.text("MATERIALOVERWRITE", "") for row in tables.rows("LINEASSIGN")}
+    for sections, names in ((given, frames), (shells, areas)):
+        rows = [row for (name,), row in sections.items() if name in names]
+        used |= {row.text(f"{word}MATERIAL", "") for row in rows for word in ("", "FILL", "CONC")}
+    for (name,), row in merged(tables.rows("MATERIAL"), "Material").items():
+        if name in used and (row.has("E") or row.has("E1")):
+            found = material_of(row, name, dialect.MATERIAL, building.units)
+            density = found.density or found.weight / STANDARD_GRAVITY
+            building.materials[name] = replace(found, density=density)
+    account.read("MATERIAL PROPERTIES", "materials in use", len(building.materials))
+    constants, named = constants or {}, []
+    wrong = [name for name in constants if (name,) not in given or name not in frames]
+    if wrong:
+        message = f'sections: no frame of {account.file} has a section "{wrong[0]}"'
+        raise ModelError(message)
+    for (name,), row in given.items():
+        if name in frames:
+            kept = _named(row, constants.get(name), library)
+            named += [name] if isinstance(kept, Shape) else []
+            building.sections[name] = _section(row, name, building, kept)
+    if library and not named:
+        message = f"library: no frame of {account.file} has a section that it names"
+        raise ModelError(message)
+    account.read_as("FRAME SECTIONS", "with the constants of the library", named)
+    filled = [s.name for s in building.sections.values() if s.shape.strip().lower() in FILLED]
+    what = "filled tubes, as sections of steel by moduli, with the weight of both materials"
+    account.read_as("FRAME SECTIONS", what, [n for n in filled if n not in constants])
+    account.read_as("FRAME SECTIONS", "with the constants given", list(constants))
+    account.read("FRAME SECTIONS", "cross-sections in use", len(building.sections))
+    idle = [name for (name,) in given if name not in frames]
+    account.left_out("FRAME SECTIONS", "which nothing has", idle)
+    for (name,), row in shells.items():
+        if name in areas:
+            building.area_sections[name] = _shell(row, name, building)
+    account.read("SHELLPROP", "sections of areas in use", len(building.area_sections))
+
+
+def _named(
+    row: Row, constants: Section | None, library: Mapping[str, Shape] | None
+) -> Section | Shape | None:
+    # Constants from elsewhere: those given, and of what the file only names, of the library.
+    if constants is not None or row.has("AREA", "I33", "I22"):
+        return constants
+    return (library or {}).get(row.text("SHAPE", "").strip().upper())
+
+
+def _section(row: Row, name: str, building: Building, kept: Section | Shape | None) -> FrameSection:
+    units, of = building.units, f' of section "{name}"'
+    material, shape = values(row, dialect.SECTION[:2], units).values()
+    known(row, "MATERIAL", material, building.materials, of)
+    sizes = tuple(values(row, dialect.SIZES, units).values())
+    modifiers = Modifiers(**values(row, dialect.MODIFIERS, units))
+    if isinstance(kept, Shape):
+        found = by_constants(kept.row, name, dialect.SECTION, Units(1.0, kept.length))
+        found = replace(found, material=material, shape=shape)
+    elif kept is not None:
+        found = with_constants(name, material, shape, kept)
+    elif row.has("AREA", "I33", "I22"):
+        found = by_constants(row, name, dialect.SECTION, units)
+    elif shape.strip().lower() in FILLED:
+        fill = known(row, "FILLMATERIAL", row.text("FILLMATERIAL", ""), building.materials, of)
+        steel, inside = building.materials[material], building.materials[fill]
+        found = filled_section(row, name, sizes, steel, inside)
+    else:
+        poisson = building.materials[material].poisson_ratio
+        found = section_by_shape(row, name, material, shape, sizes, poisson)
+    return replace(found, modifiers=found.modifiers.times(modifiers))
+
+
+def _shell(row: Row, name: str, building: Building) -> AreaSection:
+    units, of = building.units, f' of section "{name}"'
+    refused(row, name, building.account, dialect.SHELL_WORDS)
+    kind = row.text("MODELINGTYPE", row.text("TYPE", "ShellThin")).lower()
+    deck = row.text("PROPTYPE", "").lower() == "deck"
+    word = "CONCMATERIAL" if deck else "MATERIAL"
+    material = known(row, word, row.text(word, ""), building.materials, of)
+    bending = extra_weight = 0.0
+    if deck:
+        slab, depth, top, spacing, bottom, extra_weight = values(row, dialect.DECK, units).values()
+        thickness = slab + (depth * 0.5 * (top + bottom) / spacing if spacing else 0.0)
+    else:
+        given = values(row, dialect.THICKNESS, units, only_given=True)
+        if not given:
+            words = ", ".join(dialect.THICKNESS[0].names.split("|"))
+            msg = f'section "{name}" has no thickness: {words}'
+            raise row.error(msg)
+        thickness, bending = given["thickness"], row.number("TB", 0.0) * units.length
+    if thickness <= 0.0:
+        msg = f'the thickness of section "{name}" must be positive'
+        raise row.error(msg)
+    return AreaSection(
+        name=name,
+        material=material,
+        kind="membrane" if deck else next((k for k in ("membrane", "plate") if k in kind), "shell"),
+        thickness=thickness,
+        bending_thickness=bending or thickness,
+        one_way=deck or row.yes("ONEWAYLOADDIST", default=False),
+        extra_weight=extra_weight,
+        **shell_factors(row, dialect.SHELL, building),
+    )

@@ -1,6 +1,16 @@
 """The dialect of ETABS' text: fields by what they are, what has no effect, what is refused."""
 
-from frames.exchange.fields import NOT_NEGATIVE, POISSON, POSITIVE, SHARE, Field, SectionMap, fields
+import math
+
+from frames.exchange.fields import (
+    NOT_NEGATIVE,
+    POISSON,
+    POSITIVE,
+    SHARE,
+    Field,
+    Refusal,
+    fields,
+)
 
 DOFS = ("UX", "UY", "UZ", "RX", "RY", "RZ")
 """Displacements of a point."""
@@ -12,10 +22,21 @@ MATERIAL = (
     Field("elastic_modulus", "E|E1", "stress", bound=POSITIVE),
     Field("poisson_ratio", "U|U1", bound=POISSON),
 )
-SIZES = fields("depth=D width=B flange=TF web=TW|TF", "length")
-CONSTANTS = (
+PATTERN = (*fields("kind=TYPE", "text", "Other"), *fields("self_weight=SELFWEIGHT"))
+MASS_SOURCE = fields(
+    "elements=INCLUDEELEMENTS added=INCLUDEADDEDMASS loads=INCLUDELOADS lumped=LUMPATSTORIES "
+    "default=ISDEFAULT",
+    "yes",
+    default=False,
+)
+_OUTER = fields("depth=D width=B", "length")
+SIZES = _OUTER + fields("flange=TF web=TW|TF", "length")
+SECTION = (
+    *fields("material=MATERIAL", "text", ""),
+    *fields("shape=SHAPE", "text", "General"),
+    *_OUTER,
     *fields("area=AREA", "area", None),
-    *fields("shear_2=AS2 shear_3=AS3", "area"),
+    *fields("shear_2=AS2 shear_3=AS3", "area", zero=math.inf),
     *fields("inertia_33=I33 inertia_22=I22", "inertia", None),
     *fields("torsion=TORSION", "inertia"),
 )
@@ -25,7 +46,6 @@ MODIFIERS = fields(
     default=1.0,
     bound=NOT_NEGATIVE,
 )
-SECTION = SectionMap(CONSTANTS, SIZES, MODIFIERS)
 FRAME_MODIFIERS = fields(
     "area=PROPMODA shear_2=PROPMODA2 shear_3=PROPMODA3 torsion=PROPMODT inertia_22=PROPMODI22 "
     "inertia_33=PROPMODI33 mass=PROPMODM weight=PROPMODW",
@@ -62,7 +82,11 @@ MASS = (
     *fields("plan=MASSUXUY uz=MASSUZ", "mass"),
     *fields("rx=MASSRX ry=MASSRY rz=MASSRZ", "rotary"),
 )
-LINK = fields("mass=MASS", "mass") + fields("weight=WEIGHT", "force")
+LINK = (
+    *fields("kind=TYPE", "text", ""),
+    *fields("mass=MASS", "mass"),
+    *fields("weight=WEIGHT", "force"),
+)
 _ANY_TURN = (
     *fields("ratio=KRATIO slow=CSLOW fast=CFAST"),
     *fields("rate=RATE", "per_length"),
@@ -86,6 +110,24 @@ NONLINEAR = {
 """Nonlinear numbers of a link's deformation by whether it is a rotation: words after U2."""
 
 FORCES = fields("fx=FX fy=FY fz=FZ", "force") + fields("mx=MX my=MY mz=MZ", "moment")
+
+_LIMITS = "limits of axial force, without"
+FRAME_WORDS = (
+    Refusal("LIMITTENSION|LIMITCOMPRESSION", "tension limits", _LIMITS, when="not none"),
+    Refusal("HINGE", "hinges", "plastic hinges of frames, which stay elastic", when="not none"),
+)
+_RIBBED = "a ribbed or waffle slab, taken as a flat one of its slab's thickness"
+_LAYERED = "a layered shell, taken as a linear one of its thickness"
+SHELL_WORDS = (
+    Refusal("MODELINGTYPE|TYPE", "layered shells", _LAYERED, when="layered"),
+    Refusal("SLABTYPE", "ribbed slabs", _RIBBED, when="ribbed|waffle"),
+)
+_OPENING = "openings in slabs, whose loads are not taken away"
+AREA_WORDS = (Refusal("OPENING", "openings", _OPENING, when="not no"),)
+POINT_LOAD = (Refusal("TYPE", "imposed strains", 'loads of type "{}" on points', when="not force"),)
+_KINDS = "not uniff|trapf|pointf"
+LINE_LOAD = (Refusal("TYPE", "imposed strains", 'loads of type "{}" on lines', when=_KINDS),)
+SPRING_WORDS = (Refusal("AXIALDIR", "links", "springs of points by links along {}", when="not z"),)
 
 NAMES = {
     "STORY": ("Story",),
@@ -132,21 +174,21 @@ ALIASES = {
 }
 """Words of ETABS 8 and 9 by first word, and those of later versions that mean the same."""
 
-REFUSED = {
-    "HINGEASSIGN": ("hinges", "plastic hinges of frames, which stay elastic"),
-    "AREAHINGEASSIGN": ("hinges", "plastic hinges of walls, which stay elastic"),
-    "TENDONASSIGN": ("tendons", "tendons"),
-    "LINESPRING": ("line and area springs", "springs along lines"),
-    "AREASPRING": ("line and area springs", "springs under areas"),
-    "AREAJOINTOFFSETDATA": ("area overwrites", "offsets of corners of areas"),
-    "AREATHICKNESSOVERWRITE": ("area overwrites", "thickness of single areas"),
-    "AREAEDGERELEASE": ("edge releases", "releases along edges of areas"),
-    "LINECURVEDATA": ("curved frames", "curved lines, taken as straight ones"),
-    "AREACURVEDATA": ("curved areas", "curved edges of areas, taken as straight ones"),
-    "STAGE": ("staged construction", "stages of construction, taken as built at once"),
-    "SEQUENTIAL": ("staged construction", "stages of construction, taken as built at once"),
-}
-"""Beginnings of first words whose loss would change the answer: key of `allow`, what it is."""
+REFUSED = (
+    ("HINGEASSIGN", "hinges", "plastic hinges of frames, which stay elastic"),
+    ("AREAHINGEASSIGN", "hinges", "plastic hinges of walls, which stay elastic"),
+    ("TENDONASSIGN", "tendons", "tendons"),
+    ("LINESPRING", "line and area springs", "springs along lines"),
+    ("AREASPRING", "line and area springs", "springs under areas"),
+    ("AREAJOINTOFFSETDATA", "area overwrites", "offsets of corners of areas"),
+    ("AREATHICKNESSOVERWRITE", "area overwrites", "thickness of single areas"),
+    ("AREAEDGERELEASE", "edge releases", "releases along edges of areas"),
+    ("LINECURVEDATA", "curved frames", "curved lines, taken as straight ones"),
+    ("AREACURVEDATA", "curved areas", "curved edges of areas, taken as straight ones"),
+    ("STAGE", "staged construction", "stages of construction, taken as built at once"),
+    ("SEQUENTIAL", "staged construction", "stages of construction, taken as built at once"),
+)
+"""Lines whose loss would change the answer: beginning of the first word, key of `allow`, what."""
 
 KNOWN = {
     "": " ".join(

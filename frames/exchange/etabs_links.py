@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from frames.exchange import etabs_fields as dialect
 from frames.exchange.building import LINK_DOFS, Building, LinkDof, LinkObject, LinkProperty
-from frames.exchange.fields import numbers
+from frames.exchange.fields import refused, values
 from frames.exchange.reading import TEXT
 from frames.exchange.tables import known, merged
 
@@ -93,10 +93,7 @@ class EtabsLinks:
     def _read_springs(self) -> None:
         for joint, row in self.objects.on_links.items():
             name = known(row, "LINKPROP", row.text("LINKPROP"), self._properties)
-            axis = row.text("AXIALDIR", "Z").upper()
-            if "Z" not in axis:
-                what = f"springs of points by links along {axis}"
-                self.building.account.refuse("links", row.table, what, [joint], row.place)
+            if refused(row, joint, self.building.account, dialect.SPRING_WORDS):
                 continue
             label = f"link-{joint}"
             link = LinkObject(label, joint, None, name, row.place, row.number("ANGLE", 0.0))
@@ -114,14 +111,13 @@ def _property(row: Row, name: str, units: Units) -> LinkProperty:
     unknown = [w for w in words if w not in parts and not w.startswith(_HARMLESS)]
     unknown += [word for word in parts if word[2:] not in _OF_DOF]
     dofs = {dof: _dof(row, dof, active, units) for dof in active["DOF"]}
-    weights = numbers(row, dialect.LINK, units)
-    kind = row.text("TYPE", "")
-    return LinkProperty(name, kind, dofs, unknown=tuple(unknown), **weights)
+    given = values(row, dialect.LINK, units)
+    return LinkProperty(name, dofs=dofs, unknown=tuple(unknown), **given)
 
 
 def _dof(row: Row, dof: str, active: dict[str, list[str]], units: Units) -> LinkDof:
     turns = dof.startswith("R")
-    linear = numbers(row, dialect.LINEAR[turns], units, prefix=dof)
+    linear = values(row, dialect.LINEAR[turns], units, prefix=dof)
 
     def says(word: str) -> bool:
         return dof in active[word] or row.yes(dof + word, default=False)
@@ -131,7 +127,7 @@ def _dof(row: Row, dof: str, active: dict[str, list[str]], units: Units) -> Link
         stiffness=linear["own"] or linear["stiffness"],
         damping=linear["damping"],
         nonlinear=says("NONLIN"),
-        values=numbers(row, dialect.NONLINEAR[turns], units, prefix=dof, only_given=True),
+        values=values(row, dialect.NONLINEAR[turns], units, prefix=dof, only_given=True),
     )
 
 

@@ -15,10 +15,11 @@ from frames.exchange.building import (
     Constraint,
     FrameObject,
     Joint,
+    Modifiers,
 )
-from frames.exchange.fields import numbers
+from frames.exchange.fields import refused, values
 from frames.exchange.geometry import Levels
-from frames.exchange.properties import modifiers_of, offsets_of, released, shell_factors
+from frames.exchange.properties import offsets_of, released, shell_factors
 from frames.exchange.tables import known, merged
 from lir_element.elevations import SAME_PLACE
 
@@ -52,7 +53,7 @@ class Objects:
             if name in self._points:
                 msg = f'point "{name}" is there already: keep one of the two'
                 raise row.error(msg)
-            x, y, below = numbers(row, dialect.POINT, self.building.units).values()
+            x, y, below = values(row, dialect.POINT, self.building.units).values()
             self._points[name] = (x, y, below)
         self._read_lines()
         self._read_areas()
@@ -112,18 +113,12 @@ class Objects:
 
     def _assigned(self, frame: FrameObject, row: Row) -> FrameObject:
         building, units = self.building, self.building.units
-        for word in ("LIMITTENSION", "LIMITCOMPRESSION"):
-            if row.has(word):
-                what = "limits of axial force, without"
-                building.account.refuse("tension limits", row.table, what, [frame.name], row.place)
-        if row.has("HINGE"):
-            what = "plastic hinges of frames, which stay elastic"
-            building.account.refuse("hinges", row.table, what, [frame.name], row.place)
+        refused(row, frame.name, building.account, dialect.FRAME_WORDS)
         of = f' of line "{frame.name}"'
         material = row.text("MATERIALOVERWRITE", "")
         if material:
             known(row, "MATERIALOVERWRITE", material, building.materials, of)
-        zones = numbers(row, dialect.END_ZONES, units, of)
+        zones = values(row, dialect.END_ZONES, units, of)
         is_clear = row.text("SELFWEIGHTOPTION", "").upper() == "CLEAR LENGTH"
         if is_clear and (zones["end_i"] or zones["end_j"]):
             self._clear.append(frame.name)
@@ -146,8 +141,8 @@ class Objects:
             cardinal=cardinal,
             offset_i=first,
             offset_j=last,
-            transforms=row.text("TRANSFORMSTIFF", "No").upper() == "YES",
-            modifiers=modifiers_of(row, dialect.FRAME_MODIFIERS, units),
+            transforms=row.yes("TRANSFORMSTIFF", default=False),
+            modifiers=Modifiers(**values(row, dialect.FRAME_MODIFIERS, units)),
             meshed=row.text("AUTOMESH", "YES").upper() != "NO",
             **zones,
         )
@@ -168,9 +163,7 @@ class Objects:
             if len(set(joints)) < len(joints):
                 msg = f'area "{name}" has one corner twice'
                 raise area.error(msg)
-            if row.has("OPENING") and row.text("OPENING").upper() not in {"NO", "NONE"}:
-                what = "openings in slabs, whose loads are not taken away"
-                building.account.refuse("openings", row.table, what, [label], row.place)
+            if refused(row, label, building.account, dialect.AREA_WORDS):
                 continue
             section = row.text("SECTION", "")
             section = "" if section.upper() in _NONE else section
@@ -206,10 +199,10 @@ class Objects:
                 given = springs[known(row, "SPRINGPROP", name, springs)]
                 if given.has("LINKPROP"):
                     self.on_links[joint] = given
-                stiffness = tuple(numbers(given, dialect.SUPPORT, units).values())
+                stiffness = tuple(values(given, dialect.SUPPORT, units).values())
                 if any(stiffness):
                     building.springs[joint] = stiffness
-            plan, *others = numbers(row, dialect.MASS, units, f' of point "{joint}"').values()
+            plan, *others = values(row, dialect.MASS, units, f' of point "{joint}"').values()
             if plan or any(others):
                 building.masses[joint] = (plan, plan, *others)
 

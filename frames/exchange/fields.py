@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
+    from frames.exchange.account import Account
     from frames.exchange.tables import Row, Value
 
 
@@ -89,10 +90,16 @@ class Units:
         return self.mass / self.length**3
 
 
-def units_of(force: str, length: str) -> Units | None:
-    """Return the units that two words stand for, None if one is unknown."""
-    first, second = FORCES.get(force.strip().upper()), LENGTHS.get(length.strip().upper())
-    return None if first is None or second is None else Units(first, second)
+def units_of(words: str, name: str, error: Callable[[str], ValueError]) -> Units:
+    """Return the units that a force and a length stand for, "KN, m", or raise an error."""
+    force, length, *_ = [*(word.strip().upper() for word in words.split(",")), ""]
+    if force not in FORCES or length not in LENGTHS:
+        message = (
+            f'{name} = "{words}" must be a force of {", ".join(FORCES)} and a length of '
+            f'{", ".join(LENGTHS)}, such as "KN, m, C"'
+        )
+        raise error(message)
+    return Units(FORCES[force], LENGTHS[length])
 
 
 class Bound(NamedTuple):
@@ -110,40 +117,62 @@ POISSON = Bound("must lie in (-1, 0.5]", lambda value: -1.0 < value <= 0.5)
 
 
 class Field(NamedTuple):
-    """A number of a file.
+    """A number, a text, or a Yes of a file.
 
     `ours` is what it is called in a row of a building, `names` what the file calls it: the first
-    name is written, the others are those of other versions. `unit` is one of `Units`; without a
-    `default` the file must have it.
+    name is written, the others are those of other versions. `unit` is one of `Units`, or
+    "text" or "yes"; without a `default` the file must have it. A 0 of the file stands for `zero`.
     """
 
     ours: str
     names: str
     unit: str = "one"
-    default: float | None = 0.0
+    default: Any = 0.0
     bound: Bound = ANY
+    zero: float = 0.0
 
 
 Fields: TypeAlias = tuple[Field, ...]
 
 
-class SectionMap(NamedTuple):
-    """Fields of a cross-section: its constants, its sizes, and the factors on them."""
-
-    constants: Fields
-    sizes: Fields
-    modifiers: Fields
-
-
 def fields(
-    pairs: str, unit: str = "one", default: float | None = 0.0, bound: Bound = ANY
+    pairs: str,
+    unit: str = "one",
+    default: Any = 0.0,
+    bound: Bound = ANY,
+    zero: float = 0.0,
 ) -> Fields:
     """Return fields of one kind from pairs "ours=theirs|other"."""
     split = (pair.split("=") for pair in pairs.split())
-    return tuple(Field(ours, names, unit, default, bound) for ours, names in split)
+    return tuple(Field(ours, names, unit, default, bound, zero) for ours, names in split)
 
 
-def numbers(
+class Refusal(NamedTuple):
+    """A field whose loss would change the answer: its names, the key of `allow`, and what it is.
+
+    `when` has words of its text that matter, "a|b", or "not a|b"; "{}" in `what` is the text.
+    """
+
+    names: str
+    key: str
+    what: str
+    when: str = "yes|true"
+
+
+def refused(row: Row, name: str, account: Account, refusals: Iterable[Refusal]) -> bool:
+    """Refuse an object by its row, or note what `allow` accepts; return whether there was any."""
+    found = False
+    for names, key, what, when in refusals:
+        texts = [row.text(field) for field in names.split("|") if row.has(field)]
+        words, wanted = when.removeprefix("not ").split("|"), not when.startswith("not ")
+        odd = [text for text in texts if any(w in text.lower() for w in words) == wanted]
+        if odd:
+            account.refuse(key, row.table, what.format(odd[0]), [name], row.place)
+            found = True
+    return found
+
+
+def values(
     row: Row,
     map_: Fields,
     units: Units,
@@ -152,7 +181,7 @@ def numbers(
     prefix: str = "",
     only_given: bool = False,
 ) -> dict[str, Any]:
-    """Return the numbers of a row by our names, in SI; a number out of its bound is refused."""
+    """Return the fields of a row by our names, in SI; a number out of its bound is refused."""
     found: dict[str, Any] = {}
     for field in map_:
         names = [f"{prefix}{name}" for name in field.names.split("|")]
@@ -160,20 +189,31 @@ def numbers(
         if only_given and not given:
             continue
         name = given[0] if given else names[0]
-        value = row.number(name, field.default)
-        if not field.bound.holds(value):
-            message = f"{name} = {value:g}{of} {field.bound.words}"
-            raise row.error(message, name)
-        found[field.ours] = value * getattr(units, field.unit)
+        if field.unit == "text":
+            found[field.ours] = row.text(name, field.default)
+        elif field.unit == "yes":
+            found[field.ours] = row.yes(name, default=field.default)
+        else:
+            value = row.number(name, field.default)
+            if not field.bound.holds(value):
+                message = f"{name} = {value:g}{of} {field.bound.words}"
+                raise row.error(message, name)
+            found[field.ours] = value * getattr(units, field.unit) or field.zero
     return found
 
 
 def written(map_: Fields, given: object, units: Units) -> dict[str, Value]:
     """Return the fields of a row of a building, or of as many numbers, as a file has them."""
     if isinstance(given, dict):
-        pairs: Iterable[tuple[Field, float]] = ((f, given[f.ours]) for f in map_ if f.ours in given)
+        pairs: Iterable[tuple[Field, Any]] = ((f, given[f.ours]) for f in map_ if f.ours in given)
     elif isinstance(given, Sequence):
         pairs = zip(map_, given, strict=True)
     else:
         pairs = ((field, getattr(given, field.ours)) for field in map_)
-    return {f.names.split("|")[0]: value / getattr(units, f.unit) for f, value in pairs}
+    return {field.names.split("|")[0]: _written(field, value, units) for field, value in pairs}
+
+
+def _written(field: Field, value: Any, units: Units) -> Value:
+    if field.unit in {"text", "yes"}:
+        return str(value) if field.unit == "text" else bool(value)
+    return 0.0 if value == field.zero else float(value) / getattr(units, field.unit)

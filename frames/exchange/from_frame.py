@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +16,6 @@ from frames.exchange.building import (
     Building,
     Constraint,
     FrameObject,
-    FrameSection,
     Joint,
     JointLoad,
     LineLoad,
@@ -32,6 +32,7 @@ from frames.exchange.geometry import frame_axes
 from frames.exchange.links import COINCIDENT, UPRIGHT
 from frames.exchange.members import MOMENTS
 from frames.exchange.pendulum_link import pendulum_link
+from frames.exchange.properties import with_constants
 from frames.exchange.shells import shell_parts, shells_of
 from frames.model.axes import default_up
 from frames.model.components import DOFS
@@ -52,11 +53,7 @@ def building_of(
     frame: FrameData, displacement: float | None, words: str, program: str = "SAP2000"
 ) -> Building:
     """Return a frame as a building for a program, in whose file units are those words say."""
-    parts = words.split(",")
-    units = units_of(parts[0], parts[1]) if len(parts) > 1 else None
-    if units is None:
-        message = f'units = "{words}" must be a force and a length, such as "KN, m, C"'
-        raise ModelError(message)
+    units = units_of(words, "units", ModelError)
     _refuse(frame, displacement, program)
     building = Building(frame.name, program, words, units, Account(frame.name))
     _add_joints(frame, building)
@@ -123,19 +120,9 @@ def _add_members(frame: FrameData, building: Building) -> None:
             building.materials[name] = _material(name, key, member.name, building.program)
         if section not in sections:
             sections[section] = name = f"S{len(sections) + 1}"
-            building.sections[name] = FrameSection(
-                name=name,
-                material=materials[key],
-                shape="General",
-                area=section.area,
-                torsion=section.torsion_constant,
-                inertia_33=section.inertia_y,
-                inertia_22=section.inertia_z,
-                shear_2=section.shear_area_z,
-                shear_3=section.shear_area_y,
-                depth=math.sqrt(12.0 * section.inertia_y / section.area),
-                width=math.sqrt(12.0 * section.inertia_z / section.area),
-            )
+            width = math.sqrt(12.0 * section.inertia_z / section.area)
+            found = with_constants(name, materials[key], "General", section)
+            building.sections[name] = replace(found, width=width)
         start, end = (np.array(frame.nodes[n].position) for n in (member.i, member.j))
         words = {ours: theirs for theirs, ours in MOMENTS.items()}
         first, last = (frozenset(words[word] for word in end) for end in member.releases)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from frames.model.axes import VERTICAL_SINE
-from lir_element.elevations import SAME_PLACE
+from lir_element.elevations import SAME_PLACE, by_elevation
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -89,29 +90,31 @@ def cardinal_shift(cardinal: int, depth: float, width: float) -> tuple[float, fl
     return 0.5 * depth * (1 - row), 0.5 * width * (column - 1)
 
 
-def level_of(z: float) -> int:
-    """Return the number of the level at a height [m]."""
-    return round(z / SAME_PLACE)
-
-
 class Levels:
-    """Joints by level."""
+    """Joints by elevation."""
 
     def __init__(self, places: Mapping[str, Vector]) -> None:
-        by_level: dict[int, list[str]] = {}
-        for name, place in places.items():
-            by_level.setdefault(level_of(place[2]), []).append(name)
-        self._levels = {
-            level: (names, np.array([places[name][:2] for name in names]))
-            for level, names in by_level.items()
-        }
+        groups = by_elevation({name: place[2] for name, place in places.items()})
+        self._low = [places[names[0]][2] for names in groups]
+        self._levels = [(names, np.array([places[n][:2] for n in names])) for names in groups]
+
+    def level(self, z: float) -> int:
+        """Return the number of the level at a height [m], -1 if there is none."""
+        k = bisect_right(self._low, z) - 1
+        if k >= 0 and z - self._low[k] <= SAME_PLACE:
+            return k
+        near = k + 1 < len(self._low) and self._low[k + 1] - z <= SAME_PLACE
+        return k + 1 if near else -1
 
     def within(self, corners: FloatArray) -> dict[str, FloatArray]:
         """Return the joints inside of a level area and on its edges, and their places in plan.
 
         Shapes: corners (n, 3), result (2,).
         """
-        names, places = self._levels.get(level_of(float(corners[0, 2])), ([], np.zeros((0, 2))))
+        k = self.level(float(corners[0, 2]))
+        if k < 0:
+            return {}
+        names, places = self._levels[k]
         outline = corners[:, :2]
         low, high = outline.min(axis=0) - SAME_PLACE, outline.max(axis=0) + SAME_PLACE
         near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))

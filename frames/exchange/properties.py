@@ -1,20 +1,28 @@
-"""Materials, cross-sections and factors of a file, whichever its dialect."""
+"""Materials and cross-sections of a file, by constants, by shape, or by a program's library."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+from xml.parsers import expat
 
+from frames._errors import ModelError
+from frames._remedies import argument
 from frames.exchange.building import Building, FrameSection, Material, Modifiers
-from frames.exchange.fields import numbers
+from frames.exchange.fields import LENGTHS, values
 from frames.exchange.members import MOMENTS
+from frames.exchange.tables import Row
+from frames.model.sections import Section
+from frames.model.shapes import catalogue_dimensions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
     from frames.exchange.building import Vector
-    from frames.exchange.fields import Fields, SectionMap, Units
-    from frames.exchange.tables import Row
+    from frames.exchange.fields import Fields, Units
 
 
 def in_use(rows: dict[str, Row], names: Iterable[str]) -> tuple[dict[str, Row], list[str]]:
@@ -25,30 +33,15 @@ def in_use(rows: dict[str, Row], names: Iterable[str]) -> tuple[dict[str, Row], 
 
 def material_of(row: Row, name: str, map_: Fields, units: Units) -> Material:
     """Return a material; without a shear modulus it is isotropic."""
-    found = numbers(row, map_, units, f' of material "{name}"')
+    found = values(row, map_, units, f' of material "{name}"')
     isotropic = 0.5 * found["elastic_modulus"] / (1.0 + found["poisson_ratio"])
     return Material(name, **found | {"shear_modulus": found.get("shear_modulus") or isotropic})
 
 
-def sizes_of(row: Row, map_: SectionMap, units: Units) -> tuple[float, float, float, float]:
-    """Return the sizes of a cross-section [m]: depth, width, flange and web."""
-    depth, width, flange, web = numbers(row, map_.sizes, units).values()
-    return depth, width, flange, web
-
-
-def by_constants(
-    row: Row, name: str, material: str, shape: str, map_: SectionMap, units: Units
-) -> FrameSection:
-    """Return a cross-section by its constants; a shear area of none does not shear."""
-    found = numbers(row, map_.constants, units)
-    depth, width, *_ = sizes_of(row, map_, units)
-    shear = {key: found[key] or math.inf for key in ("shear_2", "shear_3")}
-    return FrameSection(name, material, shape, depth=depth, width=width or depth, **found | shear)
-
-
-def modifiers_of(row: Row, map_: Fields, units: Units) -> Modifiers:
-    """Return the factors of a row of sections or of assignments, 1 where it has none."""
-    return Modifiers(**numbers(row, map_, units))
+def by_constants(row: Row, name: str, map_: Fields, units: Units) -> FrameSection:
+    """Return a cross-section by its constants; without a width it is as wide as deep."""
+    found = values(row, map_, units)
+    return FrameSection(name, **found | {"width": found["width"] or found["depth"]})
 
 
 def released(
@@ -64,20 +57,261 @@ def released(
 
 def offsets_of(row: Row, map_: Fields, units: Units) -> tuple[Vector, Vector]:
     """Return the offsets of both ends of a frame object."""
-    a, b, c, d, e, f = numbers(row, map_, units).values()
+    a, b, c, d, e, f = values(row, map_, units).values()
     return (a, b, c), (d, e, f)
 
 
 def shell_factors(row: Row, map_: Fields, building: Building) -> dict[str, Any]:
     """Return the factors of a shell [-]: in plane, of bending, on mass and on weight."""
-    given = numbers(row, map_, building.units)
+    given = values(row, map_, building.units)
     found = {word: given[word] for word in ("mass", "weight")}
     for letter, word in (("F", "in_plane"), ("M", "bending")):
-        values = [given[f"{letter}{d}"] for d in ("11", "22", "12")]
-        if max(values) - min(values) > 1e-9:
+        factors = [given[f"{letter}{d}"] for d in ("11", "22", "12")]
+        if max(factors) - min(factors) > 1e-9:
             what = "stiffness modifiers of an area that differ by direction, taken by their mean"
             name = next(f.names.split("|")[0] for f in map_ if f.ours == f"{letter}11")
             key = "directional area modifiers"
             building.account.refuse(key, row.table, what, [name], row.place)
-        found[word] = sum(values) / 3.0
+        found[word] = sum(factors) / 3.0
     return found
+
+
+_SOLID = {"rectangular", "concrete rectangular", "steel plate", "steel rod rectangular"}
+_ROUND = {"circle", "concrete circle", "steel rod", "steel solid rod"}
+_I = {"i/wide flange", "steel i/wide flange", "i section"}
+_TUBE = {"box/tube", "tube", "steel tube"}
+_PIPE = {"pipe", "steel pipe"}
+_ROLLED = re.compile(r"(IPE|HE)[ABM]?\s*\d+\s*[ABM]?", re.IGNORECASE)
+_ANY = 1e9  # Pa: the constants of a shape are those of any material but for its Poisson's ratio
+
+
+def shape_constants(
+    shape: str, sizes: tuple[float, float, float, float], poisson_ratio: float
+) -> Section | None:
+    """Return the constants of a shape."""
+    word = shape.strip().lower()
+    depth, width, flange, web = sizes
+    if word in _SOLID:
+        return Section.rectangle(width, depth, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
+    if word in _ROUND:
+        return Section.circle(depth, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
+    if word in _I:
+        return Section.i_shape(
+            depth, width, flange, web, elastic_modulus=_ANY, poisson_ratio=poisson_ratio
+        )
+    if word in _TUBE and math.isclose(flange, web, rel_tol=1e-6):
+        return Section.box(width, depth, web, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
+    if word in _PIPE:
+        return Section.circle(depth, web, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
+    if _ROLLED.fullmatch(word):
+        return Section.catalogue(word, elastic_modulus=_ANY, poisson_ratio=poisson_ratio)
+    return None
+
+
+def section_by_shape(
+    row: Row,
+    name: str,
+    material: str,
+    shape: str,
+    sizes: tuple[float, float, float, float],
+    poisson_ratio: float,
+) -> FrameSection:
+    """Return a cross-section that is given by its shape."""
+    try:
+        if not sizes[0] and _ROLLED.fullmatch(shape.strip()):
+            depth, width, flange, web, _ = catalogue_dimensions(shape)
+            sizes = (depth, width, flange, web)
+        found = shape_constants(shape, sizes, poisson_ratio)
+    except ModelError as cause:
+        msg = f'section "{name}": {cause}'
+        raise row.error(msg) from cause
+    if found is None:
+        message = (
+            f'section "{name}" is a "{shape}" without Area, I33, I22 and torsion constant: known '
+            "by dimensions are rectangles, circles, I shapes, tubes of one thickness and pipes, by "
+            "name IPE, HEA, HEB and HEM; define it as a general section, or of an ETABS model give "
+            f"its constants, {argument('sections', {name: ...})}, or the file of the program that "
+            f"has them, {argument('library', ['AISC14.xml'])}"
+        )
+        raise row.error(message)
+    return with_constants(name, material, shape, found, sizes)
+
+
+def with_constants(
+    name: str,
+    material: str,
+    shape: str,
+    found: Section,
+    sizes: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0),
+) -> FrameSection:
+    """Return a cross-section with the constants of a section, whose local z is axis 2."""
+    depth = sizes[0] or math.sqrt(12.0 * found.inertia_y / found.area)
+    width = sizes[1] or sizes[0] or found.area / depth
+    return FrameSection(
+        name=name,
+        material=material,
+        shape=shape,
+        area=found.area,
+        torsion=found.torsion_constant,
+        inertia_33=found.inertia_y,
+        inertia_22=found.inertia_z,
+        shear_2=found.shear_area_z,
+        shear_3=found.shear_area_y,
+        depth=depth,
+        width=width,
+    )
+
+
+_PIPE_FILLED = "filled steel pipe"
+FILLED = ("filled steel tube", _PIPE_FILLED)
+"""Shapes that are filled, in lower case."""
+
+
+def filled_section(
+    row: Row,
+    name: str,
+    sizes: tuple[float, float, float, float],
+    steel: Material,
+    fill: Material,
+) -> FrameSection:
+    """Return the section of a filled tube or pipe, transformed to its steel.
+
+    Areas and inertias of the concrete count by its modulus over that of the steel, uncracked and
+    bonded; torsion and shear by the shear moduli, each part for itself. Factors on mass and weight
+    make them those of both materials.
+    """
+    shape = row.text("SHAPE")
+    solid, hollow = (
+        ("circle", "pipe") if shape.strip().lower() == _PIPE_FILLED else ("rectangular", "tube")
+    )
+    depth, width, _, web = sizes
+    inner = (depth - 2.0 * web, width - 2.0 * web, 0.0, 0.0)
+    try:
+        wall = shape_constants(hollow, sizes, steel.poisson_ratio)
+        core = shape_constants(solid, inner, fill.poisson_ratio)
+    except ModelError as cause:
+        msg = f'section "{name}": {cause}'
+        raise row.error(msg) from cause
+    if wall is None or core is None:
+        message = (
+            f'section "{name}": TF = {sizes[2]:g} m and TW = {web:g} m differ; known are filled '
+            f"tubes of one thickness: give its constants, {argument('sections', {name: ...})}"
+        )
+        raise row.error(message)
+    stretch = fill.elastic_modulus / steel.elastic_modulus
+    shear = fill.shear_modulus / steel.shear_modulus
+    area = wall.area + stretch * core.area
+
+    def share(value: Callable[[Material], float], word: str) -> float:
+        # What both weigh over what the transformed area of steel alone would.
+        own, inside = value(steel), value(fill)
+        if own <= 0.0:
+            if inside <= 0.0:
+                return 1.0
+            msg = f'section "{name}": its steel "{steel.name}" has no {word}, its concrete has'
+            raise row.error(msg)
+        return (own * wall.area + inside * core.area) / (own * area)
+
+    return replace(
+        with_constants(name, steel.name, shape, wall, sizes),
+        area=area,
+        torsion=wall.torsion_constant + shear * core.torsion_constant,
+        inertia_33=wall.inertia_y + stretch * core.inertia_y,
+        inertia_22=wall.inertia_z + stretch * core.inertia_z,
+        shear_2=wall.shear_area_z + shear * core.shear_area_z,
+        shear_3=wall.shear_area_y + shear * core.shear_area_y,
+        modifiers=Modifiers(
+            mass=share(lambda matter: matter.density, "mass"),
+            weight=share(lambda matter: matter.weight, "weight"),
+        ),
+    )
+
+
+ROOT = "PROPERTY_FILE"
+FIELDS = {"A": "AREA", "J": "TORSION", "HT": "D", "OD": "D", "BF": "B"}
+"""Words of these files that ETABS' text has otherwise."""
+
+
+class Shape(NamedTuple):
+    """Constants of a shape, in the words of ETABS' text, and their unit of length [m]."""
+
+    row: Row
+    length: float
+
+
+def read_libraries(paths: str | Path | Sequence[str | Path]) -> dict[str, Shape]:
+    """Return the shapes of property files by their labels, in capitals."""
+    given = [paths] if isinstance(paths, str | Path) else list(paths)
+    found: dict[str, Shape] = {}
+    for path in given:
+        for label, shape in _read(Path(path)).items():
+            found.setdefault(label, shape)
+    return found
+
+
+def _read(path: Path) -> dict[str, Shape]:
+    try:
+        content = path.read_bytes()
+    except OSError as cause:
+        message = f"{path} cannot be read: {cause.strerror}; name the property file of the program"
+        raise ModelError(message) from cause
+    rows = _Entries(path.name)
+    try:
+        rows.parse(content)
+    except (expat.ExpatError, LookupError, ValueError) as cause:  # of these, encodings
+        where = f", line {cause.lineno}" if isinstance(cause, expat.ExpatError) else ""
+        message = (
+            f"{path.name}{where}: {cause}; it must be whole, as XML: name a property file of ETABS "
+            "or SAP2000, AISC14.xml"
+        )
+        raise ModelError(message) from cause
+    words = rows.control.text("LENGTH_UNITS", "") if rows.control else ""
+    if rows.root != ROOT or words.upper() not in LENGTHS:
+        message = (
+            f"{path.name} is no property file of ETABS or SAP2000: it begins with {ROOT} and has "
+            f"LENGTH_UNITS of {', '.join(LENGTHS)} under CONTROL"
+        )
+        raise ModelError(message)
+    one = LENGTHS[words.upper()]
+    return {row.text("LABEL").strip().upper(): Shape(row, one) for row in rows.shapes}
+
+
+class _Entries:
+    # The entries of a file: elements under its root, their texts by name.
+    def __init__(self, file: str) -> None:
+        self.file, self.root = file, ""
+        self.control: Row | None = None
+        self.shapes: list[Row] = []
+        self._open: list[str] = []
+        self._text: list[str] = []
+        self._row = Row(file, "", 0, {})
+
+    def parse(self, content: bytes) -> None:
+        parser = expat.ParserCreate(namespace_separator=" ")
+
+        def start(tag: str, _: object) -> None:
+            name = tag.rsplit(" ", 1)[-1].upper()
+            self._open.append(name)
+            self._text = []
+            if len(self._open) == 1:
+                self.root = name
+            elif len(self._open) == 2:
+                self._row = Row(self.file, name, parser.CurrentLineNumber, {})
+
+        parser.StartElementHandler = start
+        parser.CharacterDataHandler = self._text_of
+        parser.EndElementHandler = self._end
+        parser.Parse(content, True)
+
+    def _text_of(self, data: str) -> None:
+        self._text.append(data)
+
+    def _end(self, _: str) -> None:
+        name = self._open.pop()
+        if len(self._open) == 2:
+            self._row.values[FIELDS.get(name, name)] = "".join(self._text).strip()
+        elif len(self._open) == 1 and name == "CONTROL":
+            self.control = self._row
+        elif len(self._open) == 1 and self._row.has("LABEL", "AREA", "I33", "I22"):
+            self.shapes.append(self._row)
+        self._text = []

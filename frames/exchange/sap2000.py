@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from frames.exchange import sap2000_fields as dialect
-from frames.exchange.account import Account
+from frames.exchange.account import Account, judge_rest
 from frames.exchange.building import (
     LINK_DOFS,
     AreaLoad,
@@ -21,9 +21,10 @@ from frames.exchange.building import (
     LinkDof,
     LinkProperty,
     MassSource,
+    Modifiers,
     Pattern,
 )
-from frames.exchange.fields import FORCES, LENGTHS, Units, numbers, units_of
+from frames.exchange.fields import Units, refused, units_of, values
 from frames.exchange.loads import (
     add_area_load,
     add_combinations,
@@ -38,13 +39,11 @@ from frames.exchange.properties import (
     by_constants,
     in_use,
     material_of,
-    modifiers_of,
+    section_by_shape,
     shell_factors,
-    sizes_of,
 )
 from frames.exchange.reading import read_excel, read_s2k
 from frames.exchange.sap2000_objects import read_objects, section_of
-from frames.exchange.section_shapes import section_by_shape
 from frames.exchange.tables import ACTIVE, Row, Tables, by_name, known, require_space
 
 _BOOKS = {".xlsx", ".xlsm"}
@@ -55,53 +54,16 @@ def read_sap2000(path: str | Path, options: Options | None = None) -> Building:
     file, given = Path(path), options or Options()
     tables = read_excel(file) if file.suffix.lower() in _BOOKS else read_s2k(file, given.decimal)
     account = Account(file.name, given.allow)
-    units, version = _units(tables)
-    building = Building(file.stem, "SAP2000", version, units, account)
-    _refuse_plane(tables)
+    row = tables.needed("PROGRAM CONTROL", "it has the units; export it with the others")[0]
+    units = units_of(row.text("CurrUnits"), "CurrUnits", row.error)
+    building = Building(file.stem, "SAP2000", row.text("Version", ""), units, account)
+    for row in tables.rows("ACTIVE DEGREES OF FREEDOM"):
+        require_space(row, {name for name in ACTIVE if row.yes(name)})
     read_properties(tables, building)
     read_objects(tables, building)
     read_loads(tables, building)
-    _judge_rest(tables, account)
+    judge_rest(tables, account, dialect.REFUSED, dialect.KNOWN, dialect.OBJECTS, dialect.HARMLESS)
     return building
-
-
-def _units(tables: Tables) -> tuple[Units, str]:
-    row = tables.needed("PROGRAM CONTROL", "it has the units; export it with the others")[0]
-    words = [word.strip() for word in row.text("CurrUnits").split(",")]
-    found = units_of(words[0], words[1]) if len(words) >= 2 else None
-    if found is None:
-        message = (
-            f'CurrUnits = "{row.text("CurrUnits")}" must be a force of {", ".join(FORCES)} and a '
-            f'length of {", ".join(LENGTHS)}, such as "KN, m, C"'
-        )
-        raise row.error(message)
-    return found, row.text("Version", "")
-
-
-def _refuse_plane(tables: Tables) -> None:
-    for row in tables.rows("ACTIVE DEGREES OF FREEDOM"):
-        require_space(row, {name for name in ACTIVE if row.yes(name)})
-
-
-def _judge_rest(tables: Tables, account: Account) -> None:
-    # Tables that nobody read: refused, harmless, or noted.
-    for name, count in tables.unread().items():
-        refused = next((r for r in dialect.REFUSED if name.startswith(r[0])), None)
-        if refused is not None:
-            rows = tables.rows(name)
-            what = f"{refused[2]}, {count} rows"
-            account.refuse(refused[1], name, what, [_first(rows[0].values)], rows[0].place)
-        elif name.startswith(dialect.OBJECTS) and not name.startswith(dialect.HARMLESS):
-            rows = tables.rows(name)
-            what = f"a table that is not known here, {count} rows"
-            account.refuse("other tables", name, what, [_first(rows[0].values)], rows[0].place)
-    account.unknown(tables.unknown(dialect.KNOWN))
-    rest = [f"{name} ({count})" for name, count in tables.unread().items()]
-    account.left_out("other tables", "what the linear model does not need, with rows", rest)
-
-
-def _first(values: dict[str, str | float | bool]) -> str:
-    return str(next(iter(values.values()), ""))
 
 
 def read_properties(tables: Tables, building: Building) -> None:
@@ -139,16 +101,14 @@ def _used(
 
 
 def _section(row: Row, name: str, building: Building) -> FrameSection:
-    shape, material = row.text("Shape", "General"), row.text("Material", "")
     account, units = building.account, building.units
-    sizes = sizes_of(row, dialect.SECTION, units)
-    modifiers = modifiers_of(row, dialect.MODIFIERS, units)
-    if "nonprismatic" in shape.lower():
-        what = "a nonprismatic section"
-        account.refuse("nonprismatic sections", dialect.SECTIONS, what, [name], row.place)
+    material, shape = values(row, dialect.SECTION[:2], units).values()
+    modifiers = Modifiers(**values(row, dialect.MODIFIERS, units))
+    refused(row, name, account, dialect.SECTION_WORDS)
     if not row.has("Area", "I33", "I22"):
         known(row, "Material", material, building.materials)
         poisson = building.materials[material].poisson_ratio
+        sizes = tuple(values(row, dialect.SIZES, units).values())
         found = section_by_shape(row, name, material, shape, sizes, poisson)
     else:
         if abs(row.number("I23", 0.0)) > 1e-6 * max(row.number("I33"), row.number("I22")):
@@ -156,25 +116,20 @@ def _section(row: Row, name: str, building: Building) -> FrameSection:
                 "the product of inertia I23 of a section, whose axes 2 and 3 are not principal ones"
             )
             account.refuse("I23", dialect.SECTIONS, what, [name], row.place)
-        found = by_constants(row, name, material, shape, dialect.SECTION, units)
+        found = by_constants(row, name, dialect.SECTION, units)
     return replace(found, modifiers=modifiers)
 
 
 def _area_section(row: Row, name: str, building: Building) -> AreaSection:
-    account, table = building.account, dialect.AREA_SECTIONS
     kind = f"{row.text('AreaType', 'Shell')} {row.text('Type', 'Shell-Thin')}".lower()
-    if "layered" in kind or "nonlinear" in kind:
-        what = "a layered shell, taken as a linear one of its thickness"
-        account.refuse("layered shells", table, what, [name], row.place)
-    if not kind.startswith("shell"):
-        what = f'an area of type "{row.text("AreaType")}", of which loads alone are read'
-        account.refuse("plane and solid areas", table, what, [name], row.place)
+    refused(row, name, building.account, dialect.LAYERED)
+    if refused(row, name, building.account, dialect.NO_SHELL):
         return AreaSection(name, "", "none", 0.0, 0.0)
     words = ("membrane", "plate")
     found = next((word for word in words if word in kind.removeprefix("shell ")), "shell")
     material = known(row, "Material", row.text("Material"), building.materials)
     of = f' of area section "{name}"'
-    thickness, bending = numbers(row, dialect.THICKNESS, building.units, of).values()
+    thickness, bending = values(row, dialect.THICKNESS, building.units, of).values()
     factors = shell_factors(row, dialect.SHELL, building)
     return AreaSection(name, material, found, thickness, bending or thickness, **factors)
 
@@ -195,32 +150,29 @@ def _read_links(tables: Tables, building: Building) -> None:
             raise row.error(msg)
         dofs[name].setdefault(dof, _link_dof(row, building.units, turns=dof.startswith("R")))
     for name, row in general.items():
-        weights = numbers(row, dialect.LINK, building.units)
-        kind = row.text("LinkType", "")
-        building.link_properties[name] = LinkProperty(name, kind, dofs[name], **weights)
+        given = values(row, dialect.LINK, building.units)
+        building.link_properties[name] = LinkProperty(name, dofs=dofs[name], **given)
     building.account.read(dialect.LINKS, "link properties in use", len(general))
 
 
 def _link_dof(row: Row, units: Units, *, turns: bool) -> LinkDof:
     return LinkDof(
-        fixed=row.yes("Fixed", default=False),
         nonlinear=row.yes("NonLinear", default=False),
-        values=numbers(row, dialect.NONLINEAR[turns], units, only_given=True),
-        **numbers(row, dialect.LINEAR[turns], units),
+        values=values(row, dialect.NONLINEAR[turns], units, only_given=True),
+        **values(row, dialect.LINEAR[turns], units),
     )
 
 
 def read_loads(tables: Tables, building: Building) -> None:
     """Read patterns, loads, masses and combinations into a building."""
     for name, row in by_name(tables.rows(dialect.PATTERNS), "LoadPat").items():
-        kind, factor = row.text("DesignType", "Other"), row.number("SelfWtMult", 0.0)
-        building.patterns[name] = Pattern(name, kind, factor)
+        building.patterns[name] = Pattern(name, **values(row, dialect.PATTERN, building.units))
     account = building.account
     account.read(dialect.PATTERNS, "load patterns", len(building.patterns))
     for row in tables.rows("JOINT LOADS - FORCE"):
         joint = known(row, "Joint", row.text("Joint"), building.joints)
         _require_global(row, f'load of joint "{joint}"')
-        forces = tuple(numbers(row, dialect.FORCES, building.units).values())
+        forces = tuple(values(row, dialect.FORCES, building.units).values())
         building.joint_loads.append(JointLoad(joint, _pattern(row, building), forces))
     account.read("JOINT LOADS - FORCE", "loads on joints", len(building.joint_loads))
     for table in ("FRAME LOADS - DISTRIBUTED", "FRAME LOADS - POINT"):
@@ -275,9 +227,7 @@ def _require_global(row: Row, what: str) -> None:
 def _add_frame_load(row: Row, building: Building, *, point: bool) -> None:
     frame = known(row, "Frame", row.text("Frame"), building.frames)
     pattern, word = _pattern(row, building), row.text("Dir")
-    if row.text("Type", "Force").lower().startswith("moment"):
-        key = what = "moments along frames"
-        building.account.refuse(key, row.table, what, [frame], row.place)
+    if refused(row, frame, building.account, dialect.LOAD_WORDS):
         return
     sizes = [row.number("Force")] * 2 if point else [row.number(f"FOverL{m}") for m in "AB"]
     a, b = (_at(row, building, frame, mark) for mark in (("", "") if point else "AB"))

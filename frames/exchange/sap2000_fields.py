@@ -1,6 +1,16 @@
 """The dialect of SAP2000's tables: fields by what they are, what has no effect, what is refused."""
 
-from frames.exchange.fields import NOT_NEGATIVE, POISSON, POSITIVE, SHARE, Field, SectionMap, fields
+import math
+
+from frames.exchange.fields import (
+    NOT_NEGATIVE,
+    POISSON,
+    POSITIVE,
+    SHARE,
+    Field,
+    Refusal,
+    fields,
+)
 
 MATERIALS = "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"
 SECTIONS = "FRAME SECTION PROPERTIES 01 - GENERAL"
@@ -23,12 +33,17 @@ MATERIAL = (
     Field("density", "UnitMass", "density"),
     Field("weight", "UnitWeight", "weight"),
 )
-SIZES = fields("depth=t3 width=t2 flange=tf web=tw", "length")
-CONSTANTS = (
+PATTERN = (*fields("kind=DesignType", "text", "Other"), *fields("self_weight=SelfWtMult"))
+_OUTER = fields("depth=t3 width=t2", "length")
+SIZES = _OUTER + fields("flange=tf web=tw", "length")
+SECTION = (
+    *fields("material=Material", "text", ""),
+    *fields("shape=Shape", "text", "General"),
+    *_OUTER,
     *fields("area=Area", "area", None),
     *fields("torsion=TorsConst", "inertia"),
     *fields("inertia_33=I33 inertia_22=I22", "inertia", None),
-    *fields("shear_2=AS2 shear_3=AS3", "area"),
+    *fields("shear_2=AS2 shear_3=AS3", "area", zero=math.inf),
 )
 MODIFIERS = fields(
     "area=AMod shear_2=A2Mod|AS2Mod shear_3=A3Mod|AS3Mod torsion=JMod inertia_22=I2Mod|I22Mod "
@@ -36,7 +51,6 @@ MODIFIERS = fields(
     default=1.0,
     bound=NOT_NEGATIVE,
 )
-SECTION = SectionMap(CONSTANTS, SIZES, MODIFIERS)
 THICKNESS = (
     Field("thickness", "Thickness", "length", bound=POSITIVE),
     Field("bending_thickness", "BendThick", "length"),
@@ -66,12 +80,17 @@ MASS = (
     *fields("ux=Mass1 uy=Mass2 uz=Mass3", "mass", bound=NOT_NEGATIVE),
     *fields("rx=MMI1 ry=MMI2 rz=MMI3", "rotary", bound=NOT_NEGATIVE),
 )
-LINK = fields("mass=Mass", "mass") + fields("weight=Weight", "force")
+LINK = (
+    *fields("kind=LinkType", "text", ""),
+    *fields("mass=Mass", "mass"),
+    *fields("weight=Weight", "force"),
+)
+_FIXED = fields("fixed=Fixed", "yes", default=False)
 LINEAR = {
-    False: fields("stiffness=TransKE damping=TransCE", "line"),
-    True: fields("stiffness=RotKE damping=RotCE", "moment"),
+    False: _FIXED + fields("stiffness=TransKE damping=TransCE", "line"),
+    True: _FIXED + fields("stiffness=RotKE damping=RotCE", "moment"),
 }
-"""Stiffness and damping of a link's deformation, by whether it is a rotation."""
+"""Whether a link's deformation is fixed, its stiffness and damping; by whether it is a rotation."""
 
 _ANY_TURN = (
     *fields("ratio=Ratio exponent=YieldExp slow=Slow fast=Fast damping_exponent=CExp"),
@@ -94,6 +113,24 @@ NONLINEAR = {
 """Nonlinear numbers of a link's deformation, by whether it is a rotation."""
 
 FORCES = fields("fx=F1 fy=F2 fz=F3", "force") + fields("mx=M1 my=M2 mz=M3", "moment")
+
+SECTION_WORDS = (
+    Refusal("Shape", "nonprismatic sections", "a nonprismatic section", when="nonprismatic"),
+)
+_LAYERED = "a layered shell, taken as a linear one of its thickness"
+LAYERED = (Refusal("AreaType|Type", "layered shells", _LAYERED, when="layered|nonlinear"),)
+_NO_SHELL = 'an area of type "{}", of which loads alone are read'
+NO_SHELL = (Refusal("AreaType", "plane and solid areas", _NO_SHELL, when="not shell"),)
+_TURNED = "advanced or mirrored local axes of frames, taken by their angle alone"
+_PARTLY = "partial fixity of end releases, taken as full releases"
+FRAME_WORDS = (
+    Refusal("IsCurved", "curved frames", "curved frames, taken as straight ones"),
+    Refusal("AdvanceAxes|MirrorAbt2|MirrorAbt3", "advanced axes", _TURNED),
+    Refusal("PartialFix", "partial fixity", _PARTLY),
+)
+LOAD_WORDS = (Refusal("Type", "moments along frames", "moments along frames", when="moment"),)
+_INCLINED = "diaphragms that are not horizontal"
+CONSTRAINT_WORDS = (Refusal("Axis", "other constraints", _INCLINED, when="not z|auto"),)
 
 REFUSED = (
     ("FRAME HINGE ASSIGN", "hinges", "plastic hinges of frames, which stay elastic"),

@@ -15,11 +15,12 @@ from frames.exchange.building import (
     FrameObject,
     Joint,
     LinkObject,
+    Modifiers,
 )
-from frames.exchange.fields import numbers
+from frames.exchange.fields import refused, values
 from frames.exchange.geometry import frame_axes
 from frames.exchange.loads import vector_of
-from frames.exchange.properties import modifiers_of, offsets_of, released, shell_factors
+from frames.exchange.properties import offsets_of, released, shell_factors
 from frames.exchange.tables import Row, Tables, by_name, known
 
 _GROUND = {"", "ground", "gnd", "none"}
@@ -57,7 +58,7 @@ def _joint(row: Row, name: str, building: Building) -> Joint:
                 "GlobalY and GlobalZ: export it in global Cartesian ones"
             )
             raise row.error(message)
-    return Joint(name, **numbers(row, map_, building.units), place=row.place)
+    return Joint(name, **values(row, map_, building.units), place=row.place)
 
 
 def _refuse_turned_joints(tables: Tables, building: Building) -> None:
@@ -82,9 +83,7 @@ def _read_frames(tables: Tables, building: Building) -> None:
             message = f'frame "{name}" has no row in FRAME SECTION ASSIGNMENTS: export that table'
             raise row.error(message)
         section = section_of(assigned)
-        if row.yes("IsCurved", default=False):
-            what = "curved frames, taken as straight ones"
-            building.account.refuse("curved frames", dialect.FRAMES, what, [name], row.place)
+        refused(row, name, building.account, dialect.FRAME_WORDS)
         material = assigned.text("MatProp", "Default")
         frame = FrameObject(name, i, j, section, row.place)
         if section.lower() != "none":
@@ -115,33 +114,28 @@ def _assign_frames(tables: Tables, building: Building) -> None:
     ):
         for name, row in by_name(tables.rows(table), "Frame").items():
             known(row, "Frame", name, building.frames)
+            refused(row, name, building.account, dialect.FRAME_WORDS)
             building.frames[name] = change(building.frames[name], row, building)
 
 
 def _turned(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    flags = ("AdvanceAxes", "MirrorAbt2", "MirrorAbt3")
-    if any(row.yes(flag, default=False) for flag in flags):
-        what = "advanced or mirrored local axes of frames, taken by their angle alone"
-        building.account.refuse("advanced axes", row.table, what, [frame.name], row.place)
+    del building
     return replace(frame, angle=row.number("Angle", 0.0))
 
 
 def _modified(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    return replace(frame, modifiers=modifiers_of(row, dialect.MODIFIERS, building.units))
+    return replace(frame, modifiers=Modifiers(**values(row, dialect.MODIFIERS, building.units)))
 
 
 def _released(frame: FrameObject, row: Row, building: Building) -> FrameObject:
     words = {f"{word}{end}" for word in RELEASES for end in "IJ"}
-    if row.yes("PartialFix", default=False):
-        what = "partial fixity of end releases, taken as full releases"
-        building.account.refuse("partial fixity", row.table, what, [frame.name], row.place)
     free = [word for word in words if row.yes(word, default=False)]
     return replace(frame, releases=released(row, frame.name, free, building))
 
 
 def _with_end_zones(frame: FrameObject, row: Row, building: Building) -> FrameObject:
     of = f' of frame "{frame.name}"'
-    return replace(frame, **numbers(row, dialect.END_ZONES, building.units, of))
+    return replace(frame, **values(row, dialect.END_ZONES, building.units, of))
 
 
 def _inserted(frame: FrameObject, row: Row, building: Building) -> FrameObject:
@@ -237,15 +231,15 @@ def _read_supports(tables: Tables, building: Building) -> None:
             msg = f'spring of joint "{name}" must be given in GLOBAL axes'
             raise row.error(msg)
         of = f' of the spring of joint "{name}"'
-        values = tuple(numbers(row, dialect.SUPPORT, building.units, of).values())
-        if any(values):
-            building.springs[name] = values
+        stiffness = tuple(values(row, dialect.SUPPORT, building.units, of).values())
+        if any(stiffness):
+            building.springs[name] = stiffness
     building.account.read(table, "joint springs", len(building.springs))
     table = "JOINT ADDED MASS ASSIGNMENTS"
     for name, row in by_name(tables.rows(table), "Joint").items():
         known(row, "Joint", name, building.joints)
         of = f' of joint "{name}"'
-        building.masses[name] = tuple(numbers(row, dialect.MASS, building.units, of).values())
+        building.masses[name] = tuple(values(row, dialect.MASS, building.units, of).values())
     building.account.read(table, "masses added to joints", len(building.masses))
 
 
@@ -254,10 +248,8 @@ def _read_constraints(tables: Tables, building: Building) -> None:
     head = "CONSTRAINT DEFINITIONS - "
     for kind in ("DIAPHRAGM", "BODY", "EQUAL"):
         for row in tables.rows(head + kind):
-            if kind == "DIAPHRAGM" and row.text("Axis", "Z").upper() not in {"Z", "AUTO"}:
-                what = "diaphragms that are not horizontal"
-                place = row.place
-                building.account.refuse("other constraints", row.table, what, ["Axis"], place)
+            if kind == "DIAPHRAGM":
+                refused(row, row.text("Name"), building.account, dialect.CONSTRAINT_WORDS)
             flags = tuple(ours for _, ours in dialect.DOFS if row.yes(ours.upper(), default=True))
             kinds[row.text("Name")] = (kind.lower(), flags)
     joints: dict[str, list[str]] = {}

@@ -10,7 +10,7 @@ from scipy import sparse
 
 from frames._errors import ModelError
 from frames.exchange.building import AreaObject, AreaSection, Constraint, Material
-from frames.exchange.geometry import Levels, area_normal, level_of
+from frames.exchange.geometry import Levels, area_normal
 from frames.exchange.loads import Shares
 from frames.exchange.mesh import joints_within
 from frames.model.superelement import ShellElement, WithoutForces, no_elements
@@ -82,7 +82,7 @@ def _tie(building: Building, decks: list[AreaObject]) -> None:
     joints: dict[int, dict[str, None]] = {}
     for area in decks:
         corners = _corners(building, area)
-        here = joints.setdefault(level_of(float(corners[0, 2])), {})
+        here = joints.setdefault(levels.level(float(corners[0, 2])), {})
         here.update(dict.fromkeys(name for name in levels.within(corners) if name not in held))
     for k, names in enumerate(joints.values(), start=1):
         label = f"decks-{k}"

@@ -10,7 +10,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.exchange.building import AreaLoad, JointLoad, LineLoad
-from frames.exchange.geometry import Levels, area_normal, level_of
+from frames.exchange.geometry import Levels, area_normal
 from frames.exchange.loads import OWN_MASS, own_masses, own_weights
 from frames.exchange.members import add_line_load
 from frames.model.components import FloorLoad
@@ -62,9 +62,8 @@ class Slabs:
     def __init__(self, frame: FrameEditor, building: Building) -> None:
         self.frame, self.building = frame, building
         self._around = members_at(frame.members)
-        self._levels = _by_level(frame)
-        joined = [name for level in self._levels.values() for name in level]
-        self._joined = Levels({name: frame.nodes[name].position for name in joined})
+        self._beside = _along_horizontal(frame)
+        self._joined = Levels({name: frame.nodes[name].position for name in self._beside})
         self._unit: dict[str, list[PanelLoads] | None] = {}
         self.at_corners: dict[str, None] = {}  # in the order of the loads
 
@@ -128,9 +127,8 @@ class Slabs:
 
     def _faces(self, area: AreaObject, points: FloatArray) -> list[list[str]]:
         # Panels between the members within the area; the area itself where they do not fill it.
-        level = self._levels.get(level_of(float(points[0, 2])), {})
         plan = self._joined.within(points)
-        links = {name: [o for o in level[name] if o in plan] for name in plan}
+        links = {name: [o for o in self._beside[name] if o in plan] for name in plan}
         faces = _faces_of(plan, links)
         whole = area_normal(points)[1]
         size = sum(_signed(np.array([plan[n] for n in face])) for face in faces)
@@ -139,15 +137,14 @@ class Slabs:
         return [_corners(face, plan) for face in faces]
 
 
-def _by_level(frame: FrameEditor) -> dict[int, dict[str, list[str]]]:
-    # Nodes and their neighbours along horizontal members, by elevation.
-    found: dict[int, dict[str, list[str]]] = {}
+def _along_horizontal(frame: FrameEditor) -> dict[str, list[str]]:
+    # Nodes and their neighbours along horizontal members.
+    found: dict[str, list[str]] = {}
     for member in frame.members.values():
         first, last = frame.nodes[member.i], frame.nodes[member.j]
         if abs(first.z - last.z) <= SAME_PLACE:
-            level = found.setdefault(level_of(first.z), {})
-            level.setdefault(member.i, []).append(member.j)
-            level.setdefault(member.j, []).append(member.i)
+            found.setdefault(member.i, []).append(member.j)
+            found.setdefault(member.j, []).append(member.i)
     return found
 
 

@@ -21,8 +21,8 @@ from frames.exchange.shells import add_shells, choose_shells, meet_joints
 from frames.exchange.slabs import Loading, Slabs
 from frames.exchange.stations import divide, under_loads
 from frames.exchange.supports import Places, add_constraints, add_supports, levels_of
-from frames.model.applied_loads import applied_loads, load_masses
 from frames.model.editing import FrameEditor
+from frames.model.load_combinations import applied_loads, load_masses
 from lir_element._compile.front_end import without_collection
 from lir_element.elevations import SAME_PLACE
 
@@ -315,24 +315,16 @@ def _add_masses(
 
 
 def _add_levels(frame: FrameEditor, building: Building, places: Places) -> None:
-    joints = [name for name in building.joints if name in frame.nodes]
-    groups = {round(frame.nodes[g[0]].z, 3): g for g in levels_of(frame, joints)}
-    stories = {round(z, 3): name for name, z in building.stories}
+    nodes = frame.nodes
+    joints = [name for name in building.joints if name in nodes]
+    groups = {nodes[group[0]].z: group for group in levels_of(frame, joints)}
+    stories = sorted(building.stories, key=lambda story: story[1])
     if not stories:
-        levels = {
-            round(frame.nodes[node].z, 3)
-            for part in frame.diaphragms.values()
-            for node in part.nodes
-        }
-        if not levels:
-            levels = {
-                round(frame.nodes[member.i].z, 3)
-                for member in frame.members.values()
-                if abs(frame.nodes[member.i].z - frame.nodes[member.j].z) < SAME_PLACE
-            }
-        levels |= {round(frame.nodes[name].z, 3) for name in places.joints}
-        stories = {z: f"level-{k}" for k, z in enumerate(sorted(levels))}
-    for z in sorted(stories):
+        flat = (m for m in frame.members.values() if abs(nodes[m.i].z - nodes[m.j].z) < SAME_PLACE)
+        own = [node for part in frame.diaphragms.values() for node in part.nodes]
+        found = levels_of(frame, [*(own or (m.i for m in flat)), *places.joints])
+        stories = [(f"level-{k}", nodes[group[0]].z) for k, group in enumerate(found)]
+    for name, z in stories:
         near = min(groups, key=lambda other: abs(other - z))
-        if abs(near - z) < 2e-3:
-            frame.add_level(stories[z], groups[near])
+        if abs(near - z) < 2.0 * SAME_PLACE:
+            frame.add_level(name, groups[near])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from bisect import bisect_left
 from typing import TYPE_CHECKING
 
@@ -143,7 +142,7 @@ class EtabsWriter:
     def _materials(self) -> list[str]:
         lines = []
         for name, matter in self.building.materials.items():
-            own = (_numbers(written(part, matter, self.units)) for part in _HALVES)
+            own = (_words(written(part, matter, self.units)) for part in _HALVES)
             kinds = ('TYPE "Other"', 'SYMTYPE "Isotropic"  A 0')
             lines += [
                 f"MATERIAL  {_quoted(name)}  {kind}  {numbers}"
@@ -154,13 +153,8 @@ class EtabsWriter:
     def _sections(self) -> list[str]:
         lines = []
         for name, section in self.building.sections.items():
-            values = written(dialect.SIZES[:2], section, self.units)
-            values |= written(dialect.CONSTANTS, section, self.units)
-            finite = {k: 0.0 if v == math.inf else v for k, v in values.items()}
-            lines.append(
-                f"FRAMESECTION  {_quoted(name)}  MATERIAL {_quoted(section.material)}"
-                f'  SHAPE "{section.shape}"  {_numbers(finite)}'
-            )
+            values = _words(written(dialect.SECTION, section, self.units))
+            lines.append(f"FRAMESECTION  {_quoted(name)}  {values}")
         return lines
 
     def _area_sections(self) -> list[str]:
@@ -171,7 +165,7 @@ class EtabsWriter:
             factors = written(dialect.SHELL[:6], section.factors, self.units)
             lines.append(
                 f'SHELLPROP  "{name}"  PROPTYPE  "{what.title()}"  MATERIAL '
-                f'"{section.material}"  MODELINGTYPE "ShellThin"  {_numbers(thickness | factors)}'
+                f'"{section.material}"  MODELINGTYPE "ShellThin"  {_words(thickness | factors)}'
             )
         return lines
 
@@ -225,7 +219,7 @@ class EtabsWriter:
             words.append(f'RELEASE "{" ".join(free)}"')
         if any(offsets[0]) or any(offsets[1]):
             numbers = written(dialect.OFFSETS, (*offsets[0], *offsets[1]), self.units)
-            words.append(f'CARDINALPT 10  {_numbers(numbers)}  TRANSFORMSTIFF "Yes"')
+            words.append(f'CARDINALPT 10  {_words(numbers)}  TRANSFORMSTIFF "Yes"')
         factors = written(dialect.FRAME_MODIFIERS, one.modifiers, self.units)
         words += [f"{word} {factor!r}" for word, factor in factors.items() if factor not in {1.0}]
         return f'LINEASSIGN  "{label}"  "{story}"  {"  ".join(words)}  AUTOMESH "NO"'
@@ -236,7 +230,7 @@ class EtabsWriter:
             head = f"LINKPROP  {_quoted(name)}"
             lines.append(f'{head}  TYPE "{prop.kind.upper()}"')
             lines.append(f'{head}  DOF "{" ".join(prop.dofs)}"')
-            lines += [f"{head}  {_numbers(self._dof(*item))}" for item in prop.dofs.items()]
+            lines += [f"{head}  {_words(self._dof(*item))}" for item in prop.dofs.items()]
         return lines
 
     def _dof(self, dof: str, given: LinkDof) -> dict[str, Value]:
@@ -253,7 +247,7 @@ class EtabsWriter:
     def _point_springs(self) -> list[str]:
         lines = []
         for joint, name in self._springs.items():
-            values = _numbers(written(dialect.SUPPORT, self.building.springs[joint], self.units))
+            values = _words(written(dialect.SUPPORT, self.building.springs[joint], self.units))
             lines.append(f'POINTSPRING  {_quoted(name)}  STIFFNESSOPTION "USERDEFINED"  {values}')
         return lines
 
@@ -282,7 +276,7 @@ class EtabsWriter:
                     "cannot hold: give one mass in plan"
                 )
                 raise ModelError(message)
-            found[joint].append(_numbers(written(dialect.MASS, (x, z, *turns), self.units)))
+            found[joint].append(_words(written(dialect.MASS, (x, z, *turns), self.units)))
         for load in building.joint_loads:
             if not found[load.joint]:
                 found[load.joint].append('DIAPH "DISCONNECTED"')
@@ -297,7 +291,7 @@ class EtabsWriter:
         building, points, lines = self.building, [], []
         for load in building.joint_loads:
             point, story = self.places.at[load.joint]
-            parts = _numbers(written(dialect.FORCES, load.forces, self.units))
+            parts = _words(written(dialect.FORCES, load.forces, self.units))
             lc = _quoted(load.pattern)
             points.append(f'POINTLOAD  "{point}"  "{story}"  TYPE "FORCE"  LC {lc}  {parts}')
         for line in building.line_loads:
@@ -307,15 +301,15 @@ class EtabsWriter:
                 a, b = line.a, line.b
                 if turned:
                     a, b, start, end = 1.0 - b, 1.0 - a, end, start
-                parts = _numbers({"FSTART": start, "FEND": end, "RDSTART": a, "RDEND": b})
+                parts = _words({"FSTART": start, "FEND": end, "RDSTART": a, "RDEND": b})
                 head = f'LINELOAD  "{label}"  "{story}"  TYPE "TRAPF"  DIR "{way}"'
                 lines.append(f"{head}  LC {_quoted(line.pattern)}  {parts}")
         patterns = {name: _quoted(name) for name in building.patterns}
-        kinds = {name: pattern.kind for name, pattern in building.patterns.items()}
         return {
             "LOAD PATTERNS": [
-                f'LOADPATTERN {quoted}  TYPE  "{kinds[name]}"  SELFWEIGHT  0'
-                for name, quoted in patterns.items()
+                f"LOADPATTERN {patterns[name]}  "
+                + _words(written(dialect.PATTERN, pattern, self.units))
+                for name, pattern in building.patterns.items()
             ],
             "POINT OBJECT LOADS": points,
             "FRAME OBJECT LOADS": lines,
@@ -333,14 +327,14 @@ class EtabsWriter:
     def _mass_source(self) -> list[str]:
         source = self.building.mass_source
         shares = {} if source is None else source.patterns
-        head = (
-            'MASSSOURCE  "MSSSRC1"  INCLUDEELEMENTS "Yes"  INCLUDEADDEDMASS "Yes"'
-            f'  INCLUDELOADS "{"Yes" if shares else "No"}"  INCLUDEMOVE "No"'
-            '  INCLUDELATERALMASS "Yes"  INCLUDEVERTICALMASS "Yes"  LUMPATSTORIES "No"'
-            '  ISDEFAULT "Yes"'
-        )
+        said = {"elements": True, "added": True, "loads": bool(shares), "lumped": False}
+        head = _words(written(dialect.MASS_SOURCE, said | {"default": True}, self.units))
+        more = 'INCLUDEMOVE "No"  INCLUDELATERALMASS "Yes"  INCLUDEVERTICALMASS "Yes"'
         loads = (f"{_quoted(name)}  {share!r}" for name, share in shares.items())
-        return [head, *(f'MASSSOURCELOAD  "MSSSRC1"  {load}' for load in loads)]
+        return [
+            f'MASSSOURCE  "MSSSRC1"  {head}  {more}',
+            *(f'MASSSOURCELOAD  "MSSSRC1"  {load}' for load in loads),
+        ]
 
 
 def _quoted(value: Value) -> str:
@@ -351,10 +345,10 @@ def _quoted(value: Value) -> str:
     return f'"{words}"'
 
 
-def _numbers(values: Mapping[str, Value]) -> str:
+def _words(values: Mapping[str, Value]) -> str:
+    # Words with their values, texts in quotation marks.
+    texts = {k: ("No", "Yes")[v] if isinstance(v, bool) else v for k, v in values.items()}
     return "  ".join(
-        f"{word} {_quoted('Yes' if value else 'No')}"
-        if isinstance(value, bool)
-        else f"{word} {float(value)!r}"
-        for word, value in values.items()
+        f"{word} {_quoted(value) if isinstance(value, str) else repr(float(value))}"
+        for word, value in texts.items()
     )

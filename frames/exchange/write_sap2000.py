@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, TypeAlias
 
 from frames._errors import ModelError
@@ -99,10 +98,7 @@ def _properties(building: Building) -> dict[str, Rows]:
         dialect.SECTIONS: [
             {
                 "SectionName": name,
-                "Material": section.material,
-                "Shape": section.shape,
-                **written(dialect.SIZES[:2], section, units),
-                **_finite(written(dialect.CONSTANTS, section, units)),
+                **written(dialect.SECTION, section, units),
                 "I23": 0,
             }
             for name, section in building.sections.items()
@@ -120,11 +116,6 @@ def _properties(building: Building) -> dict[str, Rows]:
             for name, section in building.area_sections.items()
         ],
     }
-
-
-def _finite(values: dict[str, Value]) -> dict[str, Value]:
-    # A shear area of none stands for a section that does not shear.
-    return {k: 0.0 if v == math.inf else v for k, v in values.items()}
 
 
 def _members(building: Building) -> dict[str, Rows]:
@@ -200,7 +191,7 @@ def _loads(building: Building) -> dict[str, Rows]:
     shares = {} if source is None else source.patterns
     return {
         dialect.PATTERNS: [
-            {"LoadPat": name, "DesignType": pattern.kind, "SelfWtMult": 0}
+            {"LoadPat": name, **written(dialect.PATTERN, pattern, building.units)}
             for name, pattern in building.patterns.items()
         ],
         "MASS SOURCE": [
@@ -252,8 +243,7 @@ def _links(building: Building) -> dict[str, Rows]:
         "LINK PROPERTY ASSIGNMENTS": [],
     }
     for name, prop in building.link_properties.items():
-        row: dict[str, Value] = {"Link": name, "LinkType": prop.kind}
-        row |= written(dialect.LINK, prop, building.units)
+        row = {"Link": name, **written(dialect.LINK, prop, building.units)}
         found[f"{head}01 - GENERAL"].append(row)
         for dof, given in prop.dofs.items():
             table = "08 - SLIDING ISOLATOR" if given.nonlinear else "02 - LINEAR"
@@ -269,8 +259,7 @@ def _links(building: Building) -> dict[str, Rows]:
 
 def _dof(building: Building, dof: str, given: LinkDof) -> dict[str, Value]:
     turns, units = dof.startswith("R"), building.units
-    row: dict[str, Value] = {"Fixed": given.fixed}
+    row = written(dialect.LINEAR[turns], given, units)
     if given.nonlinear:
         row["NonLinear"] = True
-    row |= written(dialect.LINEAR[turns], given, units)
     return row | written(dialect.NONLINEAR[turns], given.values, units)

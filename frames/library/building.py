@@ -1,17 +1,19 @@
-"""A building on bearings from its plan, whose parts must meet: lines of columns, beams, walls."""
+"""A building on bearings from its plan, whose parts must meet; bearings at points in plan."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import accumulate
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from frames._errors import ModelError
 from frames.frame import Frame
 from frames.library.building_plan import BuildingPlan, fields_of, level_name, wall_node
-from frames.library.grid import require_device
-from frames.library.moment_frames import DEFAULT_DAMPING
+from frames.model.damping import ModalDamping
 from frames.model.names import likely
+from lir_element.argument_checks import require_positive, shown
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -20,26 +22,29 @@ if TYPE_CHECKING:
     from frames.model.sections import Section
     from lir_element import LIRBearing
 
+DEFAULT_DAMPING = ModalDamping(0.02)
+"""Two per cent in every mode of the structure, customary for steel above an isolation level."""
+
 
 def build(
     plan: BuildingPlan,
-    bearing: LIRBearing,
+    bearing: LIRBearing | Mapping[str, LIRBearing],
     *,
     name: str = "building",
     damping: Damping | None = DEFAULT_DAMPING,
     gravity: float = STANDARD_GRAVITY,
 ) -> Frame:
-    """Return the frame of a building, without loads and masses but those of its members."""
-    require_device("bearing", bearing)
+    """Return the frame of a building, without loads and masses but those of its members.
+
+    `bearing` is one for all lines at the base, or one by line.
+    """
     require_whole(plan)
     frame = Frame(name, gravity)
-    heights = [bearing.height + z for z in accumulate(plan.heights, initial=0.0)]
-    for line in plan.at_level(0):
-        x, y = plan.lines[line]
-        frame.add_node(f"ground-{line}", x, y, 0.0)
-        frame.fix(f"ground-{line}", "all")
-        frame.add_node(f"base-{line}", x, y, heights[0])
-        frame.add_bearing(f"bearing-{line}", f"ground-{line}", f"base-{line}", bearing)
+    if not isinstance(bearing, Mapping):
+        require_device("bearing", bearing)
+        bearing = dict.fromkeys(plan.at_level(0), bearing)
+    base = add_bearings(frame, bearing, plan.lines)
+    heights = [base + z for z in accumulate(plan.heights, initial=0.0)]
     _add_level(frame, plan, 0)
     for storey in range(1, len(plan.heights) + 1):
         floor, below = level_name(storey), level_name(storey - 1)
@@ -63,10 +68,11 @@ def _add_level(frame: Frame, plan: BuildingPlan, level: int) -> None:
     floor, lines = level_name(level), plan.at_level(level)
     beams = plan.beams_at(level)
     order = {line: k for k, line in enumerate(lines)}
+    begun = Counter((beam.name, beam.start) for beam in beams)
     for part in sorted(beams, key=lambda part: order[part.start]):
         start, end = f"{floor}-{part.start}", f"{floor}-{part.end}"
         name = f"{part.name}-{start}"
-        alone = sum((b.name, b.start) == (part.name, part.start) for b in beams) == 1
+        alone = begun[part.name, part.start] == 1
         frame.add_member(name if alone else f"{name}-{part.end}", start, end, part.section)
     nodes = [f"{floor}-{line}" for line in lines]
     axes = add_wall_nodes(frame, plan, level)
@@ -241,3 +247,68 @@ def add_braces(frame: Frame, plan: BuildingPlan, storey: int) -> None:
         name = f"brace-{storey}-{rod.start}-{rod.end}"
         ends = f"{below}-{rod.start}", f"{floor}-{rod.end}"
         frame.add_member(name, *ends, rod.section, releases=HINGED)
+
+
+Bearings: TypeAlias = "LIRBearing | Mapping[tuple[int, int], LIRBearing]"
+"""One bearing for every place of a grid, or one for each place (ix, iy)."""
+
+
+def require_device(name: str, device: object) -> None:
+    """Raise a TypeError unless `device` is what a bearing element is made of."""
+    if not isinstance(getattr(device, "height", None), (int, float)):
+        msg = f"{name} = {shown(device)} must be an LIRBearing, the device itself"
+        raise TypeError(msg)
+
+
+def bearings_at(
+    places: Sequence[tuple[int, int]], bearing: Bearings
+) -> dict[tuple[int, int], LIRBearing]:
+    """Return the device at every place (ix, iy) of a grid."""
+    chosen = bearing if isinstance(bearing, Mapping) else dict.fromkeys(places, bearing)
+    missing = [place for place in places if place not in chosen]
+    unused = [place for place in chosen if place not in places]
+    if missing or unused:
+        message = (
+            f"bearing: the grid has the places {places[0]} to {places[-1]}; without a bearing: "
+            f"{missing or 'none'}, not of the grid: {unused or 'none'}: give one LIRBearing for "
+            "all, or a mapping with every place (ix, iy)"
+        )
+        raise ModelError(message)
+    for place, device in chosen.items():
+        require_device(f"bearing at {place}" if isinstance(bearing, Mapping) else "bearing", device)
+    return {place: chosen[place] for place in places}
+
+
+def add_bearings(
+    frame: Frame, devices: Mapping[str, LIRBearing], points: Mapping[str, tuple[float, float]]
+) -> float:
+    """Add a bearing at every point in plan, between a ground and a base node; return their height.
+
+    The base is level: ground nodes under bearings of less height stand higher.
+    """
+    level = max(device.height for device in devices.values())
+    for name, device in devices.items():
+        x, y = points[name]
+        frame.add_node(f"ground-{name}", x, y, level - device.height)
+        frame.fix(f"ground-{name}", "all")
+        frame.add_node(f"base-{name}", x, y, level)
+        frame.add_bearing(f"bearing-{name}", f"ground-{name}", f"base-{name}", device)
+    return level
+
+
+def pair(
+    value: float | tuple[float, float], what: str, *, count: bool = False
+) -> tuple[float, float]:
+    """Accept one number for both horizontal directions, or two."""
+    values = tuple(value) if isinstance(value, Sequence) else (value, value)
+    if len(values) != 2:
+        message = f"{what} = {value!r} must be one number, or two for x and y"
+        raise ModelError(message)
+    first, second = (
+        require_positive(what, number, remedy="give one number, or two for x, y", error=ModelError)
+        for number in values
+    )
+    if count and not (first.is_integer() and second.is_integer()):
+        message = f"{what} = {value!r} must be whole: give counts of 1 or more"
+        raise ModelError(message)
+    return first, second

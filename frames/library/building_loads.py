@@ -9,7 +9,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.library.building_plan import fields_of, level_name
-from frames.model.applied_loads import applied_loads, load_masses
+from frames.model.load_combinations import applied_loads, load_masses
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 from frames._errors import ModelError
@@ -101,6 +102,39 @@ class BuildingPlan:
             for end in (wall.start, wall.end)
         ]
         return [*beams, *arms]
+
+
+def regular_plan(
+    bays: tuple[int, int],
+    width: tuple[float, float],
+    heights: tuple[float, ...],
+    columns: Sequence[tuple[Section, Vector | None]],
+    beams: Mapping[str, Sequence[Section]],
+) -> BuildingPlan:
+    """Return the plan of a regular frame, whose lines are "<ix>-<iy>".
+
+    `columns` has section and `up` by storey, `beams` sections by direction, "x" and "y", then by
+    level from the base on.
+    """
+    places = list(product(range(bays[0] + 1), range(bays[1] + 1)))
+    standing = [
+        ColumnPart(f"{ix}-{iy}", storey, *column)
+        for storey, column in enumerate(columns, start=1)
+        for ix, iy in places
+    ]
+    lying = [
+        BeamPart(f"beam-{way}", level, f"{ix}-{iy}", f"{x}-{y}", beams[way][level])
+        for level in range(len(heights) + 1)
+        for ix, iy in places
+        for way, x, y in (("x", ix + 1, iy), ("y", ix, iy + 1))
+        if x <= bays[0] and y <= bays[1]
+    ]
+    return BuildingPlan(
+        lines={f"{ix}-{iy}": (ix * width[0], iy * width[1]) for ix, iy in places},
+        heights=heights,
+        columns=tuple(standing),
+        beams=tuple(lying),
+    )
 
 
 def level_name(level: int) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from frames._errors import ModelError
 from frames.frame import Frame
-from frames.library.grid import require_device
+from frames.library.building import require_device
 from frames.library.moment_frames import moment_frame as moment_frame
 from frames.library.shear_buildings import shear_building as shear_building
 from lir_element.argument_checks import require_positive

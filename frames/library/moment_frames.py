@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
-from frames.frame import Frame
-from frames.library.grid import bearing_grid, pair
-from frames.model.damping import Damping, ModalDamping
+from frames.library.building import DEFAULT_DAMPING, bearings_at, build, pair
+from frames.library.building_plan import level_name, regular_plan
+from frames.model.damping import Damping
 from frames.model.laws import PlasticHinge
 from frames.model.sections import Section
 from lir_element.argument_checks import (
@@ -23,10 +23,8 @@ from lir_element.argument_checks import (
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    from frames.library.grid import Bearings
-
-DEFAULT_DAMPING = ModalDamping(0.02)
-"""Two per cent in every mode of the structure, customary for steel above an isolation level."""
+    from frames.frame import Frame
+    from frames.library.building import Bearings
 
 DEFAULT_FLOOR_LOAD = 1450.0
 """Mass of a floor besides its steel [kg/m2]: slab, finishes, cladding, part of the live load."""
@@ -120,32 +118,25 @@ def moment_frame(
     >>> moment_frame(bays=(2, 1), storeys=3, bearing=bearing_for(600e3), bay_width=(6.0, 5.0))
     Frame("moment frame": 30 nodes, 46 members, 0 springs, 4 diaphragms, 6 bearings)
     """
-    count = tuple(int(number) for number in pair(bays, "moment_frame: bays", count=True))
+    n_x, n_y = (int(number) for number in pair(bays, "moment_frame: bays", count=True))
     levels = int(pair(storeys, "moment_frame: storeys", count=True)[0])
     width = pair(bay_width, "moment_frame: bay_width [m]")
     height = require_positive("moment_frame: storey_height [m]", storey_height, error=ModelError)
-    area = count[0] * width[0] * count[1] * width[1]
-    per_area = _mass_per_area(floor_mass, floor_load, area)
-    masses = tributary_masses(count, width, per_area, eccentricity)
-    frame = Frame(name, gravity)
-    places = [(ix, iy) for ix in range(count[0] + 1) for iy in range(count[1] + 1)]
-    z = bearing_grid(frame, bearing, places, width, (0.0, 0.0))
-    below = "base"
-    _add_floor(frame, below, masses, base_beam or DEFAULT_BASE_BEAM)
     depth = require_non_negative("moment_frame: base_depth [m]", base_depth, error=ModelError)
-    for (ix, iy), mass in masses.items():
-        inertia = mass * depth**2 / 12.0
-        frame.add_mass(f"{below}-{ix}-{iy}", 0.0, (inertia, inertia, 0.0))
-    for storey in range(1, levels + 1):
-        floor = f"floor-{storey}"
-        for ix, iy in places:
-            foot, head = f"{below}-{ix}-{iy}", f"{floor}-{ix}-{iy}"
-            frame.add_node(head, ix * width[0], iy * width[1], z + storey * height)
-            frame.add_member(f"column-{storey}-{ix}-{iy}", foot, head, column or DEFAULT_COLUMN)
-        _add_floor(frame, floor, masses, beam or DEFAULT_BEAM)
-        below = floor
+    per_area = _mass_per_area(floor_mass, floor_load, n_x * width[0] * n_y * width[1])
+    masses = tributary_masses((n_x, n_y), width, per_area, eccentricity)
+    floors = [base_beam or DEFAULT_BASE_BEAM, *[beam or DEFAULT_BEAM] * levels]
+    plan = regular_plan(
+        (n_x, n_y),
+        width,
+        (height,) * levels,
+        [(column or DEFAULT_COLUMN, None)] * levels,
+        {"x": floors, "y": floors},
+    )
+    devices = {f"{ix}-{iy}": one for (ix, iy), one in bearings_at(list(masses), bearing).items()}
+    frame = build(plan, devices, name=name, damping=damping, gravity=gravity)
+    add_floor_masses(frame, levels, masses, depth)
     _add_hinges(frame, hinges or {})
-    frame.set_damping(damping)
     return frame
 
 
@@ -197,21 +188,16 @@ def tributary_masses(
     return found
 
 
-def _add_floor(
-    frame: Frame, level: str, masses: dict[tuple[int, int], float], beam: Section
+def add_floor_masses(
+    frame: Frame, storeys: int, masses: Mapping[tuple[int, int], float], base_depth: float
 ) -> None:
-    # Beams, masses, diaphragm and level on the nodes of one floor.
-    n_x, n_y = max(masses)
+    """Add the masses of a floor to every level, and the inertia of their depth to the base."""
+    for level in range(storeys + 1):
+        for (ix, iy), mass in masses.items():
+            frame.add_mass(f"{level_name(level)}-{ix}-{iy}", mass)
     for (ix, iy), mass in masses.items():
-        node = f"{level}-{ix}-{iy}"
-        frame.add_mass(node, mass)
-        if ix < n_x:
-            frame.add_member(f"beam-x-{node}", node, f"{level}-{ix + 1}-{iy}", beam)
-        if iy < n_y:
-            frame.add_member(f"beam-y-{node}", node, f"{level}-{ix}-{iy + 1}", beam)
-    nodes = [f"{level}-{ix}-{iy}" for ix, iy in masses]
-    frame.add_diaphragm(level, nodes)
-    frame.add_level(level, nodes)
+        inertia = mass * base_depth**2 / 12.0
+        frame.add_mass(f"base-{ix}-{iy}", 0.0, (inertia, inertia, 0.0))
 
 
 def _mass_per_area(floor_mass: float | None, floor_load: float | None, area: float) -> float:

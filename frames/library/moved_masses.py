@@ -12,6 +12,7 @@ from frames._errors import ModelError
 from frames.assembly.assemble import assemble
 from frames.assembly.supports import above_bearings
 from lir_element.argument_checks import require_between
+from lir_element.elevations import by_elevation
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, IntArray
@@ -101,7 +102,9 @@ def _floors(frame: Frame, system: System) -> list[_Floor]:
     heights = system.coordinates[:, 2]
     levels = {level.name: level.z for level in frame.levels}
     if not levels:
-        levels = {f"elevation {z:g} m": z for z in np.unique(np.round(heights[heavy], 3))}
+        groups = by_elevation(dict(enumerate(heights[heavy].tolist())))
+        found_at = (float(heights[heavy][group[0]]) for group in groups)
+        levels = {f"elevation {round(z, 3):g} m": z for z in found_at}
     names, at = list(levels), np.array(list(levels.values()))
     nearest = np.abs(heights[:, None] - at).argmin(axis=1)
     whole = np.ptp(system.coordinates[above, :2], axis=0)

@@ -10,8 +10,7 @@ import numpy as np
 
 from frames._errors import ModelError
 from frames.frame import Frame
-from frames.library.grid import bearing_grid, pair, require_device
-from frames.library.moment_frames import DEFAULT_DAMPING
+from frames.library.building import DEFAULT_DAMPING, add_bearings, bearings_at, pair, require_device
 from frames.library.tilting_base import VERTICAL_PERIOD, GridPlan, add_tilting_base
 from frames.model.components import bearing_axial_stiffness
 from frames.model.damping import Damping
@@ -21,7 +20,7 @@ from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
-    from frames.library.grid import Bearings
+    from frames.library.building import Bearings
 
     Storeys: TypeAlias = float | Sequence[float] | FloatArray
     """One number for every storey, or one for each from below."""
@@ -334,7 +333,9 @@ def _base_grid(frame: Frame, bearing: Bearings, plan: Plan) -> tuple[GridPlan, f
     places = [(ix, iy) for ix in range(bays[0] + 1) for iy in range(bays[1] + 1)]
     grid = GridPlan(bays, width, {(ix, iy): f"base-{ix}-{iy}" for ix, iy in places})
     corner = (-0.5 * grid.side[0], -0.5 * grid.side[1])
-    level = bearing_grid(frame, bearing, places, width, corner)
+    at = bearings_at(places, bearing)
+    points = {f"{ix}-{iy}": (corner[0] + ix * width[0], corner[1] + iy * width[1]) for ix, iy in at}
+    level = add_bearings(frame, dict(zip(points, at.values(), strict=True)), points)
     frame.add_node("base", 0.0, 0.0, level)
     return grid, level
 

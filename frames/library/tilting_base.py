@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames.library.grid import pair
+from frames.library.building import pair
 from frames.library.moment_frames import DEFAULT_BASE_DEPTH
 
 if TYPE_CHECKING:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 
 from frames._errors import ModelError
-from frames.model.rolled_shapes import catalogue_dimensions, rolled_i_constants
 from frames.model.shapes import (
     SectionConstants,
+    catalogue_dimensions,
     circle_constants,
     dimensions,
     i_shape_constants,
+    rolled_i_constants,
     shear_modulus_of,
 )
 
@@ -177,7 +178,7 @@ class Section(SectionConstants):
     ) -> Section:
         """Build a rolled I shape with parallel flanges and fillets, web along local z.
 
-        The constants are those of its catalogue: `frames.model.rolled_shapes` has the formulas.
+        The constants are those of its catalogue: `frames.model.shapes` has the formulas.
         Shear areas are as in `i_shape`; warping is left out.
 
         Parameters

@@ -22,6 +22,7 @@ from frames.opensees.checks import (
     refuse_unsymmetric,
 )
 from frames.opensees.element_forces import line_elements
+from frames.opensees.materials import with_viscous_springs
 from frames.opensees.model import read_model
 from frames.opensees.natures import natures
 from frames.opensees.structure import (
@@ -33,7 +34,6 @@ from frames.opensees.structure import (
     turning,
     with_vertical_mass,
 )
-from frames.opensees.viscous import with_viscous_springs
 from lir_element.argument_checks import listed, require_choice, require_positive
 from lir_element.elevations import by_elevation
 from lir_element.opensees import opensees

@@ -14,8 +14,8 @@ from scipy import sparse
 
 from frames.assembly.members import at_ends
 from frames.assembly.system import element_dofs
-from frames.model.applied_loads import SpanLoad, applied_loads
 from frames.model.components import TaperedLoad
+from frames.model.load_combinations import SpanLoad, applied_loads
 from frames.recording.section_cuts import cuts, resultant
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ Nonlinear parts of the structure are elastic there.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -76,7 +76,7 @@ def find_equilibrium(
     )
     guess = linear[basis.bearing_dofs]
 
-    def task(run: IntegrationState, contacts: Contacts | None) -> tuple[object, ...]:
+    def task(run: IntegrationState, contacts: Contacts | None) -> tuple[Any, ...]:
         still = Ground(np.zeros((2, 3)), 1.0)
         out, _, _ = output_arrays(model, contacts, 1, part_sizes(parts))
         return model, run, contacts, parts, settings, still, out, -1, 0

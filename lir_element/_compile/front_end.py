@@ -23,24 +23,26 @@ if TYPE_CHECKING:
     from collections.abc import Generator
 
 _signatures: dict[tuple[Any, ...], Any] = {}
-_signature_of = types.BaseFunction.get_call_type
+_kind_of_function: Any = types.BaseFunction
+_errors: Any = errors
+_signature_of = _kind_of_function.get_call_type
 
 
 @contextmanager
 def shortened() -> Generator[None]:
     """Shorten the front end's ways; whoever compiles holds numba's lock."""
-    if types.BaseFunction.get_call_type is _remembered:  # by the kernel compiled around this one
+    if _kind_of_function.get_call_type is _remembered:  # by the kernel compiled around this one
         yield
         return
     usual_lists, usual_processing = ir.Inst._rec_list_vars, postproc.PostProcessor.run
-    types.BaseFunction.get_call_type = _remembered
+    _kind_of_function.get_call_type = _remembered
     postproc.PostProcessor.run = _processed
     inline_closurecall.copy = SimpleNamespace(deepcopy=_copied, copy=copy.copy)
     ir.Inst._rec_list_vars = _variables
     try:
         yield
     finally:
-        types.BaseFunction.get_call_type = _signature_of
+        _kind_of_function.get_call_type = _signature_of
         postproc.PostProcessor.run = usual_processing
         inline_closurecall.copy = copy
         ir.Inst._rec_list_vars = usual_lists
@@ -64,7 +66,7 @@ class ShortPasses(PassManager):  # type: ignore[misc]  # numba has no types
 
     def _runPass(self, index: int, step: Any, state: Any) -> None:  # noqa: N802 (its name there)
         step.analysis = self._analysis
-        with errors.new_error_context("Pass {name}", name=step.name()):
+        with _errors.new_error_context("Pass {name}", name=step.name()):
             step.run_pass(state)
         if pass_registry.get(type(step)).mutates_CFG:
             postproc.PostProcessor(state.func_ir).run()

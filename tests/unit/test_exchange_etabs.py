@@ -83,7 +83,7 @@ BAD = {
     "point twice": (changed('POINT "2"', 'POINT "1"'), r'point "1" is there already'),
     "below the base": (changed('"1"  "1"  1', '"1"  "1"  3'), r"stories below .* there is none"),
     "no mass source": (TEXT.replace("  MASSSOURCE  ", "  MASSSAUCE  "), r"has no mass source"),
-    "units": (changed('"KN"  "M"', '"stone"  "M"'), r'UNITS "stone" "M" must be a force'),
+    "units": (changed('"KN"  "M"', '"stone"  "M"'), r'UNITS = "stone, M" must be a force'),
     "bound": (
         changed("U 0.2", "U 0.7"),
         rf'line {TEXT[: TEXT.index("U 0.2")].count(NEW_LINE) + 1}, .*: U = 0.7 of material "C30"',

@@ -57,6 +57,13 @@ def test_a_floor_over_all_bays_is_that_of_its_parts(tmp_path: Path) -> None:
     same(frame, frame_of(tmp_path, PARTS))
 
 
+@pytest.mark.parametrize("below", [0.0004, 0.0008, 0.001])
+def test_a_floor_has_the_joints_at_its_elevation(tmp_path: Path, below: float) -> None:
+    text = re.sub(r'(POINT "5" .*)', rf"\1 {below}", whole(), count=1)
+    frame = frame_of(tmp_path, text)
+    assert "5-Story1" in frame.diaphragms["D1-Story1"].nodes
+
+
 def test_a_semirigid_floor_meets_the_columns_within_it(tmp_path: Path) -> None:
     soft = whole().replace("TYPE RIGID", "TYPE SEMIRIGID")
     frame = frame_of(tmp_path, soft)

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError
 from frames.design._errors import ProjectError
-from frames.exchange.section_shapes import read_libraries
+from frames.exchange.properties import read_libraries
 from tests import etabs_models
 from tests.unit.test_exchange_project import project
 

@@ -8,8 +8,8 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError
 from frames.assembly.assemble import assemble
-from frames.model.applied_loads import applied_loads
 from frames.model.floors import nearest_edges, one_way, turning
+from frames.model.load_combinations import applied_loads
 from frames.model.sanity_checks import sanity_warnings
 from tests.scenes import SECTION as BEAM
 

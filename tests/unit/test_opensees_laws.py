@@ -10,8 +10,8 @@ from numpy.testing import assert_allclose
 from frames import Frame, ModelError, ModelWarning, modes
 from frames.laws import Gap
 from frames.opensees.checks import energy_shares
+from frames.opensees.materials import with_viscous_springs
 from frames.opensees.model import read_model
-from frames.opensees.viscous import with_viscous_springs
 from tests.scenes import simple_bearing
 from validation.opensees.model import solver
 

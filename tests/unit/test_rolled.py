@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import ModelError, Section
-from frames.model.rolled_shapes import SERIES
+from frames.model.shapes import SERIES
 
 INCH = 0.0254
 

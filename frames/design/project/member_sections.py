@@ -41,7 +41,7 @@ class Material(NamedTuple):
 
     name: str  # as the file calls it
     elastic_modulus: float  # [Pa]
-    shear_modulus: float
+    shear_modulus: float  # [Pa]
     poisson_ratio: float  # [-]
     density: float  # [kg/m3]
 

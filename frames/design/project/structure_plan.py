@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from itertools import product
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames._errors import ModelError
@@ -23,19 +22,13 @@ from frames.design.project.schema_sections import BeamsTable, ColumnsTable
 from frames.design.project.structure_loads import BuildingLoads, LoadsTable, apply_loads
 from frames.frame import Frame
 from frames.library.building import build
-from frames.library.building_plan import (
-    BeamPart,
-    BracePart,
-    BuildingPlan,
-    ColumnPart,
-    WallPart,
-    level_name,
-)
+from frames.library.building_plan import BracePart, BuildingPlan, WallPart, regular_plan
 from frames.library.moment_frames import (
     DEFAULT_BASE_BEAM,
     DEFAULT_BASE_DEPTH,
     DEFAULT_BEAM,
     DEFAULT_COLUMN,
+    add_floor_masses,
     tributary_masses,
 )
 from frames.model.damping import ModalDamping
@@ -189,19 +182,22 @@ def regular_frame(
 ) -> Frame:
     """Return a regular frame on its bearings."""
     _require_one_load(given, loads)
-    plan = with_walls_and_braces(regular_plan(given), given)
+    own = sections_of(given)
+    plan = regular_plan(
+        given.bays,
+        given.bay_width,
+        given.heights,
+        [(column.section, column.up) for column in own.columns],
+        {d: [each.section for each in (own.base_beams[d], *own.beams[d])] for d in DIRECTIONS},
+    )
+    plan = with_walls_and_braces(plan, given)
     frame = build(plan, bearing, name=name, damping=_damping(given))
     if given.floor_load is None:
         if loads is not None:
             apply_loads(frame, plan, loads, given.eccentricity)
         return frame
     masses = tributary_masses(given.bays, given.bay_width, given.floor_load, given.eccentricity)
-    for level in range(given.storeys + 1):
-        for (ix, iy), mass in masses.items():
-            frame.add_mass(f"{level_name(level)}-{ix}-{iy}", mass)
-    for (ix, iy), mass in masses.items():
-        inertia = mass * DEFAULT_BASE_DEPTH**2 / 12.0
-        frame.add_mass(f"base-{ix}-{iy}", 0.0, (inertia, inertia, 0.0))
+    add_floor_masses(frame, given.storeys, masses, DEFAULT_BASE_DEPTH)
     return frame
 
 
@@ -238,31 +234,3 @@ def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads 
             'floor_load = "450 kg/m2", or the section [loads] with dead = "4.5 kN/m2"'
         )
         raise ProjectError(msg)
-
-
-def regular_plan(given: MomentFrame) -> BuildingPlan:
-    """Return the plan of a regular frame."""
-    sections = sections_of(given)
-    (n_x, n_y), (b_x, b_y) = given.bays, given.bay_width
-    places = list(product(range(n_x + 1), range(n_y + 1)))
-    columns, beams = [], []
-    for level in range(given.storeys + 1):
-        for ix, iy in places:
-            if level:
-                column = sections.columns[level - 1]
-                columns.append(ColumnPart(f"{ix}-{iy}", level, column.section, column.up))
-            for direction, there, end in (
-                ("x", ix < n_x, f"{ix + 1}-{iy}"),
-                ("y", iy < n_y, f"{ix}-{iy + 1}"),
-            ):
-                if there:
-                    each = sections.beams[direction]
-                    own = each[level - 1] if level else sections.base_beams[direction]
-                    name = f"beam-{direction}"
-                    beams.append(BeamPart(name, level, f"{ix}-{iy}", end, own.section))
-    return BuildingPlan(
-        lines={f"{ix}-{iy}": (ix * b_x, iy * b_y) for ix, iy in places},
-        heights=given.heights,
-        columns=tuple(columns),
-        beams=tuple(beams),
-    )
