@@ -136,7 +136,7 @@ def _add_point_load(row: Row, building: Building) -> None:
 
 def _add_line(row: Row, building: Building) -> None:
     name = f"{row.text('Line')}-{row.text('Story')}"
-    kind = row.text("TYPE", "").upper()
+    kind = row.text("TYPE").upper()
     if name not in building.frames:
         what = "loads on lines without a section"
         building.account.refuse("loads on nothing", row.table, what, [name], row.place)

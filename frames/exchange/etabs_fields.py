@@ -123,11 +123,13 @@ SHELL_WORDS = (
     Refusal("SLABTYPE", "ribbed slabs", _RIBBED, when="ribbed|waffle"),
 )
 _OPENING = "openings in slabs, whose loads are not taken away"
-AREA_WORDS = (Refusal("OPENING", "openings", _OPENING, when="not no"),)
+AREA_WORDS = (Refusal("OPENING", "openings", _OPENING, when="not no|none"),)
 POINT_LOAD = (Refusal("TYPE", "imposed strains", 'loads of type "{}" on points', when="not force"),)
 _KINDS = "not uniff|trapf|pointf"
 LINE_LOAD = (Refusal("TYPE", "imposed strains", 'loads of type "{}" on lines', when=_KINDS),)
-SPRING_WORDS = (Refusal("AXIALDIR", "links", "springs of points by links along {}", when="not z"),)
+SPRING_WORDS = (
+    Refusal("AXIALDIR", "links", "springs of points by links along {}", when="without z"),
+)
 
 NAMES = {
     "STORY": ("Story",),

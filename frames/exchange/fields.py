@@ -150,24 +150,39 @@ def fields(
 class Refusal(NamedTuple):
     """A field whose loss would change the answer: its names, the key of `allow`, and what it is.
 
-    `when` has words of its text that matter, "a|b", or "not a|b"; "{}" in `what` is the text.
+    It matters if the field says Yes. With `when` it does if its text has one of these words,
+    "a|b", has none of them, "without a|b", or is none of them, "not a|b". "{}" in `what` is the
+    text.
     """
 
     names: str
     key: str
     what: str
-    when: str = "yes|true"
+    when: str = ""
+
+    def odd(self, row: Row) -> str | None:
+        """Return the text of the field if it matters."""
+        for name in filter(row.has, self.names.split("|")):
+            text, how = row.text(name), self.when.partition(" ")[0]
+            words = self.when.removeprefix("not ").removeprefix("without ").split("|")
+            if not self.when:
+                odd = row.yes(name)
+            elif how == "not":
+                odd = text.strip().lower() not in words
+            else:
+                odd = any(word in text.lower() for word in words) != (how == "without")
+            if odd:
+                return text
+        return None
 
 
 def refused(row: Row, name: str, account: Account, refusals: Iterable[Refusal]) -> bool:
     """Refuse an object by its row, or note what `allow` accepts; return whether there was any."""
     found = False
-    for names, key, what, when in refusals:
-        texts = [row.text(field) for field in names.split("|") if row.has(field)]
-        words, wanted = when.removeprefix("not ").split("|"), not when.startswith("not ")
-        odd = [text for text in texts if any(w in text.lower() for w in words) == wanted]
-        if odd:
-            account.refuse(key, row.table, what.format(odd[0]), [name], row.place)
+    for refusal in refusals:
+        odd = refusal.odd(row)
+        if odd is not None:
+            account.refuse(refusal.key, row.table, refusal.what.format(odd), [name], row.place)
             found = True
     return found
 

@@ -15,6 +15,8 @@ from frames import Frame, ModelError, ModelWarning
 from frames.demo import bearing_for
 from frames.design.report.words import Words
 from frames.exchange.etabs import read_etabs
+from frames.exchange.fields import Refusal
+from frames.exchange.tables import Row
 from lir_element.opensees import opensees
 from tests import etabs_models, sap2000_models
 from tests.patience import fresh
@@ -321,3 +323,28 @@ def survive(path: Path) -> None:
     except ModelError:
         return
     assert frame.members
+
+
+@pytest.mark.parametrize(
+    ("when", "text", "odd"),
+    [
+        ("", "Yes", True),
+        ("", "No", False),
+        ("layered", "Shell-Layered/Nonlinear", True),
+        ("layered", "Shell-Thin", False),
+        ("not none", "NONE", False),
+        ("not no|none", "None of them", True),
+        ("without z", "Local-Z", False),
+        ("without z", "X", True),
+    ],
+)
+def test_a_field_matters_by_its_whole_text_or_by_a_word(when: str, text: str, odd: bool) -> None:
+    row = Row("m.e2k", "T", 1, {"WORD": text})
+    refusal = Refusal("OTHER|WORD", "key", "what", when)
+    assert refusal.odd(row) == (text if odd else None)
+    assert refusal.odd(Row("m.e2k", "T", 1, {})) is None
+
+
+def test_a_flag_is_yes_or_no() -> None:
+    with pytest.raises(ModelError, match='line 7.*WORD = "perhaps" must be Yes or No'):
+        Refusal("WORD", "key", "what").odd(Row("m.e2k", "T", 7, {"WORD": "perhaps"}))
