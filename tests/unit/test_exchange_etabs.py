@@ -346,5 +346,5 @@ def test_a_field_matters_by_its_whole_text_or_by_a_word(when: str, text: str, od
 
 
 def test_a_flag_is_yes_or_no() -> None:
-    with pytest.raises(ModelError, match='line 7.*WORD = "perhaps" must be Yes or No'):
+    with pytest.raises(ModelError, match=r'line 7.*WORD = "perhaps" must be Yes or No'):
         Refusal("WORD", "key", "what").odd(Row("m.e2k", "T", 7, {"WORD": "perhaps"}))
