@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
 import pytest
 from hypothesis import settings
 
@@ -136,12 +137,40 @@ def made_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
     return put
 
 
+KEPT = slice(500, 3000)
+"""Steps of the artificial motions of ``lir new`` that tests keep: half of them, with the pulse."""
+
+
+def shorten(file: Path) -> None:
+    """Cut a motion to its strong part, and bring the ground to rest at its end."""
+    values = np.loadtxt(file)[KEPT]
+    t = np.linspace(0.0, 1.0, len(values))
+    values *= np.minimum(1.0, np.minimum(20.0 * t, (4.0 * (1.0 - t)) ** 2))
+    shapes = np.sin(np.pi * t) ** 2 * np.array([np.ones_like(t), t])
+    ends = np.array([np.ones_like(t), 1.0 - t])  # velocity and displacement, of an acceleration
+    values -= np.linalg.solve(ends @ shapes.T, ends @ values) @ shapes
+    np.savetxt(file, values, "%.6g")
+
+
 @pytest.fixture(scope="session")
 def put_example(made_once: Callable[..., Path]) -> Callable[..., Path]:
-    """Put the project of ``lir new`` into a folder: made once a code, for all processes."""
+    """Put the project of ``lir new`` into a folder: made once a code, for all processes.
+
+    Its motions are short and it has one storey, if not `whole`: they are most of the suite's time.
+    """
     example = pytest.importorskip("frames.design.project.example")
 
-    def put(folder: Path, code: str = "ASCE 7-22") -> Path:
-        return made_once(f"example {code}", lambda part: example.write_example(part, code), folder)
+    def put(folder: Path, code: str = "ASCE 7-22", *, whole: bool = False) -> Path:
+        def write(part: Path) -> None:
+            example.write_example(part, code)
+
+        def cut(part: Path) -> None:
+            put(part, code, whole=True)
+            for motion in part.glob("motions/*.txt"):
+                shorten(motion)
+            file = part / "project.toml"
+            file.write_text(file.read_text().replace("storeys = 5", "storeys = 1"))
+
+        return made_once(f"{'whole' if whole else 'short'} {code}", write if whole else cut, folder)
 
     return put

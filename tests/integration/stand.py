@@ -107,3 +107,23 @@ class Stand:
             assert self.ops.analyze(1, dt) == 0, f"step {k}"
             moved[k] = self.ops.nodeDisp(2)[:3]
         return moved
+
+
+def begin(stand: Stand, count: int = 1) -> None:
+    """Load bearings, and prepare to shake them."""
+    stand.build(count=count)
+    stand.gravity()
+    stand.shaking(2.8)
+
+
+def advance(stand: Stand, steps: int = 20) -> list[int]:
+    """Analyse steps; what OpenSees returns of each."""
+    return [stand.ops.analyze(1, 0.005) for _ in range(steps)]
+
+
+def listening(pid: int | None = None) -> set[int]:
+    """Ports at which a process waits for connections; this one, if none is given."""
+    import psutil
+
+    found = psutil.Process(pid).net_connections()
+    return {c.laddr.port for c in found if c.status == psutil.CONN_LISTEN}

@@ -1,14 +1,11 @@
 """The time loop as plain Python: what the compiled one does, to round-off."""
 
-import json
-
 import numpy as np
 from numpy.testing import assert_allclose
 
-from tests.patience import fresh
+from tests.plain import both_ways
 
 SCRIPT = """
-import json, sys
 import numpy as np
 from frames import GroundMotion, shear_building, time_history
 from lir_element import LIRBearing, VelocityFriction
@@ -25,17 +22,13 @@ model = shear_building(
 )
 data = time_history(model, motion, dt=0.01)
 names = ("bearing_displacement", "bearing_force", "interface_slip", "rim_force", "energy")
-values = (data[name].to_numpy().tolist() for name in names)
-json.dump([data.attrs["status"], data.attrs["steps"], *values], sys.stdout)
+values = [data[name].to_numpy().tolist() for name in names]
+out = [data.attrs["status"], data.attrs["steps"], *values]
 """
 
 
 def test_the_compiled_loop_is_plain_python() -> None:
-    found = []
-    for plain in ("0", "1"):
-        done = fresh(SCRIPT, NUMBA_DISABLE_JIT=plain)
-        found.append(json.loads(done.stdout))
-    compiled, python = found
+    compiled, python = both_ways(SCRIPT)
     assert compiled[:2] == python[:2]
     assert compiled[0] == "ok"
     for a, b in zip(compiled[2:], python[2:], strict=True):

@@ -5,11 +5,7 @@ bearings and the motions.
 """
 
 import copy
-import json
 import math
-import os
-import subprocess  # noqa: S404
-import sys
 from collections.abc import Callable
 from itertools import product
 from types import SimpleNamespace
@@ -23,6 +19,7 @@ from scipy.spatial.transform import Rotation
 from lir_element import AnalysisError, CoulombFriction, Element, LIRBearing, RunStatus
 from lir_element.device.sliders import slider_record
 from lir_element.layout import SEARCH, STATE_BY_NAME
+from tests.plain import forces_both_ways
 
 STILL = np.zeros(12)
 NAMES = (
@@ -806,23 +803,6 @@ def test_twist_under_load(sign: float, weak: int) -> None:
 
 # ------------------------------------------------------------------------------- plain Python
 
-SCRIPT = """
-import json, sys
-import numpy as np
-from lir_element import Element, LIRBearing, VelocityFriction
-case = json.load(sys.stdin)
-out = []
-for options in case["bearings"]:
-    laws = tuple(VelocityFriction(*law) for law in options.pop("friction"))
-    element = Element(LIRBearing(friction=laws, **options), "contact")
-    for u, t in zip(case["u"], case["t"]):
-        element.set_trial(u, np.zeros(12), t)
-        element.commit()
-        out.append(element.resisting_force().tolist())
-    out += element.tangent_stiffness().tolist()
-json.dump(out, sys.stdout)
-"""
-
 
 def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
     u, time = lab.smooth_path(lab.make("coulomb"), 81, 120)
@@ -845,20 +825,7 @@ def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
         common | {"interface_friction": 0.15},
         common | {"interface_friction": math.inf, "friction_law": "bouc-wen"},
     ]
-    given = json.dumps({"bearings": bearings, "u": u[steps].tolist(), "t": time[steps].tolist()})
-    results = []
-    for plain in ("0", "1"):
-        environment = os.environ | {"NUMBA_DISABLE_JIT": plain}
-        done = subprocess.run(  # noqa: S603
-            [sys.executable, "-c", SCRIPT],
-            input=given,
-            env=environment,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        results.append(np.array(json.loads(done.stdout)))
-    compiled, python = results
+    compiled, python = forces_both_ways(bearings, u[steps], time[steps], "contact")
     scale = np.abs(compiled).max(axis=0)
     assert np.abs(compiled[:4]).max() > 1e4
     # Round-off, amplified by the contacts' stiffness: Newton's last step is the same in both.

@@ -4,11 +4,7 @@ All numbers here are relative to the largest force, or stiffness, of the case; `
 makes the bearings and the motions.
 """
 
-import json
 import math
-import os
-import subprocess  # noqa: S404
-import sys
 from types import SimpleNamespace
 
 import numpy as np
@@ -19,6 +15,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.spatial.transform import Rotation
 
 from lir_element import AnalysisError, CoulombFriction, Element, LIRBearing, VelocityFriction
+from tests.plain import forces_both_ways
 
 STILL = np.zeros(12)
 PRESSED = 1e-5 * np.eye(12)[8]  # m: off the corner of friction where the axial force stays
@@ -1080,23 +1077,6 @@ def test_rim_is_met_radially_at_its_displacement(sign: float, lab: SimpleNamespa
 
 # ------------------------------------------------------------------------------- plain Python
 
-SCRIPT = """
-import json, sys
-import numpy as np
-from lir_element import CoulombFriction, Element, LIRBearing, VelocityFriction
-case = json.load(sys.stdin)
-out = []
-for options in case["bearings"]:
-    laws = tuple(VelocityFriction(*law) for law in options.pop("friction"))
-    element = Element(LIRBearing(friction=laws, **options))
-    for u, t in zip(case["u"], case["t"]):
-        element.set_trial(u, np.zeros(12), t)
-        element.commit()
-        out.append(element.resisting_force().tolist())
-    out += element.tangent_stiffness().tolist()
-json.dump(out, sys.stdout)
-"""
-
 
 def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
     u, time = lab.smooth_path(lab.make("coulomb"), 81, 90)
@@ -1116,20 +1096,7 @@ def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
         common | {"interface_friction": 0.15, "friction_law": "bouc-wen"},
         common | {"interface_friction": math.inf},
     ]
-    given_ = json.dumps({"bearings": bearings, "u": u.tolist(), "t": time.tolist()})
-    results = []
-    for plain in ("0", "1"):
-        environment = os.environ | {"NUMBA_DISABLE_JIT": plain}
-        done = subprocess.run(  # noqa: S603
-            [sys.executable, "-c", SCRIPT],
-            input=given_,
-            env=environment,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        results.append(np.array(json.loads(done.stdout)))
-    compiled, python = results
+    compiled, python = forces_both_ways(bearings, u, time)
     scale = np.abs(compiled).max(axis=0)
     assert np.abs(compiled[:90]).max() > 1e4
     # Round-off: contracted multiply-adds and libm, amplified by the contact's stiffness, and

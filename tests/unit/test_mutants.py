@@ -106,12 +106,13 @@ def test_an_error_that_only_the_old_tests_notice_is_lost(tmp_path) -> None:
 
 
 def test_what_takes_too_long_counts_as_noticed(tmp_path) -> None:
-    source = "def count(n):\n    while n > 0:\n        n -= 1\n"
+    loop = "    while n > 0:\n        sleep(0.01)\n        n -= 1\n"
+    source = f"from time import sleep\n\n\ndef count(n):\n{loop}"
     (tmp_path / "counts.py").write_text(source)
     (tmp_path / "test_counts.py").write_text(
         "from counts import count\n\n\ndef test_count():\n    count(3)\n"
     )
-    endless = Mutant("counts.py", 3, source.index("n -= 1"), "n -= 1", "pass")
+    endless = Mutant("counts.py", 7, source.index("n -= 1"), "n -= 1", "pass")
     assert endless in sites(source.encode(), "counts.py")
     found = tried(endless, ["test_counts.py"], [], tmp_path, 4.0)
     assert found.before == "test_counts.py (longer than 4 s)"

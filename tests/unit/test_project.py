@@ -109,6 +109,12 @@ def folder(tmp_path: Path, put_example: Callable[..., Path]) -> Path:
     return tmp_path
 
 
+@pytest.fixture
+def whole(folder: Path, put_example: Callable[..., Path]) -> Path:
+    """The same with the example as it is written for users."""
+    return put_example(folder, whole=True)
+
+
 @pytest.mark.plain
 @pytest.mark.parametrize(
     ("text", "unit", "value"),
@@ -255,7 +261,7 @@ def test_the_example_is_a_project(folder: Path) -> None:
 
 
 def test_new_writes_the_example_of_a_code(tmp_path: Path, put_example: Callable[..., Path]) -> None:
-    own, made = tmp_path / "own", put_example(tmp_path / "made", "EN 1998")
+    own, made = tmp_path / "own", put_example(tmp_path / "made", "EN 1998", whole=True)
     assert run(app, ["new", str(own), "--code", "EN 1998"]).exit_code == 0
     names = sorted(path.relative_to(made) for path in made.rglob("*") if path.is_file())
     assert names == sorted(path.relative_to(own) for path in own.rglob("*") if path.is_file())
@@ -265,7 +271,7 @@ def test_new_writes_the_example_of_a_code(tmp_path: Path, put_example: Callable[
 @pytest.mark.parametrize("code", ["ASCE 7-22", "EN 1998", "NCh2745"])
 def test_each_code_has_an_example(tmp_path, code, put_example):
     """Its motions follow its spectrum, so that the rule of the code hardly scales them."""
-    folder = put_example(tmp_path / "own", code)
+    folder = put_example(tmp_path / "own", code, whole=True)
     file = read_project(folder / "project.toml")
     assert file.project.code == file.spectrum.code == code
     parts = ProjectInputs(file, folder)
@@ -410,7 +416,8 @@ def test_nch2745_is_run_at_both_levels(folder: Path) -> None:
     assert "levels differ" in " ".join(other.output.split())
 
 
-def test_uplift_counts_as_the_file_says(folder: Path) -> None:
+def test_uplift_counts_as_the_file_says(whole: Path) -> None:
+    folder = whole
     said = {"": False, 'least_gap = "0.01 mm"': True, "uplift_allowed = true": False}
     voids = set()
     for line, is_void in said.items():
@@ -487,7 +494,8 @@ def test_steps_that_were_run_are_kept(folder: Path, monkeypatch: pytest.MonkeyPa
     assert len(pd.read_csv("bench.csv")) == 1
 
 
-def test_bearings_are_proposed_as_a_section(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bearings_are_proposed_as_a_section(whole: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = whole
     monkeypatch.chdir(folder)
     done = run(app, ["design", str(folder / "project.toml"), "--top", "2"])
     assert done.exit_code == 0, done.output
@@ -508,7 +516,8 @@ def test_bearings_are_proposed_as_a_section(folder: Path, monkeypatch: pytest.Mo
 @pytest.mark.parametrize(
     ("objective", "column"), [("displacement", "displacement [m]"), ("plan", "plan diameter [m]")]
 )
-def test_a_proposal_makes_least_what_is_asked(folder: Path, objective: str, column: str) -> None:
+def test_a_proposal_makes_least_what_is_asked(whole: Path, objective: str, column: str) -> None:
+    folder = whole
     words = [str(folder / "project.toml"), "--objective", objective, "--results", str(folder)]
     assert run(app, ["design", *words]).exit_code == 0
     table = pd.read_csv(folder / "candidates.csv", keep_default_na=False)

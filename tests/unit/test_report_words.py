@@ -127,6 +127,12 @@ def test_checks_of_every_code_are_translated(code: str, tmp_path: Path, put_exam
         ("margin; a proposal", "margen; una propuesta"),
         ("1.257e+07", "1,257e+07"),
         ("-0.5", "-0,5"),
+        (
+            "centre of mass, of the model's masses; that of the bearings' loads: 9.822 m, "
+            "the model holds its tilt",
+            "centro de masa, de las masas del modelo; el de las cargas de los aisladores: 9,822 m, "
+            "el modelo impide su inclinación",
+        ),
         ("3 increments, least load, 0.25 D_M", "3 incrementos, carga mínima, 0,25 D_M"),
     ],
 )

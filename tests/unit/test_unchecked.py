@@ -171,11 +171,17 @@ def made(name: str, folder: Path) -> Any:
 
 
 def opened(folder: Path, code: str) -> tuple[ProjectInputs, Preliminary]:
-    """Read a project and what needs no time history."""
+    """Read a project, with what needs no time history."""
     parts = ProjectInputs(read_project(folder / f"{code}.toml"), folder)
+    return parts, known_of(folder, code)
+
+
+@cache
+def known_of(folder: Path, code: str) -> Preliminary:
+    """What a project needs no time history for: computed once."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return parts, preliminary(parts)
+        return preliminary(ProjectInputs(read_project(folder / f"{code}.toml"), folder))
 
 
 def seven(data: xr.Dataset) -> xr.Dataset:
