@@ -192,7 +192,7 @@ def report(
         refuse_links(results)
         parts = project_in(file)
         known = preliminary(parts)
-        found = evaluate_run(parts, known, read_histories(results, inputs_of(parts, known)))
+        found = evaluate_run(parts, known, *read_histories(results, inputs_of(parts, known)))
         if (results / "interrupted.nc").is_file():
             text = (
                 f"warning: {results / 'interrupted.nc'} is of a later run that was interrupted: "
@@ -231,14 +231,12 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
         _frame_table(f"Demands, level {level}" if level else "Demands", table)
         words = (f"{bound}: {said}" if bound else said for bound, said in statistics)
         say(f"values are: {'; '.join(words)}")
-    if failures := failed_runs(found.runs, found.rules, found.moved):
+    if failures := failed_runs(found.cases):
         out.print("\n[bold]Runs that failed[/]: their largest values are no values for design")
         _say_each(map(str, failures))
-    if found.moved:
-        every = [data for each in found.moved.values() for data in each.values()]
-        seconds = float(every[0].attrs["seconds"])  # of all of them: one batch
-        count = sum(data.sizes["run"] for data in every)
-        say(f"demands are raised by {count} time histories with moved masses, {seconds:.3g} s")
+    if len(moved := found.runs.moved):
+        seconds = float(moved.parts[0].attrs["seconds"])  # of all of them: one batch
+        say(f"demands are raised by {len(moved)} time histories with moved masses, {seconds:.3g} s")
     _checks("Checks", found.checks)
     _provisions(found.provisions)
     say(f"{len(written)} files in {results}, report.html among them")

@@ -17,6 +17,7 @@ def view(
 ) -> None:
     """Write view.html: model and bearings of the governing run in motion, on one page."""
     from frames.design._errors import ProjectError
+    from frames.design.project.level_runs import most_displaced, named_case
     from frames.design.project.preliminary import inputs_of, preliminary
     from frames.design.report.files import read_checks, read_histories
     from frames.results.storage import refuse_links
@@ -25,12 +26,12 @@ def view(
     with told():
         refuse_links(results)
         parts = project_in(file)
-        histories = read_histories(results, inputs_of(parts, preliminary(parts)))
+        runs, governing = read_histories(results, inputs_of(parts, preliminary(parts)))
         checks = read_checks(results)
         try:
             said = write_view(
-                histories.governing, parts.frame(), results / "view.html", checks=checks, size=size
+                governing, parts.frame(), results / "view.html", checks=checks, size=size
             )
         except ValueError as cause:
             raise ProjectError(str(cause)) from cause
-        say(f"{said}; the run: {histories.governing_case}")
+        say(f"{said}; the run: {named_case(most_displaced(runs))}")

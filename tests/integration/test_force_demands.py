@@ -15,6 +15,7 @@ from frames.design import (
     with_property_bounds,
 )
 from frames.design._errors import CheckError
+from frames.design.histories.eccentricity import Case
 from frames.design.histories.force_demands import force_demands
 from frames.design.histories.suite import Raise, Suite
 from frames.library.moved_masses import with_moved_masses
@@ -50,9 +51,15 @@ def runs(frame):
     return bounded_histories(frame, MOTIONS, BOUNDS, at=("lower", "upper"), record=whole, dt=0.01)
 
 
+def cases(runs, moved=None, rules=RULES):
+    """Return runs by their bound as cases, those with moved masses at the lower one."""
+    beside = {"lower": moved}
+    return [Case(data, beside.get(at), rules, "MCE_R", at) for at, data in runs.items()]
+
+
 @pytest.fixture(scope="module")
 def tables(runs):
-    return force_demands({"MCE_R": runs}, RULES)
+    return force_demands(cases(runs))
 
 
 def bending(m, length, first, second, area, turns, rise, load):
@@ -189,7 +196,7 @@ def test_drifts_are_those_that_runs_reached(runs, tables):
 def test_least_shears_raise_the_earthquakes_part(runs, tables):
     """Of members, storeys and drifts by one factor, of bearings and the foot of all by another."""
     raises = {("MCE_R", "upper"): Raise(above=1.4, isolation=1.1)}
-    raised = force_demands({"MCE_R": runs}, RULES, raises)
+    raised = force_demands(cases(runs), raises)
     foot = str(runs["upper"]["section"].to_numpy()[0])
     assert foot not in set(map(str, runs["upper"]["storey"].to_numpy()))
     for name, own in tables.items():
@@ -224,8 +231,7 @@ def moved(frame):
 def test_moved_masses_add_section_by_section(runs, tables, moved):
     """The larger difference of two ways by hand, on the side to which the extreme goes."""
     raises = {("MCE_R", "lower"): Raise(above=1.3)}
-    given = {"MCE_R": runs}, RULES
-    found = force_demands(*given, raises, {"MCE_R": {"lower": moved}})
+    found = force_demands(cases(runs, moved), raises)
     for kind, places in (
         ("members", ("member", "station", "component")),
         ("storeys", ("section", "storey_component")),
@@ -277,20 +283,20 @@ def test_moved_masses_add_section_by_section(runs, tables, moved):
 def test_moved_runs_that_fail_or_kept_no_forces(runs, moved):
     failed = moved.copy()
     failed["status"] = failed["status"].copy(data=["ok", "no_convergence"])
-    table = force_demands({"MCE_R": runs}, RULES, None, {"MCE_R": {"lower": failed}})["members"]
+    table = force_demands(cases(runs, failed))["members"]
     of_lower = table[table["bound"] == "lower"]
     assert set(of_lower["void"]) == {"runs with moved masses failed"}
     assert set(of_lower["moved masses add"]) == {0.0}
     bare = moved.drop_vars([n for n in moved.data_vars if str(n).endswith("_force")])
     with pytest.raises(CheckError, match="kept no forces of the structure"):
-        force_demands({"MCE_R": runs}, RULES, None, {"MCE_R": {"lower": bare}})
+        force_demands(cases(runs, bare))
 
 
 def test_fewer_motions_count_with_the_largest(frame):
     few = {name: MOTIONS[name] for name in ("pulse-0", "pulse-5")}
     record = Recording(every=None, forces=True)
     data = time_histories(frame, few, dt=0.01, record=record)
-    table = force_demands({"MCE_R": {"": data}}, RULES)["reactions"]
+    table = force_demands(cases({"": data}))["reactions"]
     row = table[(table["force"] == "N") & (table["extreme"] == "max")].iloc[0]
     assert (row["statistic"], row["motion"]) == ("largest of 2 runs", "pulse-5")
     assert row["value"] == row["single"]
@@ -299,9 +305,9 @@ def test_fewer_motions_count_with_the_largest(frame):
 def test_of_runs_that_failed_there_is_no_value(runs):
     data = runs["lower"].copy()
     data["status"] = data["status"].copy(data=["ok"] * 5 + ["no_convergence"] * 2)
-    table = force_demands({"MCE_R": {"lower": data}}, replace(RULES, unacceptable_allowed=1))
+    table = force_demands(cases({"lower": data}, None, replace(RULES, unacceptable_allowed=1)))
     assert set(table["members"]["void"]) == {"2 of 7 runs failed"}
-    allowed = force_demands({"MCE_R": {"lower": data}}, replace(RULES, unacceptable_allowed=2))
+    allowed = force_demands(cases({"lower": data}, None, replace(RULES, unacceptable_allowed=2)))
     assert set(allowed["members"]["void"]) == {""}
     assert not set(allowed["members"]["motion"]) & {"pulse-5", "pulse-6"}
 

@@ -293,7 +293,8 @@ def test_both_devices_of_a_comparison_have_their_own_moved_masses(ran: Path) -> 
     assert "8 with the masses of all floors moved" in found.eccentricity
     table = found.table()
     for column, device in enumerate((OURS, PLAIN), start=1):
-        runs, moved = found.runs[device]["MCE_R"]["lower"], found.moved[device]["MCE_R"]["lower"]
+        own = found.runs.where(device=device, hazard_level="MCE_R", bound="lower")
+        runs, moved = own.centred.data, own.moved.data
         worst = int(np.argmax(runs["reached_displacement"].max("bearing").to_numpy()))
         assert set(moved["motion"].values) == {runs["motion"].values[worst]}
         for name, title in FACTORED.items():
@@ -301,7 +302,7 @@ def test_both_devices_of_a_comparison_have_their_own_moved_masses(ran: Path) -> 
             factor = moved[f"reached_{name}"].to_numpy().max() / own[worst].max()
             expected = own.max() * max(factor, 1.0)
             assert table.iloc[:, column][title] == pytest.approx(expected, rel=1e-12)
-    reached = found.runs[PLAIN]["MCE_R"]["lower"]["reached_slip"]
+    reached = found.runs.where(device=PLAIN).of("reached_slip")
     assert float(reached.max()) == 0.0
     whole = pd.read_csv(ran / "out" / "demands.csv", index_col=0)
     assert table.iloc[:, 1]["isolator displacement"] == pytest.approx(

@@ -122,7 +122,7 @@ def test_what_is_said_follows_the_numbers(found: Comparison) -> None:
     assert verdict.is_ours is None or (verdict.is_ours == (not higher))
     counts = found.counts(OURS, verdict.level)
     assert counts.runs == 2
-    rims = [float(data["reached_rim_force"].max()) for data in found.runs[OURS]["MCE_R"].values()]
+    rims = found.runs.where(device=OURS).of("reached_rim_force").max(axis=1)
     assert counts.met == sum(force > 0.0 for force in rims) == 1  # less friction goes farther
     assert "the interface slips by" in said
 
@@ -141,7 +141,7 @@ def test_where_no_rim_is_met_the_plain_one_is_said_to_do(folder: Path, tmp_path:
 
 
 def test_runs_that_stop_are_told_and_not_compared(found: Comparison) -> None:
-    level = next(iter(found.runs[OURS]))
+    (level,) = found.levels
     stopped = found.by_motion()
     stopped.loc[0, "failed"] = "upper (slip_exceeded)"
     crosses = [line for line in by_motion(stopped).axes[0].lines if line.get_marker() == "x"]

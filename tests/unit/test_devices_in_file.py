@@ -13,6 +13,7 @@ pytest.importorskip("pint")
 from frames import Frame, GroundMotion, time_histories, time_history
 from frames.design import HISTORY_RULES, ProjectError
 from frames.design.histories.demand_table import largest_of_links, link_demands
+from frames.design.histories.eccentricity import Case
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.reading import read_project
@@ -136,7 +137,11 @@ def test_tables_of_links_are_by_the_runs(histories: tuple) -> None:
     frame, own, _ = histories
     motions = {"pulse": PULSE, "weak": PULSE.scaled(0.5)}
     data = time_histories(frame, motions, level="pendulum", dt=0.005)
-    table = link_demands({"MCE_R": {"lower": data}}, HISTORY_RULES["ASCE 7-22"])
+    rules = HISTORY_RULES["ASCE 7-22"]
+    lower, upper = (
+        Case(d, None, rules, bound=b) for d, b in ((data, "lower"), (data.isel(run=[1]), "upper"))
+    )
+    table = link_demands([lower])
     assert set(table["statistic"]) == {"largest of 2 runs"}
     rows = table.set_index("link")
     for link in own["link"].to_numpy():
@@ -145,12 +150,9 @@ def test_tables_of_links_are_by_the_runs(histories: tuple) -> None:
         moved = float(np.abs(own["link_deformation"].sel(link=link)).max())
         assert rows.loc[str(link), "deformation [m]"] == pytest.approx(moved, rel=1e-9)
         assert rows.loc[str(link), "motion"] == "pulse"
-    both = link_demands(
-        {"MCE_R": {"lower": data, "upper": data.isel(run=[1])}}, HISTORY_RULES["ASCE 7-22"]
-    )
-    assert set(largest_of_links(both)["bound"]) == {"lower"}
+    assert set(largest_of_links(link_demands([lower, upper]))["bound"]) == {"lower"}
     plain = data.drop_vars([name for name in data.data_vars if "link" in str(name)])
-    assert link_demands({"MCE_R": {"": plain}}, HISTORY_RULES["ASCE 7-22"]).empty
+    assert link_demands([Case(plain, None, rules)]).empty
 
 
 @pytest.mark.meant("bearings go without walls")

@@ -30,7 +30,7 @@ from frames import ModelError
 from frames.command.app import app
 from frames.design.project import design_run
 from frames.design.project.inputs import ProjectInputs
-from frames.design.project.level_runs import histories_at_levels
+from frames.design.project.level_runs import project_runs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
 from frames.design.report.words import Words
@@ -113,7 +113,7 @@ def one_line(found: Result, code: int) -> str:
 @pytest.mark.filterwarnings("always:.*was changed or removed:frames.ModelWarning")
 def test_what_is_shown_is_what_was_analysed(done: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The file is edited, and a record removed, while the time histories are computed."""
-    histories = histories_at_levels
+    histories = project_runs
     record = done / "motions" / "artificial-5-x.txt"
 
     def edited(*given: Any) -> Any:
@@ -121,7 +121,7 @@ def test_what_is_shown_is_what_was_analysed(done: Path, monkeypatch: pytest.Monk
         record.unlink()
         return histories(*given)
 
-    monkeypatch.setattr(design_run, "histories_at_levels", edited)
+    monkeypatch.setattr(design_run, "project_runs", edited)
     found = lir("run", done)
     assert found.exit_code in {0, 1}, found.output
     page = (done / "out" / "report.html").read_text(encoding="utf-8")

@@ -19,6 +19,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 from frames import AnalysisInterrupted, load, time_history
+from frames.batch.runs import Runs
 from frames.command.app import app
 from frames.design import ProjectError, with_property_bounds
 from frames.design.project import level_runs
@@ -618,8 +619,8 @@ def test_a_governing_run_whose_peaks_are_chance_says_so(done, monkeypatch):
     monkeypatch.setattr(level_runs, "NOISE", 0.2)
     parts = ProjectInputs(read_project(done / "small.toml"), done)
     known = preliminary(parts)
-    runs = {parts.rules().levels[0].name: {"lower": load(done / "out" / "runs-lower.nc")}}
-    data, _ = level_runs.governing_run(parts, known.frame, known.motions, runs)
+    runs = Runs(load(done / "out" / "runs-lower.nc"))
+    data = level_runs.governing_run(parts, known.frame, known.motions, runs)
     [said] = level_runs.sensitivity_warnings(data)
     share = 100.0 * float(data.attrs["noise_displacement"])
     assert share > 5.0

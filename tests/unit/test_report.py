@@ -640,7 +640,7 @@ def evaluated_in(folder: Path) -> ProjectRun:
     parts = ProjectInputs(read_project(folder / "project.toml"), folder)
     known = preliminary(parts)
     histories = read_histories(folder / "results", inputs_of(parts, known))
-    return evaluate_run(parts, known, histories)
+    return evaluate_run(parts, known, *histories)
 
 
 def test_lines_of_the_figure_of_motions_are_the_demands(

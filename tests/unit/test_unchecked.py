@@ -23,6 +23,7 @@ from matplotlib.text import Text
 from typer.testing import CliRunner
 
 from frames import time_history
+from frames.batch.runs import Runs, tagged
 from frames.command.app import app
 from frames.command.console import FAILED_CHECKS
 from frames.design import Check, Checks, Standing, code_named
@@ -38,14 +39,13 @@ from frames.design.codes.code_values import (
     states_of,
 )
 from frames.design.project.design_run import (
-    Histories,
     ProjectRun,
     evaluate_run,
     from_memory,
     provisions_of,
 )
 from frames.design.project.inputs import ProjectInputs
-from frames.design.project.level_runs import histories_at_levels
+from frames.design.project.level_runs import project_runs
 from frames.design.project.preliminary import Preliminary, preliminary
 from frames.design.project.reading import read_project
 from frames.design.report.figures import VOID_TITLE, motions_figure
@@ -162,7 +162,7 @@ def made(name: str, folder: Path) -> Any:
     parts, known = opened(folder, "EN 1998")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        data = histories_at_levels(parts, known.frame, known.motions, None)["design"]["lower"]
+        data = project_runs(parts, known.frame, {}, known.motions, None).data
         governing = time_history(known.frame, known.motions["pulse"], level="pendulum")
     noise = {f"noise_{key}": 0.0 for key in ("displacement", "base_shear", "rim_force", "slip")}
     assert data["status"].to_numpy().tolist() == ["ok"]
@@ -208,14 +208,13 @@ def judged(
     """Evaluate runs at all levels of a code; with moved masses four of the first motion."""
     ways = {"masses_moved": ("run", ["+x", "-x", "+y", "-y"])}
     moved = (data.isel(run=[0] * 4) if moved is None else moved).assign_coords(ways)
-    levels = [level.name for level in parts.rules().levels]
-    found = Histories(
-        runs={level: {"lower": data} for level in levels},
-        moved={level: {"lower": moved} for level in levels} if known.moved else {},
-        governing=kind.history,
-        governing_case="pulse 6, lower bound",
-    )
-    return evaluate_run(parts, known, found)
+    every = (data, moved) if known.moved else (data,)
+    runs = [
+        tagged(one, hazard_level=level.name, bound="lower")
+        for level in parts.rules().levels
+        for one in every
+    ]
+    return evaluate_run(parts, known, Runs(*runs), kind.history)
 
 
 @pytest.mark.parametrize("code", CODES)

@@ -16,7 +16,6 @@ import re
 import tempfile
 import time
 import warnings
-from dataclasses import replace
 from datetime import UTC, datetime
 from itertools import pairwise
 from pathlib import Path
@@ -28,7 +27,7 @@ from scipy.optimize import brentq
 from frames import gravity, time_history
 from frames.design import bounded_histories, history_demands, pair_spectrum, with_property_bounds
 from frames.design.histories.demand_table import COUNTED, bounds_of
-from frames.design.project.design_run import Histories, evaluate_run, run_project
+from frames.design.project.design_run import evaluate_run, run_project
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
@@ -209,10 +208,10 @@ def measured(code: str, folder: Path) -> dict[str, Any]:
     lap("`lir check`: equivalent-linear analysis, motions scaled")
     run = run_project(parts)
     lap("`lir run`: 7 motions at 3 bounds, the governing run again, checks")
-    kept = Histories(runs=run.runs, governing=run.governing, governing_case=run.governing_case)
     lenient = lenient_parts(source, folder)
-    again = evaluate_run(lenient, known, kept)  # masses where they are, as the formulas have them
-    judged = evaluate_run(lenient, known, replace(kept, moved=run.moved))
+    centred = run.runs.centred  # masses where they are, as the formulas have them
+    again = evaluate_run(lenient, known, centred, run.governing)
+    judged = evaluate_run(lenient, known, run.runs, run.governing)
     lap("of it demands and checks")
     write_run(run, folder / "results", project_text(code))
     lap("report and files")

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from frames.batch.runs import WAY
 from frames.design.calculation.rendering import joined
-from frames.design.histories.eccentricity import WAY, cases_of, reached_by
+from frames.design.histories.eccentricity import levels_of, reached_by
 from frames.design.histories.suite import (
     end_of,
     failures_of,
@@ -21,19 +22,15 @@ from frames.results.quantities import DEMANDS, JUDGED, Quantity
 from lir_element.errors import RunStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     import pandas as pd
     import xarray as xr
 
     from frames._types import FloatArray
-    from frames.design.calculation.check import Bound
     from frames.design.codes.history_rules import HistoryRules
     from frames.design.histories.eccentricity import Case
     from frames.design.histories.suite import Failure, Suite
-
-    Runs = Mapping[str, Mapping[Bound, xr.Dataset]]
-
 
 COUNTED = {DEMANDS[name].demand for name in ("uplifts", "time_lifted", "gap")}
 """Rows of uplift, of which codes without uplift leave small gaps aside."""
@@ -120,10 +117,11 @@ def said(suite: Suite) -> str:
     return f"{what}{n} runs{more}" if n > 1 else f"1 run{more}"
 
 
-def at_levels(tables: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
-    """Return tables of demands of several levels of the seismic action, one under the other."""
+def demands_at_levels(cases: Sequence[Case]) -> pd.DataFrame:
+    """Return the tables of demands of each level of the seismic action, one under the other."""
     import pandas as pd
 
+    tables = {level: demand_table(own) for level, own in levels_of(cases).items()}
     several = len(tables) > 1
     parts = []
     for name, table in tables.items():
@@ -198,12 +196,12 @@ def envelope_said(table: pd.DataFrame) -> str:
 _COLUMNS = {"deformation [m]": "link_deformation", "force [N]": "link_force"}
 
 
-def link_demands(runs: Runs, rules: HistoryRules, moved: Runs | None = None) -> pd.DataFrame:
+def link_demands(cases: Sequence[Case]) -> pd.DataFrame:
     """Return how far links are deformed and which forces they exert, for design."""
     import pandas as pd
 
     tables = []
-    for case in cases_of(runs, rules, moved):
+    for case in cases:
         if not case.keeps("link_force"):
             continue
         suite = case.suite
@@ -236,19 +234,16 @@ KEYS = ("level", "bound", "masses moved", "motion", "scale", "status", "failed")
 """Columns that say of which run a row is."""
 
 
-def demands_by_motion(
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
-    rules: HistoryRules,
-    moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
-) -> pd.DataFrame:
+def demands_by_motion(cases: Sequence[Case]) -> pd.DataFrame:
     """Return what each motion gave of each quantity that means or largest values are taken of."""
     import pandas as pd
 
     parts = []
-    for case in cases_of(runs, rules, moved):
+    for case in cases:
         there = [case.data, *([] if case.moved is None else [case.moved])]
         cells: dict[str, Sequence[object] | FloatArray] = {
-            key: [value for one in there for value in _key(one, key, rules)] for key in KEYS[2:]
+            key: [value for one in there for value in _key(one, key, case.rules)]
+            for key in KEYS[2:]
         }
         for name, quantity in JUDGED.items():
             if not case.keeps(name):
@@ -304,15 +299,11 @@ class FailedRuns(NamedTuple):
         return f"{where}: {self.failed} of {self.of} runs failed: {self.cause}: {self.motions}"
 
 
-def failed_runs(
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
-    rules: HistoryRules,
-    moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
-) -> list[FailedRuns]:
+def failed_runs(cases: Sequence[Case]) -> list[FailedRuns]:
     """Return the runs that failed, by level, bound and cause."""
     found = []
-    for case in cases_of(runs, rules, moved):
-        every = failures_of(case.every, rules)
+    for case in cases:
+        every = failures_of(case.every, case.rules)
         causes: dict[str, list[Failure]] = {}
         for one in every:
             if one is not None:

@@ -6,10 +6,11 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from frames.batch.runs import BOUND, HAZARD, WAY
 from frames.design._errors import CheckError
 from frames.design.histories.suite import (
     Amplification,
@@ -24,13 +25,14 @@ from frames.results.quantities import QUANTITIES
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     import pandas as pd
     import xarray as xr
     from numpy.typing import NDArray
 
     from frames._types import FloatArray
+    from frames.batch.runs import Runs
     from frames.design.calculation.check import Bound
     from frames.design.codes.history_rules import HistoryRules
 
@@ -41,9 +43,6 @@ WAYS: Mapping[str, tuple[float, float]] = {
     "-y": (0.0, -1.0),
 }
 """Ways in which masses are moved, as shares along x and y of the accidental eccentricity."""
-
-WAY = "masses_moved"
-"""Coordinate of runs that says which way the masses were moved."""
 
 _RAISED = sorted(
     (name for name, quantity in QUANTITIES.items() if quantity.raised),
@@ -64,18 +63,22 @@ class Case:
     bound: Bound = ""
 
     @cached_property
+    def each_way(self) -> tuple[dict[tuple[str, str], Amplification], str]:
+        """By what each way raises each quantity, and which runs with moved masses failed."""
+        if self.moved is None:
+            return {}, ""
+        return _each_way(self.data, self.moved, self.rules)
+
+    @cached_property
     def suite(self) -> Suite:
         """How the runs are taken together, accidental eccentricity with them."""
-        suite = suite_of(self.data, self.rules)
-        if self.moved is None:
-            return suite
-        table, failed = _each_way(self.data, self.moved, self.rules)
+        table, failed = self.each_way
         found: dict[str, Amplification] = {}
         for (name, _), one in table.items():
             worst = found.get(name)
             if worst is None or (one.factor, one.added) > (worst.factor, worst.added):
                 found[name] = one
-        return replace(suite, raised=found, moved_failed=failed)
+        return replace(suite_of(self.data, self.rules), raised=found, moved_failed=failed)
 
     @cached_property
     def every(self) -> xr.Dataset:
@@ -137,18 +140,31 @@ class Case:
         return most, way_of
 
 
-def cases_of(
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
-    rules: HistoryRules,
-    moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
-) -> list[Case]:
+def cases_of(runs: Runs, rules: HistoryRules) -> list[Case]:
     """Return the runs of each level and bound, moved ones beside them."""
-    beside = moved or {}
-    return [
-        Case(data, beside.get(level, {}).get(bound), rules, level, bound)
-        for level, each in runs.items()
-        for bound, data in each.items()
-    ]
+    found = []
+    for (level, bound), own in runs.by(HAZARD, BOUND).items():
+        moved = own.moved.data if len(own.moved) else None
+        found.append(case_of(own.centred.data, moved, rules, level, cast("Bound", bound)))
+    return found
+
+
+def case_of(
+    data: xr.Dataset, moved: xr.Dataset | None, rules: HistoryRules, level: str, bound: Bound
+) -> Case:
+    """Return the case of a level and bound; runs that do not belong together are refused."""
+    _refuse_runs(data, bound)
+    if moved is not None:
+        _refuse_unlike(data, moved, bound)
+    return Case(data, moved, rules, level, bound)
+
+
+def levels_of(cases: Sequence[Case]) -> dict[str, list[Case]]:
+    """Return cases by their level of the seismic action."""
+    return {
+        level: [case for case in cases if case.level == level]
+        for level in dict.fromkeys(case.level for case in cases)
+    }
 
 
 def reached_by(data: xr.Dataset, name: str) -> FloatArray:
@@ -163,19 +179,13 @@ def reached_by(data: xr.Dataset, name: str) -> FloatArray:
     return values
 
 
-def eccentricity_table(
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
-    moved: Mapping[str, Mapping[Bound, xr.Dataset]],
-    rules: HistoryRules,
-) -> pd.DataFrame:
+def eccentricity_table(cases: Sequence[Case]) -> pd.DataFrame:
     """Return what moving the masses each way does to each quantity."""
     import pandas as pd
 
     rows: list[dict[str, Any]] = []
-    for case in cases_of(runs, rules, moved):
-        if case.moved is None:
-            continue
-        table, failed = _each_way(case.data, case.moved, rules)
+    for case in cases:
+        table, failed = case.each_way
         for (name, way), one in table.items():
             factored = QUANTITIES[name].raised == "factor"
             rows.append(
@@ -285,7 +295,30 @@ def _raise(way: str, centred: float, moved: float, motions: str, name: str) -> A
     return Amplification(way, centred, moved, max(factor, 1.0), max(added, 0.0), motions)
 
 
-def refuse_unlike(data: xr.Dataset, moved: xr.Dataset, bound: str) -> None:
+def _refuse_runs(data: xr.Dataset, bound: str) -> None:
+    """Refuse runs that are not of one structure each, whole, each motion once."""
+    what = f"runs at the bound {bound!r}" if bound else "runs"
+    if "run" not in data.dims or "status" not in data.variables:
+        msg = f"{what}: no dimension 'run': give the Dataset of time_histories"
+        raise CheckError(msg)
+    if data.attrs.get("status", "ok") != "ok":
+        msg = f"{what}: the batch was interrupted, runs are missing: run it again"
+        raise CheckError(msg)
+    if "reached_uplifts" not in data.variables:
+        msg = f"{what}: none could begin: {data['message'].to_numpy()[0]}"
+        raise CheckError(msg)
+    models = sorted({str(name) for name in data["model"].to_numpy()})
+    if len(models) != 1:
+        msg = f"{what}: there are {len(models)} structures, {', '.join(models)}: give one a bound"
+        raise CheckError(msg)
+    motions = [str(name) for name in data["motion"].to_numpy()]
+    twice = [name for name in motions if motions.count(name) > 1]
+    if twice:
+        msg = f"{what}: the motion {twice[0]!r} is there twice: give each at one scale"
+        raise CheckError(msg)
+
+
+def _refuse_unlike(data: xr.Dataset, moved: xr.Dataset, bound: str) -> None:
     """Refuse runs with moved masses that do not belong to others."""
     what = f"moved at the bound {bound!r}" if bound else "moved"
     if "run" not in moved.dims or WAY not in moved.coords:

@@ -9,22 +9,18 @@ import numpy as np
 from frames.design._errors import CheckError
 from frames.design.calculation.rendering import joined
 from frames.design.histories.demand_table import said
-from frames.design.histories.eccentricity import Case, cases_of
+from frames.design.histories.eccentricity import Case, levels_of
 from frames.design.histories.suite import Raise, peaks_of_runs
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     import pandas as pd
     import xarray as xr
 
     from frames._types import BoolArray, FloatArray, IntArray
-    from frames.design.calculation.check import Bound
-    from frames.design.codes.history_rules import HistoryRules
     from frames.design.histories.suite import Suite
-
-    Runs = Mapping[str, Mapping[Bound, xr.Dataset]]
 
 
 class _Kind(NamedTuple):
@@ -47,23 +43,19 @@ _DIGITS = 3  # after the point, of forces: what is less than a millinewton is ro
 
 
 def force_demands(
-    runs: Runs,
-    rules: HistoryRules,
-    raises: Mapping[tuple[str, str], Raise] | None = None,
-    moved: Runs | None = None,
+    cases: Sequence[Case], raises: Mapping[tuple[str, str], Raise] | None = None
 ) -> dict[str, pd.DataFrame]:
     """Return what time histories ask of members, storeys and what bearings stand on and carry."""
     import pandas as pd
 
     found: dict[str, pd.DataFrame] = {}
     known = raises or {}
-    cases = cases_of(runs, rules, moved)
     for name, kind in _KINDS.items():
         parts = []
-        for level in runs:
+        for level, own in levels_of(cases).items():
             tables = []
-            for case in cases:
-                if case.level == level and case.keeps(kind.variable):
+            for case in own:
+                if case.keeps(kind.variable):
                     more = known.get((level, case.bound), Raise())
                     table = _of_bound(case, kind, _factors(case.data, name, kind, more))
                     if name == "storeys":

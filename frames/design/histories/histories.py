@@ -18,7 +18,7 @@ from frames.design.codes.registry import code_named
 from frames.design.devices.limits import DesignLimits
 from frames.design.histories.bound_checks import BoundChecks
 from frames.design.histories.demand_table import demand_table
-from frames.design.histories.eccentricity import cases_of, refuse_unlike
+from frames.design.histories.eccentricity import Case, case_of
 from lir_element.argument_checks import require_choice
 
 if TYPE_CHECKING:
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     import pandas as pd
 
+    from frames.design.codes.history_rules import ActionLevel
     from frames.design.codes.outcome import EquivalentLinear
     from frames.frame import Frame
     from frames.motion.ground_motion import GroundMotion
@@ -174,15 +175,26 @@ def history_checks(
     """
     rules = _rules(code)
     level = rules.level(action_level)
+    cases = _cases(runs, rules, moved)
+    return Checks(case_checks(cases, frame, level, bounds, limits or DesignLimits(), equivalent))
+
+
+def case_checks(
+    cases: Sequence[Case],
+    frame: Frame,
+    level: ActionLevel,
+    bounds: PropertyBounds | None,
+    limits: DesignLimits,
+    equivalent: EquivalentLinear | None,
+) -> list[Check]:
+    """Return the checks of runs at each bound of a level, as `history_checks` has them."""
     found: list[Check] = []
-    own = _by_bound(runs)
-    for case in cases_of({"": own}, rules, {"": _moved_by_bound(own, moved)}):
+    for case in cases:
         model = frame
         if bounds is not None and case.bound:
             model = with_property_bounds(frame, case.bound, bounds)
-        made = BoundChecks(case, model, limits or DesignLimits(), equivalent, level)
-        found += made.checks()
-    return Checks(found)
+        found += BoundChecks(case, model, limits, equivalent, level).checks()
+    return found
 
 
 def history_demands(
@@ -241,58 +253,31 @@ def history_demands(
     >>> demands.loc["isolator displacement", "unit"]
     'm'
     """
-    own = _by_bound(runs)
-    return demand_table(cases_of({"": own}, _rules(code), {"": _moved_by_bound(own, moved)}))
+    return demand_table(_cases(runs, _rules(code), moved))
 
 
 def _rules(code: str | HistoryRules) -> HistoryRules:
     return code if isinstance(code, HistoryRules) else code_named(code).histories
 
 
-def _by_bound(runs: xr.Dataset | Mapping[Bound, xr.Dataset]) -> dict[Bound, xr.Dataset]:
-    # Runs of one structure each.
-    found: dict[Bound, xr.Dataset] = {"": runs} if isinstance(runs, xr.Dataset) else dict(runs)
-    if not found:
+def _cases(
+    runs: xr.Dataset | Mapping[Bound, xr.Dataset],
+    rules: HistoryRules,
+    moved: xr.Dataset | Mapping[Bound, xr.Dataset] | None,
+) -> list[Case]:
+    # By bound, runs with moved masses each beside runs at the same one.
+    own, beside = (_by_bound(each) for each in (runs, {} if moved is None else moved))
+    if not own:
         msg = "runs is empty: give those of one bound at least"
         raise CheckError(msg)
-    for bound, data in found.items():
+    for bound in own:
         require_choice("bound", bound, ("", *_BOUNDS), error=CheckError)
-        _refuse_unlike(data, bound)
-    return found
-
-
-def _moved_by_bound(
-    runs: Mapping[Bound, xr.Dataset], moved: xr.Dataset | Mapping[Bound, xr.Dataset] | None
-) -> dict[Bound, xr.Dataset]:
-    # Runs with moved masses, each beside runs at the same bound.
-    if moved is None:
-        return {}
-    found: dict[Bound, xr.Dataset] = {"": moved} if isinstance(moved, xr.Dataset) else dict(moved)
-    for bound, data in found.items():
-        if bound not in runs:
+    for bound in beside:
+        if bound not in own:
             msg = f"moved has the bound {bound!r}, of which there are no runs: give those as well"
             raise CheckError(msg)
-        refuse_unlike(runs[bound], data, bound)
-    return found
+    return [case_of(data, beside.get(bound), rules, "", bound) for bound, data in own.items()]
 
 
-def _refuse_unlike(data: xr.Dataset, bound: str) -> None:
-    what = f"runs at the bound {bound!r}" if bound else "runs"
-    if "run" not in data.dims or "status" not in data.variables:
-        msg = f"{what}: no dimension 'run': give the Dataset of time_histories"
-        raise CheckError(msg)
-    if data.attrs.get("status", "ok") != "ok":
-        msg = f"{what}: the batch was interrupted, runs are missing: run it again"
-        raise CheckError(msg)
-    if "reached_uplifts" not in data.variables:
-        msg = f"{what}: none could begin: {data['message'].to_numpy()[0]}"
-        raise CheckError(msg)
-    models = sorted({str(name) for name in data["model"].to_numpy()})
-    if len(models) != 1:
-        msg = f"{what}: there are {len(models)} structures, {', '.join(models)}: give one a bound"
-        raise CheckError(msg)
-    motions = [str(name) for name in data["motion"].to_numpy()]
-    twice = [name for name in motions if motions.count(name) > 1]
-    if twice:
-        msg = f"{what}: the motion {twice[0]!r} is there twice: give each at one scale"
-        raise CheckError(msg)
+def _by_bound(runs: xr.Dataset | Mapping[Bound, xr.Dataset]) -> dict[Bound, xr.Dataset]:
+    return {"": runs} if isinstance(runs, xr.Dataset) else dict(runs)

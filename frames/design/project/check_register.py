@@ -12,14 +12,15 @@ from frames.design.calculation.rendering import joined
 from frames.design.calculation.unevaluated import not_evaluated
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.device import device_checks
-from frames.design.histories.histories import history_checks
+from frames.design.histories.eccentricity import levels_of
+from frames.design.histories.histories import case_checks
 from frames.design.histories.motions import motion_checks
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
     import pandas as pd
-    import xarray as xr
 
+    from frames.batch.runs import Runs
     from frames.design.calculation.check import Bound
     from frames.design.codes.bounds import PropertyBounds
     from frames.design.codes.history_rules import HistoryRules
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from frames.design.devices.limits import DesignLimits
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
+    from frames.design.histories.eccentricity import Case
     from frames.frame import Frame
     from lir_element import LIRBearing
 
@@ -73,8 +75,11 @@ class RunToCheck:
         As they were run, scaled.
     equivalent : EquivalentLinear
         Equivalent-linear analysis at both bounds.
-    runs : mapping of str to mapping of str to xarray.Dataset
-        Time histories by level of the seismic action, then by bound; a row a motion.
+    runs : frames.batch.runs.Runs
+        Time histories, a row each: ``run.runs.where(hazard_level="MCE_R", bound="lower").data`` is
+        a Dataset of some. The tag "masses_moved" is the way of those with moved masses.
+    cases : list of Case
+        The same by level and bound as the code counts them, accidental eccentricity with them.
     demands : pandas.DataFrame
         What they give for design, with the level of each row.
     bounds : PropertyBounds
@@ -85,9 +90,6 @@ class RunToCheck:
         How time histories count.
     asked : BearingDemand
         What the time histories ask of the bearings.
-    moved : mapping of str to mapping of str to xarray.Dataset
-        Time histories with the floors' masses moved, in the way of `runs`; empty without
-        accidental eccentricity.
     types : mapping of str to TypeOfBearing
         Types of bearings, with what the time histories ask of each.
 
@@ -104,13 +106,13 @@ class RunToCheck:
     spectrum: Spectrum
     motions: MotionSet
     equivalent: EquivalentLinear
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]]
+    runs: Runs
+    cases: list[Case]
     demands: pd.DataFrame
     bounds: PropertyBounds
     limits: DesignLimits
     rules: HistoryRules
     asked: BearingDemand
-    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
     types: Mapping[str, TypeOfBearing] = field(default_factory=dict)
 
 
@@ -208,17 +210,10 @@ def of_the_histories(run: RunToCheck) -> list[Check]:
     """Return those of the time histories at each level; minima where the code has them."""
     has_minima = run.rules.has_minima and run.superstructure is not None
     found: list[Check] = []
-    for level, runs in run.runs.items():
-        found += history_checks(
-            runs,
-            run.frame,
-            run.rules,
-            bounds=run.bounds,
-            limits=run.limits,
-            equivalent=run.equivalent if has_minima else None,
-            action_level=level,
-            moved=run.moved.get(level),
-        )
+    equivalent = run.equivalent if has_minima else None
+    for name, cases in levels_of(run.cases).items():
+        level = run.rules.level(name)
+        found += case_checks(cases, run.frame, level, run.bounds, run.limits, equivalent)
     return found
 
 

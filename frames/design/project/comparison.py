@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pandas as pd
 
-from frames.design.codes.bounds import with_property_bounds
-from frames.design.histories.demand_table import envelope_said, void_said
+from frames.batch.runs import BOUND, DEVICE, HAZARD, Runs, tagged
+from frames.design.histories.demand_table import demands_at_levels, envelope_said, void_said
+from frames.design.histories.eccentricity import cases_of
 from frames.design.histories.suite import peaks_of_runs
 from frames.design.project.level_runs import (
-    demands_at_levels,
-    histories_at_levels,
+    model_and_motion,
     most_displaced,
-    moved_at_levels,
     named_case,
+    project_runs,
 )
 from frames.design.project.preliminary import preliminary
 from frames.results.quantities import DEMANDS
+from frames.results.recorded import REACHED
 from frames.solve.time_history import time_history
 from lir_element.errors import AnalysisWarning
 
@@ -30,9 +31,9 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+    from frames._types import FloatArray
     from frames.batch.cases import BatchProgress
     from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.level_runs import LevelRuns
     from frames.design.project.preliminary import Preliminary
     from frames.frame import Frame
 
@@ -69,20 +70,16 @@ class Comparison:
     ----------
     known : Preliminary
         Structure, spectrum and motions.
-    runs : mapping of str to mapping
-        By device, "LIR-DCFP" and "DCFP": runs by level of the seismic action, then by bound.
+    runs : Runs
+        Those of both devices, by the tag "device": "LIR-DCFP" and "DCFP".
     demands : mapping of str to pandas.DataFrame
         By device: what the runs give for design (see `frames.design.history_demands`), raised by
         what moved masses do to that device.
-    moved : mapping of str to mapping
-        Runs with the floors' masses moved, in the way of `runs`; empty without accidental
-        eccentricity.
     """
 
     known: Preliminary
-    runs: Mapping[str, LevelRuns]
+    runs: Runs
     demands: Mapping[str, pd.DataFrame]
-    moved: Mapping[str, LevelRuns] = field(default_factory=dict)
 
     def table(self) -> pd.DataFrame:
         """Return the envelopes over the bounds side by side, in SI units."""
@@ -93,42 +90,40 @@ class Comparison:
         ours = self.demands[OURS]
         return ours[["unit"]].assign(**columns, level=ours["level"])
 
+    @property
+    def levels(self) -> list[str]:
+        """The levels of the seismic action."""
+        return list(dict.fromkeys(map(str, self.runs.of(HAZARD))))
+
     def by_motion(self) -> pd.DataFrame:
         """Return what each motion reached with each device, the largest over the bounds."""
-        rows = []
-        for device, levels in self.runs.items():
-            for level, bounds in levels.items():
-                for k, motion in enumerate(self.known.motions):
-                    every = {bound: data.isel(run=[k]) for bound, data in bounds.items()}
-                    row: dict[str, object] = {"level": level, "motion": motion, "device": device}
-                    row |= {
-                        title: max(_largest(data, name) for data in every.values())
-                        for title, name in BY_MOTION.items()
-                    }
-                    status = {b: str(data["status"].to_numpy()[0]) for b, data in every.items()}
-                    failed = [f"{b} ({word})" for b, word in status.items() if word != "ok"]
-                    rows.append(row | {"failed": ", ".join(failed)})
-        return pd.DataFrame(rows)
+        own = self.runs.centred
+        keys = {"level": HAZARD, "motion": "motion", "device": DEVICE}
+        rows = pd.DataFrame({title: own.of(tag) for title, tag in keys.items()})
+        largest = {title: _largest(own, name) for title, name in BY_MOTION.items()}
+        failed = [
+            "" if status == "ok" else f"{bound} ({status})"
+            for bound, status in zip(own.of(BOUND), own.of("status"), strict=True)
+        ]
+        every = rows.assign(**largest, failed=failed).groupby([*keys], sort=False)
+        worst = dict.fromkeys(largest, "max")
+        found = every.agg({**worst, "failed": lambda each: ", ".join(filter(None, each))})
+        return found.reset_index()
 
     def counts(self, device: str, level: str) -> RunCounts:
         """Return how many runs a device has at a level, and what came of them."""
-        every = list(self.runs[device][level].values())
+        own = self.runs.centred.where(**{DEVICE: device, HAZARD: level})
         return RunCounts(
-            runs=sum(data.sizes["run"] for data in every),
-            met=sum(int((_peaks(data, "rim_force") > 0.0).any(axis=1).sum()) for data in every),
-            stopped=sum(int((data["status"].to_numpy() != "ok").sum()) for data in every),
-            doubtful=sum(int((data["doubts"].to_numpy() != "").sum()) for data in every),
+            runs=len(own),
+            met=int((_largest(own, "rim_force") > 0.0).sum()),
+            stopped=int((own.of("status") != "ok").sum()),
+            doubtful=int((own.of("doubts") != "").sum()),
         )
 
     @property
     def eccentricity(self) -> str:
         """What of accidental eccentricity is in the demands, in words."""
-        count = sum(
-            data.sizes["run"]
-            for levels in self.moved.values()
-            for bounds in levels.values()
-            for data in bounds.values()
-        )
+        count = len(self.runs.moved)
         if not count:
             return "Accidental eccentricity is not in the demands."
         return (
@@ -149,37 +144,29 @@ def compare_project(
     """Run a project with its bearings, and with the same ones whose sliders are rigid."""
     known = preliminary(parts)
     parts.sources.require_unchanged()
-    runs = {
-        device: histories_at_levels(parts, frame, known.motions, progress)
-        for device, frame in _frames_of(known.frame).items()
-    }
-    moved = {}
-    for device, own in runs.items():
-        ways = {way: _frames_of(frame)[device] for way, frame in known.moved.items()}
-        moved[device] = moved_at_levels(parts, ways, known.motions, own, progress)
-    demands = {
-        device: demands_at_levels(own, parts.rules(), moved[device]) for device, own in runs.items()
-    }
+    runs, demands = Runs(), {}
+    for device, frame in _frames_of(known.frame).items():
+        ways = {way: _frames_of(moved)[device] for way, moved in known.moved.items()}
+        own = project_runs(parts, frame, ways, known.motions, progress)
+        demands[device] = demands_at_levels(cases_of(own, parts.rules()))
+        runs += Runs(*(tagged(part, **{DEVICE: device}) for part in own.parts))
     known = replace(known, doubts=(*known.doubts, *parts.sources.warn_of_changes()))
-    return Comparison(known=known, runs=runs, demands=demands, moved=moved)
+    return Comparison(known=known, runs=runs, demands=demands)
 
 
 def compared_histories(
     parts: ProjectInputs, found: Comparison
 ) -> tuple[dict[str, xr.Dataset], str, str]:
     """Return the histories of both devices in the run that displaces an LIR-DCFP most."""
-    level, bound, run = most_displaced(found.runs[OURS])
-    reached = _peaks(found.runs[OURS][level][bound], "displacement")[run]
-    name, given = list(found.known.motions)[run], parts.file.analysis
-    motion = found.known.motions[name].scaled(parts.rules().level(level).factor)
-    data = {}
+    worst = most_displaced(found.runs.where(**{DEVICE: OURS}))
+    given, data = parts.file.analysis, {}
     with warnings.catch_warnings():  # as told of the same run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
         for device, frame in _frames_of(found.known.frame).items():
-            model = frame if bound == "" else with_property_bounds(frame, bound, parts.bounds())
+            model, motion = model_and_motion(parts, frame, found.known.motions, worst)
             data[device] = time_history(model, motion, level=given.level, dt=given.dt)
-    where = list(found.known.frame.bearings)[int(np.argmax(reached))]
-    return data, named_case(found.runs[OURS], level, bound, run), where
+    where = list(found.known.frame.bearings)[int(np.argmax(worst.of("reached_displacement")[0]))]
+    return data, named_case(worst), where
 
 
 def _frames_of(frame: Frame) -> dict[str, Frame]:
@@ -187,11 +174,12 @@ def _frames_of(frame: Frame) -> dict[str, Frame]:
     return {OURS: frame, PLAIN: frame.with_bearings(plain)}
 
 
-def _peaks(data: xr.Dataset, name: str) -> np.ndarray:
-    return peaks_of_runs(data, name).reshape(data.sizes["run"], -1)
-
-
-def _largest(data: xr.Dataset, name: str) -> float:
-    if f"reached_{name}" not in data:
-        return math.nan
-    return float(np.nanmax(_peaks(data, name), initial=0.0))
+def _largest(runs: Runs, name: str) -> FloatArray:
+    # Of each run over all places, (n_runs,); NaN where the runs do not keep it.
+    found = []
+    for part in runs.parts:
+        there = f"{REACHED}{name}" in part
+        values = peaks_of_runs(part, name) if there else np.full(part.sizes["run"], math.nan)
+        values = values.reshape(part.sizes["run"], -1)
+        found.append(np.nanmax(values, axis=1, initial=0.0) if there else values[:, 0])
+    return np.concatenate(found)

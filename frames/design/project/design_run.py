@@ -7,34 +7,41 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 
 from frames.design.calculation.check import Checks
 from frames.design.codes.code_values import OF_BEARINGS, states_of
 from frames.design.codes.prototype_programme import ProgrammeDemands
-from frames.design.histories.demand_table import demand_table, largest_of_bounds, void_said
-from frames.design.histories.eccentricity import Case, cases_of
+from frames.design.histories.demand_table import (
+    demand_table,
+    demands_at_levels,
+    largest_of_bounds,
+    void_said,
+)
+from frames.design.histories.eccentricity import Case, cases_of, levels_of
 from frames.design.histories.impacts import rim_engagement
 from frames.design.project import moat_checks as moat_checks
 from frames.design.project.check_register import BearingDemand, RunToCheck, TypeOfBearing, checks_of
 from frames.design.project.level_runs import (
-    demands_at_levels,
     governing_run,
-    histories_at_levels,
-    moved_at_levels,
+    kept_of,
+    most_displaced,
+    named_case,
+    project_runs,
     sensitivity_warnings,
 )
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.structure_statement import structure_rows
 from frames.design.testing.programme import prototype_tests
-from lir_element.errors import AnalysisInterrupted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
     from pathlib import Path
 
+    import xarray as xr
+
     from frames.batch.cases import BatchProgress
-    from frames.design.calculation.check import Bound, Check
+    from frames.batch.runs import Runs
+    from frames.design.calculation.check import Check
     from frames.design.codes.code_values import ProvisionState
     from frames.design.codes.registry import DesignCode
     from frames.design.project.inputs import ProjectInputs
@@ -92,7 +99,6 @@ class ProjectRun(RunToCheck):
     checks: Checks
     model: ModelCheck  # totals of the structure
     governing: xr.Dataset  # histories of the run that displaces a bearing most
-    governing_case: str  # motion, bound and level of that run
     # digests of what the time histories depend on, by section of the file
     inputs: Mapping[str, str]
     programme: pd.DataFrame  # tests that prove the bearings
@@ -106,6 +112,11 @@ class ProjectRun(RunToCheck):
     tables: Mapping[str, bytes] = field(default_factory=dict)
 
     @property
+    def governing_case(self) -> str:
+        """Motion, bound and level of the run that displaces a bearing most."""
+        return named_case(most_displaced(self.runs))
+
+    @property
     def loads(self) -> tuple[float, ...]:
         """Axial loads of the average combination [N], (n_bearings,)."""
         return self.system.loads
@@ -114,19 +125,6 @@ class ProjectRun(RunToCheck):
     def kinds(self) -> dict[str, str]:
         """Type of each bearing by its name: "standard", or of ``[bearings.<type>]``."""
         return {name: key for key, each in self.types.items() for name in each.columns}
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Histories:
-    """The time histories of a project."""
-
-    # by level of the seismic action, then by bound; a row a motion
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]]
-    # histories of the run that displaces a bearing most, in single precision as they are kept
-    governing: xr.Dataset
-    governing_case: str  # which that is
-    # runs with the floors' masses moved, in the same way; empty without accidental eccentricity
-    moved: Mapping[str, Mapping[Bound, xr.Dataset]] = field(default_factory=dict)
 
 
 def run_project(
@@ -138,27 +136,19 @@ def run_project(
     """Run a project: equivalent-linear analysis, time histories at each level and bound, checks."""
     known = preliminary(parts)
     parts.sources.require_unchanged()
-    runs = histories_at_levels(parts, known.frame, known.motions, progress, resume)
-    try:
-        moved = moved_at_levels(parts, known.moved, known.motions, runs, progress, resume)
-        governing, case = governing_run(parts, known.frame, known.motions, runs)
-    except AnalysisInterrupted as stop:  # all with the masses where they are were complete
-        whole = xr.concat(
-            _every(runs), "run", data_vars="minimal", coords="minimal", compat="override"
-        )
-        more = int(stop.data.attrs.get("runs_asked_for", 0))
-        asked = {"status": "interrupted", "runs_asked_for": whole.sizes["run"] + more}
-        stop.data = whole.assign_attrs(asked)  # its class says how far: runs, or time of one run
-        raise
-    found = Histories(runs=runs, governing=governing, governing_case=case, moved=moved)
-    return evaluate_run(parts, known, found)
+    runs = project_runs(parts, known.frame, known.moved, known.motions, progress, resume)
+    with kept_of(runs):
+        governing = governing_run(parts, known.frame, known.motions, runs)
+    return evaluate_run(parts, known, runs, governing)
 
 
-def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories) -> ProjectRun:
+def evaluate_run(
+    parts: ProjectInputs, known: Preliminary, runs: Runs, governing: xr.Dataset
+) -> ProjectRun:
     """Return a project's run from its time histories: demands and checks."""
-    rules, runs, moved = parts.rules(), histories.runs, histories.moved
-    level = rules.bearing_level
-    types = _types(parts, known, cases_of({level: runs[level]}, rules, moved))
+    rules = parts.rules()
+    cases = cases_of(runs, rules)
+    types = _types(parts, known, levels_of(cases)[rules.bearing_level])
     asked = _of_all(types)
     run = RunToCheck(
         code=parts.code(),
@@ -170,8 +160,8 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         motions=known.motions,
         equivalent=known.equivalent,
         runs=runs,
-        moved=moved,
-        demands=demands_at_levels(runs, rules, moved),
+        cases=cases,
+        demands=demands_at_levels(cases),
         bounds=parts.bounds(),
         limits=parts.limits(),
         rules=rules,
@@ -183,24 +173,19 @@ def evaluate_run(parts: ProjectInputs, known: Preliminary, histories: Histories)
         **vars(run),
         checks=checks,
         model=run.frame.check(),
-        governing=histories.governing,
-        governing_case=histories.governing_case,
+        governing=governing,
         inputs=inputs_of(parts, known),
-        programme=_programme(parts, known, histories, asked),
+        programme=_programme(parts, known, governing, asked),
         about=parts.file.project,
         doubts=(
             *known.doubts,
-            *sensitivity_warnings(histories.governing),
+            *sensitivity_warnings(governing),
             *parts.sources.warn_of_changes(),
         ),
         structure=tuple(structure_rows(parts.file, run.frame, known.spectrum)),
         provisions=provisions_of(parts, known, checks),
         tables=parts.sources.tables,
     )
-
-
-def _every(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> list[xr.Dataset]:
-    return [data for each in runs.values() for data in each.values()]
 
 
 def _types(
@@ -248,10 +233,10 @@ def _of_all(types: Mapping[str, TypeOfBearing]) -> BearingDemand:
 
 
 def _programme(
-    parts: ProjectInputs, known: Preliminary, histories: Histories, asked: BearingDemand
+    parts: ProjectInputs, known: Preliminary, governing: xr.Dataset, asked: BearingDemand
 ) -> pd.DataFrame:
     # Tests at the loads, the slip and the speed of impact that the histories gave.
-    above, speeds = parts.file.superstructure, rim_engagement(histories.governing)["speed"]
+    above, speeds = parts.file.superstructure, rim_engagement(governing)["speed"]
     wind = 0.0 if above is None else above.wind_shear / len(known.system.loads)
     demands = ProgrammeDemands(
         loads=None if known.system.unknown_loads else asked.loads,
@@ -261,7 +246,7 @@ def _programme(
         impact_speed=float(speeds.max()) if len(speeds) else None,
     )
     table = prototype_tests(known.equivalent, known.system, demands, bounds=parts.bounds())
-    stopped = str(histories.governing.attrs["status"]) != "ok"  # of which the speed is
+    stopped = str(governing.attrs["status"]) != "ok"  # of which the speed is
     speed = "the run that displaces a bearing most failed" if stopped else ""
     for of_runs, void in (
         ("(?:largest|least) load|interface|impact", "runs failed" if asked.void else ""),

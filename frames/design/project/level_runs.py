@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from frames._errors import ModelError, MotionError
+from frames.batch.runs import BOUND, HAZARD, WAY, Runs, tagged
 from frames.batch.time_histories import time_histories
 from frames.design._errors import ProjectError
 from frames.design.codes.bounds import with_property_bounds
-from frames.design.histories.demand_table import at_levels
-from frames.design.histories.eccentricity import WAY, WAYS
-from frames.design.histories.histories import history_demands
+from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.suite import stopped_in, suite_of
 from frames.recording.recording import Recording
 from frames.results.peak_response import largest
@@ -21,21 +21,21 @@ from frames.results.quantities import QUANTITIES
 from frames.results.storage import as_packed
 from frames.solve.step_sensitivity import NOISE, SENSITIVE
 from frames.solve.time_history import time_history
-from lir_element.errors import AnalysisWarning
+from lir_element.errors import AnalysisInterrupted, AnalysisWarning
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Generator, Mapping, Sequence
     from pathlib import Path
 
-    import pandas as pd
     import xarray as xr
 
     from frames.batch.cases import BatchProgress
-    from frames.design.calculation.check import Bound
+    from frames.design.codes.bounds import BoundName
     from frames.design.codes.history_rules import HistoryRules
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.project.inputs import ProjectInputs
     from frames.frame import Frame
+    from frames.motion.ground_motion import GroundMotion
 
 _WATCHED = ("displacement", "base_shear", "rim_force", "slip")
 """Quantities that noise is compared in."""
@@ -43,14 +43,10 @@ _WATCHED = ("displacement", "base_shear", "rim_force", "slip")
 _ATTRIBUTE = "noise_"  # begins the attributes that keep the differences
 
 
-def governing_run(
-    parts: ProjectInputs, frame: Frame, motions: MotionSet, runs: LevelRuns
-) -> tuple[xr.Dataset, str]:
+def governing_run(parts: ProjectInputs, frame: Frame, motions: MotionSet, runs: Runs) -> xr.Dataset:
     """Return the histories of the run that displaces a bearing most, run once more to keep them."""
-    level, bound, run = most_displaced(runs)
-    name, given = str(runs[level][bound]["motion"].to_numpy()[run]), parts.file.analysis
-    motion = motions[name].scaled(parts.rules().level(level).factor)
-    model = frame if bound == "" else with_property_bounds(frame, bound, parts.bounds())
+    model, motion = model_and_motion(parts, frame, motions, most_displaced(runs))
+    given = parts.file.analysis
     with warnings.catch_warnings():  # as told of the same run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
         data = time_history(model, motion, level=given.level, dt=given.dt)
@@ -61,10 +57,20 @@ def governing_run(
             dt=given.dt,
             recording=Recording.peaks(),
         )
-    kept = as_packed(data).assign_attrs(
+    return as_packed(data).assign_attrs(
         {f"{_ATTRIBUTE}{key}": _apart(data, disturbed, key) for key in _WATCHED}
     )
-    return kept, named_case(runs, level, bound, run)
+
+
+def model_and_motion(
+    parts: ProjectInputs, frame: Frame, motions: MotionSet, one: Runs
+) -> tuple[Frame, GroundMotion]:
+    """Return the structure at the bound of a run, and its motion at the level of that run."""
+    level, bound, name = (str(one.of(tag)[0]) for tag in (HAZARD, BOUND, "motion"))
+    motion = motions[name].scaled(parts.rules().level(level).factor)
+    if not bound:
+        return frame, motion
+    return with_property_bounds(frame, cast("BoundName", bound), parts.bounds()), motion
 
 
 def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
@@ -83,22 +89,18 @@ def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
     )
 
 
-def most_displaced(runs: Mapping[str, Mapping[Bound, xr.Dataset]]) -> tuple[str, Bound, int]:
-    """Return level, bound and place of the run that displaces a bearing most."""
-    reached = {
-        (level, bound, run): float(data["reached_displacement"].isel(run=run).max())
-        for level, each in runs.items()
-        for bound, data in each.items()
-        for run in range(data.sizes["run"])
-    }
-    return max(reached, key=lambda key: reached[key])
+def most_displaced(runs: Runs) -> Runs:
+    """Return the run that displaces a bearing most, of those with the masses where they are."""
+    own = runs.centred
+    reached = np.nan_to_num(own.of("reached_displacement"), nan=-np.inf).max(axis=1)
+    return own.those(np.arange(len(own)) == reached.argmax())
 
 
-def named_case(runs: LevelRuns, level: str, bound: Bound, run: int) -> str:
+def named_case(one: Runs) -> str:
     """Return a run in words: motion, bound and level, and the status of one that failed."""
-    data = runs[level][bound]
-    motion, status = (str(data[name].to_numpy()[run]) for name in ("motion", "status"))
-    ended = f", failed ({status})" if stopped_in(data)[run] else ""
+    tags = ("motion", "status", BOUND, HAZARD)
+    motion, status, bound, level = (str(one.of(tag)[0]) for tag in tags)
+    ended = f", failed ({status})" if stopped_in(one.data)[0] else ""
     return f"{motion}, {bound} bound, {level} level{ended}"
 
 
@@ -111,69 +113,77 @@ def _apart(data: xr.Dataset, other: xr.Dataset, quantity: str) -> float:
 MOVED = "moved"
 """Folder among runs as they complete that keeps those with moved masses."""
 
-LevelRuns = dict[str, dict["Bound", "xr.Dataset"]]
-"""Runs by level of the seismic action, then by bound of the properties."""
 
-
-def histories_at_levels(
+def project_runs(
     parts: ProjectInputs,
     frame: Frame,
+    moved: Mapping[str, Frame],
     motions: MotionSet,
     progress: Callable[[BatchProgress], None] | bool | None,
     resume: Path | None = None,
-) -> LevelRuns:
-    """Run a project's time histories at each level and bound, all on all processors."""
-    given, levels = parts.file.analysis, parts.rules().levels
+) -> Runs:
+    """Run a project's time histories at each level and bound, then those with moved masses."""
+    given, rules = parts.file.analysis, parts.rules()
     models: dict[str, Frame] = {
         bound: with_property_bounds(frame, bound, parts.bounds()) for bound in given.bounds
     }
-    places = [(level, bound) for level in levels for bound in given.bounds]
-    cases = [(bound, name, level.factor) for level, bound in places for name in motions]
+    tags = [(level.name, b) for level in rules.levels for b in given.bounds for _ in motions]
+    cases = [
+        (bound, name, level.factor)
+        for level in rules.levels
+        for bound in given.bounds
+        for name in motions
+    ]
     data = _of_all(parts, models, motions, cases, progress, resume)
-    found: LevelRuns = {level.name: {} for level in levels}
-    for k, (level, bound) in enumerate(places):
-        rows = slice(k * len(motions), (k + 1) * len(motions))
-        found[level.name][bound] = data.isel(run=rows)
-    return found
+    levels, bounds = zip(*tags, strict=True)
+    runs = Runs(tagged(data, **{HAZARD: levels, BOUND: bounds}))
+    if not moved:
+        return runs
+    with kept_of(runs):
+        return runs + _moved_runs(parts, moved, motions, runs, progress, resume)
 
 
-def moved_at_levels(
+@contextmanager
+def kept_of(runs: Runs) -> Generator[None, None, None]:
+    """Keep runs that are complete when what follows them is interrupted."""
+    try:
+        yield
+    except AnalysisInterrupted as stop:
+        whole = runs.centred.data
+        more = int(stop.data.attrs.get("runs_asked_for", 0))
+        asked = {"status": "interrupted", "runs_asked_for": whole.sizes["run"] + more}
+        stop.data = whole.assign_attrs(asked)  # its class says how far: runs, or time of one run
+        raise
+
+
+def _moved_runs(
     parts: ProjectInputs,
     moved: Mapping[str, Frame],
     motions: MotionSet,
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
+    runs: Runs,
     progress: Callable[[BatchProgress], None] | bool | None,
-    resume: Path | None = None,
-) -> LevelRuns:
-    """Run a project with the floors' masses moved each way, at each level and bound."""
-    if not moved:
-        return {}
+    resume: Path | None,
+) -> Runs:
+    # With the floors' masses moved each way, at each level and bound.
     given, rules = parts.file.analysis, parts.rules()
     models: dict[str, Frame] = {
         f"{bound}, masses {way}": with_property_bounds(frame, bound, parts.bounds())
         for bound in given.bounds
         for way, frame in moved.items()
     }
-    cases, places = [], []
-    for level in rules.levels:
-        for bound in given.bounds:
-            names = (
-                list(motions)
-                if given.accidental_eccentricity_motions == "all"
-                else [governing_motion(runs[level.name][bound], rules)]
-            )
-            own = [(way, name) for way in moved for name in names]
-            places.append((level.name, bound, [way for way, _ in own]))
-            cases += [(f"{bound}, masses {way}", name, level.factor) for way, name in own]
+    cases, tags = [], []
+    for (level, bound), own in runs.by(HAZARD, BOUND).items():
+        is_all = given.accidental_eccentricity_motions == "all"
+        names = list(motions) if is_all else [governing_motion(own.data, rules)]
+        for way in moved:
+            tags += [(level, bound, way)] * len(names)
+            factor = rules.level(level).factor
+            cases += [(f"{bound}, masses {way}", name, factor) for name in names]
     kept = None if resume is None else resume / MOVED
     data = _of_all(parts, models, motions, cases, progress, kept)
-    found: LevelRuns = {level.name: {} for level in rules.levels}
-    begin = 0
-    for name, bound, ways in places:
-        own_rows = data.isel(run=slice(begin, begin + len(ways)))
-        found[name][bound] = own_rows.assign_coords({WAY: ("run", ways)})
-        begin += len(ways)
-    return found
+    return Runs(
+        tagged(data, **dict(zip((HAZARD, BOUND, WAY), zip(*tags, strict=True), strict=True)))
+    )
 
 
 def _of_all(
@@ -211,18 +221,6 @@ def governing_motion(data: xr.Dataset, rules: HistoryRules) -> str:
     failed = np.array(suite_of(data, rules).failed)
     counted = reached if failed.all() else np.where(failed, -np.inf, reached)
     return str(data["motion"].to_numpy()[int(np.argmax(counted))])
-
-
-def demands_at_levels(
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
-    rules: HistoryRules,
-    moved: Mapping[str, Mapping[Bound, xr.Dataset]] | None = None,
-) -> pd.DataFrame:
-    """Return what time histories give for design at each level."""
-    beside = moved or {}
-    return at_levels(
-        {name: history_demands(own, rules, moved=beside.get(name)) for name, own in runs.items()}
-    )
 
 
 def said_of_runs(parts: ProjectInputs, motions: MotionSet) -> str:

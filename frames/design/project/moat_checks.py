@@ -10,7 +10,7 @@ from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
-from frames.design.histories.eccentricity import Case, cases_of
+from frames.design.histories.eccentricity import Case, levels_of
 from frames.design.histories.suite import motion_of, peaks_of_runs, stopped_runs
 from frames.design.project.check_register import RunToCheck, register_check
 from frames.design.project.devices_beside import walls_of
@@ -36,7 +36,7 @@ def of_the_moat(run: RunToCheck) -> list[Check]:
     gap, level = run.limits.moat_gap, run.rules.bearing_level
     found = clearance_checks(run.code, run.equivalent, run.limits, run.frame)
     if gap is not None:
-        for case in cases_of({level: run.runs[level]}, run.rules, run.moved):
+        for case in levels_of(run.cases)[level]:
             found += _of_histories(run.frame, case, gap)
     return [replace(check, level=level) for check in found]
 

@@ -57,10 +57,8 @@ class Verified(NamedTuple):
         for name in (DEMANDS[key].demand for key in _DEMANDS):
             if name in own.index:
                 found[f"{name} [{own.loc[name, 'unit']}]"] = float(own.loc[name, "envelope"])
-        every = [data for each in self.run.runs.values() for data in each.values()]
-        stopped = sum(int((data["status"].to_numpy() != "ok").sum()) for data in every)
         return found | {
-            "runs that stopped": stopped,
+            "runs that stopped": int((self.run.runs.centred.of("status") != "ok").sum()),
             "checks": len(self.run.checks),
             "failed checks": len(self.run.checks.failed),
             "fails": _failures(self.run.checks.failed),

@@ -49,7 +49,7 @@ class Verdict(NamedTuple):
 
 def verdicts(found: Comparison) -> list[Verdict]:
     """Return what the numbers say at each level of the seismic action."""
-    return [_verdict(found, level) for level in found.runs[OURS]]
+    return [_verdict(found, level) for level in found.levels]
 
 
 def _verdict(found: Comparison, level: str) -> Verdict:

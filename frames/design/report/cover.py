@@ -226,9 +226,7 @@ def verdict_of(run: ProjectRun) -> Verdict:
     void = run.checks.without_value
     by_value = [c for c in run.checks.failed if not c.void and c.symbol != "n_failed"]
     beyond = _titles(check for check in void if check.compared > 1.0)
-    failures = failed_runs(run.runs, run.rules, run.moved)
-    each = (*run.runs.values(), *run.moved.values())
-    every = [data for bounds in each for data in bounds.values()]
+    failures = failed_runs(run.cases)
     return Verdict(
         by_value=len(by_value),
         worst=_worst(by_value),
@@ -241,8 +239,8 @@ def verdict_of(run: ProjectRun) -> Verdict:
             frozenset({0, 1, 3, 4}),
         ),
         failed=sum(one.failed for one in failures),
-        doubtful=sum(int((data["doubts"].to_numpy() != "").sum()) for data in every),
-        runs=sum(data.sizes["run"] for data in every),
+        doubtful=int((run.runs.of("doubts") != "").sum()),
+        runs=len(run.runs),
     )
 
 

@@ -14,7 +14,7 @@ from matplotlib.patches import Circle
 
 from frames.design.hazard.plot_hazard import motion_spectra
 from frames.design.histories.demand_table import worst_place
-from frames.design.histories.eccentricity import Case, cases_of, reached_by
+from frames.design.histories.eccentricity import Case, levels_of, reached_by
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.design.report.numbers import devices_by_type
 from frames.design.report.page import Picture, picture
@@ -80,7 +80,7 @@ def reached(run: ProjectRun, name: str) -> list[Reached]:
     of_bearings = JUDGED[name].dims == ("bearing",)
     level = run.rules.bearing_level if of_bearings else _structure_level(run)
     found = []
-    for case in _cases(run, level):
+    for case in levels_of(run.cases)[level]:
         if not case.keeps(name):
             continue
         values, suite, design = reached_by(case.data, name), case.suite, case.design(name)
@@ -98,10 +98,6 @@ def reached(run: ProjectRun, name: str) -> list[Reached]:
             )
         )
     return found
-
-
-def _cases(run: ProjectRun, level: str) -> list[Case]:
-    return cases_of({level: run.runs[level]}, run.rules, run.moved)
 
 
 def _structure_level(run: ProjectRun) -> str:
@@ -172,7 +168,7 @@ def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
 
 def profiles_figure(run: ProjectRun) -> Figure | None:
     """Draw the drift of every storey in every motion, and what counts of it."""
-    cases = [case for case in _cases(run, _structure_level(run)) if case.keeps("drift")]
+    cases = [case for case in levels_of(run.cases)[_structure_level(run)] if case.keeps("drift")]
     if not cases or len(names_of(cases[0].data, "drift")) < 2:
         return None
     figure, panels = ps.panels_of(len(cases), len(cases), 3.0)
@@ -215,7 +211,9 @@ def utilisation(run: ProjectRun) -> tuple[Check, FloatArray] | None:
         return None
     check = max(of_one, key=lambda c: c.ratio)
     level, name = check.level or run.rules.bearing_level, _OF_BEARINGS[check.title]
-    each = next(case.design(name) for case in _cases(run, level) if case.bound == check.bound)
+    each = next(
+        case.design(name) for case in levels_of(run.cases)[level] if case.bound == check.bound
+    )
     if check.symbol == "D_d":
         each = run.rules.displacement_factor * each
         least = check.trace.value("D_least") if "D_least" in check.trace else 0.0

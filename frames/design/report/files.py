@@ -6,29 +6,27 @@ import hashlib
 import json
 import shutil
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from frames.batch.runs import BOUND, HAZARD, Runs, tagged
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import COLUMNS, Check, Checks
 from frames.design.calculation.standing import standing_of
 from frames.design.histories.demand_table import headed
-from frames.design.project.design_run import Histories
 from frames.design.report.numbers import BY_MOTION, ECCENTRICITY, TABLES_OF_FORCES, run_tables
 from frames.design.report.writing import report_html
 from frames.results.storage import csv_of, from_text, load, make_folder, save, write_whole
 from lir_element._version import package_version
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
     from pathlib import Path
 
     import xarray as xr
 
-    from frames.design.calculation.check import Bound
     from frames.design.project.design_run import ProjectRun
-    from frames.design.project.level_runs import LevelRuns
 
 
 UNFINISHED = "unfinished"
@@ -46,14 +44,11 @@ def write_run(
     cut = folder.glob(".*.part")  # of a process that was killed
     for stale in (folder / "run.json", *old, *cut):  # the first is written last
         stale.unlink(missing_ok=True)
-    own = _labelled(run.runs)
-    written = {label: folder / f"runs-{label}.nc" for label in own}
-    for label, (_, _, data) in own.items():
-        path = written[label]
-        save(data, path, compress=data.sizes.get("time", 0) > _ENDS)
-    for label, (_, _, data) in _labelled(run.moved).items():
-        written[f"moved {label}"] = folder / f"moved-{label}.nc"
-        save(data, written[f"moved {label}"])
+    written = {}
+    for name, (_, _, data) in _by_file(run.runs).items():
+        written[name] = folder / name
+        is_long = data.sizes.get("time", 0) > _ENDS
+        save(data, written[name], compress=name.startswith("runs-") and is_long)
     for name, content in run.tables.items():
         written[name] = folder / name
         write_whole(written[name], content)
@@ -104,8 +99,8 @@ def write_judgement(
     return written
 
 
-def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
-    """Read the time histories that a project's run left."""
+def read_histories(folder: Path, inputs: Mapping[str, str]) -> tuple[Runs, xr.Dataset]:
+    """Read the time histories that a project's run left, and those of the governing run."""
     facts = folder / "run.json"
     if not facts.is_file():
         partly = (folder / "interrupted.nc").is_file()
@@ -122,22 +117,19 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> Histories:
         raise ProjectError(msg)
     try:
         _require_unchanged(folder, kept.get("digests", {}))
-        runs, moved = (_read(folder, word, kept.get(word, {})) for word in ("runs", "moved"))
+        runs = Runs(*_read(folder, kept))
         governing = load(folder / "governing.nc")
     except (OSError, RuntimeError) as cause:  # the latter of HDF5, on a damaged part
         msg = f"{folder}: {cause}: `lir run` writes all files anew"
         raise ProjectError(msg) from cause
-    both = (*runs.values(), *moved.values())
-    every = (data for each in both for data in each.values())
-    if any("reached_reaction_force" not in data for data in every):
+    if any("reached_reaction_force" not in data for data in runs.parts):
         version = kept["lir_dcfp_version"]
         msg = (
             f"the time histories in {folder} were made by a version ({version}) that kept no "
             "forces of members and bearings: `lir run` makes new ones"
         )
         raise ProjectError(msg)
-    case = kept["governing_case"]
-    return Histories(runs=runs, governing=governing, governing_case=case, moved=moved)
+    return runs, governing
 
 
 def _read_facts(path: Path) -> dict[str, Any]:
@@ -167,13 +159,14 @@ def _digest(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _read(folder: Path, word: str, about: Mapping[str, Mapping[str, str]]) -> LevelRuns:
-    # Files of time histories by level and bound, as run.json names them.
-    found: LevelRuns = {}
-    for label, told in about.items():
-        each = found.setdefault(told.get("level", ""), {})
-        each[cast("Bound", told.get("bound", label))] = load(folder / f"{word}-{label}.nc")
-    return found
+def _read(
+    folder: Path, kept: Mapping[str, Mapping[str, Mapping[str, str]]]
+) -> Iterator[xr.Dataset]:
+    # Files of time histories with their tags, as run.json names them.
+    for word in ("runs", "moved"):
+        for label, told in kept.get(word, {}).items():
+            tags = {HAZARD: told.get("level", ""), BOUND: told.get("bound", label)}
+            yield tagged(load(folder / f"{word}-{label}.nc"), **tags)
 
 
 def write_interrupted(data: xr.Dataset, folder: Path) -> Path:
@@ -196,8 +189,8 @@ def calculations(run: ProjectRun) -> str:
 
 
 def _facts(run: ProjectRun, folder: Path) -> dict[str, object]:
-    held = [*(f"runs-{label}.nc" for label in _labelled(run.runs)), "governing.nc"]
-    held += [f"moved-{label}.nc" for label in _labelled(run.moved)]
+    files = _by_file(run.runs)
+    held = [*files, "governing.nc"]
     return {
         "project": run.frame.name,
         "written": datetime.now(tz=UTC).isoformat(timespec="seconds"),
@@ -209,25 +202,24 @@ def _facts(run: ProjectRun, folder: Path) -> dict[str, object]:
         "fixed_base_period": _fixed_base_period(run),
         "inputs": dict(run.inputs),
         "digests": {name: _digest(folder / name) for name in held if (folder / name).is_file()},
-        "runs": {
-            label: {
-                "level": level,
-                "bound": bound,
-                "runs": data.sizes["run"],
-                "not_ok": [str(s) for s in data["status"].to_numpy() if str(s) != "ok"],
-                "seconds": float(data.attrs["seconds"]),
-            }
-            for label, (level, bound, data) in _labelled(run.runs).items()
-        },
-        "moved": {
-            label: {
-                "level": level,
-                "bound": bound,
-                "runs": data.sizes["run"],
-                "seconds": float(data.attrs["seconds"]),
-            }
-            for label, (level, bound, data) in _labelled(run.moved).items()
-        },
+        **{word: _told_of(files, word) for word in ("runs", "moved")},
+    }
+
+
+def _told_of(
+    files: Mapping[str, tuple[str, str, xr.Dataset]], word: str
+) -> dict[str, dict[str, object]]:
+    # What run.json says of files of time histories, by the words that their names have.
+    return {
+        name.removeprefix(f"{word}-").removesuffix(".nc"): {
+            "level": level,
+            "bound": bound,
+            "runs": data.sizes["run"],
+            "not_ok": [str(s) for s in data["status"].to_numpy() if str(s) != "ok"],
+            "seconds": float(data.attrs["seconds"]),
+        }
+        for name, (level, bound, data) in files.items()
+        if name.startswith(f"{word}-")
     }
 
 
@@ -240,16 +232,16 @@ def _fixed_base_period(run: ProjectRun) -> float | None:
     return None
 
 
-def _labelled(
-    runs: Mapping[str, Mapping[Bound, xr.Dataset]],
-) -> dict[str, tuple[str, Bound, xr.Dataset]]:
-    # Level, bound and runs by the words that a file's name has.
-    several = len(runs) > 1
-    return {
-        f"{level}-{bound}" if several else bound: (level, bound, data)
-        for level, each in runs.items()
-        for bound, data in each.items()
-    }
+def _by_file(runs: Runs) -> dict[str, tuple[str, str, xr.Dataset]]:
+    # Level, bound and runs by the name of their file.
+    found = {}
+    for word, rows in (("runs", runs.centred), ("moved", runs.moved)):
+        each = rows.by(HAZARD, BOUND)
+        several = len({level for level, _ in each}) > 1
+        for (level, bound), own in each.items():
+            label = f"{level}-{bound}" if several else bound
+            found[f"{word}-{label}.nc"] = level, bound, own.data
+    return found
 
 
 _NUMBERS = ("demand", "limit")

@@ -15,7 +15,7 @@ from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.demand_table import demands_by_motion, link_demands
 from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands
-from frames.design.histories.suite import peaks_of_runs, raises_by_case, stopped_in
+from frames.design.histories.suite import peaks_of_runs, raises_by_case
 from frames.design.report.page import Table
 from frames.design.report.tables import SHOWN
 from frames.library.building import ARM
@@ -79,14 +79,11 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
     )
     if len(set(run.kinds.values())) > 1:
         table.insert(0, "type", [run.kinds[name] for name in links])
-    both = (*run.runs.values(), *run.moved.values())
     for title, name in _REACHED.items():
-        every = (data for each in both for data in each.values())
-        values = [peaks_of_runs(data, name).max(axis=0) for data in every]
+        values = [peaks_of_runs(data, name).max(axis=0) for data in run.runs.parts]
         table[title] = QUANTITIES[name].sign * np.max(values, axis=0)
-    stopped = [stopped_in(data) for runs in both for data in runs.values()]
-    if count := sum(int(each.sum()) for each in stopped):
-        table["void"] = f"{count} of {sum(map(len, stopped))} runs failed"
+    if count := int((run.runs.of("status") != "ok").sum()):
+        table["void"] = f"{count} of {len(run.runs)} runs failed"
     return table
 
 
@@ -132,7 +129,7 @@ def mode_table(run: ProjectRun) -> pd.DataFrame:
 def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     """Return all tables of this module, by name."""
     raises = raises_by_case(run.checks)
-    forces = force_demands(run.runs, run.rules, raises, run.moved)
+    forces = force_demands(run.cases, raises)
     return {
         "bearings": bearing_table(run),
         "friction": friction_table(run),
@@ -140,11 +137,11 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "motions": run.motions.table(),
         "member-groups": member_groups(run, forces.get("members")),
         WITHOUT_FORCES: without_forces(run.frame),
-        LINKS: link_demands(run.runs, run.rules, run.moved),
+        LINKS: link_demands(run.cases),
         "programme": run.programme,
-        BY_MOTION: demands_by_motion(run.runs, run.rules, run.moved),
+        BY_MOTION: demands_by_motion(run.cases),
         **forces,
-        ECCENTRICITY: eccentricity_table(run.runs, run.moved, run.rules),
+        ECCENTRICITY: eccentricity_table(run.cases),
     }
 
 

@@ -264,11 +264,11 @@ def eccentricity_said(run: ProjectRun) -> str:
     clause = MEMORY.cited(f"{asked.cited} {asked.eccentricity_clause}".strip())
     asked_for = asked.accidental_eccentricity > 0.0
     share = 100.0 * run.rules.accidental_eccentricity
-    if not run.moved:
+    moved = run.runs.moved
+    if not len(moved):
         said = f"; {clause} asks {100.0 * asked.accidental_eccentricity:g} % of the plan's sides"
         return f"Accidental eccentricity is not in these demands{said if asked_for else ''}."
-    every = [data for each in run.moved.values() for data in each.values()]
-    count, seconds = sum(d.sizes["run"] for d in every), float(every[0].attrs["seconds"])
+    count, seconds = len(moved), float(moved.parts[0].attrs["seconds"])
     return (
         f"Accidental eccentricity ({clause}): the masses of all floors moved by {share:g} % of the "
         f"plan's sides each way, {count} time histories more in {seconds:.3g} s. The factor of the "

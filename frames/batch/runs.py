@@ -1,0 +1,116 @@
+"""Runs as rows: tags say of what each row is, whatever asked for it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    import xarray as xr
+
+    from frames._types import BoolArray
+
+DEVICE, HAZARD, BOUND, WAY = "device", "hazard_level", "bound", "masses_moved"
+"""Tags of a run beside its model, motion and scale: bearings in a comparison, level of the seismic
+action, bound of the properties, way in which masses were moved. Each is a coordinate along `run`;
+one that is not there is "" of all runs."""
+
+
+class Runs:
+    """Runs of `time_histories`, a row each, of one batch or of several in a row.
+
+    Parameters
+    ----------
+    *parts : xarray.Dataset
+        Of `time_histories`, with tags as coordinates along `run`. They stay as they are: batches of
+        other steps or nodes stand beside one another.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import GroundMotion, lumped_mass, time_histories
+    >>> from frames.batch.runs import Runs
+    >>> from frames.demo import bearing_for
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> data = time_histories(frame, {"pulse": pulse}, scales=[0.5, 1.0], workers=1)
+    >>> runs = Runs(data.assign_coords(bound=("run", ["lower", "upper"])))
+    >>> len(runs), runs.where(bound="upper").of("scale").tolist()
+    (2, [1.0])
+    """
+
+    def __init__(self, *parts: xr.Dataset) -> None:
+        self.parts = tuple(part for part in parts if part.sizes["run"])
+
+    def __len__(self) -> int:
+        """Return the number of runs."""
+        return sum(part.sizes["run"] for part in self.parts)
+
+    def __add__(self, other: Runs) -> Runs:
+        """Return these runs and others after them."""
+        return Runs(*self.parts, *other.parts)
+
+    @property
+    def data(self) -> xr.Dataset:
+        """All rows as one Dataset."""
+        import xarray as xr
+
+        if len(self.parts) == 1:
+            return self.parts[0]
+        return xr.concat(
+            self.parts, "run", data_vars="minimal", coords="minimal", compat="override"
+        )
+
+    def of(self, name: str) -> np.ndarray[Any, Any]:
+        """Return a variable or a tag of all rows.
+
+        Shapes: result (n_runs, ...).
+        """
+        return np.concatenate([_of(part, name) for part in self.parts] or [np.array([])])
+
+    def where(self, **tags: str) -> Runs:
+        """Return the rows that have all of these tags."""
+        return self.those(np.all([self.of(name) == tag for name, tag in tags.items()], axis=0))
+
+    @property
+    def centred(self) -> Runs:
+        """The rows with the masses where they are."""
+        return self.those(self.of(WAY) == "")
+
+    @property
+    def moved(self) -> Runs:
+        """The rows with moved masses: accidental eccentricity."""
+        return self.those(self.of(WAY) != "")
+
+    def by(self, *tags: str) -> dict[tuple[str, ...], Runs]:
+        """Return the rows in groups of the same tags, in the order of their first rows."""
+        keys = zip(*(map(str, self.of(tag)) for tag in tags), strict=True)
+        return {key: self.where(**dict(zip(tags, key, strict=True))) for key in dict.fromkeys(keys)}
+
+    def those(self, mask: BoolArray) -> Runs:
+        """Return rows by a mask (n_runs,); rows that follow one another are not copied."""
+        found, begin = [], 0
+        for part in self.parts:
+            rows = np.flatnonzero(mask[begin : begin + part.sizes["run"]])
+            begin += part.sizes["run"]
+            if len(rows):
+                first, end = int(rows[0]), int(rows[-1]) + 1
+                found.append(part.isel(run=slice(first, end) if end - first == len(rows) else rows))
+        return Runs(*found)
+
+
+def tagged(data: xr.Dataset, **tags: str | Iterable[str]) -> xr.Dataset:
+    """Return runs with tags, each of all of them or one a run."""
+    count = data.sizes["run"]
+    each = {n: [v] * count if isinstance(v, str) else list(v) for n, v in tags.items() if v}
+    return data.assign_coords({name: ("run", values) for name, values in each.items()})
+
+
+def _of(part: xr.Dataset, name: str) -> np.ndarray[Any, Any]:
+    # A tag that is not there is "" of all runs.
+    if name not in part.variables and name in {DEVICE, HAZARD, BOUND, WAY}:
+        return np.full(part.sizes["run"], "", dtype=object)
+    return part.variables[name].transpose("run", ...).to_numpy()
