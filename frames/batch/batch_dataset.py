@@ -160,6 +160,12 @@ def _of_runs(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
             "",
             'lines that the assumption check marks with "!"',
         ),
+        "findings": labelled(
+            ("run",),
+            _texts(row.findings.json() for row in rows),
+            "",
+            "the assumption check as JSON: fields of `Finding`",
+        ),
     }
     for name, (unit, meaning) in NUMBERS.items():
         values = np.array([row.numbers.get(name, math.nan) for row in rows])

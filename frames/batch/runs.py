@@ -71,7 +71,7 @@ class Runs:
         """
         return np.concatenate([_of(part, name) for part in self.parts] or [np.array([])])
 
-    def where(self, **tags: str) -> Runs:
+    def where(self, **tags: object) -> Runs:
         """Return the rows that have all of these tags."""
         return self.those(np.all([self.of(name) == tag for name, tag in tags.items()], axis=0))
 
@@ -85,9 +85,9 @@ class Runs:
         """The rows with moved masses: accidental eccentricity."""
         return self.those(self.of(WAY) != "")
 
-    def by(self, *tags: str) -> dict[tuple[str, ...], Runs]:
+    def by(self, *tags: str) -> dict[tuple[Any, ...], Runs]:
         """Return the rows in groups of the same tags, in the order of their first rows."""
-        keys = zip(*(map(str, self.of(tag)) for tag in tags), strict=True)
+        keys = zip(*(self.of(tag).tolist() for tag in tags), strict=True)
         return {key: self.where(**dict(zip(tags, key, strict=True))) for key in dict.fromkeys(keys)}
 
     def those(self, mask: BoolArray) -> Runs:
@@ -102,7 +102,7 @@ class Runs:
         return Runs(*found)
 
 
-def tagged(data: xr.Dataset, **tags: str | Iterable[str]) -> xr.Dataset:
+def tagged(data: xr.Dataset, **tags: str | Iterable[object]) -> xr.Dataset:
     """Return runs with tags, each of all of them or one a run."""
     count = data.sizes["run"]
     each = {n: [v] * count if isinstance(v, str) else list(v) for n, v in tags.items() if v}

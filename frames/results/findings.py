@@ -93,7 +93,11 @@ class Findings(tuple[Finding, ...]):
 
     def attrs(self) -> dict[str, str]:
         """Return them as attributes of a Dataset: as text for people, and to be read again."""
-        return {"audit": repr(self), "findings": json.dumps(self.plain())}
+        return {"audit": repr(self), "findings": self.json()}
+
+    def json(self) -> str:
+        """Return them as a text that is read again."""
+        return json.dumps(self.plain())
 
     def plain(self) -> list[dict[str, Any]]:
         """Return them as JSON takes them, without what is not so: `findings_from` reads it."""
@@ -110,10 +114,25 @@ class Findings(tuple[Finding, ...]):
 
 def findings_of(data: xr.Dataset) -> Findings:
     """Return what the assumption check of a result found when it was run."""
-    found = data.attrs.get("findings")
-    if found is not None:
-        return findings_from(json.loads(found))
-    return Findings(map(_of_line, str(data.attrs.get("audit", "")).splitlines()))
+    row = {n: data[n].item() for n in ("findings", "audit") if n in data and not data[n].ndim}
+    own = row or data.attrs  # of a row of many runs, or of one alone
+    return _read(own.get("findings"), own.get("audit", ""))
+
+
+def findings_by_run(data: xr.Dataset) -> list[Findings]:
+    """Return what the assumption checks of many runs found, or of one alone."""
+    if "run" not in data.dims:
+        return [findings_of(data)]
+    audits = data["audit"].to_numpy().tolist()
+    kept = data["findings"].to_numpy().tolist() if "findings" in data else [None] * len(audits)
+    return list(map(_read, kept, audits))
+
+
+def _read(kept: str | None, audit: object) -> Findings:
+    # As JSON, or of a file from before findings were kept beside their text.
+    if kept is not None:
+        return findings_from(json.loads(kept))
+    return Findings(map(_of_line, str(audit).splitlines()))
 
 
 def findings_from(found: Iterable[dict[str, Any]]) -> Findings:
@@ -129,16 +148,16 @@ def doubts_of(data: xr.Dataset) -> tuple[str, ...]:
 
 
 def _of_line(line: str) -> Finding:
-    # Of a file from before findings were kept beside their text.
-    sentence = line[2:]
-    name = sentence.partition(":")[0].removesuffix(" left out")
+    sentence, is_marked = line[2:], line.startswith("! ")
+    head = sentence.partition(":")[0]
+    name = head.removesuffix(" left out")
     return Finding(
         feature=name.replace(" ", "_"),
-        left_out=False,
-        mattered=False,
+        left_out=name != head,
+        mattered=name != head and is_marked,
         number=float("nan"),
         sentence=sentence,
-        doubtful=line.startswith("! "),
+        doubtful=is_marked,
     )
 
 

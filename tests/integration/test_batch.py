@@ -28,6 +28,7 @@ from frames import (
     time_history,
 )
 from frames.laws import Bilinear, PlasticHinge
+from frames.results.findings import findings_by_run, findings_of
 from lir_element import AnalysisInterrupted, AnalysisWarning, Features, LIRBearing
 
 ROUND_OFF = 1e-9  # sums in another order; of accelerations, parts of modes cancel
@@ -52,6 +53,10 @@ def agree(many: xr.Dataset, one: xr.Dataset) -> None:
     for name in ("status", "message"):
         assert str(many[name].values) == one.attrs[name]
     assert str(many["audit"].values) == one.attrs["audit"]
+    rows = findings_of(many), findings_by_run(many.expand_dims("run"))[0]
+    for found in (*rows, findings_of(many.drop_vars("findings"))):  # and of files from before
+        assert found.lines() == findings_of(one).lines()
+        assert [f.is_missing for f in found] == [f.is_missing for f in findings_of(one)]
     np.testing.assert_equal(float(many["failed_at"]), one.attrs.get("failed_at", np.nan))
     names = [n for n in one.data_vars if str(n).startswith("reached_") and one[n].dtype == float]
     assert len(names) > 50

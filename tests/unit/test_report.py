@@ -30,6 +30,7 @@ from frames import load, modes, moment_frame, save
 from frames.command.app import app
 from frames.design import HISTORY_RULES, Check, code_named
 from frames.design._errors import ProjectError
+from frames.design.histories.eccentricity import Case
 from frames.design.project.design_run import ProjectRun, evaluate_run
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import inputs_of, preliminary
@@ -746,7 +747,7 @@ def test_drifts_of_all_motions_over_the_height(storeys: int) -> None:
     )
     rules = HISTORY_RULES["ASCE 7-22"]
     level = rules.levels[0].name
-    run = SimpleNamespace(rules=rules, runs={level: {"lower": data}}, moved={})
+    run = SimpleNamespace(rules=rules, cases=[Case(data, None, rules, level, "lower")])
     figure = profiles_figure(run)
     if storeys == 1:
         assert figure is None

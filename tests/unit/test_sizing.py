@@ -443,7 +443,7 @@ def test_a_proposal_is_sized_on_one_mass_by_the_motions() -> None:
     t, before = trial.sized.trace, found.chosen.trace
     assert t.value("D_EL") == pytest.approx(before.value("D"), rel=1e-6)
     assert t.value("D") >= trial.free > 1.2 * before.value("D")
-    assert set(trial.runs) == {
+    assert set(trial.failed) == {
         Place(level, factor, "lower") for level in ("design", "maximum") for factor in (1.0, MARGIN)
     }
     narrow = replace(one, max_displacement=1.1 * before.value("D"))

@@ -36,6 +36,7 @@ from frames.design.histories.suite_notes import (
     note_of_impacts,
 )
 from frames.design.histories.uplift import Uplift, suite_of_uplift
+from frames.results.findings import findings_by_run
 from frames.results.quantities import JUDGED
 from frames.statics.overturning import unknown_axial_forces
 
@@ -64,10 +65,9 @@ class BoundChecks:
 
     def checks(self) -> list[Check]:
         """Return all of them."""
-        doubts = list(map(str, self.case.data["doubts"].to_numpy()))
         found = [self._motions(), self._failed(), *self._moved_failed()]
         data, bound = self.case.data, self.case.bound
-        found += left_out_checks(data, doubts, bound, stopped_runs(data))
+        found += left_out_checks(data, bound, stopped_runs(data))
         if self.level.judges_bearings:
             found += self._of_bearings()
         if self.level.judges_structure:
@@ -100,7 +100,7 @@ class BoundChecks:
     @property
     def _note(self) -> str:
         # With each check: which runs failed if they may, or that there is more to read.
-        marked = sum(bool(str(d)) for d in self.case.data["doubts"].to_numpy())
+        marked = sum(bool(found.doubts()) for found in findings_by_run(self.case.data))
         more = (
             f"assumption checks of {marked} runs mark something: see the check of runs"
             if marked

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import xarray as xr
 
 from frames.batch.cases import named_motions
+from frames.batch.runs import Runs
 from frames.batch.time_histories import time_histories
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
@@ -95,9 +95,7 @@ def bounded_histories(
     models: dict[str, Frame] = {name: with_property_bounds(frame, name, bounds) for name in at}
     cases = [(bound, name, factors[name]) for bound in models for name in suite]
     data = time_histories(models, suite, cases=cases, **options)
-    return {
-        bound: data.isel(run=np.flatnonzero((data["model"] == bound).to_numpy())) for bound in at
-    }
+    return {bound: Runs(data).where(model=bound).data for bound in at}
 
 
 def history_checks(

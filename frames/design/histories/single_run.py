@@ -93,7 +93,7 @@ def impact_checks(
     devices = devices_of(data, frame)
     bearings = BearingDemands(data, suite, devices, limits, bound, reason)
     found = [_complete(data, bound)]
-    found += left_out_checks(data, ["; ".join(doubts_of(data))], bound)
+    found += left_out_checks(data, bound)
     found += bearings.displacement(f"{NO_CODE}, section 2", OWN)
     found += [*bearings.slips(), *bearings.forces()]
     found += [*_structure(bearings), *_uplift(bearings)]

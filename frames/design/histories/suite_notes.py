@@ -15,6 +15,7 @@ from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.histories.suite import motion_of, names_of, parted, peaks_of_runs
 from frames.results.bearing_findings import IMPACT
+from frames.results.findings import findings_by_run
 from frames.results.level_doubts import (
     DOUBTED,
     errors_of,
@@ -70,30 +71,24 @@ def contact_notes(data: xr.Dataset, least: float) -> str:
 
 def audit_notes(data: xr.Dataset) -> str:
     """Return what the assumption checks of runs mark, by motion."""
-    doubts = [str(value) for value in data["doubts"].to_numpy()]
     return "; ".join(
-        f"assumption check of {motion_of(data, k)}: {d}" for k, d in enumerate(doubts) if d
+        f"assumption check of {motion_of(data, k)}: {'; '.join(found.doubts())}"
+        for k, found in enumerate(findings_by_run(data))
+        if found.doubts()
     )
 
 
-def left_out_checks(
-    data: xr.Dataset, doubts: list[str], bound: Bound, void: str = ""
-) -> list[Check]:
+def left_out_checks(data: xr.Dataset, bound: Bound, void: str = "") -> list[Check]:
     """Return the check that omitted effects do not matter; none if runs left nothing out."""
     features = str(data.attrs.get("features_left_out", "none"))
     if features == "none":
         return []
     t = Trace()
-    t.given(
-        "n_spoilt",
-        float(sum(" left out: " in d for d in doubts)),
-        note="by their assumption checks",
-    )
+    spoilt = sum(any(one.is_missing for one in found) for found in findings_by_run(data))
+    t.given("n_spoilt", float(spoilt), note="by their assumption checks")
     t.given("n_allowed", 0.0)
-    judge, title = (
-        CheckBuilder(t, bound, OWN, void=void),
-        "runs whose modelling assumptions are violated",
-    )
+    judge = CheckBuilder(t, bound, OWN, void=void)
+    title = "runs whose modelling assumptions are violated"
     return [judge("no code: assumption check", title, "n_spoilt", "<=", "n_allowed", note=features)]
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import xarray as xr
 
+from frames.batch.runs import BOUND, HAZARD, Runs, tagged
 from frames.batch.time_histories import time_histories
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.codes.registry import code_named
@@ -19,7 +20,7 @@ from lir_element import DesignWarning
 from lir_element.errors import AnalysisWarning
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from frames.batch.cases import BatchProgress
     from frames.design.codes.bounds import BoundName, PropertyBounds
@@ -85,7 +86,7 @@ class Trial(NamedTuple):
 
     tried: Candidate  # by the formula, and as it was made larger
     sized: Candidate
-    runs: dict[Place, xr.Dataset]  # of the sized one, with its rims
+    runs: Runs  # of the sized one, with its rims; tags as in `Place`
     free: float  # displacement without rims for design, torsion and the code's factor included [m]
     failed: dict[Place, int]  # number of runs that failed
     excess: Excess  # of the motions
@@ -131,7 +132,7 @@ class Trial(NamedTuple):
                 "mean spectrum over target [-]": self.excess.ratio,
                 "least by the rule [-]": self.excess.asked,
             }
-            for place, data in self.runs.items()
+            for place, data in _by_place(self.runs)
         ]
 
     def __str__(self) -> str:
@@ -149,8 +150,8 @@ class Trial(NamedTuple):
             ]
             said += f"made larger: {', '.join(each)}\n"
         for factor in FACTORS:
-            runs = sum(d.sizes["run"] for place, d in self.runs.items() if place.factor == factor)
-            said += f"{self.failures(factor)} of {runs} runs fail at {factor:g} times the motions; "
+            runs, failed = len(self.runs.where(factor=factor)), self.failures(factor)
+            said += f"{failed} of {runs} runs fail at {factor:g} times the motions; "
         said = said.removesuffix("; ")
         if self.larger_lacks:
             said += f"\nlarger it falls out: {'; '.join(self.larger_lacks)}"
@@ -170,7 +171,7 @@ def tried_on_one_mass(found: Design, candidate: Candidate, how: OneMass) -> Tria
     free = _runs(candidate.bearings[0].as_dcfp(rims=False), mass, motions, how, (1.0,))
     factor = _torsion(candidate) * how.rules.displacement_factor
     needed = factor * _for_design(free, "displacement", how.rules)
-    asked, sized, runs = Asked(needed), candidate, dict[Place, xr.Dataset]()
+    asked, sized, runs = Asked(needed), candidate, Runs()
     for _ in range(ROUNDS):
         larger = candidate
         if asked.displacement > candidate.displacement or asked.slip > 0.0:
@@ -178,7 +179,7 @@ def tried_on_one_mass(found: Design, candidate: Candidate, how: OneMass) -> Tria
         if not larger.lacks:
             sized = larger
             motions = how.motions(sized.analysis)
-        if not larger.lacks or not runs:
+        if not larger.lacks or not len(runs):
             runs = _runs(sized.bearings[0], mass, motions, how, FACTORS)
         slip = _for_design(runs, "slip", how.rules)
         fails = any(_failed(runs, how.rules).values())
@@ -191,16 +192,17 @@ def tried_on_one_mass(found: Design, candidate: Candidate, how: OneMass) -> Tria
 
 def _runs(
     bearing: LIRBearing, mass: float, motions: MotionSet, how: OneMass, factors: tuple[float, ...]
-) -> dict[Place, xr.Dataset]:
+) -> Runs:
     # At each level, factor and bound; failures are counted by who called.
     frame = lumped_mass(bearing, mass)
-    places = [
-        (Place(level.name, factor, bound), level.factor)
+    rows = [
+        (level, factor, bound, motion)
         for level in how.rules.levels
         for factor in factors
         for bound in how.at
+        for motion in motions
     ]
-    cases = [(at.bound, name, at.factor * more) for at, more in places for name in motions]
+    cases = [(bound, motion, factor * level.factor) for level, factor, bound, motion in rows]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AnalysisWarning)
         warnings.simplefilter("ignore", DesignWarning)  # the stable slip is among the checks
@@ -208,19 +210,24 @@ def _runs(
             bound: with_property_bounds(frame, bound, how.bounds) for bound in how.at
         }
         data = time_histories(models, motions, cases=cases, progress=how.progress)
-    n = len(motions)
-    return {at: data.isel(run=slice(k * n, (k + 1) * n)) for k, (at, _) in enumerate(places)}
+    levels, tried, bounds, _ = zip(*rows, strict=True)
+    tags = {HAZARD: [level.name for level in levels], "factor": tried, BOUND: bounds}
+    return Runs(tagged(data, **tags))
 
 
-def _failed(runs: Mapping[Place, xr.Dataset], rules: HistoryRules) -> dict[Place, int]:
-    return {place: sum(suite_of(data, rules).failed) for place, data in runs.items()}
+def _by_place(runs: Runs) -> list[tuple[Place, xr.Dataset]]:
+    return [(Place(*key), own.data) for key, own in runs.by(HAZARD, "factor", BOUND).items()]
 
 
-def _for_design(runs: Mapping[Place, xr.Dataset], name: str, rules: HistoryRules) -> float:
+def _failed(runs: Runs, rules: HistoryRules) -> dict[Place, int]:
+    return {place: sum(suite_of(data, rules).failed) for place, data in _by_place(runs)}
+
+
+def _for_design(runs: Runs, name: str, rules: HistoryRules) -> float:
     # The largest of all levels and bounds of what the code makes of the motions, times 1.
     return max(
         suite_of(data, rules).value(peaks_of_runs(data, name).max(axis=1))
-        for place, data in runs.items()
+        for place, data in _by_place(runs)
         if place.factor < MARGIN
     )
 
