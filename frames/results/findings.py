@@ -6,6 +6,7 @@ import json
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
+from lir_element.device.features import Features
 from lir_element.tables import html_table
 
 if TYPE_CHECKING:
@@ -90,6 +91,10 @@ class Findings(tuple[Finding, ...]):
     def doubts(self) -> tuple[str, ...]:
         """Return the sentences of those that are marked, in the same order."""
         return tuple(line[2:] for line in self.lines() if line.startswith("! "))
+
+    def missing(self) -> tuple[str, ...]:
+        """Return the features whose omission spoils the run."""
+        return tuple(f.feature for f in self if f.is_missing and f.feature in Features.names())
 
     def attrs(self) -> dict[str, str]:
         """Return them as attributes of a Dataset: as text for people, and to be read again."""

@@ -56,7 +56,7 @@ def agree(many: xr.Dataset, one: xr.Dataset) -> None:
     rows = findings_of(many), findings_by_run(many.expand_dims("run"))[0]
     for found in (*rows, findings_of(many.drop_vars("findings"))):  # and of files from before
         assert found.lines() == findings_of(one).lines()
-        assert [f.is_missing for f in found] == [f.is_missing for f in findings_of(one)]
+        assert found.missing() == findings_of(one).missing()
     np.testing.assert_equal(float(many["failed_at"]), one.attrs.get("failed_at", np.nan))
     names = [n for n in one.data_vars if str(n).startswith("reached_") and one[n].dtype == float]
     assert len(names) > 50

@@ -84,7 +84,7 @@ def left_out_checks(data: xr.Dataset, bound: Bound, void: str = "") -> list[Chec
     if features == "none":
         return []
     t = Trace()
-    spoilt = sum(any(one.is_missing for one in found) for found in findings_by_run(data))
+    spoilt = sum(bool(found.missing()) for found in findings_by_run(data))
     t.given("n_spoilt", float(spoilt), note="by their assumption checks")
     t.given("n_allowed", 0.0)
     judge = CheckBuilder(t, bound, OWN, void=void)
