@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from frames._types import BoolArray
 
-DEVICE, HAZARD, BOUND, WAY = "device", "hazard_level", "bound", "masses_moved"
+TAGS = DEVICE, HAZARD, BOUND, WAY = "device", "hazard_level", "bound", "masses_moved"
 """Tags of a run beside its model, motion and scale: bearings in a comparison, level of the seismic
 action, bound of the properties, way in which masses were moved. Each is a coordinate along `run`;
 one that is not there is "" of all runs."""
@@ -60,9 +60,11 @@ class Runs:
 
         if len(self.parts) == 1:
             return self.parts[0]
-        return xr.concat(
-            self.parts, "run", data_vars="minimal", coords="minimal", compat="override"
-        )
+        known = [n for n in TAGS if any(n in part.coords for part in self.parts)]
+        parts = [
+            part.assign_coords({n: ("run", _of(part, n)) for n in known}) for part in self.parts
+        ]
+        return xr.concat(parts, "run", data_vars="minimal", coords="minimal", compat="override")
 
     def of(self, name: str) -> np.ndarray[Any, Any]:
         """Return a variable or a tag of all rows.
@@ -111,6 +113,6 @@ def tagged(data: xr.Dataset, **tags: str | Iterable[object]) -> xr.Dataset:
 
 def _of(part: xr.Dataset, name: str) -> np.ndarray[Any, Any]:
     # A tag that is not there is "" of all runs.
-    if name not in part.variables and name in {DEVICE, HAZARD, BOUND, WAY}:
+    if name not in part.variables and name in TAGS:
         return np.full(part.sizes["run"], "", dtype=object)
     return part.variables[name].transpose("run", ...).to_numpy()

@@ -27,6 +27,7 @@ from frames import (
     time_histories,
     time_history,
 )
+from frames.batch.runs import Runs, tagged
 from frames.laws import Bilinear, PlasticHinge
 from frames.results.findings import findings_by_run, findings_of
 from lir_element import AnalysisInterrupted, AnalysisWarning, Features, LIRBearing
@@ -117,6 +118,30 @@ def test_rows_are_the_single_runs(grid, motions):
     assert len(set(data["status"].to_numpy())) > 1  # some of them fail
     assert float(data["reached_uplifts"].max()) > 0.0
     assert float(data["reached_rims_met"].max()) > 0.0
+
+
+def test_rows_are_selected_by_tags(grid):
+    """Of batches that do not share their steps; those of a group stay where they are."""
+    _, data = grid
+    far = tagged(data.isel(run=[4, 0, 2]), masses_moved=["+x", "-x", "+x"], bound="lower")
+    runs = Runs(tagged(data, bound=["lower", "upper"] * 6)) + Runs(far)
+    assert (len(runs), len(runs.moved), len(runs.centred)) == (15, 3, 12)
+    groups = runs.by("masses_moved", "bound")
+    assert list(groups) == [("", "lower"), ("", "upper"), ("+x", "lower"), ("-x", "lower")]
+    assert groups["+x", "lower"].of("run").tolist() == [4, 2]
+    assert groups["", "upper"].of("scale").tolist() == data["scale"].to_numpy()[1::2].tolist()
+    upper = runs.where(model="mass", bound="upper")
+    assert (
+        upper.of("reached_displacement")[:, -1].max()
+        == runs.of("reached_displacement")[
+            (runs.of("model") == "mass") & (runs.of("bound") == "upper")
+        ][:, -1].max()
+    )
+    mass = runs.where(model="mass", masses_moved="").data
+    assert np.shares_memory(mass["reached_slip"], data["reached_slip"])  # no copy
+    assert runs.where(device="none").parts == ()
+    assert runs.data.sizes["run"] == 15
+    assert set(runs.data["masses_moved"].to_numpy()[-3:]) == {"+x", "-x"}
 
 
 def test_what_a_structure_does_not_have_is_nan(grid):

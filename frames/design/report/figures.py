@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from frames._types import BoolArray, FloatArray
+    from frames._types import FloatArray
     from frames.design.calculation.check import Check
     from frames.design.project.design_run import ProjectRun
     from frames.design.report.words import Words
@@ -65,14 +65,10 @@ _OF_BEARINGS = {
 class Reached(NamedTuple):
     """What the motions reached at one bound, at the place that governs there."""
 
-    bound: str
-    motions: tuple[str, ...]  # names
+    case: Case  # the runs of that bound, and how they count
     values: FloatArray  # (n_runs,) of each motion
     design: float  # what the code makes of them: mean or largest
-    statistic: str  # which of the two, and whether accidental eccentricity raises it
     where: str  # bearing or storey
-    failed: BoolArray  # (n_runs,) runs whose values must not count
-    is_usable: bool  # whether `design` is a value for design, and not what runs reached alone
 
 
 def reached(run: ProjectRun, name: str) -> list[Reached]:
@@ -81,22 +77,11 @@ def reached(run: ProjectRun, name: str) -> list[Reached]:
     level = run.rules.bearing_level if of_bearings else _structure_level(run)
     found = []
     for case in levels_of(run.cases)[level]:
-        if not case.keeps(name):
-            continue
-        values, suite, design = reached_by(case.data, name), case.suite, case.design(name)
-        k = worst_place(design)
-        found.append(
-            Reached(
-                case.bound,
-                tuple(map(str, case.data["motion"].to_numpy())),
-                values[:, k],
-                design[k],
-                suite.statistic + (", raised by moved masses" if suite.raised else ""),
-                names_of(case.data, name)[k],
-                np.array(suite.failed),
-                suite.is_usable,
-            )
-        )
+        if case.keeps(name):
+            design = case.design(name)
+            k = worst_place(design)
+            values = reached_by(case.data, name)[:, k]
+            found.append(Reached(case, values, design[k], names_of(case.data, name)[k]))
     return found
 
 
@@ -116,14 +101,17 @@ def motions_figure(run: ProjectRun) -> Figure:
         _motions(panel, found, factor)
         where = ", ".join(
             dict.fromkeys(
-                f"{each.where} at {each.bound}" if each.bound else each.where for each in found
+                f"{one.where} at {one.case.bound}" if one.case.bound else one.where for one in found
             )
         )
         ps.caption(panel, y=f"[{unit}]", title=f"{title}: {where}")
-    motions = shown[0][3][0].motions
+    cases = [each.case for each in shown[0][3]]
+    motions = list(map(str, cases[0].data["motion"].to_numpy()))
     for panel in panels:
         panel.set_xticks(range(len(motions)), motions if panel is panels[-1] else [], rotation=90)
-    statistics = sorted({each.statistic for *_, found in shown for each in found})
+    every = [each.case.suite for *_, found in shown for each in found]
+    raised = ", raised by moved masses"
+    statistics = sorted({f"{each.statistic}{raised if each.raised else ''}" for each in every})
     handles = [
         Line2D(
             [],
@@ -131,13 +119,12 @@ def motions_figure(run: ProjectRun) -> Figure:
             color=ps.PALETTE[k],
             marker="o^v"[k % 3],
             linestyle="-",
-            label=each.bound or "runs",
+            label=case.bound or "runs",
         )
-        for k, each in enumerate(shown[0][3])
+        for k, case in enumerate(cases)
     ]
     title = f"All motions; lines: the {' or the '.join(statistics)}, at the place that governs"
-    every = [each for *_, found in shown for each in found]
-    if any(each.failed.any() for each in every):
+    if any(any(each.failed) for each in every):
         handles.append(_cross(label="run that failed"))
     if not all(each.is_usable for each in every):
         title = VOID_TITLE
@@ -157,7 +144,8 @@ def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
     for k, each in enumerate(found):
         shift = 0.18 * (k - 0.5 * (len(found) - 1))
         places = np.arange(len(each.values)) + shift
-        for which, mark in ((~each.failed, "o^v"[k % 3]), (each.failed, "x")):
+        failed = np.array(each.case.suite.failed)
+        for which, mark in ((~failed, "o^v"[k % 3]), (failed, "x")):
             if which.any():
                 values = factor * each.values[which]
                 panel.plot(places[which], values, mark, color=ps.PALETTE[k], markersize=4.0)

@@ -10,6 +10,7 @@ import numpy as np
 
 from frames._fingerprint import motion_digest
 from frames.batch.cases import named_motions
+from frames.batch.runs import Runs
 from frames.risk._errors import FragilityError
 from lir_element.argument_checks import require_choice
 from lir_element.errors import AnalysisWarning
@@ -36,8 +37,8 @@ def rows_of(data: xr.Dataset, model: str | None, parameters: Sets) -> xr.Dataset
         raise FragilityError(msg)
     chosen = names[0] if model is None else model
     require_choice("model", chosen, names, error=FragilityError)
-    own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == chosen))
-    own = own.isel(run=np.flatnonzero(_of_sets(own, parameters)))
+    own = Runs(data).where(model=chosen).data
+    own = Runs(own).those(_of_sets(own, parameters)).data
     done = own["status"].to_numpy() != ""  # what a campaign has not run yet
     if "done" in own.coords:
         done &= own["done"].to_numpy()
@@ -51,7 +52,7 @@ def rows_of(data: xr.Dataset, model: str | None, parameters: Sets) -> xr.Dataset
             AnalysisWarning,
             stacklevel=4,
         )
-    return own.isel(run=np.flatnonzero(done))
+    return Runs(own).those(done).data
 
 
 def _of_sets(own: xr.Dataset, parameters: Sets) -> BoolArray:
