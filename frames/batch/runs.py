@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Sequence
 
     import xarray as xr
 
@@ -104,10 +104,10 @@ class Runs:
         return Runs(*found)
 
 
-def tagged(data: xr.Dataset, **tags: str | Iterable[object]) -> xr.Dataset:
+def tagged(data: xr.Dataset, **tags: str | Sequence[object]) -> xr.Dataset:
     """Return runs with tags, each of all of them or one a run."""
     count = data.sizes["run"]
-    each = {n: [v] * count if isinstance(v, str) else list(v) for n, v in tags.items() if v}
+    each = {n: [v] * count if isinstance(v, str) else list(v) for n, v in tags.items() if any(v)}
     return data.assign_coords({name: ("run", values) for name, values in each.items()})
 
 

@@ -124,23 +124,23 @@ def project_runs(
 ) -> Runs:
     """Run a project's time histories at each level and bound, then those with moved masses."""
     given, rules = parts.file.analysis, parts.rules()
-    models: dict[str, Frame] = {
-        bound: with_property_bounds(frame, bound, parts.bounds()) for bound in given.bounds
-    }
-    tags = [(level.name, b) for level in rules.levels for b in given.bounds for _ in motions]
-    cases = [
-        (bound, name, level.factor)
+    own = [
+        (level.name, bound, "", name)
         for level in rules.levels
         for bound in given.bounds
         for name in motions
     ]
-    data = _of_all(parts, models, motions, cases, progress, resume)
-    levels, bounds = zip(*tags, strict=True)
-    runs = Runs(tagged(data, **{HAZARD: levels, BOUND: bounds}))
+    runs = _of_all(parts, {"": frame}, motions, own, progress, resume)
     if not moved:
         return runs
+    rows = []
+    for (level, bound), each in runs.by(HAZARD, BOUND).items():
+        is_all = given.accidental_eccentricity_motions == "all"
+        names = list(motions) if is_all else [governing_motion(each.data, rules)]
+        rows += [(level, bound, way, name) for way in moved for name in names]
     with kept_of(runs):
-        return runs + _moved_runs(parts, moved, motions, runs, progress, resume)
+        kept = None if resume is None else resume / MOVED
+        return runs + _of_all(parts, moved, motions, rows, progress, kept)
 
 
 @contextmanager
@@ -156,51 +156,30 @@ def kept_of(runs: Runs) -> Generator[None, None, None]:
         raise
 
 
-def _moved_runs(
+def _of_all(
     parts: ProjectInputs,
-    moved: Mapping[str, Frame],
+    frames: Mapping[str, Frame],
     motions: MotionSet,
-    runs: Runs,
+    rows: Sequence[tuple[str, str, str, str]],
     progress: Callable[[BatchProgress], None] | bool | None,
     resume: Path | None,
 ) -> Runs:
-    # With the floors' masses moved each way, at each level and bound.
+    # Rows of level, bound, way of the masses and motion, of a structure by each way: with what they
+    # reached, and their histories where the project asks for these.
     given, rules = parts.file.analysis, parts.rules()
-    models: dict[str, Frame] = {
-        f"{bound}, masses {way}": with_property_bounds(frame, bound, parts.bounds())
-        for bound in given.bounds
-        for way, frame in moved.items()
+    named = {(b, way): f"{b}, masses {way}" if way else b for b in given.bounds for way in frames}
+    models = {
+        name: with_property_bounds(frames[way], bound, parts.bounds())
+        for (bound, way), name in named.items()
     }
-    cases, tags = [], []
-    for (level, bound), own in runs.by(HAZARD, BOUND).items():
-        is_all = given.accidental_eccentricity_motions == "all"
-        names = list(motions) if is_all else [governing_motion(own.data, rules)]
-        for way in moved:
-            tags += [(level, bound, way)] * len(names)
-            factor = rules.level(level).factor
-            cases += [(f"{bound}, masses {way}", name, factor) for name in names]
-    kept = None if resume is None else resume / MOVED
-    data = _of_all(parts, models, motions, cases, progress, kept)
-    return Runs(
-        tagged(data, **dict(zip((HAZARD, BOUND, WAY), zip(*tags, strict=True), strict=True)))
-    )
-
-
-def _of_all(
-    parts: ProjectInputs,
-    models: Mapping[str, Frame],
-    motions: MotionSet,
-    cases: Sequence[tuple[str, str, float]],
-    progress: Callable[[BatchProgress], None] | bool | None,
-    resume: Path | None,
-) -> xr.Dataset:
-    # All runs alike: with what they reached, and their histories where the project asks for these.
-    given = parts.file.analysis
+    levels, bounds, ways, names = zip(*rows, strict=True)
+    factors = (rules.level(level).factor for level in levels)
+    of = (named[at] for at in zip(bounds, ways, strict=True))
     try:
-        return time_histories(
+        data = time_histories(
             models,
             motions,
-            cases=cases,
+            cases=list(zip(of, names, factors, strict=True)),
             level=given.level,
             dt=given.dt,
             workers=given.workers,
@@ -213,6 +192,7 @@ def _of_all(
     except ValueError as cause:  # of steps, and of results that would not fit the memory
         msg = f"[analysis] {cause}"
         raise ProjectError(msg) from cause
+    return Runs(tagged(data, **{HAZARD: levels, BOUND: bounds, WAY: ways}))
 
 
 def governing_motion(data: xr.Dataset, rules: HistoryRules) -> str:
