@@ -20,6 +20,7 @@ from frames import (
     time_histories,
     time_history,
 )
+from frames.batch.runs import Runs
 from frames.demo import table_of
 from frames.design import HISTORY_RULES, history_demands
 from frames.design.histories.suite import names_of, peaks_of_runs
@@ -93,8 +94,7 @@ def test_demands_of_one_run_are_its_peaks(data: xr.Dataset, batch: xr.Dataset, c
 
 def test_the_report_s_bearings_have_the_peaks(frame, data, batch):
     types = dict.fromkeys(frame.bearings, "standard")
-    runs = {"": {"nominal": batch}}
-    run = SimpleNamespace(frame=frame, loads=np.ones(4), runs=runs, kinds=types, moved={})
+    run = SimpleNamespace(frame=frame, loads=np.ones(4), runs=Runs(batch), kinds=types)
     table: pd.DataFrame = bearing_table(run)  # type: ignore[arg-type]
     known = peaks(data)["value"]
     assert table["displacement [m]"].max() == pytest.approx(known["bearing displacement"])

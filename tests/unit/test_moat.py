@@ -14,8 +14,10 @@ pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 
 from frames import GroundMotion, shear_building, time_histories
+from frames.batch.runs import Runs, tagged
 from frames.design import CheckError, DesignLimits, ProjectError, code_named
 from frames.design.devices.limits import PROJECT_LIMIT
+from frames.design.histories.eccentricity import cases_of
 from frames.design.project.devices_beside import walls_of, with_devices
 from frames.design.project.moat_checks import of_the_moat
 from frames.design.project.reading import read_project
@@ -43,8 +45,7 @@ def checked(gap: float | None, code: str, wall: MoatTable | None = None) -> list
         limits=DesignLimits(moat_gap=gap),
         equivalent=SimpleNamespace(bounds={"lower": bound}),
         rules=rules,
-        runs={rules.bearing_level: {"lower": data}},
-        moved={},
+        cases=cases_of(Runs(tagged(data, hazard_level=rules.bearing_level, bound="lower")), rules),
     )
     reached = data["reached_displacement"].to_numpy().max(axis=1)
     force = data["reached_link_force"].to_numpy() if wall else np.zeros((2, 1))

@@ -2,6 +2,7 @@
 
 import importlib
 import os
+import re
 import platform
 import subprocess  # what a new process does  # noqa: S404
 import sys
@@ -173,12 +174,13 @@ echo "$0 $@" | tr '\\n' ' ' >>"$LOG"
 case "$*" in
     "-m venv --clear "*) mkdir -p "$4/bin" && : >"$4/pyvenv.cfg" && cp "$0" "$4/bin/python" ;;
     *direct_url*) echo "$OTHER" ;;
+    "-m uv"*) test -z "$NO_UV" ;;
 esac
 """
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no sh")
-@pytest.mark.parametrize("case", ["own", "link", "other"])
+@pytest.mark.parametrize("case", ["own", "link", "other", "no uv"])
 def test_environments_of_other_checkouts_are_left_alone(tmp_path: Path, case: str) -> None:
     """A stub stands for Python, and a file for what it is called with: nothing is installed."""
     log, there = tmp_path / "log", tmp_path / "there"
@@ -197,15 +199,16 @@ def test_environments_of_other_checkouts_are_left_alone(tmp_path: Path, case: st
     done = subprocess.run(  # noqa: S603
         ["sh", str(ROOT / ".ci" / "venv"), ".venv"],  # noqa: S607
         cwd=tmp_path,
-        env={"PATH": path, "LOG": str(log), "OTHER": other},
+        env={"PATH": path, "LOG": str(log), "OTHER": other, "NO_UV": "1" * (case == "no uv")},
         capture_output=True,
         text=True,
         check=False,
     )
-    installs = ".venv/bin/python -m pip install" in log.read_text()
-    assert (done.returncode, installs) == ((1, False) if case == "other" else (0, True)), done
-    words = {"own": "", "other": "environment of /elsewhere and is left", "link": "is left as it"}
-    assert words[case] in done.stderr
+    calls = re.findall(r"-m (uv pip|pip) (?:(?!-m ).)*--editable", log.read_text())
+    by = {"other": [], "no uv": ["uv pip", "pip"]}.get(case, ["uv pip"])
+    assert (done.returncode, calls) == (int(case == "other"), by), done
+    words = {"other": "environment of /elsewhere and is left", "link": "is left as it"}
+    assert words.get(case, "") in done.stderr
     if case == "link":
         assert not (tmp_path / ".venv").is_symlink()
         assert sorted(p.name for p in there.iterdir()) == ["bin", "pyvenv.cfg"]
