@@ -2,8 +2,8 @@
 
 import importlib
 import os
-import re
 import platform
+import re
 import subprocess  # what a new process does  # noqa: S404
 import sys
 from pathlib import Path
