@@ -174,6 +174,9 @@ class IntegratorSettings(NamedTuple):
 AT_REST = IntegratorSettings(*(kind() for kind in get_type_hints(IntegratorSettings).values()))
 """Settings where nothing moves."""
 
+STILL = Ground(np.zeros((2, 3)), 1.0)
+"""Ground that does not move."""
+
 
 def run_arrays(model: ReducedModel) -> IntegrationState:
     """Return a run at rest, bearings undeformed and unloaded."""

@@ -73,7 +73,7 @@ def _refuse_stages(tables: Tables, account: Account) -> None:
     rows = tables.rows("LOADCASE")
     staged = [r for r in rows if r.has("STAGE") or "STAGED" in r.text("TYPE", "").upper()]
     if staged:
-        key, what = next(refused[1:] for refused in dialect.REFUSED if refused[0] == "STAGE")
+        key, what = next(each[1:] for each in dialect.REFUSED if each[0] == "STAGE")
         names = list(dict.fromkeys(row.text("Case") for row in staged))
         account.refuse(key, staged[0].table, what, names, staged[0].place)
 

@@ -10,6 +10,9 @@ from frames.exchange.fields import (
     Field,
     Refusal,
     fields,
+    has,
+    is_none_of,
+    lacks,
 )
 
 DOFS = ("UX", "UY", "UZ", "RX", "RY", "RZ")
@@ -113,23 +116,23 @@ FORCES = fields("fx=FX fy=FY fz=FZ", "force") + fields("mx=MX my=MY mz=MZ", "mom
 
 _LIMITS = "limits of axial force, without"
 FRAME_WORDS = (
-    Refusal("LIMITTENSION|LIMITCOMPRESSION", "tension limits", _LIMITS, when="not none"),
-    Refusal("HINGE", "hinges", "plastic hinges of frames, which stay elastic", when="not none"),
+    Refusal("LIMITTENSION|LIMITCOMPRESSION", "tension limits", _LIMITS, is_none_of("none")),
+    Refusal("HINGE", "hinges", "plastic hinges of frames, which stay elastic", is_none_of("none")),
 )
 _RIBBED = "a ribbed or waffle slab, taken as a flat one of its slab's thickness"
 _LAYERED = "a layered shell, taken as a linear one of its thickness"
 SHELL_WORDS = (
-    Refusal("MODELINGTYPE|TYPE", "layered shells", _LAYERED, when="layered"),
-    Refusal("SLABTYPE", "ribbed slabs", _RIBBED, when="ribbed|waffle"),
+    Refusal("MODELINGTYPE|TYPE", "layered shells", _LAYERED, has("layered")),
+    Refusal("SLABTYPE", "ribbed slabs", _RIBBED, has("ribbed", "waffle")),
 )
 _OPENING = "openings in slabs, whose loads are not taken away"
-AREA_WORDS = (Refusal("OPENING", "openings", _OPENING, when="not no|none"),)
-POINT_LOAD = (Refusal("TYPE", "imposed strains", 'loads of type "{}" on points', when="not force"),)
-_KINDS = "not uniff|trapf|pointf"
-LINE_LOAD = (Refusal("TYPE", "imposed strains", 'loads of type "{}" on lines', when=_KINDS),)
-SPRING_WORDS = (
-    Refusal("AXIALDIR", "links", "springs of points by links along {}", when="without z"),
+AREA_WORDS = (Refusal("OPENING", "openings", _OPENING, is_none_of("no", "none")),)
+POINT_LOAD = (
+    Refusal("TYPE", "imposed strains", 'loads of type "{}" on points', is_none_of("force")),
 )
+_KINDS = is_none_of("uniff", "trapf", "pointf")
+LINE_LOAD = (Refusal("TYPE", "imposed strains", 'loads of type "{}" on lines', _KINDS),)
+SPRING_WORDS = (Refusal("AXIALDIR", "links", "springs of points by links along {}", lacks("z")),)
 
 NAMES = {
     "STORY": ("Story",),

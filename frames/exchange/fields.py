@@ -150,30 +150,37 @@ def fields(
 class Refusal(NamedTuple):
     """A field whose loss would change the answer: its names, the key of `allow`, and what it is.
 
-    It matters if the field says Yes. With `when` it does if its text has one of these words,
-    "a|b", has none of them, "without a|b", or is none of them, "not a|b". "{}" in `what` is the
-    text.
+    It matters if its text does (`has`, `lacks`, `is_none_of`), or without `when` if it says Yes.
+    "{}" in `what` is the text.
     """
 
     names: str
     key: str
     what: str
-    when: str = ""
+    when: Callable[[str], bool] | None = None
 
     def odd(self, row: Row) -> str | None:
         """Return the text of the field if it matters."""
         for name in filter(row.has, self.names.split("|")):
-            text, how = row.text(name), self.when.partition(" ")[0]
-            words = self.when.removeprefix("not ").removeprefix("without ").split("|")
-            if not self.when:
-                odd = row.yes(name)
-            elif how == "not":
-                odd = text.strip().lower() not in words
-            else:
-                odd = any(word in text.lower() for word in words) != (how == "without")
-            if odd:
+            text = row.text(name)
+            if row.yes(name) if self.when is None else self.when(text):
                 return text
         return None
+
+
+def has(*words: str) -> Callable[[str], bool]:
+    """Return whether a text has one of some words in it."""
+    return lambda text: any(word in text.lower() for word in words)
+
+
+def lacks(word: str) -> Callable[[str], bool]:
+    """Return whether a text has a word nowhere in it."""
+    return lambda text: word not in text.lower()
+
+
+def is_none_of(*words: str) -> Callable[[str], bool]:
+    """Return whether a text is none of some words."""
+    return lambda text: text.strip().lower() not in words
 
 
 def refused(row: Row, name: str, account: Account, refusals: Iterable[Refusal]) -> bool:

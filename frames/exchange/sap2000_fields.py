@@ -10,6 +10,8 @@ from frames.exchange.fields import (
     Field,
     Refusal,
     fields,
+    has,
+    is_none_of,
 )
 
 MATERIALS = "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"
@@ -115,12 +117,12 @@ NONLINEAR = {
 FORCES = fields("fx=F1 fy=F2 fz=F3", "force") + fields("mx=M1 my=M2 mz=M3", "moment")
 
 SECTION_WORDS = (
-    Refusal("Shape", "nonprismatic sections", "a nonprismatic section", when="nonprismatic"),
+    Refusal("Shape", "nonprismatic sections", "a nonprismatic section", has("nonprismatic")),
 )
 _LAYERED = "a layered shell, taken as a linear one of its thickness"
-LAYERED = (Refusal("AreaType|Type", "layered shells", _LAYERED, when="layered|nonlinear"),)
+LAYERED = (Refusal("AreaType|Type", "layered shells", _LAYERED, has("layered", "nonlinear")),)
 _NO_SHELL = 'an area of type "{}", of which loads alone are read'
-NO_SHELL = (Refusal("AreaType", "plane and solid areas", _NO_SHELL, when="not shell"),)
+NO_SHELL = (Refusal("AreaType", "plane and solid areas", _NO_SHELL, is_none_of("shell")),)
 _TURNED = "advanced or mirrored local axes of frames, taken by their angle alone"
 _PARTLY = "partial fixity of end releases, taken as full releases"
 FRAME_WORDS = (
@@ -128,9 +130,9 @@ FRAME_WORDS = (
     Refusal("AdvanceAxes|MirrorAbt2|MirrorAbt3", "advanced axes", _TURNED),
     Refusal("PartialFix", "partial fixity", _PARTLY),
 )
-LOAD_WORDS = (Refusal("Type", "moments along frames", "moments along frames", when="moment"),)
+LOAD_WORDS = (Refusal("Type", "moments along frames", "moments along frames", has("moment")),)
 _INCLINED = "diaphragms that are not horizontal"
-CONSTRAINT_WORDS = (Refusal("Axis", "other constraints", _INCLINED, when="not z|auto"),)
+CONSTRAINT_WORDS = (Refusal("Axis", "other constraints", _INCLINED, is_none_of("z", "auto")),)
 
 REFUSED = (
     ("FRAME HINGE ASSIGN", "hinges", "plastic hinges of frames, which stay elastic"),

@@ -21,7 +21,7 @@ import numpy as np
 from frames._errors import ModelWarning
 from frames._fingerprint import fingerprint
 from frames.bundles.nonlinear_data import NonlinearElements, part_sizes
-from frames.bundles.run_data import AT_REST, Ground, output_arrays, run_arrays
+from frames.bundles.run_data import AT_REST, STILL, output_arrays, run_arrays
 from frames.kernels.integration import integrate_chunk
 from frames.model import sanity_checks
 from frames.model.superelement import Superelement
@@ -143,11 +143,11 @@ class Analysis:
     @cached_property
     def at_rest(self) -> xr.Dataset:
         """The result of the state at rest alone."""
-        state, still = self.state, Ground(np.zeros((2, 3)), 1.0)
+        state = self.state
         out, states, bodies = output_arrays(state.model, state.contacts, 1, part_sizes(state.parts))
         kept = state.model, state.run, state.contacts, state.parts
-        integrate_chunk(*kept, AT_REST, still, out, 0, 0)
-        return build_dataset(self.common, state, still, np.zeros(3), out, states, bodies, 1)
+        integrate_chunk(*kept, AT_REST, STILL, out, 0, 0)
+        return build_dataset(self.common, state, STILL, np.zeros(3), out, states, bodies, 1)
 
     @cached_property
     def template(self) -> xr.Dataset:

@@ -5,7 +5,7 @@ Nonlinear parts of the structure are elastic there.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from frames.assembly.supports import load_path
 from frames.assembly.system import BOUC_WEN, HINGE, SCRATCH, STATE_SIZE, STRIDE
 from frames.bundles.model_data import ReducedModel, contacts_of, model_arrays
 from frames.bundles.nonlinear_data import part_sizes
-from frames.bundles.run_data import AT_REST, Ground, IntegrationState, output_arrays, run_arrays
+from frames.bundles.run_data import AT_REST, STILL, IntegrationState, output_arrays, run_arrays
 from frames.kernels.hinges import is_outside, set_forces, set_stress
 from frames.kernels.integration import integrate_chunk
 from frames.model.laws import Bilinear, BoucWen
@@ -75,18 +75,14 @@ def find_equilibrium(
         force_tolerance=force_tolerance(system, _FORCE_TOLERANCE), max_iterations=_MAX_ITERATIONS
     )
     guess = linear[basis.bearing_dofs]
-
-    def task(run: IntegrationState, contacts: Contacts | None) -> tuple[Any, ...]:
-        still = Ground(np.zeros((2, 3)), 1.0)
-        out, _, _ = output_arrays(model, contacts, 1, part_sizes(parts))
-        return model, run, contacts, parts, settings, still, out, -1, 0
-
-    compiling = ready(integrate_chunk, *task(run_arrays(model), contacts_of(system, chosen)))
+    empty = run_arrays(model), contacts_of(system, chosen)
+    out, _, _ = output_arrays(model, empty[1], 1, part_sizes(parts))
+    compiling = ready(integrate_chunk, model, *empty, parts, settings, STILL, out, -1, 0)
 
     def solve(first: FloatArray) -> tuple[RunStatus, IntegrationState, Contacts | None]:
         run, contacts = run_arrays(model), contacts_of(system, chosen)
         run.b[:] = first
-        status = integrate_chunk(*task(run, contacts))
+        status = integrate_chunk(model, run, contacts, parts, settings, STILL, out, -1, 0)
         return RunStatus(status), run, contacts
 
     status, run, contacts = solve(guess)

@@ -36,7 +36,6 @@ from frames.design.histories.suite_notes import (
     note_of_impacts,
 )
 from frames.design.histories.uplift import Uplift, suite_of_uplift
-from frames.results.findings import findings_by_run
 from frames.results.quantities import JUDGED
 from frames.statics.overturning import unknown_axial_forces
 
@@ -100,7 +99,7 @@ class BoundChecks:
     @property
     def _note(self) -> str:
         # With each check: which runs failed if they may, or that there is more to read.
-        marked = sum(bool(found.doubts()) for found in findings_by_run(self.case.data))
+        marked = int((self.case.data["doubts"].to_numpy() != "").sum())
         more = (
             f"assumption checks of {marked} runs mark something: see the check of runs"
             if marked

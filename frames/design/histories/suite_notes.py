@@ -71,10 +71,9 @@ def contact_notes(data: xr.Dataset, least: float) -> str:
 
 def audit_notes(data: xr.Dataset) -> str:
     """Return what the assumption checks of runs mark, by motion."""
+    marked = ("; ".join(found.doubts()) for found in findings_by_run(data))
     return "; ".join(
-        f"assumption check of {motion_of(data, k)}: {'; '.join(found.doubts())}"
-        for k, found in enumerate(findings_by_run(data))
-        if found.doubts()
+        f"assumption check of {motion_of(data, k)}: {said}" for k, said in enumerate(marked) if said
     )
 
 

@@ -178,8 +178,10 @@ def _largest(runs: Runs, name: str) -> FloatArray:
     # Of each run over all places, (n_runs,); NaN where the runs do not keep it.
     found = []
     for part in runs.parts:
-        there = f"{REACHED}{name}" in part
-        values = peaks_of_runs(part, name) if there else np.full(part.sizes["run"], math.nan)
-        values = values.reshape(part.sizes["run"], -1)
-        found.append(np.nanmax(values, axis=1, initial=0.0) if there else values[:, 0])
+        count = part.sizes["run"]
+        if f"{REACHED}{name}" in part:
+            every = peaks_of_runs(part, name).reshape(count, -1)
+            found.append(np.nanmax(every, axis=1, initial=0.0))
+        else:
+            found.append(np.full(count, math.nan))
     return np.concatenate(found)

@@ -45,10 +45,9 @@ def write_run(
     for stale in (folder / "run.json", *old, *cut):  # the first is written last
         stale.unlink(missing_ok=True)
     written = {}
-    for name, (_, _, data) in _by_file(run.runs).items():
-        written[name] = folder / name
-        is_long = data.sizes.get("time", 0) > _ENDS
-        save(data, written[name], compress=name.startswith("runs-") and is_long)
+    for (word, label), (_, _, data) in _by_file(run.runs).items():
+        path = written[f"{word} {label}"] = folder / f"{word}-{label}.nc"
+        save(data, path, compress=word == "runs" and data.sizes.get("time", 0) > _ENDS)
     for name, content in run.tables.items():
         written[name] = folder / name
         write_whole(written[name], content)
@@ -190,7 +189,7 @@ def calculations(run: ProjectRun) -> str:
 
 def _facts(run: ProjectRun, folder: Path) -> dict[str, object]:
     files = _by_file(run.runs)
-    held = [*files, "governing.nc"]
+    held = [*(f"{word}-{label}.nc" for word, label in files), "governing.nc"]
     return {
         "project": run.frame.name,
         "written": datetime.now(tz=UTC).isoformat(timespec="seconds"),
@@ -207,19 +206,19 @@ def _facts(run: ProjectRun, folder: Path) -> dict[str, object]:
 
 
 def _told_of(
-    files: Mapping[str, tuple[str, str, xr.Dataset]], word: str
+    files: Mapping[tuple[str, str], tuple[str, str, xr.Dataset]], word: str
 ) -> dict[str, dict[str, object]]:
     # What run.json says of files of time histories, by the words that their names have.
     return {
-        name.removeprefix(f"{word}-").removesuffix(".nc"): {
+        label: {
             "level": level,
             "bound": bound,
             "runs": data.sizes["run"],
             "not_ok": [str(s) for s in data["status"].to_numpy() if str(s) != "ok"],
             "seconds": float(data.attrs["seconds"]),
         }
-        for name, (level, bound, data) in files.items()
-        if name.startswith(f"{word}-")
+        for (first, label), (level, bound, data) in files.items()
+        if first == word
     }
 
 
@@ -232,15 +231,15 @@ def _fixed_base_period(run: ProjectRun) -> float | None:
     return None
 
 
-def _by_file(runs: Runs) -> dict[str, tuple[str, str, xr.Dataset]]:
-    # Level, bound and runs by the name of their file.
+def _by_file(runs: Runs) -> dict[tuple[str, str], tuple[str, str, xr.Dataset]]:
+    # Level, bound and runs by the two words of their file's name.
     found = {}
     for word, rows in (("runs", runs.centred), ("moved", runs.moved)):
         each = rows.by(HAZARD, BOUND)
         several = len({level for level, _ in each}) > 1
         for (level, bound), own in each.items():
             label = f"{level}-{bound}" if several else bound
-            found[f"{word}-{label}.nc"] = level, bound, own.data
+            found[word, label] = level, bound, own.data
     return found
 
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from frames._fingerprint import motion_digest
 from frames.batch.cases import named_motions
-from frames.batch.runs import Runs
 from frames.risk._errors import FragilityError
 from lir_element.argument_checks import require_choice
 from lir_element.errors import AnalysisWarning
@@ -37,8 +36,8 @@ def rows_of(data: xr.Dataset, model: str | None, parameters: Sets) -> xr.Dataset
         raise FragilityError(msg)
     chosen = names[0] if model is None else model
     require_choice("model", chosen, names, error=FragilityError)
-    own = Runs(data).where(model=chosen).data
-    own = Runs(own).those(_of_sets(own, parameters)).data
+    own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == chosen))
+    own = own.isel(run=np.flatnonzero(_of_sets(own, parameters)))
     done = own["status"].to_numpy() != ""  # what a campaign has not run yet
     if "done" in own.coords:
         done &= own["done"].to_numpy()
@@ -52,7 +51,7 @@ def rows_of(data: xr.Dataset, model: str | None, parameters: Sets) -> xr.Dataset
             AnalysisWarning,
             stacklevel=4,
         )
-    return Runs(own).those(done).data
+    return own.isel(run=np.flatnonzero(done))
 
 
 def _of_sets(own: xr.Dataset, parameters: Sets) -> BoolArray:
