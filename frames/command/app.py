@@ -225,15 +225,15 @@ def _said_to_be_kept(unfinished: Path) -> None:
 
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
-    from frames.design.histories.demand_table import failed_runs, tables_of_levels
+    from frames.design.histories.demand_table import tables_of_levels
 
     for level, statistics, table in tables_of_levels(found.demands):
         _frame_table(f"Demands, level {level}" if level else "Demands", table)
         words = (f"{bound}: {said}" if bound else said for bound, said in statistics)
         say(f"values are: {'; '.join(words)}")
-    if failures := failed_runs(found.cases):
+    if found.failures:
         out.print("\n[bold]Runs that failed[/]: their largest values are no values for design")
-        _say_each(map(str, failures))
+        _say_each(map(str, found.failures))
     if len(moved := found.runs.moved):
         seconds = float(moved.parts[0].attrs["seconds"])  # of all of them: one batch
         say(f"demands are raised by {len(moved)} time histories with moved masses, {seconds:.3g} s")

@@ -20,10 +20,16 @@ if TYPE_CHECKING:
 
     from frames._types import BoolArray, FloatArray
 
-DOUBTED = ("displacement", "force", "axial force", "interface slip", "rim force")
-"""Of a bearing."""
+DOUBTED = {
+    "displacement": "displacement",
+    "force": "force",
+    "axial_force": "axial force",
+    "slip": "interface slip",
+    "rim_force": "rim force",
+}
+"""Quantities of a bearing, with their words."""
 
-MARKED = {name: 0.10 for name in DOUBTED[:-1]}
+MARKED = {name: 0.10 for name in DOUBTED if name != "rim_force"}
 """Error of nine bearings in ten from which a run is marked with "!": what all checks rest on. Rim
 forces are doubtful wherever rims were met: the checks of rims read that for themselves."""
 
@@ -81,17 +87,13 @@ class LevelDoubts(NamedTuple):
         worst = self.errors.max(axis=0)
         parts = [
             f"{name} up to {100.0 * error:.0f} %"
-            for name, error in zip(DOUBTED, worst, strict=True)
+            for name, error in zip(DOUBTED.values(), worst, strict=True)
             if error > LEAST
         ]
         who = f"{len(self.bearings)} of {len(self.names)} bearings"
         if not parts:
             return f'forces of {who} within {100.0 * LEAST:.0f} % at the level "pendulum"'
         return f'off at the level "pendulum", of {who}: {", ".join(parts)}'
-
-    def of(self, quantity: str) -> FloatArray:
-        """Return by how much a quantity of each bearing may be wrong, over its value."""
-        return np.asarray(self.errors[:, DOUBTED.index(quantity)])
 
 
 def levels_of_bearings(data: xr.Dataset) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ from frames.design import DesignLimits, impact_checks
 from frames.design.histories.suite_notes import ON_AXIAL_STIFFNESS
 from frames.results.assumption_checks import needed_level
 from frames.results.findings import doubts_of, findings_of
-from frames.results.level_doubts import level_doubts, travels
+from frames.results.level_doubts import DOUBTED, level_doubts, travels
 from frames.results.measures import centre_shift
 from frames.results.peak_response import largest, total
 from frames.solve.time_history import escalate_level, mark_other_end
@@ -326,7 +326,7 @@ def test_unequal_rims_and_uplift_are_classes_of_their_own():
     one["rim_displacement"] = data["rim_displacement"] * [1.0, 0.9]
     doubts = level_doubts(one)
     assert doubts.marked
-    assert doubts.of("interface slip").tolist() == [2.2]
+    assert doubts.errors[:, list(DOUBTED).index("slip")].tolist() == [2.2]
     assert "interface slip up to 220 %" in found(one)["full_contact"].sentence
     assert level_doubts(one.assign_attrs(level="contact")).bearings == ()
     assert level_doubts(one.assign_attrs(level="{'bearing': 'contact'}")).bearings == ()
@@ -345,7 +345,7 @@ def test_unlike_friction_is_doubtful_at_short_travels(low, high, asks):
     assert (doubts.bearings == ("bearing",)) == asks
     assert needed_level(audit(data)) == ("contact" if asks else "pendulum")
     if asks:
-        error = float(doubts.of("displacement")[0])
+        error = float(doubts.errors[0, list(DOUBTED).index("displacement")])
         assert 0.3 * error < rocks / ours - 1.0 < 2.5 * error
     else:
         assert_allclose(rocks, ours, rtol=0.01)

@@ -18,8 +18,8 @@ from frames.batch.runs import Runs, tagged
 from frames.design import CheckError, DesignLimits, ProjectError, code_named
 from frames.design.devices.limits import PROJECT_LIMIT
 from frames.design.histories.eccentricity import cases_of
+from frames.design.project.check_register import of_the_moat
 from frames.design.project.devices_beside import walls_of, with_devices
-from frames.design.project.moat_checks import of_the_moat
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.schema_bearing import MoatTable

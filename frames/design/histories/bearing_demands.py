@@ -36,9 +36,6 @@ _ALONE = (
     "the sliders turn until both press (resultant_offsets says when)"
 )
 
-_QUANTITIES = {name.replace(" ", "_"): name for name in DOUBTED}
-"""What the level 'pendulum' may have wrong, by its name among what runs reached."""
-
 
 class Calculation(NamedTuple):
     """A calculation with its symbols of demand and limit."""
@@ -211,7 +208,7 @@ class BearingDemands:
             *self._of(holds, "slip over its stable limit s*", of("s", most, "s_star"), self._lir),
             *self._of(holds, "residual slip", of("s_left", left, after), self._lir),
         ]
-        return self._doubted(found, "interface slip")
+        return self._doubted(found, "slip")
 
     def _enter_slip(self, t: Trace, k: int) -> None:
         # The largest slip; with a factor on the displacement at least what that is beyond the rims.
@@ -234,7 +231,7 @@ class BearingDemands:
         for name, quantity in JUDGED.items():
             if quantity.limit and quantity.dims == ("bearing",) and name != "gap":
                 checks = self.against(name, note=notes.get(name, ""))
-                found += self._doubted(checks, _QUANTITIES.get(name, ""))
+                found += self._doubted(checks, name)
         title = "pressure on the sliders' overlap"
         found += self._pressure(title, limits.interface_pressure, self._on_overlap)
         title = "pressure on the liner around its resultant"
@@ -300,7 +297,7 @@ class BearingDemands:
 
     def _doubted(self, checks: list[Check], quantity: str) -> list[Check]:
         # Those whose margin is less than what the level of the runs may have wrong say so.
-        if not quantity or "pendulum" not in str(self.data.attrs["level"]):
+        if quantity not in DOUBTED or "pendulum" not in str(self.data.attrs["level"]):
             return checks
         errors = level_errors(self.data, [self._at(k) for k in self._all], quantity)
         return doubted(checks, dict(zip(self._names, errors.tolist(), strict=True)), quantity)

@@ -104,8 +104,8 @@ def doubted(checks: list[Check], errors: Mapping[str, float], quantity: str) -> 
         most = check.demand / (1.0 - error) if error < 1.0 else math.inf
         if check.passed and error > 0.0 and most > check.limit:
             said = (
-                f'at the level "pendulum" the {quantity} may be off by {100.0 * error:.0f} %, '
-                'more than its margin: run at level = "contact"'
+                f'at the level "pendulum" the {DOUBTED[quantity]} may be off by '
+                f'{100.0 * error:.0f} %, more than its margin: run at level = "contact"'
             )
             check = replace(check, note=joined(check.note, said))
         found.append(check)
@@ -130,4 +130,4 @@ def level_errors(data: xr.Dataset, bearings: Sequence[LIRBearing], quantity: str
     travel = travels(moved, friction, length)
     errors, _ = errors_of(rims > 0.0, lifted > 0.0, share, unequal, travel)
     at = np.array([level == "pendulum" for level in levels_of_bearings(data)])
-    return np.asarray((errors.max(axis=0) * at[:, None])[:, DOUBTED.index(quantity)])
+    return np.asarray((errors.max(axis=0) * at[:, None])[:, list(DOUBTED).index(quantity)])

@@ -15,6 +15,7 @@ from frames.design.devices.device import device_checks
 from frames.design.histories.eccentricity import levels_of
 from frames.design.histories.histories import case_checks
 from frames.design.histories.motions import motion_checks
+from frames.design.project.moat_checks import clearance_checks, wall_checks
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
@@ -241,3 +242,13 @@ def _of_type(run: RunToCheck, bearing: LIRBearing, asked: BearingDemand) -> list
     agreed = limits.rim_engagement
     rims = engagement_checks(bearing, allowed, code=run.code.name, agreed=agreed)
     return [*checks, *rims]
+
+
+@register_check
+def of_the_moat(run: RunToCheck) -> list[Check]:
+    """Return those of the clear distance to the moat wall, by both analyses."""
+    gap, level = run.limits.moat_gap, run.rules.bearing_level
+    found = clearance_checks(run.code, run.equivalent, run.limits, run.frame)
+    if gap is not None:
+        found += wall_checks(run.frame, levels_of(run.cases)[level], gap)
+    return [replace(check, level=level) for check in found]

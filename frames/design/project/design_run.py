@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 
+from frames.batch.runs import BOUND, HAZARD
 from frames.design.calculation.check import Checks
 from frames.design.codes.code_values import OF_BEARINGS, states_of
 from frames.design.codes.prototype_programme import ProgrammeDemands
 from frames.design.histories.demand_table import (
+    FailedRuns,
     demand_table,
     demands_at_levels,
+    failed_runs,
     largest_of_bounds,
     void_said,
 )
 from frames.design.histories.eccentricity import Case, cases_of, levels_of
 from frames.design.histories.impacts import rim_engagement
-from frames.design.project import moat_checks as moat_checks
 from frames.design.project.check_register import BearingDemand, RunToCheck, TypeOfBearing, checks_of
 from frames.design.project.level_runs import (
     governing_run,
@@ -120,6 +123,23 @@ class ProjectRun(RunToCheck):
     def loads(self) -> tuple[float, ...]:
         """Axial loads of the average combination [N], (n_bearings,)."""
         return self.system.loads
+
+    @cached_property
+    def failures(self) -> list[FailedRuns]:
+        """Runs that failed, by level, bound and cause."""
+        return failed_runs(self.cases)
+
+    @cached_property
+    def by_file(self) -> dict[tuple[str, str], tuple[str, str, xr.Dataset]]:
+        """Level, bound and runs by the two words of their file's name."""
+        found = {}
+        for word, rows in (("runs", self.runs.centred), ("moved", self.runs.moved)):
+            each = rows.by(HAZARD, BOUND)
+            several = len({level for level, _ in each}) > 1
+            for (level, bound), own in each.items():
+                label = f"{level}-{bound}" if several else bound
+                found[word, label] = level, bound, own.data
+        return found
 
     @property
     def kinds(self) -> dict[str, str]:

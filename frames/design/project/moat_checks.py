@@ -10,35 +10,29 @@ from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
-from frames.design.histories.eccentricity import Case, levels_of
 from frames.design.histories.suite import motion_of, peaks_of_runs, stopped_runs
-from frames.design.project.check_register import RunToCheck, register_check
 from frames.design.project.devices_beside import walls_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray as xr
 
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.codes.registry import DesignCode
+    from frames.design.histories.eccentricity import Case
     from frames.frame import Frame
 
 _AT_BEARINGS = "at the bearings: what stands out past them moves more where the base turns"
 
 
-@register_check
-def of_the_moat(run: RunToCheck) -> list[Check]:
-    """Make the checks of the clear distance to the moat wall.
+def wall_checks(frame: Frame, cases: Sequence[Case], gap: float) -> list[Check]:
+    """Make the checks of the clear distance by time histories.
 
-    The displacement that bearings must allow by the equivalent-linear analysis, that which the
-    histories ask for with the code's factor, and the largest of all single runs. Notes say whether
-    the runs have the wall, and in how many of them it is met.
+    The displacement that they ask for with the code's factor, and the largest of all single runs.
+    Notes say whether the runs have the wall, and in how many of them it is met.
     """
-    gap, level = run.limits.moat_gap, run.rules.bearing_level
-    found = clearance_checks(run.code, run.equivalent, run.limits, run.frame)
-    if gap is not None:
-        for case in levels_of(run.cases)[level]:
-            found += _of_histories(run.frame, case, gap)
-    return [replace(check, level=level) for check in found]
+    return [check for case in cases for check in _of_histories(frame, case, gap)]
 
 
 def clearance_checks(

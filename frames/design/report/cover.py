@@ -14,7 +14,6 @@ from markupsafe import Markup
 
 from frames.design.calculation.unevaluated import NOT_EVALUATED
 from frames.design.codes.registry import code_named
-from frames.design.histories.demand_table import failed_runs
 from frames.design.report.page import Table
 from lir_element._version import package_version
 
@@ -226,7 +225,6 @@ def verdict_of(run: ProjectRun) -> Verdict:
     void = run.checks.without_value
     by_value = [c for c in run.checks.failed if not c.void and c.symbol != "n_failed"]
     beyond = _titles(check for check in void if check.compared > 1.0)
-    failures = failed_runs(run.cases)
     return Verdict(
         by_value=len(by_value),
         worst=_worst(by_value),
@@ -235,10 +233,10 @@ def verdict_of(run: ProjectRun) -> Verdict:
         within=[title for title in _titles(void) if title not in beyond],
         failures=Table(
             ("level", "bound", "failed", "cause", "motions"),
-            [(f.level, f.bound, f"{f.failed} / {f.of}", f.cause, f.motions) for f in failures],
+            [(f.level, f.bound, f"{f.failed} / {f.of}", f.cause, f.motions) for f in run.failures],
             frozenset({0, 1, 3, 4}),
         ),
-        failed=sum(one.failed for one in failures),
+        failed=sum(one.failed for one in run.failures),
         doubtful=int((run.runs.of("doubts") != "").sum()),
         runs=len(run.runs),
     )

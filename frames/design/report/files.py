@@ -45,7 +45,7 @@ def write_run(
     for stale in (folder / "run.json", *old, *cut):  # the first is written last
         stale.unlink(missing_ok=True)
     written = {}
-    for (word, label), (_, _, data) in _by_file(run.runs).items():
+    for (word, label), (_, _, data) in run.by_file.items():
         path = written[f"{word} {label}"] = folder / f"{word}-{label}.nc"
         save(data, path, compress=word == "runs" and data.sizes.get("time", 0) > _ENDS)
     for name, content in run.tables.items():
@@ -188,8 +188,7 @@ def calculations(run: ProjectRun) -> str:
 
 
 def _facts(run: ProjectRun, folder: Path) -> dict[str, object]:
-    files = _by_file(run.runs)
-    held = [*(f"{word}-{label}.nc" for word, label in files), "governing.nc"]
+    held = [*(f"{word}-{label}.nc" for word, label in run.by_file), "governing.nc"]
     return {
         "project": run.frame.name,
         "written": datetime.now(tz=UTC).isoformat(timespec="seconds"),
@@ -201,13 +200,11 @@ def _facts(run: ProjectRun, folder: Path) -> dict[str, object]:
         "fixed_base_period": _fixed_base_period(run),
         "inputs": dict(run.inputs),
         "digests": {name: _digest(folder / name) for name in held if (folder / name).is_file()},
-        **{word: _told_of(files, word) for word in ("runs", "moved")},
+        **{word: _told_of(run, word) for word in ("runs", "moved")},
     }
 
 
-def _told_of(
-    files: Mapping[tuple[str, str], tuple[str, str, xr.Dataset]], word: str
-) -> dict[str, dict[str, object]]:
+def _told_of(run: ProjectRun, word: str) -> dict[str, dict[str, object]]:
     # What run.json says of files of time histories, by the words that their names have.
     return {
         label: {
@@ -217,7 +214,7 @@ def _told_of(
             "not_ok": [str(s) for s in data["status"].to_numpy() if str(s) != "ok"],
             "seconds": float(data.attrs["seconds"]),
         }
-        for (first, label), (level, bound, data) in files.items()
+        for (first, label), (level, bound, data) in run.by_file.items()
         if first == word
     }
 
@@ -229,18 +226,6 @@ def _fixed_base_period(run: ProjectRun) -> float | None:
             if symbol in each.trace:
                 return each.trace.value(symbol)
     return None
-
-
-def _by_file(runs: Runs) -> dict[tuple[str, str], tuple[str, str, xr.Dataset]]:
-    # Level, bound and runs by the two words of their file's name.
-    found = {}
-    for word, rows in (("runs", runs.centred), ("moved", runs.moved)):
-        each = rows.by(HAZARD, BOUND)
-        several = len({level for level, _ in each}) > 1
-        for (level, bound), own in each.items():
-            label = f"{level}-{bound}" if several else bound
-            found[word, label] = level, bound, own.data
-    return found
 
 
 _NUMBERS = ("demand", "limit")
