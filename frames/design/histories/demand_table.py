@@ -12,7 +12,6 @@ from frames.design.calculation.rendering import joined
 from frames.design.histories.eccentricity import levels_of, reached_by
 from frames.design.histories.suite import (
     end_of,
-    failures_of,
     motion_of,
     names_of,
     peaks_of_runs,
@@ -22,7 +21,7 @@ from frames.results.quantities import DEMANDS, JUDGED, Quantity
 from lir_element.errors import RunStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     import pandas as pd
     import xarray as xr
@@ -128,20 +127,20 @@ def demands_at_levels(cases: Sequence[Case]) -> pd.DataFrame:
         void = table["void"].map(lambda why, at=name: f"level {at}, {why}" if why else "")
         parts.append(table.assign(void=void if several else table["void"], level=name))
     found = pd.concat(parts)
-    statistics: dict[str, str] = {}
-    for bound in next(iter(tables.values())).attrs["statistics"]:
-        words = {name: table.attrs["statistics"][bound] for name, table in tables.items()}
-        same = len(set(words.values())) == 1
-        each = (f"{name}: {text}" for name, text in words.items())
-        statistics[bound] = next(iter(words.values())) if same else "; ".join(each)
-    runs = sum(table.attrs["runs"] for table in tables.values())
     each_level = {name: table.attrs["statistics"] for name, table in tables.items()}
-    found.attrs = {
-        "statistics": statistics,
-        "at_levels": each_level,
-        "runs": runs // len(tables),
+    statistics = {
+        bound: _once({name: words[bound] for name, words in each_level.items()})
+        for bound in next(iter(each_level.values()))
     }
+    runs = sum(table.attrs["runs"] for table in tables.values()) // len(tables)
+    found.attrs = {"statistics": statistics, "at_levels": each_level, "runs": runs}
     return found
+
+
+def _once(words: Mapping[str, str]) -> str:
+    # What is said of several, once where it is the same.
+    each = (f"{name}: {text}" for name, text in words.items())
+    return next(iter(words.values())) if len({*words.values()}) == 1 else "; ".join(each)
 
 
 def tables_of_levels(
@@ -185,12 +184,7 @@ def bounds_of(table: pd.DataFrame) -> list[str]:
 
 def envelope_said(table: pd.DataFrame) -> str:
     """Return in words what the envelope of a table of demands is of."""
-    found = sorted(set(table.attrs["statistics"].values()))
-    return (
-        found[0]
-        if len(found) == 1
-        else "; ".join(f"{bound}: {words}" for bound, words in table.attrs["statistics"].items())
-    )
+    return _once(table.attrs["statistics"])
 
 
 _COLUMNS = {"deformation [m]": "link_deformation", "force [N]": "link_force"}
@@ -204,20 +198,16 @@ def link_demands(cases: Sequence[Case]) -> pd.DataFrame:
     for case in cases:
         if not case.keeps("link_force"):
             continue
-        suite = case.suite
         table = pd.DataFrame({"link": names_of(case.data, "link_force")})
-        table = table.assign(bound=case.bound, statistic=said(suite))
-        for title, name in _COLUMNS.items():
+        table = table.assign(bound=case.bound, statistic=said(case.suite))
+        for title, name in _COLUMNS.items():  # the force is last
             more, _ = case.added(lambda one, name=name: peaks_of_runs(one, name))  # type: ignore[misc]
-            table[title] = suite.values(peaks_of_runs(case.data, name)) + more
-        forces = case.all_runs(lambda one: peaks_of_runs(one, "link_force"))
-        counts = np.full(len(forces), True)  # of those that failed none, if the others stand
-        counts[: len(suite.failed)] = not suite.is_usable or ~np.array(suite.failed)
-        known = np.where(counts[:, None], forces, -np.inf)
-        which = np.nan_to_num(known, nan=-np.inf).argmax(axis=0)
+            each = case.all_runs(lambda one, name=name: peaks_of_runs(one, name))  # type: ignore[misc]
+            value, which = case.counted(each)
+            table[title] = value + more
         table["motion"] = np.array(case.motions, dtype=object)[which]
-        table["its force [N]"] = forces[which, np.arange(len(which))]
-        tables.append(table.assign(void=suite.void, level=case.level))
+        table["its force [N]"] = each[which, np.arange(len(which))]
+        tables.append(table.assign(void=case.suite.void, level=case.level))
     return pd.concat(tables).set_index("level") if tables else pd.DataFrame()
 
 
@@ -303,13 +293,12 @@ def failed_runs(cases: Sequence[Case]) -> list[FailedRuns]:
     """Return the runs that failed, by level, bound and cause."""
     found = []
     for case in cases:
-        every = failures_of(case.every, case.rules)
         causes: dict[str, list[Failure]] = {}
-        for one in every:
+        for motion, one in zip(case.motions, case.failures, strict=True):
             if one is not None:
-                causes.setdefault(_cause(one), []).append(one)
+                causes.setdefault(_cause(one), []).append(one._replace(motion=motion))
         found += [
-            FailedRuns(case.level, case.bound, len(ones), len(every), cause, _named(ones))
+            FailedRuns(case.level, case.bound, len(ones), len(case.failures), cause, _named(ones))
             for cause, ones in causes.items()
         ]
     return found

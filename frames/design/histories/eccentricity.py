@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -14,24 +14,26 @@ from frames.batch.runs import BOUND, HAZARD, WAY
 from frames.design._errors import CheckError
 from frames.design.histories.suite import (
     Amplification,
+    Failure,
     Suite,
+    failures_of,
     motion_of,
     names_of,
     peaks_of_runs,
     stopped_in,
-    suite_of,
+    suite_of_failures,
 )
 from frames.results.quantities import QUANTITIES
 from frames.results.recorded import REACHED
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Hashable, Sequence
 
     import pandas as pd
     import xarray as xr
     from numpy.typing import NDArray
 
-    from frames._types import FloatArray
+    from frames._types import BoolArray, FloatArray, IntArray
     from frames.batch.runs import Runs
     from frames.design.calculation.check import Bound
     from frames.design.codes.history_rules import HistoryRules
@@ -51,6 +53,20 @@ _RAISED = sorted(
 """Quantities that moved masses raise. Of rims none of which yields nothing is said."""
 
 
+class _Way(NamedTuple):
+    # A way in which masses are moved: rows of the runs of the same motions where the masses are,
+    # and with moved masses, and how the code counts both.
+    name: str
+    own: list[int]
+    rows: list[int]
+    here: Suite
+    there: Suite
+
+    def both(self, own: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
+        # Values for design of all runs and of all with moved masses, (n_runs, ...).
+        return self.here.values(own[self.own]), self.there.values(moved[self.rows])
+
+
 @dataclass(frozen=True, eq=False)
 class Case:
     """Runs of a level and bound, those with moved masses beside them, and how they count."""
@@ -63,11 +79,42 @@ class Case:
     bound: Bound = ""
 
     @cached_property
+    def failures(self) -> list[Failure | None]:
+        """The failure of each run, then of those with moved masses; None of those that count."""
+        return [one for part in self.parts for one in failures_of(part, self.rules)]
+
+    @cached_property
+    def ways(self) -> list[_Way]:
+        """The ways of the moved masses, and of each the runs that are compared."""
+        if self.moved is None:
+            return []
+        found, count, names = [], self.data.sizes["run"], self.moved[WAY].to_numpy().tolist()
+        for name in dict.fromkeys(names):
+            rows = [k for k, each in enumerate(names) if each == name]
+            own = [_place(self.data, self.moved, k) for k in rows]
+            failures = [[self.failures[k] for k in each] for each in (own, np.add(rows, count))]
+            suites = (suite_of_failures(each, self.rules) for each in failures)
+            found.append(_Way(str(name), own, rows, *suites))
+        return found
+
+    @cached_property
     def each_way(self) -> tuple[dict[tuple[str, str], Amplification], str]:
         """By what each way raises each quantity, and which runs with moved masses failed."""
-        if self.moved is None:
-            return {}, ""
-        return _each_way(self.data, self.moved, self.rules)
+        found, failed = dict[tuple[str, str], Amplification](), []
+        raised = [name for name in _RAISED if all(REACHED + name in each for each in self.parts)]
+        for way in self.ways:
+            if any(way.there.failed):
+                failed.append(f"masses moved {way.name}: {way.there.reason}")
+            elif way.here.void:  # what moved masses are compared with
+                failed.append(f"masses where they are: {way.here.void}")
+            motions = f"{way.there.statistic} of all {len(way.rows)} motions"
+            if len(way.rows) != self.data.sizes["run"]:
+                motions = ", ".join(motion_of(self.data, k) for k in way.own)
+            for name in raised:
+                centred, moved = map(_largest, way.both(*(_columns(p, name) for p in self.parts)))
+                if name != "rim_plastic" or centred or moved:
+                    found[name, way.name] = _raise(way.name, centred, moved, motions, name)
+        return found, "; ".join(dict.fromkeys(failed))
 
     @cached_property
     def suite(self) -> Suite:
@@ -78,7 +125,13 @@ class Case:
             worst = found.get(name)
             if worst is None or (one.factor, one.added) > (worst.factor, worst.added):
                 found[name] = one
-        return replace(suite_of(self.data, self.rules), raised=found, moved_failed=failed)
+        own = suite_of_failures(self.failures[: self.data.sizes["run"]], self.rules)
+        return replace(own, raised=found, moved_failed=failed)
+
+    @property
+    def parts(self) -> list[xr.Dataset]:
+        """The runs, and those with moved masses if there are any."""
+        return [self.data] if self.moved is None else [self.data, self.moved]
 
     @cached_property
     def every(self) -> xr.Dataset:
@@ -87,20 +140,16 @@ class Case:
 
         if self.moved is None:
             return self.data
-        beside = named_by_way(self.moved)
-        own = [name for name, each in self.data.variables.items() if each.dims[:1] == ("run",)]
-        own = [name for name in own if name in beside.variables]
-        timed = {"time", "step"}
-        own = [n for n in own if not timed & {*self.data[n].dims, *beside[n].dims}]
-        parts = [part[own].drop_vars(WAY, errors="ignore") for part in (self.data, beside)]
+        parts = [self.data, named_by_way(self.moved)]
+        kept = [name for name in self.data.variables if all(_is_of_runs(p, name) for p in parts)]
+        parts = [part[kept].drop_vars(WAY, errors="ignore") for part in parts]
         found = xr.concat(parts, "run", data_vars="minimal", coords="minimal", compat="override")
         return found.assign_attrs(self.data.attrs)
 
     @property
     def motions(self) -> list[str]:
         """The motions of all runs, those with moved masses last and with their way."""
-        every = [self.data] if self.moved is None else [self.data, named_by_way(self.moved)]
-        return [motion_of(one, k) for one in every for k in range(one.sizes["run"])]
+        return [motion_of(self.every, k) for k in range(self.every.sizes["run"])]
 
     def keeps(self, name: str) -> bool:
         """Return whether the runs have a quantity."""
@@ -118,8 +167,20 @@ class Case:
 
     def all_runs(self, values_of: Callable[[xr.Dataset], FloatArray]) -> FloatArray:
         """Return values of the runs, then of those with moved masses."""
-        both = [self.data] if self.moved is None else [self.data, self.moved]
-        return np.concatenate([values_of(one) for one in both])
+        return np.concatenate([values_of(one) for one in self.parts])
+
+    def counted(self, values: FloatArray) -> tuple[FloatArray, IntArray]:
+        """Return the value for design of those of `all_runs`, and the run that is farthest out.
+
+        Of all that count: runs that failed where none is a value for design, too.
+        """
+        suite, own = self.suite, self.data.sizes["run"]
+        counts: BoolArray = np.full(len(values), True)  # no moved run may fail
+        if suite.is_usable:
+            counts[:own] = ~np.array(suite.failed)
+        known = np.where(counts.reshape(-1, *(1,) * (values.ndim - 1)), values, -np.inf)
+        which = np.asarray(np.nan_to_num(known, nan=-np.inf).argmax(axis=0))
+        return suite.values(values[:own]), which
 
     def added(
         self, values_of: Callable[[xr.Dataset], FloatArray]
@@ -128,15 +189,12 @@ class Case:
 
         Nothing where runs failed: then values are what runs reached.
         """
-        shape = values_of(self.data.isel(run=[0])).shape[1:]
-        most, way_of = np.zeros(shape), np.full(shape, "", dtype=object)
-        if self.moved is None or self.suite.void:
-            return most, way_of
-        for way, here, there in pairs_by_way(self.data, self.moved):
-            pair = (suite_of(one, self.rules).values(values_of(one)) for one in (here, there))
-            more = -np.subtract(*pair)
-            larger = more > most
-            most, way_of = np.where(larger, more, most), np.where(larger, way, way_of)
+        each = [values_of(one) for one in self.parts]
+        most, way_of = np.zeros(each[0].shape[1:]), np.full(each[0].shape[1:], "", dtype=object)
+        for way in () if self.suite.void else self.ways:
+            here, there = way.both(*each)
+            larger = there - here > most
+            most, way_of = np.where(larger, there - here, most), np.where(larger, way.name, way_of)
         return most, way_of
 
 
@@ -172,11 +230,15 @@ def reached_by(data: xr.Dataset, name: str) -> FloatArray:
 
     Shapes: result (n_runs, m).
     """
-    values = peaks_of_runs(data, name)
-    values = values.reshape(len(values), -1).copy()
+    values = _columns(data, name).copy()
     if QUANTITIES[name].kind == "final":
         values[stopped_in(data)] = math.nan
     return values
+
+
+def _columns(data: xr.Dataset, name: str) -> FloatArray:
+    values = peaks_of_runs(data, name)
+    return values.reshape(len(values), -1)
 
 
 def eccentricity_table(cases: Sequence[Case]) -> pd.DataFrame:
@@ -206,6 +268,12 @@ def eccentricity_table(cases: Sequence[Case]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def _is_of_runs(data: xr.Dataset, name: Hashable) -> bool:
+    # Whether a variable is of each run alone, no history.
+    dims = data.variables[name].dims if name in data.variables else ()
+    return dims[:1] == ("run",) and not {"time", "step"} & {*dims}
+
+
 def named_by_way(moved: xr.Dataset) -> xr.Dataset:
     """Return runs with moved masses whose motions name the way as well."""
     named = [
@@ -213,55 +281,6 @@ def named_by_way(moved: xr.Dataset) -> xr.Dataset:
         for motion, way in zip(moved["motion"].to_numpy(), moved[WAY].to_numpy(), strict=True)
     ]
     return moved.assign_coords(motion=("run", named))
-
-
-_OF_SUITES = (
-    "status",
-    "failed_at",
-    "failed_where",
-    "reached_time_lifted",
-    "reached_gap",
-    "level",
-)
-"""What `suite_of` and `names_of` look at, beside the runs' coordinates."""
-
-
-def pairs_by_way(
-    data: xr.Dataset, moved: xr.Dataset
-) -> Iterator[tuple[str, xr.Dataset, xr.Dataset]]:
-    """Yield each way with its runs where the masses are and moved, of the same motions."""
-    ways = [str(way) for way in moved[WAY].to_numpy()]
-    for way in dict.fromkeys(ways):
-        there = moved.isel(run=[k for k, each in enumerate(ways) if each == way])
-        yield way, data.isel(run=[_place(data, there, k) for k in range(there.sizes["run"])]), there
-
-
-def _each_way(
-    data: xr.Dataset, moved: xr.Dataset, rules: HistoryRules
-) -> tuple[dict[tuple[str, str], Amplification], str]:
-    # By what each way raises each quantity, and which runs failed. Of each way the same motions
-    # are compared, as the code counts them together. To select runs takes as long as there are
-    # variables, of which few are looked at.
-    wanted = (*(f"reached_{name}" for name in _RAISED), *_OF_SUITES)
-    data, moved = (part[[n for n in wanted if n in part.variables]] for part in (data, moved))
-    found, failed = dict[tuple[str, str], Amplification](), []
-    for way, here, there in pairs_by_way(data, moved):
-        suites = suite_of(here, rules), suite_of(there, rules)
-        if any(suites[1].failed):
-            failed.append(f"masses moved {way}: {suites[1].reason}")
-        elif suites[0].void:  # what moved masses are compared with
-            failed.append(f"masses where they are: {suites[0].void}")
-        whole = there.sizes["run"] == data.sizes["run"]
-        motions = f"{suites[1].statistic} of all {there.sizes['run']} motions"
-        if not whole:
-            motions = ", ".join(motion_of(there, k) for k in range(there.sizes["run"]))
-        compared = tuple(zip((here, there), suites, strict=True))
-        for name in _RAISED:
-            if f"reached_{name}" in data and f"reached_{name}" in there:
-                centred, reached = (_largest(each, name, suite) for each, suite in compared)
-                if name != "rim_plastic" or centred or reached:
-                    found[name, way] = _raise(way, centred, reached, motions, name)
-    return found, "; ".join(dict.fromkeys(failed))
 
 
 def _place(data: xr.Dataset, moved: xr.Dataset, k: int) -> int:
@@ -279,9 +298,7 @@ def _place(data: xr.Dataset, moved: xr.Dataset, k: int) -> int:
     raise CheckError(msg)
 
 
-def _largest(data: xr.Dataset, name: str, suite: Suite) -> float:
-    values = peaks_of_runs(data, name)
-    each = suite.values(values.reshape(len(values), -1))
+def _largest(each: FloatArray) -> float:
     known = each[np.isfinite(each)]
     return float(known.max()) if len(known) else 0.0
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from frames._types import BoolArray, FloatArray, IntArray
+    from frames._types import FloatArray, IntArray
     from frames.design.histories.suite import Suite
 
 
@@ -109,7 +109,7 @@ def _of_bound(case: Case, kind: _Kind, factors: FloatArray) -> pd.DataFrame:
     together, times = case.all_runs(lambda runs: _acting(runs, kind)), case.all_runs(at)
     rest = data[f"{REACHED}{kind.variable}_at_rest"].transpose(*order[:-1]).to_numpy()[0]
     own = np.einsum("rscwc->rscw", together)
-    value, which = _counted(own * _SIGN, case)
+    value, which = case.counted(own * _SIGN)
     added, ways = case.added(outward)
     value = (value + added) * _SIGN
     still = rest.reshape(-1, 6)[:, :, None]
@@ -166,7 +166,7 @@ def _drifts(case: Case, factor: float) -> pd.DataFrame:
         case.all_runs(lambda runs, name=name: peaks_of_runs(runs, name))  # type: ignore[misc]
         for name in ("drift", "drift_at")
     )
-    value, which = _counted(each, case)
+    value, which = case.counted(each)
     added, ways = case.added(lambda runs: peaks_of_runs(runs, "drift"))
     table = pd.DataFrame({"storey": list(map(str, data["level"].to_numpy()[1:]))})
     table = table.assign(
@@ -179,18 +179,6 @@ def _drifts(case: Case, factor: float) -> pd.DataFrame:
         **{"single": each[which, columns], "time [s]": times[which, columns]},
         void=_void(suite),
     )
-
-
-def _counted(values: FloatArray, case: Case) -> tuple[FloatArray, IntArray]:
-    # The value for design of those of the runs where the masses are, and the run that is farthest
-    # out of all that count.
-    suite, own = case.suite, case.data.sizes["run"]
-    counts: BoolArray = np.full(len(values), True)  # no moved run may fail
-    if suite.is_usable:
-        counts[:own] = ~np.array(suite.failed)
-    known = np.where(counts.reshape(-1, *(1,) * (values.ndim - 1)), values, -np.inf)
-    which = np.asarray(np.nan_to_num(known, nan=-np.inf).argmax(axis=0))
-    return suite.values(values[:own]), which
 
 
 def _with_motions(table: pd.DataFrame, case: Case, which: IntArray) -> pd.DataFrame:

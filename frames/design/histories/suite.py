@@ -218,16 +218,17 @@ def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
 
 def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
     """Return how the runs of one bound are taken together."""
-    stopped = failures_of(data, rules)
-    status = data["status"].to_numpy()
-    reason = _said_of([one for one in stopped if one is not None], data)
-    statistic: Literal["mean", "largest"] = "mean" if len(status) >= rules.mean_from else "largest"
+    return suite_of_failures(failures_of(data, rules), rules)
+
+
+def suite_of_failures(failures: Sequence[Failure | None], rules: HistoryRules) -> Suite:
+    """Return how runs are taken together, by the failure of each."""
     return Suite(
-        statistic=statistic,
-        failed=tuple(one is not None for one in stopped),
+        statistic="mean" if len(failures) >= rules.mean_from else "largest",
+        failed=tuple(one is not None for one in failures),
         allowed=rules.unacceptable_allowed,
         median_factor=rules.median_factor,
-        reason=reason,
+        reason=_said_of(failures),
         source=f"{rules.cited} {rules.statistic_clause}".strip(),
     )
 
@@ -246,13 +247,15 @@ def end_of(data: xr.Dataset, k: int) -> str:
 
 def stopped_runs(data: xr.Dataset) -> str:
     """Return which runs failed by their status and when, in words; empty where none did."""
-    return _said_of([_failure(data, int(k)) for k in np.flatnonzero(stopped_in(data))], data)
+    stopped = stopped_in(data)
+    return _said_of([_failure(data, k) if failed else None for k, failed in enumerate(stopped)])
 
 
-def _said_of(failures: Sequence[Failure], data: xr.Dataset) -> str:
-    # How many runs failed, and each of them.
-    count = f"{len(failures)} of {data.sizes['run']} runs failed"
-    return "; ".join([count, *map(str, failures)]) if failures else ""
+def _said_of(failures: Sequence[Failure | None]) -> str:
+    # How many of runs failed, and each of them.
+    stopped = [str(one) for one in failures if one is not None]
+    count = f"{len(stopped)} of {len(failures)} runs failed"
+    return "; ".join([count, *stopped]) if stopped else ""
 
 
 def _failure(data: xr.Dataset, k: int) -> Failure:
