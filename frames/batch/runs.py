@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
@@ -19,7 +20,31 @@ action, bound of the properties, way in which masses were moved. Each is a coord
 one that is not there is "" of all runs."""
 
 
-class Runs:
+class Rows(ABC):
+    """Rows with tags, which are selected and grouped by these."""
+
+    @abstractmethod
+    def of(self, name: str) -> np.ndarray[Any, Any]:
+        """Return a variable or a tag of all rows.
+
+        Shapes: result (n_runs, ...).
+        """
+
+    @abstractmethod
+    def those(self, mask: BoolArray) -> Self:
+        """Return rows by a mask (n_runs,)."""
+
+    def where(self, **tags: object) -> Self:
+        """Return the rows that have all of these tags."""
+        return self.those(np.all([self.of(name) == tag for name, tag in tags.items()], axis=0))
+
+    def by(self, *tags: str) -> dict[tuple[Any, ...], Self]:
+        """Return the rows in groups of the same tags, in the order of their first rows."""
+        keys = zip(*(self.of(tag).tolist() for tag in tags), strict=True)
+        return {key: self.where(**dict(zip(tags, key, strict=True))) for key in dict.fromkeys(keys)}
+
+
+class Runs(Rows):
     """Runs of `time_histories`, a row each, of one batch or of several in a row.
 
     Parameters
@@ -73,10 +98,6 @@ class Runs:
         """
         return np.concatenate([_of(part, name) for part in self.parts] or [np.array([])])
 
-    def where(self, **tags: object) -> Runs:
-        """Return the rows that have all of these tags."""
-        return self.those(np.all([self.of(name) == tag for name, tag in tags.items()], axis=0))
-
     @property
     def centred(self) -> Runs:
         """The rows with the masses where they are."""
@@ -86,11 +107,6 @@ class Runs:
     def moved(self) -> Runs:
         """The rows with moved masses: accidental eccentricity."""
         return self.those(self.of(WAY) != "")
-
-    def by(self, *tags: str) -> dict[tuple[Any, ...], Runs]:
-        """Return the rows in groups of the same tags, in the order of their first rows."""
-        keys = zip(*(self.of(tag).tolist() for tag in tags), strict=True)
-        return {key: self.where(**dict(zip(tags, key, strict=True))) for key in dict.fromkeys(keys)}
 
     def those(self, mask: BoolArray) -> Runs:
         """Return rows by a mask (n_runs,); rows that follow one another are not copied."""

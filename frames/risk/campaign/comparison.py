@@ -210,7 +210,7 @@ class DeviceComparison:
         rows: dict[str, dict[str, object]] = {}
         for name, each in runs.items():
             exceeded = each.exceeded(self.collapse)
-            outcome = each.table["outcome"].to_numpy()
+            outcome = each.of("outcome")
             row: dict[str, object] = {
                 "runs": len(outcome),
                 "collapsed": int(np.nansum(exceeded)),

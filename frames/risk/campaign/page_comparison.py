@@ -156,7 +156,7 @@ def device_curves(
     """Draw the fragility of devices, a panel a limit state."""
     measure = next(iter(runs.values())).intensity
     factor, label = shown_intensity(measure.unit, measure.label)
-    top = 1.05 * max(float(each.table["im"].max()) for each in runs.values())
+    top = 1.05 * max(float(each.of("im").max()) for each in runs.values())
     at = np.linspace(top / POINTS, top, POINTS)
     figure, panels = ps.panels_of(len(limits), min(3, len(limits)), 2.3, share=False)
     for panel, limit in zip(panels, limits, strict=True):
@@ -185,9 +185,9 @@ def device_curves(
 
 def shares_exceeded(runs: IntensityRuns, limit: LimitState) -> tuple[np.ndarray, np.ndarray]:
     """Return the intensities of runs, and the share at each that exceeds a limit state."""
-    exceeded, im = runs.exceeded(limit), runs.table["im"].to_numpy()
-    found = np.unique(im)
-    known = [exceeded[(im == one) & ~np.isnan(exceeded)] for one in found]
+    each = {im: own.exceeded(limit) for (im,), own in runs.by("im").items()}
+    found = np.array(sorted(each))
+    known = [each[im][~np.isnan(each[im])] for im in found.tolist()]
     return found, np.array([own.mean() if len(own) else np.nan for own in known])
 
 

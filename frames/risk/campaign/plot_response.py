@@ -104,10 +104,9 @@ def _shares(panel: Axes, models: Mapping[str, IntensityRuns], outcome: str, titl
     place = {scale: k for k, scale in enumerate(every)}
     width = 2.0 * _LINE / len(models)
     for k, runs in enumerate(models.values()):
-        scale, found = runs.table["scale"].to_numpy(), runs.table["outcome"].to_numpy()
-        own = sorted(set(scale.tolist()))
-        shares = [100.0 * float((found[scale == one] == outcome).mean()) for one in own]
-        places = [place[one] - _LINE + (k + 0.5) * width for one in own]
+        each = by_factor(runs)
+        shares = [100.0 * float((own.of("outcome") == outcome).mean()) for own in each.values()]
+        places = [place[one] - _LINE + (k + 0.5) * width for one in each]
         look: dict[str, Any] = {"color": ps.PALETTE[k], "width": 0.9 * width}
         panel.bar(places, shares, **look)
     panel.set_xticks(range(len(every)), [f"{scale:g}" for scale in every])
@@ -136,15 +135,21 @@ def runs_by_model(
     }
 
 
+def by_factor(runs: IntensityRuns) -> dict[float, IntensityRuns]:
+    """Return runs by the factor on the motions, rising."""
+    found = {factor: own for (factor,), own in runs.by("scale").items()}
+    return {factor: found[factor] for factor in sorted(found)}
+
+
 def fractiles(runs: IntensityRuns, quantity: str) -> dict[float, FloatArray]:
     """Return fractiles of a demand at each factor on the motions.
 
     Shapes: result (3,).
     """
-    demand, scale = runs.demand(quantity), runs.table["scale"].to_numpy()
     found = {}
-    for factor in sorted(set(scale.tolist())):
-        own = np.sort(demand[(scale == factor) & ~np.isnan(demand)])
+    for factor, each in by_factor(runs).items():
+        demand = each.demand(quantity)
+        own = np.sort(demand[~np.isnan(demand)])
         places = [max(math.ceil(part * len(own) - 1e-9) - 1, 0) for part in FRACTILES]
         found[factor] = own[places] if len(own) else np.full(len(FRACTILES), math.nan)
     return found
@@ -155,10 +160,9 @@ def response_table(models: Mapping[str, IntensityRuns]) -> pd.DataFrame:
     rows = []
     unbuilt = any((runs.table["outcome"] == UNBUILT).any() for runs in models.values())
     for name, runs in models.items():
-        outcome, scale = runs.table["outcome"].to_numpy(), runs.table["scale"].to_numpy()
         each = {q: fractiles(runs, q) for q in QUANTITIES if q in runs.units}
-        for factor in sorted(set(scale.tolist())):
-            own = outcome[scale == factor]
+        for factor, those in by_factor(runs).items():
+            own = those.of("outcome")
             row: dict[str, object] = {
                 "structure": name,
                 "factor": factor,

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
-from frames.batch.cases import named_motions
+from frames._errors import ModelWarning
+from frames.batch.cases import named_models, named_motions
+from frames.batch.time_histories import time_histories
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.hunt_fill import HuntFill
 from frames.risk.fragility.incremental import IDA
 from frames.risk.fragility.intensity import OWN, IntensityMeasure, is_same
 from frames.risk.fragility.limit_state import LimitState
-from frames.risk.fragility.plans import CLOUD, HUNT, STRIPES
-from frames.risk.fragility.runs import IntensityRuns, run_at
+from frames.risk.fragility.runs import CLOUD, HUNT, STRIPES, IntensityRuns
 from frames.risk.fragility.scaled_motions import factors_to
 from lir_element.argument_checks import require_positive, require_type
+from lir_element.errors import AnalysisWarning, RunStatus
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from frames.model.frame_data import FrameData
+    from frames.motion.ground_motion import GroundMotion
 
 
 def ida(
@@ -80,13 +84,54 @@ def ida(
     if known is None:
         begin = [(motion, level) for motion in grounds for level in rules.next_intensities([], [])]
         first = factors_to(grounds, begin, intensity)
-        runs = run_at(model, grounds, first, intensity, options, HUNT)
+        runs = _run_at(model, grounds, first, intensity, options, HUNT)
     else:
         runs = _checked(known, grounds, intensity)
     while cases := _next_cases(runs, tuple(grounds), rules, state):
         cases = factors_to(grounds, cases, intensity)
-        runs = runs.joined(run_at(model, grounds, cases, intensity, options, HUNT))
+        runs = runs.joined(_run_at(model, grounds, cases, intensity, options, HUNT))
     return IDA(runs, state, rules)
+
+
+def _run_at(
+    model: FrameData,
+    motions: Mapping[str, GroundMotion],
+    cases: Sequence[tuple[str, float]],
+    intensity: IntensityMeasure,
+    options: Mapping[str, Any],
+    plan: str,
+) -> IntensityRuns:
+    """Run a structure under scaled motions, all at once."""
+    fixed = {"scales", "cases", "record"} & set(options)
+    if fixed:
+        msg = f"{sorted(fixed)[0]} is decided here: leave it out"
+        raise FragilityError(msg)
+    structures = named_models(model)
+    if len(structures) > 1:
+        msg = f"{len(structures)} structures: run one at a time, their curves can be compared"
+        raise FragilityError(msg)
+    ((name, structure),) = structures.items()
+    wanted = [(name, motion, factor) for motion, factor in cases]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AnalysisWarning)  # what it says is in the table
+        # intensities begin low on purpose
+        warnings.filterwarnings("ignore", ".*the bearings hardly slide", ModelWarning)
+        data = time_histories({name: structure}, motions, cases=wanted, **options)
+    runs = IntensityRuns.from_dataset(data, motions, intensity, plan=plan)
+    doubtful = runs.table[runs.of("status") == RunStatus.INACCURATE.name.lower()]
+    for own, what in (
+        (runs.failed, "failed numerically and count as neither"),
+        (doubtful, "are inaccurate and count with their demands"),
+    ):
+        if len(own):
+            motion, im, message = (own.iloc[0][key] for key in ("motion", "im", "message"))
+            warnings.warn(
+                f"{len(own)} of {len(runs.table)} runs {what}; the first, {motion} at {im:.3g} "
+                f"{intensity.unit}: {message}",
+                AnalysisWarning,
+                stacklevel=3,
+            )
+    return runs
 
 
 def _checked(
@@ -106,10 +151,9 @@ def _checked(
 def _next_cases(
     runs: IntensityRuns, motions: Sequence[str], rules: HuntFill, limit: LimitState
 ) -> list[tuple[str, float]]:
-    over, im = runs.exceeded(limit), runs.table["im"].to_numpy()
-    cases = []
+    over, im, cases = runs.exceeded(limit), runs.of("im"), []
     for motion in motions:
-        own = runs.table["motion"].to_numpy() == motion
+        own = runs.of("motion") == motion
         cases += [(motion, level) for level in rules.next_intensities(im[own], over[own])]
     return cases
 
@@ -168,7 +212,7 @@ def multiple_stripes(
     grounds = named_motions(motions)
     cases = [(motion, level) for motion in grounds for level in stripes]
     cases = factors_to(grounds, cases, intensity)
-    return run_at(model, grounds, cases, intensity, options, STRIPES)
+    return _run_at(model, grounds, cases, intensity, options, STRIPES)
 
 
 def cloud_analysis(
@@ -224,4 +268,4 @@ def cloud_analysis(
     factors = [require_positive("scale", each, "-", error=FragilityError) for each in scales]
     grounds = named_motions(motions)
     cases = [(name, factor) for name in grounds for factor in factors]
-    return run_at(model, grounds, cases, intensity, options, CLOUD)
+    return _run_at(model, grounds, cases, intensity, options, CLOUD)

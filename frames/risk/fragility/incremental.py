@@ -13,8 +13,7 @@ from frames.risk._errors import FragilityError
 from frames.risk.fragility.hunt_fill import HuntFill
 from frames.risk.fragility.limit_state import LimitState
 from frames.risk.fragility.notebook import Shown
-from frames.risk.fragility.plans import GIVEN, HUNT, plans_of
-from frames.risk.fragility.runs import IntensityRuns
+from frames.risk.fragility.runs import GIVEN, HUNT, IntensityRuns
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,10 +51,9 @@ class IDA(Shown):
 
     def __post_init__(self) -> None:
         # that the rules chose the intensities goes with the runs, whatever is made of them
-        plans = plans_of(self.runs.table)
-        if GIVEN in plans:
-            table = self.runs.table.assign(plan=[HUNT if p == GIVEN else p for p in plans])
-            object.__setattr__(self, "runs", replace(self.runs, table=table))
+        plans = self.runs.of("plan")
+        table = self.runs.table.assign(plan=np.where(plans == GIVEN, HUNT, plans))
+        object.__setattr__(self, "runs", replace(self.runs, table=table))
 
     def _rows(self) -> list[tuple[str, str]]:
         return [("limit state", self.limit.name), *self.runs._rows()]
@@ -84,13 +82,8 @@ class IDA(Shown):
         if motion not in self.runs.motions:
             msg = f"motion = {motion!r}: choose one of {', '.join(self.runs.motions)}"
             raise FragilityError(msg)
-        own = self.runs.table["motion"].to_numpy() == motion
-        found = pd.DataFrame(
-            {
-                "im": self.runs.table["im"].to_numpy()[own],
-                "demand": self.runs.demand(quantity)[own],
-            }
-        )
+        own = self.runs.where(motion=motion)
+        found = pd.DataFrame({"im": own.of("im"), "demand": own.demand(quantity)})
         return found.dropna().sort_values("im", ignore_index=True)
 
     def capacities(self, limit: LimitState | None = None) -> pd.DataFrame:
@@ -178,7 +171,7 @@ class IDA(Shown):
         FragilityError
             If the quantity is not known.
         """
-        highest = float(self.runs.table["im"].max())
+        highest = float(self.runs.of("im").max())
         at = np.linspace(0.0, highest, 61)[1:] if im is None else np.atleast_1d(im)
         table = np.sort(self.demands_at(at, quantity), axis=0)
         columns = {}
@@ -198,20 +191,17 @@ class IDA(Shown):
 
 def capacities_of(runs: IntensityRuns, limit: LimitState) -> pd.DataFrame:
     """Return the intensity at which each motion first reaches a limit state: `IDA.capacities`."""
-    over, table = runs.exceeded(limit), runs.table
-    demand = None if limit.quantity is None else runs.demand(limit.quantity)
     rows = []
-    for motion in runs.motions:
-        own = np.flatnonzero(table["motion"].to_numpy() == motion)
-        own = own[np.argsort(table["im"].to_numpy()[own], kind="stable")]
-        known = own[~np.isnan(over[own])]
+    for (motion,), own in runs.by("motion").items():
+        over, im = own.exceeded(limit), own.of("im")
+        order = np.argsort(im, kind="stable")
+        known = order[~np.isnan(over[order])]
         if not len(known):
             msg = f"{motion}: no run succeeded, its capacity is not known: leave it out"
             raise FragilityError(msg)
-        im, exceeds = table["im"].to_numpy()[known], over[known] > 0.5
-        values = None if demand is None else demand[known]
-        found = _first_crossing(im, exceeds, values, limit.limit)
-        rows.append({**found, "failed": len(own) - len(known)})
+        values = None if limit.quantity is None else own.demand(limit.quantity)[known]
+        found = _first_crossing(im[known], over[known] > 0.5, values, limit.limit)
+        rows.append({**found, "failed": len(order) - len(known)})
     return pd.DataFrame(rows, index=pd.Index(runs.motions, name="motion"))
 
 

@@ -146,8 +146,8 @@ def stripes(runs: IntensityRuns, quantity: str, *, limit: LimitState | None = No
     """
     require_type("runs", runs, IntensityRuns, "IntensityRuns")
     require_choice("quantity", quantity, tuple(runs.units), error=FragilityError)
-    demand, im = runs.demand(quantity), runs.table["im"].to_numpy()
-    outcome = runs.table["outcome"].to_numpy()
+    demand, im = runs.demand(quantity), runs.of("im")
+    outcome = runs.of("outcome")
     largest = float(_finite(demand).max(initial=0.0))
     factor, unit = ps.engineering(runs.units[quantity], largest)
     size, text = shown_intensity(runs.intensity.unit, runs.intensity.label)

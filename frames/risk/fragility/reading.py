@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
 from frames._fingerprint import motion_digest
 from frames.batch.cases import named_motions
+from frames.batch.runs import Runs
 from frames.risk._errors import FragilityError
 from lir_element.argument_checks import require_choice
 from lir_element.errors import AnalysisWarning
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import xarray as xr
 
-    from frames._types import BoolArray
     from frames.motion.ground_motion import GroundMotion
 
 ALL_SETS = "all"
@@ -30,17 +32,17 @@ _SHOWN = 3
 
 def rows_of(data: xr.Dataset, model: str | None, parameters: Sets) -> xr.Dataset:
     """Return the runs of one structure and one set of parameters that are done."""
-    names = sorted({str(name) for name in data["model"].to_numpy()})
+    runs = Runs(data)
+    names = sorted({*map(str, runs.of("model"))})
     if model is None and len(names) > 1:
         msg = f"{len(names)} structures ({', '.join(names)}): name one as model="
         raise FragilityError(msg)
     chosen = names[0] if model is None else model
     require_choice("model", chosen, names, error=FragilityError)
-    own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == chosen))
-    own = own.isel(run=np.flatnonzero(_of_sets(own, parameters)))
-    done = own["status"].to_numpy() != ""  # what a campaign has not run yet
-    if "done" in own.coords:
-        done &= own["done"].to_numpy()
+    own = _of_sets(runs.where(model=chosen), parameters)
+    done = own.of("status") != ""  # what a campaign has not run yet
+    if "done" in data.coords:
+        done &= own.of("done")
     if not done.any():
         msg = f"none of the {len(done)} runs is done: run the campaign first"
         raise FragilityError(msg)
@@ -51,52 +53,47 @@ def rows_of(data: xr.Dataset, model: str | None, parameters: Sets) -> xr.Dataset
             AnalysisWarning,
             stacklevel=4,
         )
-    return own.isel(run=np.flatnonzero(done))
+    return own.those(done).data
 
 
-def _of_sets(own: xr.Dataset, parameters: Sets) -> BoolArray:
+def _of_sets(own: Runs, parameters: Sets) -> Runs:
     # Rows of the sets of parameters that are asked for.
-    every = np.ones(own.sizes["run"], dtype=bool)
-    if "parameter_set" not in own.coords:
+    data = own.data
+    if "parameter_set" not in data.coords:
         if parameters is None or parameters == ALL_SETS:
-            return every
+            return own
         msg = f"parameters = {parameters!r}: the runs have no sets of parameters, leave it out"
         raise FragilityError(msg)
-    of = own["parameter_set"].to_numpy()
-    sets = sorted({int(k) for k in of})
+    tags = {"run", "scale", "done", "parameter_set"}
+    coords = {str(name): each for name, each in data.coords.items() if each.dims == ("run",)}
+    names = [name for name, each in coords.items() if name not in tags and each.dtype.kind == "f"]
     if isinstance(parameters, Mapping):
-        return _of_values(own, parameters)
+        return _of_values(own, parameters, names)
+    sets = sorted({*map(int, own.of("parameter_set"))})
     if parameters is None and len(sets) > 1:
-        names = [str(n) for n in own.coords if own[n].dims == ("run",) and _is_parameter(own, n)]
         msg = (
             f"{len(sets)} sets of parameters ({', '.join(names)}): choose one by its number, "
             f"parameters={sets[0]}, or by values, parameters={{{names[0]!r}: "
-            f"{float(own[names[0]].to_numpy()[0]):g}}}; parameters='all' pools them, and the "
+            f"{own.of(names[0])[0]:g}}}; parameters='all' pools them, and the "
             "dispersion of the curve then holds that of the parameters"
         )
         raise FragilityError(msg)
     if parameters is None or parameters == ALL_SETS:
-        return every
+        return own
     require_choice("parameters", parameters, tuple(sets), error=FragilityError)
-    return np.asarray(of == parameters)
+    return own.where(parameter_set=parameters)
 
 
-def _is_parameter(own: xr.Dataset, name: Any) -> bool:
-    return name not in {"run", "scale", "done", "parameter_set"} and own[name].dtype.kind == "f"
-
-
-def _of_values(own: xr.Dataset, parameters: Mapping[str, float]) -> BoolArray:
-    found = np.ones(own.sizes["run"], dtype=bool)
-    names = [str(n) for n in own.coords if own[n].dims == ("run",) and _is_parameter(own, n)]
+def _of_values(own: Runs, parameters: Mapping[str, float], names: Sequence[str]) -> Runs:
+    found = own
     for name, value in parameters.items():
         require_choice("parameter", name, tuple(names), error=FragilityError)
-        there = own[name].to_numpy()
-        found &= np.isclose(there, value, rtol=1e-9, atol=0.0)
-        if not found.any():
-            near = ", ".join(f"{v:g}" for v in sorted({*there.tolist()})[:_SHOWN])
+        found = found.those(np.isclose(found.of(name), value, rtol=1e-9, atol=0.0))
+        if not len(found):
+            near = ", ".join(f"{v:g}" for v in sorted({*own.of(name).tolist()})[:_SHOWN])
             msg = f"parameters: no set has {name} = {value:g}: there are {near}, ..."
             raise FragilityError(msg)
-    of = {int(k) for k in own["parameter_set"].to_numpy()[found]}
+    of = {*found.of("parameter_set").tolist()}
     if len(of) > 1:
         msg = f"parameters = {dict(parameters)!r}: {len(of)} sets have them; name more of {names}"
         raise FragilityError(msg)

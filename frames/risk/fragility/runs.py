@@ -2,42 +2,40 @@
 
 from __future__ import annotations
 
-import warnings
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
 
-from frames._errors import ModelWarning
-from frames.batch.cases import NOT_BUILT, named_models
-from frames.batch.time_histories import time_histories
+from frames.batch.cases import NOT_BUILT
+from frames.batch.runs import Rows
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.intensity import OWN, IntensityMeasure, is_same
 from frames.risk.fragility.limit_state import LimitState
 from frames.risk.fragility.notebook import Shown
-from frames.risk.fragility.plans import GIVEN, PLAN, plans_of
 from frames.risk.fragility.reading import Sets, motions_of, rows_of
 from frames.risk.fragility.scaled_motions import values_of
 from lir_element.argument_checks import require_choice, require_type
-from lir_element.errors import AnalysisWarning, RunStatus
+from lir_element.errors import RunStatus
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import xarray as xr
 
-    from frames._types import FloatArray
-    from frames.model.frame_data import FrameData
-    from frames.motion.ground_motion import GroundMotion
+    from frames._types import BoolArray, FloatArray
 
 COMPLETE, FAILURE, UNKNOWN = "complete", "bearing failure", "numerical failure"
 UNBUILT = "not built"
 """Outcomes: the run is complete; a bearing failed (`RunStatus.is_bearing_failure`), which is
 collapse; the analysis failed, which says nothing of the structure; a set of parameters makes no
 structure, so that nothing was analysed."""
+
+STRIPES, CLOUD, HUNT, GIVEN = "stripes", "cloud", "hunt", "given"
+"""Plans of runs: intensities that are common to the motions; factors on them; intensities that
+followed from the outcomes of the runs before; and others, of which nothing is known. The column
+"plan" holds them, so that every part of a table keeps its own."""
 
 FIXED = ("motion", "scale", "im", "outcome", "status", "message")
 """Columns of the table before those of the demands."""
@@ -55,7 +53,7 @@ def outcome_of(status: str) -> str:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class IntensityRuns(Shown):
+class IntensityRuns(Rows, Shown):
     """Runs of one structure under motions of known intensity.
 
     Parameters
@@ -105,7 +103,21 @@ class IntensityRuns(Shown):
         if not (np.isfinite(im) & (im > 0.0)).all():
             msg = f"im = {im.min():g} {self.intensity.unit} must be positive: scale upwards from 0"
             raise FragilityError(msg)
-        plans_of(self.table)
+        unknown = sorted({*map(str, self.of("plan"))} - {STRIPES, CLOUD, HUNT, GIVEN})
+        if unknown:
+            msg = f"plan = {unknown[0]!r}: choose one of {STRIPES}, {CLOUD}, {HUNT}, {GIVEN}"
+            raise FragilityError(msg)
+
+    def of(self, name: str) -> np.ndarray[Any, Any]:
+        """Return a column of the table, (n,); of "plan" without one "given"."""
+        if name == "plan":
+            without = pd.Series(GIVEN, self.table.index)
+            return np.asarray(self.table.get(name, without).fillna(GIVEN), dtype=object)
+        return np.asarray(self.table[name])
+
+    def those(self, mask: BoolArray) -> IntensityRuns:
+        """Return rows by a mask, (n,)."""
+        return replace(self, table=self.table[mask])
 
     def _rows(self) -> list[tuple[str, str]]:
         counts = Counter(self.table["outcome"]).most_common()
@@ -114,7 +126,7 @@ class IntensityRuns(Shown):
             ("motions", str(len(self.motions))),
             ("intensity", self.intensity.label),
             ("outcomes", "; ".join(f"{count} {name}" for name, count in counts)),
-            ("intensities chosen by", "; ".join(dict.fromkeys(plans_of(self.table)))),
+            ("intensities chosen by", "; ".join(dict.fromkeys(self.of("plan")))),
         ]
 
     @classmethod
@@ -188,7 +200,7 @@ class IntensityRuns(Shown):
                 "outcome": [outcome_of(s) for s in status],
                 "status": status,
                 "message": [str(m) for m in own["message"].to_numpy()],
-                PLAN: plan,
+                "plan": plan,
             }
             | {q: own["peak"].sel(quantity=q).to_numpy() for q in quantities}
         )
@@ -225,7 +237,7 @@ class IntensityRuns(Shown):
         """
         require_choice("quantity", quantity, tuple(self.units), error=FragilityError)
         found = self.table[quantity].to_numpy(dtype=np.float64)
-        outcome = self.table["outcome"].to_numpy()
+        outcome = self.of("outcome")
         return np.where(outcome == COMPLETE, found, np.where(outcome == FAILURE, np.inf, np.nan))
 
     def exceeded(self, limit: LimitState) -> FloatArray:
@@ -247,9 +259,9 @@ class IntensityRuns(Shown):
             If the structure does not have its quantity, or a complete run has no value of it.
         """
         require_type("limit", limit, LimitState, "a LimitState")
-        outcome = self.table["outcome"].to_numpy()
+        outcome = self.of("outcome")
         if limit.quantity is None or limit.limit is None:
-            lost = self.table["status"].to_numpy() == RunStatus.BEARING_LOST.name.lower()
+            lost = self.of("status") == RunStatus.BEARING_LOST.name.lower()
             found = ((outcome == FAILURE) | lost).astype(np.float64)
         else:
             demand = self.demand(limit.quantity)
@@ -280,7 +292,7 @@ class IntensityRuns(Shown):
         if not is_same(other.intensity, self.intensity):
             msg = f"{other.intensity.label} is not {self.intensity.label}: take one measure"
             raise FragilityError(msg)
-        tables = [each.table.assign(plan=plans_of(each.table)) for each in (self, other)]
+        tables = [each.table.assign(plan=each.of("plan")) for each in (self, other)]
         table = pd.concat(tables, ignore_index=True)
         return IntensityRuns(table, self.intensity, {**self.units, **other.units})
 
@@ -292,48 +304,3 @@ class IntensityRuns(Shown):
 def _round(im: float) -> float:
     # So that runs of one stripe have one intensity.
     return float(f"{im:.10g}")
-
-
-def run_at(
-    model: FrameData,
-    motions: Mapping[str, GroundMotion],
-    cases: Sequence[tuple[str, float]],
-    intensity: IntensityMeasure,
-    options: Mapping[str, Any],
-    plan: str,
-) -> IntensityRuns:
-    """Run a structure under scaled motions, all at once."""
-    fixed = {"scales", "cases", "record"} & set(options)
-    if fixed:
-        msg = f"{sorted(fixed)[0]} is decided here: leave it out"
-        raise FragilityError(msg)
-    structures = named_models(model)
-    if len(structures) > 1:
-        msg = f"{len(structures)} structures: run one at a time, their curves can be compared"
-        raise FragilityError(msg)
-    ((name, structure),) = structures.items()
-    wanted = [(name, motion, factor) for motion, factor in cases]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AnalysisWarning)  # what it says is in the table
-        # intensities begin low on purpose
-        warnings.filterwarnings("ignore", ".*the bearings hardly slide", ModelWarning)
-        data = time_histories({name: structure}, motions, cases=wanted, **options)
-    runs = IntensityRuns.from_dataset(data, motions, intensity, plan=plan)
-    failed = runs.failed
-    if len(failed):
-        row = failed.iloc[0]
-        warnings.warn(
-            f"{len(failed)} of {len(runs.table)} runs failed numerically and count as neither; the "
-            f"first, {row['motion']} at {row['im']:.3g} {intensity.unit}: {row['message']}",
-            AnalysisWarning,
-            stacklevel=3,
-        )
-    doubtful = runs.table[runs.table["status"] == RunStatus.INACCURATE.name.lower()]
-    if len(doubtful):
-        warnings.warn(
-            f"{len(doubtful)} of {len(runs.table)} runs are inaccurate and count with their "
-            f"demands; the first, {doubtful.iloc[0]['motion']}: {doubtful.iloc[0]['message']}",
-            AnalysisWarning,
-            stacklevel=3,
-        )
-    return runs
