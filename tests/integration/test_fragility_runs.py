@@ -104,7 +104,7 @@ def test_numerical_failures_count_as_neither_and_are_told(monkeypatch: pytest.Mo
         data["status"] = ("run", np.where(doubtful, "inaccurate", status))
         return data
 
-    monkeypatch.setattr("frames.risk.fragility.runs.time_histories", broken)
+    monkeypatch.setattr("frames.risk.fragility.analyses.time_histories", broken)
     rules = HuntFill(first=0.3, step=0.3, growth=0.0, runs=9)
     with (
         pytest.warns(AnalysisWarning, match="1 of 1 runs failed numerically and count as neither"),
