@@ -41,9 +41,7 @@ def demand_table(cases: Sequence[Case]) -> pd.DataFrame:
     """Return what time histories give for design at each bound: see `history_demands`."""
     import pandas as pd
 
-    suites = {case.bound: case.suite for case in cases}
-    void = "; ".join(f"{b}: {s.void}" if b else s.void for b, s in suites.items() if s.void)
-    rows = []
+    rows, void = [], void_of(cases)
     for name, quantity in DEMANDS.items():
         there = [case for case in cases if case.keeps(name)]
         if there:
@@ -53,10 +51,16 @@ def demand_table(cases: Sequence[Case]) -> pd.DataFrame:
             rows.append(row)
     table = pd.DataFrame(rows).set_index("quantity")
     table.attrs = {
-        "statistics": {bound or "value": said(suite) for bound, suite in suites.items()},
-        "runs": sum(case.every.sizes["run"] for case in cases),
+        "statistics": {case.bound or "value": said(case.suite) for case in cases},
+        "runs": sum(len(case.failures) for case in cases),
     }
     return table
+
+
+def void_of(cases: Sequence[Case]) -> str:
+    """Return why a level has no values for design, by bound; empty if it has."""
+    said = ((case.bound, case.suite.void) for case in cases)
+    return "; ".join(f"{bound}: {void}" if bound else void for bound, void in said if void)
 
 
 def _numbers(cases: Sequence[Case], name: str, sign: float) -> dict[str, Any]:

@@ -15,11 +15,10 @@ from frames.design.codes.code_values import OF_BEARINGS, states_of
 from frames.design.codes.prototype_programme import ProgrammeDemands
 from frames.design.histories.demand_table import (
     FailedRuns,
-    demand_table,
     demands_at_levels,
     failed_runs,
     largest_of_bounds,
-    void_said,
+    void_of,
 )
 from frames.design.histories.eccentricity import Case, cases_of, levels_of
 from frames.design.histories.impacts import rim_engagement
@@ -214,7 +213,7 @@ def _types(
     cases: Sequence[Case],
 ) -> dict[str, TypeOfBearing]:
     # Of each type of bearing what combinations and histories ask, those at the level of bearings.
-    found, rules, void = {}, parts.rules(), void_said(demand_table(cases))
+    found, rules, void = {}, parts.rules(), void_of(cases)
     values = {
         name: largest_of_bounds(cases, name)
         for name in ("axial_force", "axial_tension", "slip", "displacement")
