@@ -149,7 +149,7 @@ def test_displacement_says_when_its_level_may_have_more_wrong_than_its_margin(
 def test_an_error_of_the_right_value_may_hide_any_demand() -> None:
     """2.2 times the right value, or e of it: 1 / (1 - e), and from e = 1 on no bound at all."""
     check = Check(clause="x", title="slip", demand=0.01, limit=1.0, subject="A")
-    assert "off by 220 %" in doubted([check], {"A": 2.2}, "interface slip")[0].note
+    assert "off by 220 %" in doubted([check], {"A": 2.2}, "slip")[0].note
     assert doubted([check], {"A": 0.98}, "slip") == [check]  # 0.01 / 0.02 = 0.5
     assert doubted([check], {"A": 0.995}, "slip")[0].note  # 0.01 / 0.005 = 2
     assert doubted([check], {"A": 0.0}, "slip") == [check]

@@ -170,13 +170,10 @@ class Case:
         return np.concatenate([values_of(one) for one in self.parts])
 
     def counted(self, values: FloatArray) -> tuple[FloatArray, IntArray]:
-        """Return the value for design of those of `all_runs`, and the run that is farthest out.
-
-        Of all that count: runs that failed where none is a value for design, too.
-        """
+        """Return the value for design of those of `all_runs`, and which that counts is farthest."""
         suite, own = self.suite, self.data.sizes["run"]
         counts: BoolArray = np.full(len(values), True)  # no moved run may fail
-        if suite.is_usable:
+        if suite.is_usable:  # else those that failed count, too
             counts[:own] = ~np.array(suite.failed)
         known = np.where(counts.reshape(-1, *(1,) * (values.ndim - 1)), values, -np.inf)
         which = np.asarray(np.nan_to_num(known, nan=-np.inf).argmax(axis=0))
