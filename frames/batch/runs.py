@@ -25,10 +25,7 @@ class Rows(ABC):
 
     @abstractmethod
     def of(self, name: str) -> np.ndarray[Any, Any]:
-        """Return a variable or a tag of all rows.
-
-        Shapes: result (n_runs, ...).
-        """
+        """Return a variable or a tag of all rows, (n_runs, ...)."""
 
     @abstractmethod
     def those(self, mask: BoolArray) -> Self:
