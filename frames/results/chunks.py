@@ -1,0 +1,172 @@
+"""Runs in chunks: a file of numpy's format each, whole or not there, read where it is used."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import zlib
+from collections.abc import Generator, Iterable, Mapping
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+from zipfile import BadZipFile
+
+import numpy as np
+import xarray as xr
+from xarray.backends import BackendArray
+from xarray.core import indexing as xarray_indexing
+
+from frames.results.storage import write_whole
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+indexing: Any = xarray_indexing  # its types are those of another kind of arrays
+
+ENDING = ".npz"
+_HEAD, _OF = "head", "of "
+_TIMINGS = {"seconds_loop"}  # what no run has twice
+_DAMAGE = (OSError, ValueError, LookupError, TypeError, EOFError, BadZipFile, zlib.error)
+
+
+def write_chunk(path: Path, data: xr.Dataset, *, compress: bool = False, **marks: Any) -> None:
+    """Write runs and marks on them, in one move; attributes and marks are what JSON takes."""
+    arrays, told = {}, {}
+    for name, variable in data.variables.items():
+        values = variable.to_numpy()
+        is_text = values.dtype.kind in "UO"
+        arrays[f"{_OF}{name}"] = np.char.encode(values.astype(str), "utf-8") if is_text else values
+        told[str(name)] = {
+            "dims": variable.dims,
+            "shape": variable.shape,
+            "attrs": variable.attrs,
+            "kind": values.dtype.kind,
+            "label": name in data.coords,
+        }
+    head = {"name": path.name, "variables": told, "attrs": data.attrs, "marks": marks}
+    arrays[_HEAD] = np.array(json.dumps(head))
+    whole = io.BytesIO()
+    (np.savez_compressed if compress else np.savez)(whole, **arrays)
+    write_whole(path, whole.getbuffer())
+
+
+def marks_of(path: Path, error: type[ValueError] = ValueError) -> dict[str, Any]:
+    """Return the marks on the runs of a chunk."""
+    with _opened(path, error) as file:
+        return dict(_head(path, file)["marks"])
+
+
+def load_chunk(
+    path: Path, *, lazy: bool = False, error: type[ValueError] = ValueError
+) -> xr.Dataset:
+    """Return the runs of a chunk; lazy: numbers along `run` are read where they are used."""
+    data: dict[str, xr.Variable] = {}
+    labels: dict[str, xr.Variable] = {}
+    with _opened(path, error) as file:
+        head = _head(path, file)
+        for name, told in head["variables"].items():
+            dims, shape = told["dims"], tuple(told["shape"])
+            if lazy and dims[:1] == ["run"] and told["kind"] == "f" and not told["label"]:
+                values = rows_of({0: path}, name, shape[0], shape, told["kind"], error)
+            else:
+                values = _texts(file[f"{_OF}{name}"], told["kind"])
+            own = labels if told["label"] else data
+            own[name] = xr.Variable(dims, values, told["attrs"])
+    return xr.Dataset(data, labels, head["attrs"])
+
+
+def rows_of(
+    chunks: Mapping[int, Path],
+    name: str,
+    size: int,
+    shape: tuple[int, ...],
+    kind: str,
+    error: type[ValueError] = ValueError,
+) -> Any:
+    """Return a variable along `run` of chunks by number, `size` runs each, that is not read yet.
+
+    Rows of chunks that are not there are NaN or "".
+    """
+    return indexing.LazilyIndexedArray(_Rows(chunks, name, size, shape, kind, error))
+
+
+class _Rows(BackendArray):
+    def __init__(
+        self,
+        chunks: Mapping[int, Path],
+        name: str,
+        size: int,
+        shape: tuple[int, ...],
+        kind: str,
+        error: type[ValueError],
+    ) -> None:
+        self._chunks, self._name, self._size, self._error = chunks, name, size, error
+        self.shape = shape
+        self._empty: Any = np.nan if kind == "f" else ""
+        self.dtype = np.dtype(np.float64 if kind == "f" else object)
+
+    def __getitem__(self, key: Any) -> Any:
+        support = indexing.IndexingSupport.OUTER
+        return indexing.explicit_indexing_adapter(key, self.shape, support, self._part)
+
+    def _part(self, key: tuple[Any, ...]) -> Any:
+        chosen = np.arange(self.shape[0])[key[0]]
+        rows, others = np.atleast_1d(chosen), key[1:]
+        none = np.broadcast_to(self._empty, (len(rows), *self.shape[1:]))
+        found = np.array(_outer(none, others), dtype=self.dtype)
+        for number in self._chunks.keys() & set((rows // self._size).tolist()):
+            at = np.flatnonzero(rows // self._size == number)
+            path = self._chunks[number]
+            with _opened(path, self._error) as file:
+                values = _texts(file[f"{_OF}{self._name}"], self.dtype.kind)
+                found[at] = _outer(values[rows[at] - number * self._size], others)
+        return found if np.ndim(chosen) else found[0]
+
+
+def _outer(values: Any, key: tuple[Any, ...]) -> Any:
+    # An index for each axis but the first, each by itself.
+    for axis in range(len(key), 0, -1):
+        values = values[(slice(None),) * axis + (key[axis - 1],)]
+    return values
+
+
+@contextmanager
+def _opened(path: Path, error: type[ValueError]) -> Generator[Any, None, None]:
+    try:
+        with path.open("rb") as content, np.load(content) as file:
+            yield file
+    except _DAMAGE as cause:
+        msg = f"{path} is not as it was written ({cause}): remove it, and run again"
+        raise error(msg) from cause
+
+
+def _head(path: Path, file: Mapping[str, Any]) -> dict[str, Any]:
+    head: dict[str, Any] = json.loads(str(file[_HEAD]))
+    if head["name"] != path.name:
+        msg = f"a copy of {head['name']}"
+        raise ValueError(msg)
+    return head
+
+
+def _texts(values: Any, kind: str) -> Any:
+    # Values as they were given: texts, which stand there as bytes, as texts.
+    if values.dtype.kind != "S":
+        return values
+    texts = np.char.decode(values, "utf-8")
+    return texts.astype(object) if kind == "O" else texts
+
+
+def digest_of(chunks: Iterable[Mapping[str, Any]]) -> str:
+    """Return a digest of arrays (runs, ...) by name, however the runs are parted into chunks."""
+    found: dict[str, Any] = {}
+    for arrays in chunks:
+        for name in arrays.keys() - _TIMINGS:
+            found.setdefault(name, hashlib.sha256()).update(_bytes(np.asarray(arrays[name])))
+    whole = "".join(f"{name} {found[name].hexdigest()}\n" for name in sorted(found))
+    return hashlib.sha256(whole.encode()).hexdigest()
+
+
+def _bytes(values: Any) -> bytes:
+    if values.dtype.kind == "f":
+        return np.where(np.isnan(values), np.nan, values).astype("<f8").tobytes()  # one NaN
+    return "".join(f"{text}\0" for text in values.ravel().tolist()).encode()
