@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
-_NEEDED = ("zarr", "filelock")
+_NEEDED = ("filelock",)
 
 
 def lacking_packages() -> str:
