@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 indexing: Any = xarray_indexing  # its types are those of another kind of arrays
 
 ENDING = ".npz"
-_HEAD, _OF = "head", "of "
+_NAME, _HEAD, _OF = "name", "head", "of "
 _TIMINGS = {"seconds_loop"}  # what no run has twice
 _DAMAGE = (OSError, ValueError, LookupError, TypeError, EOFError, BadZipFile, zlib.error)
 
@@ -43,8 +43,8 @@ def write_chunk(path: Path, data: xr.Dataset, *, compress: bool = False, **marks
             "kind": values.dtype.kind,
             "label": name in data.coords,
         }
-    head = {"name": path.name, "variables": told, "attrs": data.attrs, "marks": marks}
-    arrays[_HEAD] = np.array(json.dumps(head))
+    head = {"variables": told, "attrs": data.attrs, "marks": marks}
+    arrays |= {_NAME: np.array(path.name), _HEAD: np.array(json.dumps(head))}
     whole = io.BytesIO()
     (np.savez_compressed if compress else np.savez)(whole, **arrays)
     write_whole(path, whole.getbuffer())
@@ -53,7 +53,7 @@ def write_chunk(path: Path, data: xr.Dataset, *, compress: bool = False, **marks
 def marks_of(path: Path, error: type[ValueError] = ValueError) -> dict[str, Any]:
     """Return the marks on the runs of a chunk."""
     with _opened(path, error) as file:
-        return dict(_head(path, file)["marks"])
+        return dict(json.loads(str(file[_HEAD]))["marks"])
 
 
 def load_chunk(
@@ -63,7 +63,7 @@ def load_chunk(
     data: dict[str, xr.Variable] = {}
     labels: dict[str, xr.Variable] = {}
     with _opened(path, error) as file:
-        head = _head(path, file)
+        head = json.loads(str(file[_HEAD]))
         for name, told in head["variables"].items():
             dims, shape = told["dims"], tuple(told["shape"])
             if lazy and dims[:1] == ["run"] and told["kind"] == "f" and not told["label"]:
@@ -132,20 +132,16 @@ def _outer(values: Any, key: tuple[Any, ...]) -> Any:
 
 @contextmanager
 def _opened(path: Path, error: type[ValueError]) -> Generator[Any, None, None]:
+    # The arrays of a chunk by name; errors, whatever kind of damage is found, in one.
     try:
         with path.open("rb") as content, np.load(content) as file:
+            if (name := str(file[_NAME])) != path.name:
+                msg = f"a copy of {name}"
+                raise ValueError(msg)
             yield file
     except _DAMAGE as cause:
         msg = f"{path} is not as it was written ({cause}): remove it, and run again"
         raise error(msg) from cause
-
-
-def _head(path: Path, file: Mapping[str, Any]) -> dict[str, Any]:
-    head: dict[str, Any] = json.loads(str(file[_HEAD]))
-    if head["name"] != path.name:
-        msg = f"a copy of {head['name']}"
-        raise ValueError(msg)
-    return head
 
 
 def _texts(values: Any, kind: str) -> Any:
