@@ -31,7 +31,8 @@ _DAMAGE = (OSError, ValueError, LookupError, TypeError, EOFError, BadZipFile, zl
 
 def write_chunk(path: Path, data: xr.Dataset, *, compress: bool = False, **marks: Any) -> None:
     """Write runs and marks on them, in one move; attributes and marks are what JSON takes."""
-    arrays, told = {}, {}
+    arrays: dict[str, Any] = {}
+    told: dict[str, Any] = {}
     for name, variable in data.variables.items():
         values = variable.to_numpy()
         is_text = values.dtype.kind in "UO"
