@@ -35,8 +35,7 @@ def write_chunk(path: Path, data: xr.Dataset, *, compress: bool = False, **marks
     told: dict[str, Any] = {}
     for name, variable in data.variables.items():
         values = variable.to_numpy()
-        is_text = values.dtype.kind in "UO"
-        arrays[f"{_OF}{name}"] = np.char.encode(values.astype(str), "utf-8") if is_text else values
+        arrays[f"{_OF}{name}"] = _bytes(values) if values.dtype.kind in "UO" else values
         told[str(name)] = {
             "dims": variable.dims,
             "shape": variable.shape,
@@ -145,12 +144,17 @@ def _opened(path: Path, error: type[ValueError]) -> Generator[Any, None, None]:
         raise error(msg) from cause
 
 
+def _bytes(texts: Any) -> Any:
+    found = [text.encode() for text in texts.ravel().tolist()]
+    return np.array(found, dtype="S").reshape(texts.shape)
+
+
 def _texts(values: Any, kind: str) -> Any:
     # Values as they were given: texts, which stand there as bytes, as texts.
     if values.dtype.kind != "S":
         return values
-    texts = np.char.decode(values, "utf-8")
-    return texts.astype(object) if kind == "O" else texts
+    found = [text.decode() for text in values.ravel().tolist()]
+    return np.array(found, dtype=kind).reshape(values.shape)
 
 
 def digest_of(chunks: Iterable[Mapping[str, Any]]) -> str:
@@ -158,12 +162,12 @@ def digest_of(chunks: Iterable[Mapping[str, Any]]) -> str:
     found: dict[str, Any] = {}
     for arrays in chunks:
         for name in arrays.keys() - _TIMINGS:
-            found.setdefault(name, hashlib.sha256()).update(_bytes(np.asarray(arrays[name])))
+            found.setdefault(name, hashlib.sha256()).update(_content(np.asarray(arrays[name])))
     whole = "".join(f"{name} {found[name].hexdigest()}\n" for name in sorted(found))
     return hashlib.sha256(whole.encode()).hexdigest()
 
 
-def _bytes(values: Any) -> bytes:
+def _content(values: Any) -> bytes:
     if values.dtype.kind == "f":
         return np.where(np.isnan(values), np.nan, values).astype("<f8").tobytes()  # one NaN
     return "".join(f"{text}\0" for text in values.ravel().tolist()).encode()
