@@ -8,6 +8,7 @@ import json
 import zlib
 from collections.abc import Generator, Iterable, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from zipfile import BadZipFile
 
@@ -67,7 +68,7 @@ def load_chunk(
         for name, told in head["variables"].items():
             dims, shape = told["dims"], tuple(told["shape"])
             if lazy and dims[:1] == ["run"] and told["kind"] == "f" and not told["label"]:
-                values = rows_of({0: path}, name, shape[0], shape, told["kind"], error)
+                values = Rows({0: path}, name, shape[0], shape, "f", error).unread()
             else:
                 values = _texts(file[f"{_OF}{name}"], told["kind"])
             own = labels if told["label"] else data
@@ -75,51 +76,42 @@ def load_chunk(
     return xr.Dataset(data, labels, head["attrs"])
 
 
-def rows_of(
-    chunks: Mapping[int, Path],
-    name: str,
-    size: int,
-    shape: tuple[int, ...],
-    kind: str,
-    error: type[ValueError] = ValueError,
-) -> Any:
-    """Return a variable along `run` of chunks by number, `size` runs each, that is not read yet.
+@dataclass(eq=False)
+class Rows(BackendArray):
+    """A variable along `run`; rows of chunks that are not there are NaN or ""."""
 
-    Rows of chunks that are not there are NaN or "".
-    """
-    return indexing.LazilyIndexedArray(_Rows(chunks, name, size, shape, kind, error))
+    chunks: Mapping[int, Path]
+    name: str
+    size: int  # runs of a chunk
+    shape: tuple[int, ...]
+    kind: str  # "f", else texts
+    error: type[ValueError] = ValueError
 
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of the values."""
+        return np.dtype(np.float64 if self.kind == "f" else object)
 
-class _Rows(BackendArray):
-    def __init__(
-        self,
-        chunks: Mapping[int, Path],
-        name: str,
-        size: int,
-        shape: tuple[int, ...],
-        kind: str,
-        error: type[ValueError],
-    ) -> None:
-        self._chunks, self._name, self._size, self._error = chunks, name, size, error
-        self.shape = shape
-        self._empty: Any = np.nan if kind == "f" else ""
-        self.dtype = np.dtype(np.float64 if kind == "f" else object)
+    def unread(self) -> Any:
+        """Return it for a Dataset, which reads it where it is used."""
+        return indexing.LazilyIndexedArray(self)
 
     def __getitem__(self, key: Any) -> Any:
+        """Return a part."""
         support = indexing.IndexingSupport.OUTER
         return indexing.explicit_indexing_adapter(key, self.shape, support, self._part)
 
     def _part(self, key: tuple[Any, ...]) -> Any:
         chosen = np.arange(self.shape[0])[key[0]]
         rows, others = np.atleast_1d(chosen), key[1:]
-        none = np.broadcast_to(self._empty, (len(rows), *self.shape[1:]))
+        empty: Any = np.nan if self.kind == "f" else ""
+        none = np.broadcast_to(empty, (len(rows), *self.shape[1:]))
         found = np.array(_outer(none, others), dtype=self.dtype)
-        for number in self._chunks.keys() & set((rows // self._size).tolist()):
-            at = np.flatnonzero(rows // self._size == number)
-            path = self._chunks[number]
-            with _opened(path, self._error) as file:
-                values = _texts(file[f"{_OF}{self._name}"], self.dtype.kind)
-                found[at] = _outer(values[rows[at] - number * self._size], others)
+        for number in self.chunks.keys() & set((rows // self.size).tolist()):
+            at = np.flatnonzero(rows // self.size == number)
+            with _opened(self.chunks[number], self.error) as file:
+                values = _texts(file[f"{_OF}{self.name}"], self.dtype.kind)
+                found[at] = _outer(values[rows[at] - number * self.size], others)
         return found if np.ndim(chosen) else found[0]
 
 

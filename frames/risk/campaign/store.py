@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from frames.results.chunks import ENDING, digest_of, load_chunk, marks_of, rows_of, write_chunk
+from frames.results.chunks import ENDING, Rows, digest_of, load_chunk, marks_of, write_chunk
 from frames.results.storage import make_folder, write_whole
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.lock import locked
@@ -340,8 +340,8 @@ class CampaignStore:
         shown = {}
         for name, own in layout.data_vars.items():
             shape = (count, *own.shape[1:])
-            whole = rows_of(chunks, str(name), plan["batch"], shape, own.dtype.kind, CampaignError)
-            shown[name] = (own.dims, whole, own.attrs)
+            whole = Rows(chunks, str(name), plan["batch"], shape, own.dtype.kind, CampaignError)
+            shown[name] = own.dims, whole.unread(), own.attrs
         digests = np.array([plan["motions"][str(n)] for n in rows["motion"].to_numpy()])
         done = np.isin(np.arange(count) // plan["batch"], list(chunks))
         coordinates = {"done": ("run", done), "motion_digest": ("run", digests)}
