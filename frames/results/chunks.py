@@ -82,7 +82,7 @@ class Rows(BackendArray):
 
     chunks: Mapping[int, Path]
     name: str
-    size: int  # runs of a chunk
+    runs: int  # of a chunk
     shape: tuple[int, ...]
     kind: str  # "f", else texts
     error: type[ValueError] = ValueError
@@ -107,11 +107,11 @@ class Rows(BackendArray):
         empty: Any = np.nan if self.kind == "f" else ""
         none = np.broadcast_to(empty, (len(rows), *self.shape[1:]))
         found = np.array(_outer(none, others), dtype=self.dtype)
-        for number in self.chunks.keys() & set((rows // self.size).tolist()):
-            at = np.flatnonzero(rows // self.size == number)
+        for number in self.chunks.keys() & set((rows // self.runs).tolist()):
+            at = np.flatnonzero(rows // self.runs == number)
             with _opened(self.chunks[number], self.error) as file:
                 values = _texts(file[f"{_OF}{self.name}"], self.dtype.kind)
-                found[at] = _outer(values[rows[at] - number * self.size], others)
+                found[at] = _outer(values[rows[at] - number * self.runs], others)
         return found if np.ndim(chosen) else found[0]
 
 
