@@ -107,11 +107,14 @@ class Rows(BackendArray):
         empty: Any = np.nan if self.kind == "f" else ""
         none = np.broadcast_to(empty, (len(rows), *self.shape[1:]))
         found = np.array(_outer(none, others), dtype=self.dtype)
-        for number in self.chunks.keys() & set((rows // self.runs).tolist()):
-            at = np.flatnonzero(rows // self.runs == number)
-            with _opened(self.chunks[number], self.error) as file:
-                values = _texts(file[f"{_OF}{self.name}"], self.dtype.kind)
-                found[at] = _outer(values[rows[at] - number * self.runs], others)
+        numbers = rows // self.runs
+        order = np.argsort(numbers, kind="stable")
+        for at in np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1):
+            number = int(numbers[at[0]]) if len(at) else -1
+            if number in self.chunks:
+                with _opened(self.chunks[number], self.error) as file:
+                    values = _texts(file[f"{_OF}{self.name}"], self.dtype.kind)
+                    found[at] = _outer(values[rows[at] - number * self.runs], others)
         return found if np.ndim(chosen) else found[0]
 
 
