@@ -236,14 +236,13 @@ def _all(
                 stop.set()
             results.put(None)
 
-    rows: list[RunResult] = []
+    rows, is_whole = list[RunResult](), True
 
     def take(row: RunResult) -> None:
         rows.append(row)  # those that came before an interruption stay
         if keeper is not None:
             keeper.keep(row, runner.cases[row.place])
 
-    is_whole = True
     with ThreadPoolExecutor(workers) as pool:
         futures = [pool.submit(work) for _ in range(workers)]
         try:

@@ -11,6 +11,7 @@ import xarray as xr
 from frames.results.chunks import digest_of
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.batches import Batch
+from frames.risk.campaign.packages import lacking_packages
 from frames.risk.campaign.plan_description import FORMAT, OLD
 from frames.risk.campaign.store import CampaignStore
 
@@ -48,6 +49,8 @@ def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
     ...     print(error)
     nowhere holds no campaign of version 0.2: nothing is to be converted
     """
+    if lacking := lacking_packages("zarr"):
+        raise ImportError(lacking)
     folder, store = Path(old), CampaignStore(new)
     try:
         plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
