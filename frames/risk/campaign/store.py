@@ -237,8 +237,8 @@ class CampaignStore:
         return list(self._chunks())
 
     def _chunks(self) -> dict[int, Path]:
-        paths = sorted((self.path / _RUNS).glob(f"*{ENDING}"))
-        return {int(path.stem): path for path in paths if path.stem.isdecimal()}
+        paths = (self.path / _RUNS).glob(f"*{ENDING}")
+        return dict(sorted((int(path.stem), path) for path in paths if path.stem.isdecimal()))
 
     def write(self, number: int, batch: Batch) -> None:
         """Write a batch: the histories that it keeps, then its chunk in one move.
