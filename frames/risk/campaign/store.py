@@ -230,6 +230,8 @@ class CampaignStore:
             If another process works on it.
         """
         with locked(self.path / _LOCK):
+            for cut in self.path.glob("*/.*.part"):  # of a process that was killed
+                cut.unlink(missing_ok=True)
             yield
 
     def batches_done(self) -> list[int]:
