@@ -15,7 +15,7 @@ from scipy.stats import lognorm, uniform
 
 from frames import Frame, GroundMotion, ModelError, Recording, lumped_mass, time_histories
 from frames._fingerprint import fingerprint
-from frames.results.chunks import load_chunk, write_chunk
+from frames.results.chunks import load_chunk, marks_of, write_chunk
 from frames.risk import (
     Campaign,
     CampaignError,
@@ -464,6 +464,32 @@ def test_a_database_of_0_2_is_converted(tmp_path: Path) -> None:
     (old / "runs.zarr/peak/c.1.0").unlink()
     with pytest.raises(CampaignError, match=r"batch 1 of .* is not as it was written: remove"):
         convert_campaign(old, tmp_path / "fourth")
+
+
+@pytest.mark.parametrize("compress", [False, True])
+@pytest.mark.parametrize("runs", [0, 2])
+def test_a_chunk_gives_back_what_was_written(tmp_path: Path, runs: int, compress: bool) -> None:
+    texts = np.array(["Lüftung\n", ""], dtype=object)[:runs]
+    data = xr.Dataset(
+        {
+            "peak": (("run", "quantity"), np.full((runs, 3), np.nan), {"units": "m"}),
+            "message": ("run", texts),
+            "steps": ("run", np.arange(runs)),
+            "position": ("quantity", [1.0, -0.0, np.inf]),
+            "none": (("run", "nothing"), np.zeros((runs, 0))),
+            "is_whole": True,
+        },
+        {"quantity": ["a", "β", "of c"], "run": np.arange(runs), "model": ("run", ["x"] * runs)},
+        {"title": "é", "seconds": 0.5},
+    )
+    write_chunk(tmp_path / "1.npz", data, compress=compress, doubtful=3)
+    for lazy in (False, True):
+        found = load_chunk(tmp_path / "1.npz", lazy=lazy)
+        xr.testing.assert_identical(found, data)
+        assert {n: v.dtype.kind for n, v in found.variables.items()} == {
+            n: v.dtype.kind for n, v in data.variables.items()
+        }
+    assert marks_of(tmp_path / "1.npz") == {"doubtful": 3}
 
 
 def test_what_is_read_of_results_is_what_is_asked_for(store: Path) -> None:
