@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -9,7 +10,9 @@ import numpy as np
 import xarray as xr
 
 from frames.bundles.peak_data import ENERGY_TERMS
+from frames.results.findings import findings_from
 from frames.results.peak_response import with_exceeded
+from frames.results.peaks import Peak
 from frames.results.recorded import REACHED
 from lir_element.results.dataset import labelled
 
@@ -19,7 +22,6 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
     from frames.batch.cases import Case
     from frames.results.findings import Findings
-    from frames.results.peaks import Peak
 
 NUMBERS = {
     "energy_error": ("1", "largest gap of the energy balance over the largest input"),
@@ -30,6 +32,8 @@ NUMBERS = {
 }
 """Numbers of each run besides what it reached: unit and meaning."""
 
+_OF_END = "status", "message", "failed_at", "failed_where", "audit", "doubts", "findings"
+_OF_PEAKS = "peak", "peak_time", "peak_where"
 _SAME_TIME = 1e-9  # s
 
 
@@ -108,6 +112,32 @@ def stack(
     histories, more = _of_histories(rows)
     variables = _as_recorded(variables, labels, more)
     return xr.Dataset(variables | histories, coordinates | labels | more)
+
+
+def row_of(data: xr.Dataset, place: int) -> RunResult:
+    """Return the row that `stack` made runs of one row of."""
+    one = data.isel(run=0)
+    layout = layout_of(one)
+    columns = "quantity", "peak", "unit", "peak_time", "peak_where"
+    table = [one[name].to_numpy().tolist() for name in columns]
+    energy = one["energy"].to_numpy()
+    own = () if energy.ndim > 1 else ("energy",)  # it is a history where histories are kept
+    known = {*layout.names, *_OF_END, *NUMBERS, *_OF_PEAKS, *own}
+    histories = [name for name in one.data_vars if name not in known]
+    return RunResult(
+        place=place,
+        status=one["status"].item(),
+        message=one["message"].item(),
+        failed_at=one["failed_at"].item(),
+        failed_where=one["failed_where"].item(),
+        findings=findings_from(json.loads(one["findings"].item())),
+        peaks=tuple(Peak(*row) for row in zip(*table, strict=True)),
+        numbers={name: one[name].item() for name in NUMBERS},
+        energy=np.atleast_2d(energy)[-1],
+        reached=reached_row(one, layout),
+        layout=layout,
+        histories=one[histories] if histories else None,
+    )
 
 
 def _as_recorded(

@@ -236,15 +236,18 @@ def _all(
                 stop.set()
             results.put(None)
 
-    rows: list[RunResult] = []
-    is_whole = True
+    rows, is_whole = list[RunResult](), True
+
+    def take(row: RunResult) -> None:
+        rows.append(row)  # those that came before an interruption stay
+        if keeper is not None:
+            keeper.keep(row, runner.cases[row.place])
+
     with ThreadPoolExecutor(workers) as pool:
         futures = [pool.submit(work) for _ in range(workers)]
         try:
             for row in _arriving(results, workers, len(runner.cases), told, taken):
-                rows.append(row)  # those that came before an interruption stay
-                if keeper is not None:
-                    keeper.keep(row, runner.cases[row.place])
+                take(row)
         except KeyboardInterrupt:
             is_whole = False
         finally:
@@ -254,9 +257,7 @@ def _all(
     while not results.empty():
         late = results.get()
         if late is not None:
-            rows.append(late)
-            if keeper is not None:
-                keeper.keep(late, runner.cases[late.place])
+            take(late)
     return rows, is_whole or len(rows) == len(runner.cases)
 
 

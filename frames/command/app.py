@@ -136,9 +136,8 @@ def run(
     """Run a project at each level and bound of friction, check it, and write the results."""
     from frames.design.project.design_run import run_project
     from frames.design.project.level_runs import said_of_runs
-    from frames.design.report.files import UNFINISHED, write_interrupted, write_run  # with figures
+    from frames.design.report.files import UNFINISHED, write_run  # with figures
     from frames.results.storage import make_folder
-    from lir_element.errors import AnalysisInterrupted
 
     with told():
         try:
@@ -147,23 +146,9 @@ def run(
             say(parts.code().cited)
             say(said_of_runs(parts, parts.motions()))
             found = run_project(parts, progress=True, resume=results / UNFINISHED)
-        except OSError:
-            _said_to_be_kept(results / UNFINISHED)
-            raise
-        except AnalysisInterrupted as stop:
-            kept = write_interrupted(stop.data, results)
-            err.print(
-                f"what was complete is in {escape(str(kept))}; the same command goes on from there",
-                highlight=False,
-                soft_wrap=True,
-            )
-            if (results / "run.json").is_file():
-                err.print("the other files there are of the run before", highlight=False)
-            raise
-        err.print("writing results and report", highlight=False)
-        try:
+            err.print("writing results and report", highlight=False)
             written = write_run(found, results, parts.sources.text, figures=figures)
-        except OSError:
+        except (OSError, KeyboardInterrupt):
             _said_to_be_kept(results / UNFINISHED)
             raise
         _told_of(found, written, results)
@@ -184,7 +169,7 @@ def report(
     """Judge a run again and write its report anew, with the limits that the file has now."""
     from frames.design.project.design_run import evaluate_run
     from frames.design.project.preliminary import inputs_of, preliminary
-    from frames.design.report.files import read_histories, write_judgement
+    from frames.design.report.files import UNFINISHED, read_histories, write_judgement
     from frames.design.report.printing import print_report
     from frames.results.storage import refuse_links
 
@@ -193,9 +178,9 @@ def report(
         parts = project_in(file)
         known = preliminary(parts)
         found = evaluate_run(parts, known, *read_histories(results, inputs_of(parts, known)))
-        if (results / "interrupted.nc").is_file():
+        if (results / UNFINISHED).is_dir():
             text = (
-                f"warning: {results / 'interrupted.nc'} is of a later run that was interrupted: "
+                f"warning: {results / UNFINISHED} is of a later run that was interrupted: "
                 "the report is of the whole run before it"
             )
             err.print(text, markup=False, highlight=False, soft_wrap=True)
@@ -213,15 +198,17 @@ app.command()(view)
 
 
 def _said_to_be_kept(unfinished: Path) -> None:
-    # After an error of the disk.
+    # After an error of the disk, or an interruption.
     count = sum(1 for _ in unfinished.rglob("*.npz"))
     if count:
         err.print(
-            f"{count} runs that were complete are kept in {escape(str(unfinished))}: once the "
-            "cause is mended, the same command goes on from there",
+            f"{count} runs that were complete are kept in {escape(str(unfinished))}: the same "
+            "command goes on from there",
             highlight=False,
             soft_wrap=True,
         )
+        if (unfinished.parent / "run.json").is_file():
+            err.print("the other files there are of the run before", highlight=False)
 
 
 def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:

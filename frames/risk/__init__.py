@@ -3,6 +3,7 @@
 from frames.risk._errors import CampaignError as CampaignError
 from frames.risk._errors import FragilityError as FragilityError
 from frames.risk.campaign.campaign import Campaign as Campaign
+from frames.risk.campaign.convert import convert_campaign as convert_campaign
 from frames.risk.campaign.measures import Measure as Measure
 from frames.risk.campaign.sampling import ParameterSample as ParameterSample
 from frames.risk.campaign.sampling import full_grid as full_grid
@@ -67,6 +68,7 @@ __all__ = [
     "cloud_analysis",
     "collapse_margin_ratio",
     "compare_fragility",
+    "convert_campaign",
     "fit_capacities",
     "fit_cloud",
     "fit_stripes",

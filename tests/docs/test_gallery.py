@@ -25,7 +25,7 @@ SLOW = {  # over 2 s
     "f_design_project",
 }
 NEEDS = {"a_bearing": "openseespy", "b_builtin": "openseespy", "e_openseespy": "openseespy"}
-NEEDS |= {"e_campaign": "zarr", "a_ida": "pyFragility", "b_fragility": "pyFragility"}
+NEEDS |= {"e_campaign": "filelock", "a_ida": "pyFragility", "b_fragility": "pyFragility"}
 LINES = 50  # of a script of the gallery, without its text
 
 

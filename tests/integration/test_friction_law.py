@@ -535,7 +535,6 @@ def test_a_name_given_twice_is_told(folder: Path) -> None:
 
 
 def test_a_campaign_varies_a_field_of_the_law(folder, put_example):
-    pytest.importorskip("zarr")
     pytest.importorskip("filelock")
     from frames.design import ProjectError
     from frames.risk.campaign.file import read_campaign

@@ -43,7 +43,6 @@ def sets():
 
 @pytest.fixture(scope="module")
 def found(sets, tmp_path_factory):
-    pytest.importorskip("zarr")
     pytest.importorskip("filelock")
     store = tmp_path_factory.mktemp("study") / "runs"
     first = study(sets, store, 2, SCALES)

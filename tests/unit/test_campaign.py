@@ -2,6 +2,7 @@
 
 import subprocess  # this interpreter  # noqa: S404
 import sys
+import tarfile
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +15,7 @@ from scipy.stats import lognorm, uniform
 
 from frames import Frame, GroundMotion, ModelError, Recording, lumped_mass, time_histories
 from frames._fingerprint import fingerprint
+from frames.results.chunks import load_chunk, marks_of, write_chunk
 from frames.risk import (
     Campaign,
     CampaignError,
@@ -22,6 +24,7 @@ from frames.risk import (
     IntensityRuns,
     LimitState,
     ParameterSample,
+    convert_campaign,
     full_grid,
     latin_hypercube,
     open_campaign,
@@ -30,13 +33,12 @@ from frames.risk import (
 from frames.risk.campaign import batches, packages, plan_description
 from frames.risk.campaign.campaign import usual_batch
 from frames.risk.campaign.designs import with_parameters
-from frames.risk.campaign.opened_store import locked
+from frames.risk.campaign.lock import locked
 from frames.risk.campaign.plan import Plan, differences
 from frames.risk.campaign.plot_response import failure_table, response_table
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
 
-zarr = pytest.importorskip("zarr")
 pytest.importorskip("filelock")
 
 BEARING = LIRBearing(
@@ -188,18 +190,20 @@ def test_the_digest_is_that_of_the_runs_alone(store: Path) -> None:
 def test_a_batch_that_was_damaged_is_found(store: Path) -> None:
     campaign = small(store)
     campaign.run()
-    chunk = store / "runs.zarr/reached_displacement/c.2.0"
-    assert chunk.is_file()
-    chunk.unlink()
-    with pytest.raises(CampaignError, match=r"batch 2 is not as it was written: remove .*000002"):
+    chunk = store / "runs/000002.npz"
+    with np.load(chunk) as file:
+        arrays = dict(file)
+    arrays["of reached_displacement"][1] += 1e-12
+    np.savez(chunk, **arrays)
+    with pytest.raises(CampaignError, match=r"000002.npz is not as it was written: remove it"):
         campaign.digest()
 
 
 def test_a_store_of_another_version_is_refused(store: Path) -> None:
     small(store).run()
-    group = zarr.open_group(store / "runs.zarr", mode="r+")
-    group.attrs["results"] = [n for n in group.attrs["results"] if n != "reached_slip"]
-    next(store.rglob("000002.json")).unlink()
+    layout = store / "layout.npz"
+    write_chunk(layout, load_chunk(layout).drop_vars("reached_slip"))
+    next(store.rglob("000002.npz")).unlink()
     with pytest.raises(CampaignError, match="no room for reached_slip: another version"):
         small(store).run()
 
@@ -310,9 +314,9 @@ def test_histories_are_kept_on_request(tmp_path: Path) -> None:
     for data in (mine, own, campaign.results()):  # what xarray's plots take
         assert {label.dtype.kind for label in data.coords.values()} <= set("Uifb")
     campaign.results()["peak"].isel(quantity=0).plot.scatter(x="motion")
-    for chunk in (tmp_path / "store" / "histories").glob("000000/*.zarr/bearing_displacement/c"):
-        chunk.rename(chunk.with_name("gone"))
-    with pytest.raises(CampaignError, match=r"batch 0 .*a chunk of bearing_displacement is miss"):
+    (part,) = (tmp_path / "store" / "histories").glob("000000-*.npz")
+    part.write_bytes(part.read_bytes()[:5000])
+    with pytest.raises(CampaignError, match=r"000000-0.npz is not as it was written .*remove it"):
         campaign.store.histories(7)
     with pytest.raises(CampaignError, match="no histories of run 99"):
         campaign.store.histories(99)
@@ -372,7 +376,7 @@ def test_two_campaigns_at_once_are_refused(store: Path) -> None:
 HOLDER = """
 import sys, time
 from pathlib import Path
-from frames.risk.campaign.opened_store import locked
+from frames.risk.campaign.lock import locked
 
 with locked(Path(sys.argv[1])):
     print("held", flush=True)
@@ -398,13 +402,13 @@ def test_the_lock_of_a_process_that_was_killed_is_seized(tmp_path: Path) -> None
     assert [p.name for p in tmp_path.iterdir()] == ["lock"]
 
 
-@pytest.mark.parametrize("missing", ["zarr", "filelock"])
 def test_a_package_that_is_missing_is_named(
-    missing: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    there = packages.find_spec
-    monkeypatch.setattr(packages, "find_spec", lambda n: None if n == missing else there(n))
-    with pytest.raises(ImportError, match=rf"need {missing}: pip install 'lir-dcfp\[campaign\]'"):
+    monkeypatch.setattr(packages, "find_spec", lambda n: None)
+    with pytest.raises(ImportError, match="need zarr: pip install"):
+        convert_campaign(tmp_path / "old", tmp_path / "new")
+    with pytest.raises(ImportError, match=r"need filelock: pip install 'lir-dcfp\[campaign\]'"):
         small(tmp_path / "store")
 
 
@@ -437,25 +441,70 @@ def test_a_batch_is_an_eighth_within_bounds(tmp_path: Path) -> None:
     assert usual_batch(1_000_000) == 1954  # 512 batches
 
 
-def test_chunks_are_files_without_folders_and_older_ones_are_read(store: Path) -> None:
-    campaign = small(store)
-    campaign.run(workers=1)
-    folders = [p for p in (store / "runs.zarr").rglob("*") if p.is_dir()]
-    assert len(folders) == len(list((store / "runs.zarr").glob("*/zarr.json")))
-    before, digest = campaign.results().load(), campaign.digest()
-    for array in (store / "runs.zarr").glob("*/zarr.json"):
-        text = array.read_text()
-        assert '"separator": "."' in text
-        array.write_text(text.replace('"separator": "."', '"separator": "/"'))
-        for chunk in array.parent.glob("c.*"):
-            older = array.parent / chunk.name.replace(".", "/")
-            older.parent.mkdir(parents=True, exist_ok=True)
-            chunk.rename(older)
-    plan = store / "plan.json"  # older formats wrote no empty chunks
-    plan.write_text(plan.read_text().replace('"format": 3', '"format": 2'))
-    opened = open_campaign(store)
-    assert opened.results().identical(before)
-    assert opened.digest() == digest
+def test_a_database_of_0_2_is_converted(tmp_path: Path) -> None:
+    """Made by 0.2.0: four runs in two batches, with histories; the digest is the one of then."""
+    pytest.importorskip("zarr")
+    archive = Path(__file__).parents[1] / "data" / "campaign-0.2.tar.xz"
+    with tarfile.open(archive) as file:
+        file.extractall(tmp_path, filter="data")
+    old, new = tmp_path / "old", tmp_path / "new"
+    with pytest.raises(CampaignError, match=r"has format 3, .*convert_campaign\(.* writes it anew"):
+        open_campaign(old)
+    converted = convert_campaign(old, new)
+    assert converted.digest().startswith("69058f55574d1c4b")
+    assert str(converted.status()) == "4 of 4 runs done: 4 ok"
+    data = xr.open_zarr(old / "runs.zarr", chunks=None, consolidated=False)
+    for name in ("peak", "friction", "reached_displacement_at"):
+        np.testing.assert_array_equal(converted.results()[name], data[name])
+    part = xr.open_zarr(old / "histories/000001/0.zarr", chunks=None, consolidated=False)
+    mine = converted.histories(3)["bearing_displacement"]
+    np.testing.assert_array_equal(mine, part["bearing_displacement"].sel(run=3))
+    with pytest.raises(CampaignError, match=r"holds no campaign of version 0\.2"):
+        convert_campaign(new, tmp_path / "third")
+    (old / "runs.zarr/peak/c.1.0").unlink()
+    with pytest.raises(CampaignError, match=r"batch 1 of .* is not as it was written: remove"):
+        convert_campaign(old, tmp_path / "fourth")
+
+
+@pytest.mark.parametrize("compress", [False, True])
+@pytest.mark.parametrize("runs", [0, 2])
+def test_a_chunk_gives_back_what_was_written(tmp_path: Path, runs: int, compress: bool) -> None:
+    texts = np.array(["Lüftung\n", ""], dtype=object)[:runs]
+    data = xr.Dataset(
+        {
+            "peak": (("run", "quantity"), np.full((runs, 3), np.nan), {"units": "m"}),
+            "message": ("run", texts),
+            "steps": ("run", np.arange(runs)),
+            "position": ("quantity", [1.0, -0.0, np.inf]),
+            "none": (("run", "nothing"), np.zeros((runs, 0))),
+            "is_whole": True,
+        },
+        {"quantity": ["a", "β", "of c"], "run": np.arange(runs), "model": ("run", ["x"] * runs)},
+        {"title": "é", "seconds": 0.5},
+    )
+    write_chunk(tmp_path / "1.npz", data, compress=compress, doubtful=3)
+    for lazy in (False, True):
+        found = load_chunk(tmp_path / "1.npz", lazy=lazy)
+        xr.testing.assert_identical(found, data)
+        assert {n: v.dtype.kind for n, v in found.variables.items()} == {
+            n: v.dtype.kind for n, v in data.variables.items()
+        }
+    assert marks_of(tmp_path / "1.npz") == {"doubtful": 3}
+
+
+def test_what_is_read_of_results_is_what_is_asked_for(store: Path) -> None:
+    """Whatever rows and columns, in one step or several; the rows of a missing batch are empty."""
+    small(store).run()
+    whole = open_campaign(store).results().load()
+    next(store.rglob("000002.npz")).unlink()
+    part, gone = open_campaign(store).results(), np.arange(16) // 3 == 2
+    for name, empty in (("peak", np.nan), ("status", ""), ("reached_displacement", np.nan)):
+        expected = whole[name].to_numpy().copy()
+        expected[gone] = empty
+        for key in (5, -1, slice(2, 12, 3), [0, 5, 15], [15, 1, 1]):
+            np.testing.assert_array_equal(part[name].isel(run=key), expected[key])
+    columns = part["peak"].isel(run=[1, 14], quantity=[3, 0])
+    np.testing.assert_array_equal(columns, whole["peak"].to_numpy()[np.ix_([1, 14], [3, 0])])
 
 
 def test_progress_counts_the_runs_of_this_call(tmp_path: Path) -> None:
@@ -463,7 +512,7 @@ def test_progress_counts_the_runs_of_this_call(tmp_path: Path) -> None:
     small(tmp_path / "store").run(progress=told.append)
     assert [p.done for p in told] == list(range(1, 17))
     assert {p.total for p in told} == {16}
-    (tmp_path / "store/done/000001.json").unlink()
+    (tmp_path / "store/runs/000001.npz").unlink()
     told.clear()
     small(tmp_path / "store").run(progress=told.append)
     assert [(p.done, p.total) for p in told] == [(1, 3), (2, 3), (3, 3)]
@@ -477,7 +526,7 @@ def test_a_store_of_other_sources_is_refused_or_taken_over(
     first = small(store)
     first.run()
     whole = first.digest()
-    next(store.rglob("000002.json")).unlink()
+    next(store.rglob("000002.npz")).unlink()
     other = numerical_sources() | {"lir_element/device/specification.py": "0" * 8}
     monkeypatch.setattr(plan_description, "numerical_sources", lambda: other)
     with pytest.raises(CampaignError, match=r"other sources(.|\n)*specification.py.* is 00000000"):
@@ -502,7 +551,7 @@ def test_another_default_of_a_bearing_is_refused_whatever_is_accepted(
 
 def test_rows_without_a_mark_are_empty(store: Path) -> None:
     small(store).run()
-    next(store.rglob("000002.json")).unlink()
+    next(store.rglob("000002.npz")).unlink()
     data = open_campaign(store).results()
     gone = ~data["done"].to_numpy()
     assert gone.tolist() == [k // 3 == 2 for k in range(16)]
@@ -538,7 +587,7 @@ def test_one_table_has_every_run_with_its_units(store: Path) -> None:
     assert table["radius"].tolist() == data["radius"].to_numpy().tolist()
     assert set(table.columns[11:]) <= table.attrs["units"].keys()
     assert table.attrs["source"] == data.attrs["source"]
-    next(store.rglob("000002.json")).unlink()
+    next(store.rglob("000002.npz")).unlink()
     part = open_campaign(store).to_dataframe()
     assert part.equals(table[table.index // 3 != 2])
 
@@ -571,7 +620,7 @@ def test_fragility_takes_the_motions_that_were_run_and_one_design(store: Path) -
     alone = time_histories(structure(), PULSES)
     with pytest.raises(FragilityError, match="'large'"):
         IntensityRuns.from_dataset(alone, other, measure)
-    next(store.rglob("000002.json")).unlink()
+    next(store.rglob("000002.npz")).unlink()
     data = open_campaign(store).results()
     with pytest.warns(AnalysisWarning, match="2 of 4 runs are not done and left out"):
         part = IntensityRuns.from_dataset(data, PULSES, measure, parameters=1)

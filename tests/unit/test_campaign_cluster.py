@@ -17,7 +17,6 @@ from frames.risk import Campaign, CampaignError, Measure, full_grid
 from lir_element import CoulombFriction, LIRBearing
 from tests.patience import patience
 
-pytest.importorskip("zarr")
 pytest.importorskip("filelock")
 distributed = pytest.importorskip("distributed")
 pytestmark = [

@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-pytest.importorskip("zarr")
 pytest.importorskip("filelock")
 pytest.importorskip("pydantic")
 pytest.importorskip("pint")

@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("zarr")
 pytest.importorskip("filelock")
 pytest.importorskip("pydantic")
 pytest.importorskip("pint")

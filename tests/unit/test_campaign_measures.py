@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-pytest.importorskip("zarr")
 pytest.importorskip("filelock")
 
 from frames import GroundMotion, lumped_mass, time_history

@@ -10,7 +10,6 @@ from frames.risk import Campaign, CampaignError, full_grid, open_campaign
 from frames.risk.campaign import batches
 from lir_element import CoulombFriction, LIRBearing
 
-pytest.importorskip("zarr")
 pytest.importorskip("filelock")
 
 BEARING = LIRBearing(

@@ -262,7 +262,7 @@ def test_files_that_run_are_named_and_lie_in_the_folder(done: Path, way: str) ->
         text = SMALL[:head] + kind + SMALL[tail:]
     file, command = done / "small.toml", "check"
     if way == "campaign":
-        pytest.importorskip("zarr")
+        pytest.importorskip("filelock")
         text, command = text.replace("[project]", "[campaign]"), "campaign"
     if way == "link":
         (done / "inside.py").symlink_to(outside)

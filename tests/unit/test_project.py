@@ -541,27 +541,11 @@ def test_candidates_of_which_none_keeps_what_is_asked_are_written(folder: Path) 
     assert "is none of base-shear, displacement, plan, cost-like" in wrong.output
 
 
-def test_what_was_complete_is_kept(done: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def stopped(*_: object, **__: object) -> None:
-        data = load(folder / "out" / "runs-lower.nc")
-        raise AnalysisInterrupted(1.0, data)
-
-    folder = done
-    monkeypatch.setattr("frames.design.project.design_run.run_project", stopped)
-    found = ran(folder / "small.toml", folder / "out")
-    assert found.exit_code == 130
-    assert load(folder / "out" / "interrupted.nc").sizes["run"] == 3
-    assert "are of the run before" in found.output
-    assert "attribute" not in found.output
-    words = ["--no-figures", str(folder / "small.toml"), "--results", str(folder / "out")]
-    report = run(app, ["report", *words])
-    assert "interrupted.nc is of a later run that was interrupted" in report.output
-
-
 def test_a_run_goes_on_where_it_was_interrupted(done, monkeypatch):
     """Interrupted after all of its runs but the governing one: they are kept, none is run twice."""
     folder = done
     file, cut = folder / "small.toml", folder / "cut"
+    shutil.copytree(folder / "out", cut)
 
     def stopped(*_: object, **__: object) -> None:
         raise AnalysisInterrupted(2.0, xr.Dataset())
@@ -569,12 +553,16 @@ def test_a_run_goes_on_where_it_was_interrupted(done, monkeypatch):
     monkeypatch.setattr(level_runs, "time_history", stopped)
     found = ran(file, cut)
     assert found.exit_code == 130
-    assert "the same command goes on from there" in found.output
-    data = load(cut / "interrupted.nc")
-    models = [str(name) for name in data["model"].to_numpy()]
-    assert len(models) == 3 * len(set(models))
-    assert len(set(models)) > 1
-    assert np.isfinite(data["reached_displacement"].to_numpy()).all()
+    assert "9 runs that were complete are kept in " in found.output
+    assert "unfinished: the same command goes on from there" in found.output
+    assert "are of the run before" in found.output
+    assert "attribute" not in found.output
+    report = run(app, ["report", "--no-figures", str(file), "--results", str(cut)])
+    assert "unfinished is of a later run that was interrupted" in report.output
+    for path in cut.glob("*.*"):
+        path.unlink()
+    report = run(app, ["report", str(file), "--results", str(cut)])
+    assert "holds an interrupted run: `lir run` makes one" in report.output
     kept = list((folder / "cut" / "unfinished").iterdir())
     assert len(kept) == 9
     kept[4].unlink()  # as if it had been interrupted before
@@ -583,7 +571,6 @@ def test_a_run_goes_on_where_it_was_interrupted(done, monkeypatch):
     assert found.exit_code in {0, 1}
     assert "1 of 1 runs (8 more were complete before)" in found.output
     assert not (folder / "cut" / "unfinished").exists()
-    assert not (folder / "cut" / "interrupted.nc").exists()
     for name in ("demands.csv", "checks.csv", "bearings.csv", "equivalent-linear.csv"):
         assert (folder / "cut" / name).read_text() == (folder / "out" / name).read_text()
     for bound in ("lower", "nominal", "upper"):
@@ -609,7 +596,7 @@ def test_a_run_that_was_not_written_whole_is_none(done, monkeypatch):
     assert "runs that were complete are kept in" in failed.output
     found = run(app, ["report", *words])
     assert found.exit_code == 2
-    assert "holds no run" in found.output
+    assert "holds an interrupted run" in found.output
 
 
 def test_a_governing_run_whose_peaks_are_chance_says_so(done, monkeypatch):

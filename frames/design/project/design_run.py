@@ -25,7 +25,6 @@ from frames.design.histories.impacts import rim_engagement
 from frames.design.project.check_register import BearingDemand, RunToCheck, TypeOfBearing, checks_of
 from frames.design.project.level_runs import (
     governing_run,
-    kept_of,
     most_displaced,
     named_case,
     project_runs,
@@ -156,8 +155,7 @@ def run_project(
     known = preliminary(parts)
     parts.sources.require_unchanged()
     runs = project_runs(parts, known.frame, known.moved, known.motions, progress, resume)
-    with kept_of(runs):
-        governing = governing_run(parts, known.frame, known.motions, runs)
+    governing = governing_run(parts, known.frame, known.motions, runs)
     return evaluate_run(parts, known, runs, governing)
 
 

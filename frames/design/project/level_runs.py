@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -21,10 +20,10 @@ from frames.results.quantities import QUANTITIES
 from frames.results.storage import as_packed
 from frames.solve.step_sensitivity import NOISE, SENSITIVE
 from frames.solve.time_history import time_history
-from lir_element.errors import AnalysisInterrupted, AnalysisWarning
+from lir_element.errors import AnalysisWarning
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     import xarray as xr
@@ -138,22 +137,8 @@ def project_runs(
         is_all = given.accidental_eccentricity_motions == "all"
         names = list(motions) if is_all else [governing_motion(each.data, rules)]
         rows += [(level, bound, way, name) for way in moved for name in names]
-    with kept_of(runs):
-        kept = None if resume is None else resume / MOVED
-        return runs + _of_all(parts, moved, motions, rows, progress, kept)
-
-
-@contextmanager
-def kept_of(runs: Runs) -> Generator[None, None, None]:
-    """Keep runs that are complete when what follows them is interrupted."""
-    try:
-        yield
-    except AnalysisInterrupted as stop:
-        whole = runs.centred.data
-        more = int(stop.data.attrs.get("runs_asked_for", 0))
-        asked = {"status": "interrupted", "runs_asked_for": whole.sizes["run"] + more}
-        stop.data = whole.assign_attrs(asked)  # its class says how far: runs, or time of one run
-        raise
+    kept = None if resume is None else resume / MOVED
+    return runs + _of_all(parts, moved, motions, rows, progress, kept)
 
 
 def _of_all(

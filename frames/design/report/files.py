@@ -42,7 +42,8 @@ def write_run(
     make_folder(folder)
     old = (*folder.glob("runs-*.nc"), *folder.glob("moved-*.nc"))
     cut = folder.glob(".*.part")  # of a process that was killed
-    for stale in (folder / "run.json", *old, *cut):  # the first is written last
+    of_before = folder / "interrupted.nc"  # which version 0.2 wrote
+    for stale in (folder / "run.json", of_before, *old, *cut):  # the first is written last
         stale.unlink(missing_ok=True)
     written = {}
     for (word, label), (_, _, data) in run.by_file.items():
@@ -55,7 +56,6 @@ def write_run(
     save(run.governing, governing, compress=True)
     judged = write_judgement(run, folder, source, figures=figures, language=language)
     kept = [*judged, *written.values(), governing]
-    (folder / "interrupted.nc").unlink(missing_ok=True)
     shutil.rmtree(folder / UNFINISHED, ignore_errors=True)
     return kept
 
@@ -102,7 +102,7 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> tuple[Runs, xr.Da
     """Read the time histories that a project's run left, and those of the governing run."""
     facts = folder / "run.json"
     if not facts.is_file():
-        partly = (folder / "interrupted.nc").is_file()
+        partly = (folder / UNFINISHED).is_dir()
         msg = f"{folder} holds {'an interrupted run' if partly else 'no run'}: `lir run` makes one"
         raise ProjectError(msg)
     kept = _read_facts(facts)
@@ -166,13 +166,6 @@ def _read(
         for label, told in kept.get(word, {}).items():
             tags = {HAZARD: told.get("level", ""), BOUND: told.get("bound", label)}
             yield tagged(load(folder / f"{word}-{label}.nc"), **tags)
-
-
-def write_interrupted(data: xr.Dataset, folder: Path) -> Path:
-    """Write the runs that were complete when a project's run was interrupted; return the file."""
-    path = make_folder(folder) / "interrupted.nc"
-    save(data, path, compress=True)
-    return path
 
 
 def calculations(run: ProjectRun) -> str:

@@ -280,9 +280,7 @@ def _put(arrays: dict[str, Any], at: IntArray, found: xr.Dataset, layout: xr.Dat
 
 
 def _recorded(found: xr.Dataset, layout: xr.Dataset, places: list[int]) -> xr.Dataset:
-    # The histories alone, with names as texts of any length, which the results database takes.
+    # The histories alone.
     names = [name for name in found.data_vars if name not in layout.data_vars]
     data = found[names].drop_vars(["model", "motion", "scale", "motion_digest"])
-    data = data.assign_coords(run=places)
-    labels = {dim: data[dim].astype(object) for dim in data.dims if data[dim].dtype.kind == "U"}
-    return data.assign_coords(labels)
+    return data.assign_coords(run=places)

@@ -22,6 +22,7 @@ from frames.risk.campaign.packages import lacking_packages
 from frames.risk.campaign.plan import Plan
 from frames.risk.campaign.plan_description import described
 from frames.risk.campaign.reused import KnownRuns
+from frames.risk.campaign.rows import planned_rows
 from frames.risk.campaign.sampling import ParameterSample, whole
 from frames.risk.campaign.store import CampaignStatus, CampaignStore
 from frames.risk.fragility.intensity import OWN, IntensityMeasure
@@ -93,7 +94,7 @@ class Campaign:
     ValueError, TypeError
         If an argument cannot be.
     ImportError
-        If zarr or filelock is not installed.
+        If filelock is not installed.
 
     Examples
     --------
@@ -241,14 +242,15 @@ class Campaign:
         stores = [reuse] if isinstance(reuse, (str, Path)) else list(reuse or ())
         known = KnownRuns(stores, self._work, plan).of if stores else None
         if not self.store.exists:
-            self.store.create(self._work.plan, plan, reference.layout)
+            rows = planned_rows(self._work.plan, reference.layout)
+            self.store.create(plan, rows, reference.layout)
         with self.store.owned():
             self.store.require_plan(plan, accept_other_sources=accept_other_sources)
             done = set(self.store.batches_done())
             todo = [k for k in range(self._work.plan.batches) if k not in done]
             computed = _Counting(self._work.plan, todo, told)
             for number, batch in self._computed(reference, computed, client, workers, known):
-                self.store.write(self._work.plan, number, batch)
+                self.store.write(number, batch)
         _warn(self.store.status())
         return self.results()
 

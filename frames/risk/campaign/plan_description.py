@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from frames.risk.campaign.batches import Reference, Work
     from lir_element import LIRBearing
 
-FORMAT, READABLE = 3, (1, 2, 3)
-"""Format of the results databases that are written, and those that can be read."""
+FORMAT = 4
+"""Format of the results databases."""
 
-WHOLE = 3
-"""First format in which each chunk is a file: one that is missing was removed."""
+OLD = 1, 2, 3
+"""Formats of version 0.2, which `convert_campaign` reads."""
 
 SOURCES = "sources", "program"
 """ProjectInputs of a plan in which a database may differ where other sources are accepted."""

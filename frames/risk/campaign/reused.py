@@ -9,7 +9,6 @@ import pandas as pd
 
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.plan import differences, listed
-from frames.risk.campaign.plan_description import FORMAT
 from frames.risk.campaign.store import CampaignStore
 
 if TYPE_CHECKING:
@@ -88,9 +87,6 @@ class KnownRuns:
 def _common_models(store: CampaignStore, planned: Mapping[str, Any]) -> list[str]:
     # Names of the models that a database shares with a campaign.
     stored = store.plan()
-    if stored["format"] != FORMAT:
-        msg = f"{store.path} has format {stored['format']}: only {FORMAT} can be taken over from"
-        raise CampaignError(msg)
     both = [{key: plan.get(key) for key in _SAME} for plan in (stored, planned)]
     names = [sorted(plan["parameters"]) for plan in (stored, planned)]
     found = differences(*both)

@@ -1,8 +1,9 @@
-"""The results database of a campaign: whole chunks first, then a mark that they are there."""
+"""The results database of a campaign: its plan, and a chunk of runs for each batch that is done."""
 
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import uuid
 from collections import Counter
@@ -13,25 +14,25 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 
-from frames.results.storage import write_whole
+from frames.results.chunks import ENDING, Rows, digest_of, load_chunk, marks_of, write_chunk
+from frames.results.storage import make_folder, write_whole
 from frames.risk._errors import CampaignError
-from frames.risk.campaign.layout import EVERY_CHUNK, digest_of, lay_out, run_table
-from frames.risk.campaign.opened_store import damaged, locked, opened, readable, results_of
+from frames.risk.campaign.lock import locked
 from frames.risk.campaign.plan import listed
-from frames.risk.campaign.plan_description import FORMAT, READABLE, SOURCES, TAKEN_OVER, unlike
+from frames.risk.campaign.plan_description import FORMAT, OLD, SOURCES, TAKEN_OVER, unlike
+from frames.risk.campaign.rows import run_table
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
     import pandas as pd
-    import xarray as xr
 
     from frames.risk.campaign.batches import Batch
-    from frames.risk.campaign.plan import Plan
 
-_PLAN, _RUNS, _HISTORIES, _DONE, _LOCK = "plan.json", "runs.zarr", "histories", "done", "lock"
-_MARK = ("runs", "statuses", "doubtful", "warnings", "digest")
+_PLAN, _RUNS, _HISTORIES, _LOCK = "plan.json", "runs", "histories", "lock"
+_ROWS, _LAYOUT = f"rows{ENDING}", f"layout{ENDING}"
 
 
 class CampaignStatus(NamedTuple):
@@ -124,31 +125,33 @@ class CampaignStore:
                 "another store and run again"
             )
             raise CampaignError(msg) from cause
-        if not isinstance(found, dict) or found.get("format") not in READABLE:
-            given = found.get("format") if isinstance(found, dict) else "of no campaign"
-            msg = (
-                f"{self.path} has format {given}, this program reads "
-                f"{' and '.join(map(str, READABLE))}: open it with the version that wrote it"
+        given = found.get("format") if isinstance(found, dict) else "of no campaign"
+        if given != FORMAT:
+            remedy = (
+                f'frames.risk.convert_campaign("{self.path}", "another folder") writes it anew'
+                if given in OLD
+                else "open it with the version that wrote it"
             )
+            msg = f"{self.path} has format {given}, this program reads {FORMAT}: {remedy}"
             raise CampaignError(msg)
         return dict(found)
 
-    def create(self, plan: Plan, described: Mapping[str, Any], layout: xr.Dataset) -> None:
+    def create(self, described: Mapping[str, Any], rows: xr.Dataset, layout: xr.Dataset) -> None:
         """Make the results database, in one move: there is a whole one, or none.
 
         Parameters
         ----------
-        plan : Plan
-            The rows.
         described : mapping
             What it is planned with.
+        rows : xarray.Dataset
+            What is planned of each run, along `run`.
         layout : xarray.Dataset
-            Variables and labels.
+            Variables and labels of results.
 
         Raises
         ------
         CampaignError
-            If something else stands there, or a parameter has the name of a result.
+            If something else stands there.
         OSError
             If it cannot be written.
         """
@@ -156,16 +159,19 @@ class CampaignStore:
             msg = f"{self.path} is there and holds no campaign: name another folder"
             raise CampaignError(msg)
         beside = self.path.with_name(f".{self.path.name}.{uuid.uuid4().hex}.part")
+        of_run = [name for name in layout.coords if "run" in layout[name].dims]
         try:
-            (beside / _DONE).mkdir(parents=True)
-            lay_out(beside / _RUNS, plan, layout)
+            (beside / _RUNS).mkdir(parents=True)
+            write_chunk(beside / _ROWS, rows, compress=True)
+            write_chunk(beside / _LAYOUT, layout.drop_vars(of_run).isel(run=slice(0)))
             (beside / _PLAN).write_text(json.dumps(described, indent=1), encoding="utf-8")
             beside.rename(self.path)
         except OSError as cause:
             if self.exists:
                 msg = f"{self.path} was made by another process just now: run again to resume it"
                 raise CampaignError(msg) from cause
-            msg = f"{self.path} could not be written: {cause.strerror or cause}: make room"
+            why = os.strerror(cause.errno) if cause.errno else cause
+            msg = f"{self.path} could not be written: {why}: make room"
             raise OSError(cause.errno, msg) from cause
         finally:
             shutil.rmtree(beside, ignore_errors=True)
@@ -189,12 +195,6 @@ class CampaignStore:
             With a line for each difference.
         """
         stored, given = self.plan(), json.loads(json.dumps(described))
-        if stored["format"] != FORMAT:
-            msg = (
-                f"{self.path} has format {stored['format']}, this program writes {FORMAT}: "
-                "open_campaign reads it; to run, name another store"
-            )
-            raise CampaignError(msg)
         found, sources = unlike(stored, given)
         if found:
             msg = (
@@ -230,19 +230,23 @@ class CampaignStore:
             If another process works on it.
         """
         with locked(self.path / _LOCK):
+            for cut in self.path.glob("*/.*.part"):  # of a process that was killed
+                cut.unlink(missing_ok=True)
             yield
 
     def batches_done(self) -> list[int]:
         """Return the batches that are complete, in order."""
-        return sorted(int(mark.stem) for mark in (self.path / _DONE).glob("*.json"))
+        return list(self._chunks())
 
-    def write(self, plan: Plan, number: int, batch: Batch) -> None:
-        """Write a batch: its chunks, then its mark.
+    def _chunks(self) -> dict[int, Path]:
+        paths = (self.path / _RUNS).glob(f"*{ENDING}")
+        return dict(sorted((int(path.stem), path) for path in paths if path.stem.isdecimal()))
+
+    def write(self, number: int, batch: Batch) -> None:
+        """Write a batch: the histories that it keeps, then its chunk in one move.
 
         Parameters
         ----------
-        plan : Plan
-            The rows.
         number : int
             Which batch.
         batch : Batch
@@ -253,40 +257,44 @@ class CampaignStore:
         CampaignError
             If the results database was laid out for other results.
         OSError
-            If it cannot be written. The batch has no mark then, and is run again.
+            If it cannot be written. The batch has no chunk then, and is run again.
         """
-        unknown = [name for name in batch.arrays if name not in self._arrays]
+        dims = {str(name): variable.dims for name, variable in self._layout.data_vars.items()}
+        unknown = [name for name in batch.arrays if name not in dims]
         if unknown:
             msg = (
                 f"{self.path} has no room for {', '.join(unknown)}: another version of the package "
                 "began it; name another store"
             )
             raise CampaignError(msg)
-        rows = plan.rows(number)
+        runs = xr.Dataset({name: (dims[name], own) for name, own in batch.arrays.items()})
+        marks = {
+            "runs": runs.sizes["run"],
+            "statuses": dict(Counter(batch.arrays["status"].tolist())),
+            "doubtful": int((batch.arrays["doubts"] != "").sum()),
+            "warnings": batch.warnings,
+            "digest": digest_of([batch.arrays]),
+            "reused": batch.reused,
+        }
         try:
-            for name, values in batch.arrays.items():
-                self._arrays[name][rows.start : rows.stop] = values
-            where = self.path / _HISTORIES / f"{number:06d}"
-            shutil.rmtree(where, ignore_errors=True)
+            for old in self._histories(number):
+                old.unlink()
             for k, histories in enumerate(batch.histories):
-                histories.to_zarr(
-                    where / f"{k}.zarr", mode="w", consolidated=False, write_empty_chunks=True
-                )
-            mark = {
-                "runs": len(rows),
-                "statuses": dict(Counter(batch.arrays["status"].tolist())),
-                "doubtful": int((batch.arrays["doubts"] != "").sum()),
-                "warnings": batch.warnings,
-                "digest": digest_of([batch.arrays]),
-            } | ({"reused": batch.reused} if batch.reused else {})
-            write_whole(self.path / _DONE / f"{number:06d}.json", json.dumps(mark).encode())
+                where = make_folder(self.path / _HISTORIES) / f"{number:06d}-{k}{ENDING}"
+                write_chunk(where, histories, compress=True)
+            path = self.path / _RUNS / f"{number:06d}{ENDING}"
+            write_chunk(path, runs, compress=True, **marks)
         except OSError as cause:
             done = len(self.batches_done())
+            why = os.strerror(cause.errno) if cause.errno else cause
             msg = (
-                f"{self.path}: batch {number} could not be written: {cause.strerror or cause}. "
+                f"{self.path}: batch {number} could not be written: {why}. "
                 f"The {done} batches before it are kept: make room, and run again to go on"
             )
             raise OSError(cause.errno, msg) from cause
+
+    def _histories(self, number: int) -> list[Path]:
+        return sorted((self.path / _HISTORIES).glob(f"{number:06d}-*{ENDING}"))
 
     def status(self) -> CampaignStatus:
         """Return how far the campaign is, also while it runs.
@@ -304,11 +312,11 @@ class CampaignStore:
         total, done, doubtful, reused = int(self.plan()["runs"]), 0, 0, 0
         statuses: Counter[str] = Counter()
         said: dict[str, None] = {}
-        for number in self.batches_done():
-            mark = self._mark(number)
+        for path in self._chunks().values():
+            mark = marks_of(path, CampaignError)
             done += mark["runs"]
             doubtful += mark["doubtful"]
-            reused += mark.get("reused", 0)
+            reused += mark["reused"]
             statuses.update(mark["statuses"])
             said.update(dict.fromkeys(mark["warnings"]))
         counts = dict(statuses.most_common())
@@ -328,11 +336,19 @@ class CampaignStore:
         CampaignError
             If there is no store.
         """
-        plan = self.plan()
-        done = np.zeros(plan["runs"], dtype=bool)
-        for number in self.batches_done():
-            done[number * plan["batch"] : (number + 1) * plan["batch"]] = True
-        return results_of(self.path / _RUNS, plan, done)
+        plan, layout, chunks = self.plan(), self._layout, self._chunks()
+        rows = self._description(_ROWS)
+        count = rows.sizes["run"]
+        shown = {}
+        for name, own in layout.data_vars.items():
+            shape = (count, *own.shape[1:])
+            whole = Rows(chunks, str(name), plan["batch"], shape, own.dtype.kind, CampaignError)
+            shown[name] = own.dims, whole.unread(), own.attrs
+        digests = np.array([plan["motions"][str(n)] for n in rows["motion"].to_numpy()])
+        done = np.isin(np.arange(count) // plan["batch"], list(chunks))
+        coordinates = {"done": ("run", done), "motion_digest": ("run", digests)}
+        data = xr.Dataset(shown, {**rows.coords, **layout.coords} | coordinates)
+        return data.assign_attrs(_origin(plan))
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return the runs that are done as a table, also while the campaign runs.
@@ -374,11 +390,8 @@ class CampaignStore:
         """
         number = run // self.plan()["batch"]
         if number in self.batches_done():
-            for part in (self.path / _HISTORIES / f"{number:06d}").glob("*.zarr"):
-                try:
-                    data = opened(part, self.plan())
-                except (RuntimeError, ValueError, LookupError, FileNotFoundError) as cause:
-                    raise CampaignError(damaged(self.path / _RUNS, number, cause)) from cause
+            for part in self._histories(number):
+                data = load_chunk(part, lazy=True, error=CampaignError)
                 if run in data["run"].to_numpy():
                     return data.sel(run=run)
         msg = (
@@ -400,41 +413,45 @@ class CampaignStore:
         CampaignError
             If runs are missing, or a batch is not as it was written.
         """
-        plan, done = self.plan(), self.batches_done()
-        if len(done) * plan["batch"] < plan["runs"]:
+        plan, chunks = self.plan(), self._chunks()
+        if len(chunks) * plan["batch"] < plan["runs"]:
             msg = f"{self.path}: {self.status()}: run it to its end first"
             raise CampaignError(msg)
-        return digest_of(self._read(number) for number in done)
+        return digest_of(map(self._read, chunks.values()))
 
-    def _read(self, number: int) -> dict[str, Any]:
-        size = self.plan()["batch"]
-        rows = slice(number * size, (number + 1) * size)
-        whole = self._arrays
-        try:
-            arrays = {name: array[rows] for name, array in whole.items()}
-        except (RuntimeError, ValueError) as cause:
-            raise CampaignError(damaged(self.path / _RUNS, number, cause)) from cause
-        if digest_of([arrays]) != self._mark(number)["digest"]:
-            raise CampaignError(damaged(self.path / _RUNS, number))
+    def _read(self, path: Path) -> dict[str, Any]:
+        # The arrays of a chunk, which are as they were written.
+        found = load_chunk(path, error=CampaignError)
+        arrays = {str(name): own.to_numpy() for name, own in found.data_vars.items()}
+        if digest_of([arrays]) != marks_of(path, CampaignError)["digest"]:
+            msg = f"{path} is not as it was written: remove it, and run again"
+            raise CampaignError(msg)
         return arrays
 
     @cached_property
-    def _arrays(self) -> dict[str, Any]:
-        import zarr
+    def _layout(self) -> xr.Dataset:
+        return self._description(_LAYOUT)
 
-        with readable(self.path / _RUNS):
-            group: Any = zarr.open_group(self.path / _RUNS, mode="r+")
-            with zarr.config.set({f"array.{key}": value for key, value in EVERY_CHUNK.items()}):
-                return {name: group[name] for name in group.attrs["results"]}
-
-    def _mark(self, number: int) -> dict[str, Any]:
-        path = self.path / _DONE / f"{number:06d}.json"
+    def _description(self, name: str) -> xr.Dataset:
         try:
-            found = json.loads(path.read_text(encoding="utf-8"))
-            mark: dict[str, Any] = {name: found[name] for name in _MARK} | found
-            return mark
-        except (ValueError, LookupError, TypeError) as cause:
-            raise CampaignError(damaged(self.path / _RUNS, number, cause)) from cause
+            return load_chunk(self.path / name)
+        except ValueError as cause:
+            msg = (
+                f"{self.path / name} is damaged ({cause.__cause__}): restore it from a copy, or "
+                "name another store and run again"
+            )
+            raise CampaignError(msg) from cause
+
+
+def _origin(plan: Mapping[str, Any]) -> dict[str, str]:
+    # Attributes: what was planned, where it comes from, and what took over.
+    found = {key: str(plan[key]) for key in ("program", "options", "record")}
+    found |= plan.get("provenance", {})
+    taken = [
+        f"after {each['after runs']} runs: {each['provenance']['source']}"
+        for each in plan.get(TAKEN_OVER, [])
+    ]
+    return found | ({"sources_accepted": "; ".join(taken)} if taken else {})
 
 
 def open_campaign(path: str | Path) -> CampaignStore:

@@ -1,0 +1,89 @@
+"""Results databases of version 0.2, which were folders of zarr, in the present format."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from frames.results.chunks import digest_of
+from frames.risk._errors import CampaignError
+from frames.risk.campaign.batches import Batch
+from frames.risk.campaign.packages import lacking_packages
+from frames.risk.campaign.plan_description import FORMAT, OLD
+from frames.risk.campaign.store import CampaignStore
+
+
+def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
+    """Write the results database of a campaign of version 0.2 anew, in the present format.
+
+    Parameters
+    ----------
+    old : str or path
+        Its folder, which stays as it is.
+    new : str or path
+        The folder to be made.
+
+    Returns
+    -------
+    CampaignStore
+        With the same rows, digest and histories. To run what it lacks, `Campaign.run` takes
+        `accept_other_sources=True`.
+
+    Raises
+    ------
+    CampaignError
+        If `old` holds no campaign of version 0.2, a batch is not as it was written, or `new` is
+        there.
+    ImportError
+        If zarr is not installed.
+
+    Examples
+    --------
+    >>> from frames.risk import CampaignError, convert_campaign
+    >>> try:
+    ...     convert_campaign("nowhere", "anew")
+    ... except CampaignError as error:
+    ...     print(error)
+    nowhere holds no campaign of version 0.2: nothing is to be converted
+    """
+    if lacking := lacking_packages("zarr"):
+        raise ImportError(lacking)
+    folder, store = Path(old), CampaignStore(new)
+    try:
+        plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
+        is_old = plan["format"] in OLD
+    except (OSError, ValueError, LookupError, TypeError):
+        is_old = False
+    if not is_old:
+        msg = f"{old} holds no campaign of version 0.2: nothing is to be converted"
+        raise CampaignError(msg)
+    whole = xr.open_zarr(folder / "runs.zarr", chunks=None, consolidated=False)
+    results = whole[whole.attrs["results"]].drop_attrs(deep=False)
+    of_run = [name for name in results.coords if "run" in results[name].dims]
+    rows = _loaded(results[of_run])
+    store.create(plan | {"format": FORMAT}, rows, _loaded(results.isel(run=slice(1))))
+    for mark in sorted((folder / "done").glob("*.json")):
+        number, told = int(mark.stem), json.loads(mark.read_text(encoding="utf-8"))
+        own = slice(number * plan["batch"], (number + 1) * plan["batch"])
+        found = _loaded(results.isel(run=own).drop_vars(of_run))
+        arrays = {str(name): variable.to_numpy() for name, variable in found.data_vars.items()}
+        if digest_of([arrays]) != told["digest"]:
+            msg = f"batch {number} of {old} is not as it was written: remove {mark}, and convert"
+            raise CampaignError(msg)
+        parts = sorted((folder / "histories" / mark.stem).glob("*.zarr"))
+        histories = [_loaded(xr.open_zarr(part, chunks=None, consolidated=False)) for part in parts]
+        store.write(number, Batch(arrays, histories, told["warnings"], told.get("reused", 0)))
+    return store
+
+
+def _loaded(data: xr.Dataset) -> xr.Dataset:
+    # With results that are texts of Python, labels of numpy.
+    found = data.copy()
+    for name, own in data.variables.items():
+        if own.dtype.kind not in "fiub":
+            kind = str if name in data.coords else object
+            found[name] = own.dims, np.array(own.to_numpy().tolist(), dtype=kind), own.attrs
+    return found
