@@ -7,10 +7,14 @@ summaries of the pages that are there.
 
 from __future__ import annotations
 
+import builtins
 import os
+import re
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import jinja2
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -34,6 +38,8 @@ CLAIMS = (
 )
 """The modules of the claims, in the order of the index."""
 
+_TEMPLATES = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=False)  # noqa: S701  (Markdown)
+_TEMPLATES.globals |= vars(builtins)
 SUMMARY_HEAD = ("claim", "source", "result", "holds")
 CHECK_HEAD = ("statement", "source", "expected", "got", "holds")
 
@@ -86,8 +92,8 @@ class Page:
         The numbers that matter, in one sentence.
     checks : sequence of Check
         The statements one by one.
-    parts : sequence of str
-        The text of the page, paragraphs in Markdown.
+    body : str
+        The text of the page in Markdown.
     figures : dict of str to Figure
         By name; the text refers to them as `figure`.
     files : dict of str to callable
@@ -97,7 +103,7 @@ class Page:
     claim: Claim
     result: str
     checks: Sequence[Check]
-    parts: Sequence[str]
+    body: str
     figures: dict[str, Figure]
     files: dict[str, Callable[[Path], None]] = field(default_factory=dict)
 
@@ -123,9 +129,9 @@ class Page:
             "All claims: [README.md](README.md).",
             table(SUMMARY_HEAD, [summary]),
             table(CHECK_HEAD, rows),
-            *self.parts,
+            self.body,
         ]
-        return "\n\n".join(parts) + "\n"
+        return "\n\n".join(parts)
 
 
 def near(what: str, source: str, expected: float, got: float, within: float, unit: str) -> Check:
@@ -149,12 +155,31 @@ def above(what: str, source: str, limit: float, got: float, unit: str) -> Check:
     )
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+def table(head: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
     """Return a table in Markdown."""
-    lines = [head, ["---"] * len(head), *rows]
+    return rows([head, ["---"] * len(head), *lines])
+
+
+def rows(lines: Iterable[Sequence[str]]) -> str:
+    """Return rows of a table in Markdown."""
     return "\n".join(
-        "| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines
+        "| " + " | ".join(c.replace("|", "\\|") for c in line) + " |" for line in lines
     )
+
+
+def render(script: dict[str, Any], name: str = "", **values: Any) -> str:
+    """Return the template beside a script, filled with the script's names and these values.
+
+    A template is a page with its numbers left out; `name` is that of its script unless given.
+    """
+    place = Path(script["__file__"])
+    template = _TEMPLATES.from_string(
+        place.with_name(f"{name or place.stem}.md.j2").read_text(encoding="utf-8")
+    )
+    return re.sub(r"\n{3,}", "\n\n", template.render({**script, **values})).strip("\n") + "\n"
+
+
+_TEMPLATES.filters |= {"f": format, "rows": rows}
 
 
 def figure(claim: Claim, name: str, caption: str, suffix: str = "png") -> str:
@@ -198,76 +223,15 @@ def write(page: Page, folder: Path = FOLDER) -> None:
 def index(folder: Path = FOLDER) -> str:
     """Return the index, from the summaries of the pages in a folder."""
     head = table(SUMMARY_HEAD, [])
-    rows = []
+    lines = []
     for name in CLAIMS:
         path = folder / f"{name}.md"
-        if not path.is_file():
-            continue
-        text = path.read_text(encoding="utf-8")
-        summary = text.split(head + "\n")[1].splitlines()[0]
-        statement, rest = summary.removeprefix("| ").split(" | ", 1)
-        rows.append(f"| [{statement}]({name}.md) | {rest}")
-    return (
-        "\n\n".join(
-            [
-                "# Validation: one script a claim",
-                "Written by `python -m validation`, which runs all of them; each runs alone, too "
-                "(`python -m validation.claims.static_test`). Claims that need a recorded ground motion "
-                "are "
-                "skipped where `LIR_RECORDS` names no folder that holds it: the record is not part of "
-                "this repository.",
-                head + "\n" + "\n".join(rows),
-                "Besides: [benchmark.md](benchmark.md), cost for the same accuracy, beside OpenSees "
-                "(`python -m validation.measurements.benchmark`), "
-                "[speed_error.md](speed_error.md), error over cost of every level and step in "
-                "nine test cases (`python -m validation.measurements.speed_error`), "
-                "[hard_cases.md](hard_cases.md), "
-                "what is hard to compute (`python -m validation.measurements.hard_cases`), "
-                "[opensees_hard_cases.md](opensees_hard_cases.md), the same with the elements of OpenSees "
-                "(`python -m validation.measurements.opensees_hard_cases`), "
-                "[opensees_cost.md](opensees_cost.md), "
-                "what a bearing costs inside OpenSees (`python -m validation.measurements.opensees_cost`), "
-                "[opensees_public_models.md](opensees_public_models.md), public models on bearings in "
-                "both programs (`python -m validation.measurements.opensees_public_models`), "
-                "[slip.md](slip.md), the slip of the interface where rims are met "
-                "(`python -m validation.measurements.slip`), "
-                "[level_doubts.md](level_doubts.md), what the level `pendulum` has wrong in "
-                "buildings (`python -m validation.measurements.level_doubts`), "
-                "[random_scenes.md](random_scenes.md), test cases by the thousand with everything unequal "
-                "(`python -m validation.random_scenes`), "
-                "[yielding.md](yielding.md), random buildings that yield, each at two steps "
-                "(`python -m validation.measurements.yielding`), "
-                "[worked_building.md](worked_building.md), the design guide's building under three codes "
-                "(`python -m validation.measurements.worked_building`), "
-                "[yielding_comparison.md](yielding_comparison.md), buildings that yield on four "
-                "systems (`python -m validation.measurements.yielding_comparison`), "
-                "**[study_summary.md](study_summary.md), when the LIR-DCFP does better than a DCFP, when "
-                "not, and what it costs** (`python -m validation.study.summary`), from its parts: "
-                "[study.md](study.md), the records of FEMA P695 on four devices "
-                "(`python -m validation.study.records`), "
-                "[study_rims.md](study_rims.md), the same on devices of equal plan whose rims yield "
-                "and break (`python -m validation.study.rims`), "
-                "[study_device.md](study_device.md), the best LIR-DCFP of a plan and its cost "
-                "(`python -m validation.study.device`), "
-                "[study_buildings.md](study_buildings.md), buildings of frames and of walls on them "
-                "(`python -m validation.study.buildings`), "
-                "[study_motions.md](study_motions.md), records turned, with a vertical component, one "
-                "after another, and pulses (`python -m validation.study.motions`), "
-                "[study_after.md](study_after.md), a stop that carries on after a bearing's failure "
-                "(`python -m validation.study.after`), "
-                "[study_uncertainty.md](study_uncertainty.md), which properties decide "
-                "(`python -m validation.study.uncertainty`), "
-                "and [study_loss.md](study_loss.md), expected loss, annual rates at three sites, spectral "
-                "shape and floor spectra (`python -m validation.study.loss`).",
-                '"Paper" is the paper of COMPDYN 2023 ([how to cite](../../README.md#how-to-cite)). '
-                "It prints its results as figures; no data of them is published, so the claims check what "
-                "its text states, and closed forms. What the tests demand besides is listed in the "
-                "[verification.md](../verification.md); speed in "
-                "[performance.md](../performance.md).",
-            ]
-        )
-        + "\n"
-    )
+        if path.is_file():
+            text = path.read_text(encoding="utf-8")
+            summary = text.split(head + "\n")[1].splitlines()[0]
+            statement, rest = summary.removeprefix("| ").split(" | ", 1)
+            lines.append(f"| [{statement}]({name}.md) | {rest}")
+    return render(globals(), "README", head=head, lines=lines)
 
 
 def _of(unit: str) -> str:

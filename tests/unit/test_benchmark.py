@@ -11,9 +11,21 @@ from frames.solve import recorder, run
 from validation.measurements import benchmark
 from validation.measurements.benchmark_batch import DIRECTIONS, HISTORIES, SCALES, motions
 from validation.measurements.benchmark_figure import draw
-from validation.measurements.benchmark_goals import before, goals, goals_text, verdict
 from validation.measurements.benchmark_models import STRUCTURES, motion_of, strong
-from validation.measurements.benchmark_page import text
+from validation.measurements.benchmark_page import (
+    before,
+    bound,
+    goals,
+    goals_text,
+    power,
+    rival,
+    second_cost,
+    short,
+    step_cost,
+    text,
+    verdict,
+    whole_cost,
+)
 from validation.measurements.benchmark_profile import multiply_adds
 from validation.measurements.benchmark_runs import (
     USUAL,
@@ -24,15 +36,6 @@ from validation.measurements.benchmark_runs import (
     run_there,
 )
 from validation.measurements.benchmark_search import cheapest, coarsest, setting_of
-from validation.measurements.benchmark_tables import (
-    bound,
-    power,
-    rival,
-    second_cost,
-    short,
-    step_cost,
-    whole_cost,
-)
 
 
 def runs(*errors):

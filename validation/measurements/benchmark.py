@@ -31,9 +31,8 @@ from lir_element.opensees import opensees
 from validation.measurements.benchmark_batch import batch_here, batch_there
 from validation.measurements.benchmark_cases import SOME, measure
 from validation.measurements.benchmark_figure import draw
-from validation.measurements.benchmark_goals import before, write_goals
 from validation.measurements.benchmark_models import STRUCTURES
-from validation.measurements.benchmark_page import text
+from validation.measurements.benchmark_page import before, goals_text, text
 from validation.measurements.benchmark_profile import PROFILED, profile
 from validation.measurements.benchmark_search import setting_of
 from validation.opensees.worker import Worker
@@ -127,7 +126,7 @@ def write(kept: dict[str, Any], folder: Path = FOLDER) -> None:
     )
     (folder / "benchmark.md").write_text(text(kept), encoding="utf-8")
     (folder / "README.md").write_text(index(folder), encoding="utf-8")
-    write_goals(kept, folder.parent / "benchmark_goals.md")
+    (folder.parent / "benchmark_goals.md").write_text(goals_text(kept), encoding="utf-8")
 
 
 def main(arguments: list[str] | None = None) -> None:

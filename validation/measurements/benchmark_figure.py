@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 from matplotlib.lines import Line2D
 
 from frames.plots.plot_style import PALETTE, SMALL, add_legend, caption, grid_of, new_figure
+from validation.measurements.benchmark_page import second_cost, there_are
 from validation.measurements.benchmark_search import ALLOWED
-from validation.measurements.benchmark_tables import second_cost, there_are
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -1,349 +1,272 @@
-"""The page of the benchmark, in Markdown."""
+"""The pages of the benchmark and of its goals, from what was kept: costs, ratios, growth, verdicts."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from validation.measurements.benchmark_batch import HISTORIES, LENGTH, THERE
+import numpy as np
+
+from validation.measurements import benchmark_batch as batch
+from validation.measurements import benchmark_runs as runs
+from validation.measurements import benchmark_search as search
 from validation.measurements.benchmark_cases import EFFORTS, METHODS, device_of
 from validation.measurements.benchmark_models import SCALE, STRUCTURES
-from validation.measurements.benchmark_runs import RESCUES, USUAL
-from validation.measurements.benchmark_search import (
-    ALLOWED,
-    CANDIDATES,
-    DURATION,
-    FINE,
-    STEPS,
-    setting_of,
-)
-from validation.measurements.benchmark_tables import (
-    bound,
-    growth,
-    growth_with_steps,
-    second_cost,
-    short,
-    there_are,
-    whole_cost,
-)
-from validation.page import table
+from validation.measurements.benchmark_search import OWN, PLAIN, RESILIENT
+from validation.page import render
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-LIMITS = (
-    "- CPU time of the process, steps alone: neither program builds the model, finds the "
-    "equilibrium at rest or reads its results in it. Where whole runs are meant it is said.",
-    "- Both have one thread: those of the dense algebra spin while they wait, and would count as "
-    "CPU time.",
-    "- Both record the bearings' displacements at every step, OpenSees to a file.",
-    f"- A step of OpenSees that its algorithm does not solve is taken by KrylovNewton; a setting "
-    f"that needs that in more than {100.0 * RESCUES:g} % of the steps is given up.",
-    "- Of cases c and d OpenSees runs a window of the strong motion alone, with the steps "
-    "of the building on nine bearings and the setting that is cheapest in five of its own steps, "
-    "whatever its error; its cost for a whole motion follows from its cost a step.",
-    "- The elements of OpenSees have laws of their own: what separates their peaks from ours with "
-    "all steps small is another matter, [opensees_pendulum.md](opensees_pendulum.md), "
-    "[opensees_macro_model.md](opensees_macro_model.md).",
-    "- Here a step counts if all smaller ones keep the error, too; in OpenSees the largest one "
-    "that does is taken.",
-)
+    from validation.measurements.benchmark_models import Structure
+
+GROUPS = {
+    "plain DCFP": tuple(kind for kind in PLAIN if kind not in OWN),
+    "LIR-DCFP": RESILIENT,
+}
+"""What stands for our devices in OpenSees; for the plain one only what is its own."""
+GOALS = {
+    "a": {"best": 20.0},
+    "b": {"best": 100.0, "usual": 200.0},
+    "c": {"best": 200.0},
+    "f": {"best": 50.0},
+}
+"""Cost of OpenSees over that of this program, by case and setting."""
+
+
+class Rival(NamedTuple):
+    """The cheapest way to a device's response in OpenSees, and what it costs there over here [-]."""
+
+    kind: str
+    method: str
+    ratio: float
+
+
+def there_are(kept: dict[str, Any]) -> list[Structure]:
+    """Return the structures of which there are results."""
+    return [one for key, one in STRUCTURES.items() if kept.get(key, {}).get("state") == "ok"]
+
+
+def rival(found: dict[str, Any], device: str, setting: str) -> Rival | None:
+    """Return the cheapest way in OpenSees; None where no element of it keeps the error."""
+    ways = []
+    for kind in GROUPS[device]:
+        ratios = found["pairs"].get(kind, {}).get("ratios", {})
+        for name, ratio in ratios.items():
+            which, method = name.split(" over ")
+            if which == setting:
+                ways.append((found["pairs"][kind][setting], -ratio, Rival(kind, method, ratio)))
+    return min(ways, key=lambda way: way[:2])[2] if ways else None
+
+
+def step_cost(found: dict[str, Any], kind: str, who: str) -> float:
+    """Return the CPU time of a step [s]: of a setting there, or of a method here."""
+    pairs = found["pairs"].get(kind, {})
+    if who not in pairs:
+        return math.nan
+    dt = found["there"][kind][who]["dt"] if who in {"usual", "best"} else None
+    if dt is None:
+        dt = found["here"][device_of(kind)][who]["dt"]
+    return float(pairs[who] * dt / pairs["window"])
+
+
+def second_cost(found: dict[str, Any], kind: str, who: str) -> float:
+    """Return the CPU time of a second of the motion [s]."""
+    pairs = found["pairs"].get(kind, {})
+    return float(pairs[who] / pairs["window"]) if who in pairs else math.nan
+
+
+def power(x: Sequence[float], y: Sequence[float]) -> float:
+    """Return the exponent p of the power law y = c x^p, fitted by least squares of logarithms."""
+    pairs = np.array([(a, b) for a, b in zip(x, y, strict=True) if math.isfinite(a * b)])
+    if len(pairs) < 2 or len(set(pairs[:, 0])) < 2:
+        return math.nan
+    x_log, y_log = np.log(pairs).T
+    return float(np.polyfit(x_log, y_log, 1)[0])
+
+
+def growth(kept: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return rows of exponents: of the cost of a step over bearings, and over unknowns."""
+    large = [kept[one.key] for one in there_are(kept) if one.case in "bcd"]
+    rows: list[tuple[str, ...]] = []
+    for kind in ("singleFPBearing", "LIR-DCFP, in-process coupling"):
+        for who in ("direct", "reduced", "usual", "best"):
+            costs = [step_cost(found, kind, who) for found in large]
+            if sum(map(math.isfinite, costs)) < 2:
+                continue
+            name = (
+                f"OpenSees, {who}, {kind}"
+                if who in {"usual", "best"}
+                else (f"here, {who}, {device_of(kind)}")
+            )
+            exponents = [
+                power([found["sizes"][size] for found in large], costs)
+                for size in ("bearings", "unknowns")
+            ]
+            rows.append((name, *(f"{p:.2f}" for p in exponents)))
+    return rows
+
+
+def growth_with_steps(found: dict[str, Any]) -> float:
+    """Return the exponent of the cost of a run here over its number of steps."""
+    runs = [run for run in found["here"]["LIR-DCFP"]["direct"]["runs"] if run["dt"] == run["dt"]]
+    return power([run["steps"] for run in runs], [run["loop"] for run in runs])
+
+
+def short(kept: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return rows: structure, device, its cheapest element in OpenSees, and how often it costs more."""
+    rows = []
+    for one in there_are(kept):
+        for device in GROUPS:
+            ways = [rival(kept[one.key], device, setting) for setting in ("usual", "best")]
+            kinds = dict.fromkeys(way.kind for way in ways if way)
+            ratios = (f"{way.ratio:.3g}" if way else "-" for way in ways)
+            rows.append((one.name, device, ", ".join(kinds) or "-", *ratios))
+    return rows
+
+
+def bound(spent: dict[str, float]) -> str:
+    """Say what bounds a step, from its profile."""
+    parts = {
+        "the bearings' state determinations": spent["states"],
+        "their tangents": spent["tangents"],
+        "products and solutions of the structure": spent["arithmetic"],
+    }
+    rest = spent["step"] - sum(parts.values())
+    parts["what is left: energy, recording, control of the step"] = max(rest, 0.0)
+    name = max(parts, key=lambda part: parts[part])
+    return f"{name} ({100.0 * parts[name] / max(spent['step'], sum(parts.values())):.0f} %)"
+
+
+def whole_cost(found: dict[str, Any], kind: str, method: str = "direct") -> tuple[float, float]:
+    """Return the CPU time of whole runs, there at its best and here [s]."""
+    ours = found["here"][device_of(kind)][method]
+    costs = [run["whole"] for run in ours.get("runs", []) if run["dt"] == ours["dt"]]
+    theirs = found["there"][kind]["best"].get("whole", math.nan)
+    return theirs, costs[0] if costs else math.nan
+
+
+def number(value: float) -> str:
+    """Return a value with three digits, a dash where there is none."""
+    if not math.isfinite(value):
+        return "-"
+    return f"{value:.0f}" if value >= 100.0 else f"{value:.3g}"
+
+
+def ms(seconds: float) -> str:
+    """Return a step in milliseconds."""
+    return f"{1e3 * seconds:g}" if math.isfinite(seconds) else "stops"
 
 
 def text(kept: dict[str, Any]) -> str:
     """Return the page from what was kept; what was not measured is left out."""
-    dates = sorted({one["when"] for one in kept.values() if isinstance(one, dict)})
     measured = there_are(kept)
     missing = [
         f"{one.name} ({kept.get(key, {}).get('state', 'not run')})"
         for key, one in STRUCTURES.items()
         if one not in measured
     ]
-    parts = [
-        "# Cost for the same accuracy, beside OpenSees",
-        f"Written by `python -m validation.measurements.benchmark`; measured {_span(dates)} on "
-        f"{kept.get('machine', 'no machine yet')}.",
-        f"Each program takes the largest step that keeps the peak displacement of the bearings "
-        f"within {100.0 * ALLOWED:g} % of its converged value (here {1e3 * FINE['here']:g} ms; "
-        f"OpenSees {1e3 * FINE['there']:g} ms, of what yields {1e3 * FINE['yielding']:g} ms; with "
-        "our element in it that of ours). With these steps they run in turns over the strong part "
-        f"of the motion; ratios are medians of those within a turn. Motion: Newhall 1994 times {SCALE:g}, at 30 degrees in plan, {DURATION:g} "
-        "s, or synthetic motions where the record is missing. The LIR-DCFP meets its rims; the plain DCFP "
-        "has none. Usual settings of OpenSees: "
-        f"{USUAL.name}. Its best: system, algorithm, numberer and test are varied one after the "
-        f"other; the {CANDIDATES} settings cheapest a step and the usual one then each take their "
-        "largest step, and the cheapest a second of motion counts.",
-        "![Cost over number of bearings, and error over cost](figures/benchmark-cost.png)",
-        "## In short",
-        "How often OpenSees costs what this program does, with the element of it that is cheapest:",
-        table(("structure", "device", "in OpenSees", "usual / here", "best / here"), short(kept)),
-        *_bounds(kept),
-        "## Cost",
-        table(
-            (
-                "structure",
-                "unknowns",
-                "in OpenSees",
-                "step here [ms]",
-                "steps there [ms]",
-                "here [ms/s]",
-                "usual [ms/s]",
-                "best [ms/s]",
-                "usual / here",
-                "best / here",
-            ),
-            [row for one in measured for row in cost_rows(kept[one.key])],
-        ),
-        "Steps there: usual and best settings. ms/s: CPU time of a second of the motion. "
-        + _refusals(kept),
-        *([f"Not measured: {'; '.join(missing)}."] if missing else []),
-        "## Steps",
-        *_steps(kept),
-        "## Settings of OpenSees",
-        *_settings(kept),
-        "## Growth",
-        *_growth(kept),
-        "## Many histories",
-        *_batch(kept),
-        "## What bounds a step",
-        *_profiles(kept),
-        "## How it is measured",
-        "\n".join(LIMITS),
-    ]
-    return "\n\n".join(parts) + "\n"
+    spent = {k: v for k, v in kept.get("profile", {}).items() if k in STRUCTURES and v}
+    return render(
+        globals(),
+        batch=batch,
+        bounds=[f"{STRUCTURES[key].name}: {bound(values)}" for key, values in spent.items()],
+        dates=sorted({one["when"] for one in kept.values() if isinstance(one, dict)}),
+        efforts=EFFORTS,
+        kept=kept,
+        measured=[kept[one.key] for one in measured],
+        methods=METHODS,
+        missing=missing,
+        refusals=[
+            f"{method} is left out: {values['refused']}"
+            for one in measured
+            for methods in kept[one.key]["here"].values()
+            for method, values in methods.items()
+            if "refused" in values
+        ],
+        runs=runs,
+        scale=SCALE,
+        search=search,
+        spent=spent,
+    )
 
 
-def cost_rows(found: dict[str, Any]) -> list[tuple[str, ...]]:
-    """Return the rows of a structure in the table of costs: a row a kind and method."""
-    name, sizes, rows = STRUCTURES[found["key"]].name, found["sizes"], []
-    for kind, pairs in found["pairs"].items():
-        there = found["there"][kind]
-        for method in METHODS:
-            if method not in pairs:
-                continue
-            ratios = pairs["ratios"]
-            rows.append(
-                (
-                    name,
-                    str(sizes["unknowns"]),
-                    kind,
-                    f"{_ms(found['here'][device_of(kind)][method]['dt'])} ({method})",
-                    f"{_ms(there['usual']['dt'])}, {_ms(there['best']['dt'])}",
-                    *(
-                        _number(1e3 * second_cost(found, kind, who))
-                        for who in (method, "usual", "best")
-                    ),
-                    *(
-                        _number(ratios.get(f"{who} over {method}", math.nan))
-                        for who in ("usual", "best")
-                    ),
-                )
-            )
+def goals(kept: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return rows: goal, device, what was found, and whether it is met."""
+    rows: list[tuple[str, ...]] = []
+    for one in there_are(kept):
+        for setting, goal in GOALS.get(one.case, {}).items():
+            for device in GROUPS:
+                found = rival(kept[one.key], device, setting)
+                what = f"{one.name}: {goal:g} times OpenSees at its {setting}"
+                if found is None:
+                    rows.append((what, device, "no setting of OpenSees keeps the error", "-"))
+                    continue
+                got = f"{found.ratio:.3g} ({_how(kept[one.key], found, setting)})"
+                rows.append((what, device, got, verdict(goal, found.ratio)))
+    if kept.get("e", {}).get("state") == "ok":
+        rows += batch_goals(kept["e"]["here"])
     return rows
 
 
-def _span(dates: Sequence[str]) -> str:
-    if not dates:
-        return "never"
-    return dates[0] if dates[0] == dates[-1] else f"{dates[0]} to {dates[-1]}"
-
-
-def _number(value: float) -> str:
-    if not math.isfinite(value):
-        return "-"
-    return f"{value:.0f}" if value >= 100.0 else f"{value:.3g}"
-
-
-def _ms(seconds: float) -> str:
-    return f"{1e3 * seconds:g}" if math.isfinite(seconds) else "stops"
-
-
-def _refusals(kept: dict[str, Any]) -> str:
-    for one in there_are(kept):
-        for methods in kept[one.key]["here"].values():
-            for method, values in methods.items():
-                if "refused" in values:
-                    return f"The method {method} is left out: {values['refused']}."
-    return ""
-
-
-def _bounds(kept: dict[str, Any]) -> list[str]:
-    spent = kept.get("profile", {})
-    said = [
-        f"{STRUCTURES[key].name}: {bound(values)}"
-        for key, values in spent.items()
-        if key in STRUCTURES and values
-    ]
-    return [f"What takes most of a step here: {'; '.join(said)}."] if said else []
-
-
-def _steps(kept: dict[str, Any]) -> list[str]:
-    rows = []
-    for one in there_are(kept):
-        if not EFFORTS[one.case].full:
-            continue
-        for device, methods in kept[one.key]["here"].items():
-            for method, found in methods.items():
-                for run, error in zip(found.get("runs", []), found.get("errors", []), strict=True):
-                    rows.append(
-                        (
-                            one.name,
-                            device,
-                            method,
-                            f"{1e3 * run['dt']:g}" if math.isfinite(run["dt"]) else "its own",
-                            str(run["steps"]),
-                            f"{100.0 * error:.3f}",
-                            f"{1e3 * run['loop']:.1f}",
-                            f"{1e3 * run['whole']:.0f}",
-                            run["status"],
-                        )
-                    )
-    head = (
-        "structure",
-        "device",
-        "method",
-        "dt [ms]",
-        "steps",
-        "error of the peak [%]",
-        "steps alone [ms]",
-        "whole call [ms]",
-        "status",
+def _how(found: dict[str, Any], way: Rival, setting: str) -> str:
+    # A ratio is that of a step's cost times that of the numbers of steps.
+    there = found["there"][way.kind][setting]["dt"]
+    here = found["here"][device_of(way.kind)][way.method]["dt"]
+    step = step_cost(found, way.kind, setting) / step_cost(found, way.kind, way.method)
+    return (
+        f"{way.kind}; here {way.method}; {step:.3g} a step, of {1e3 * there:g} ms there, "
+        f"{1e3 * here:g} ms here"
     )
-    return [f'Runs of {DURATION:g} s here; "its own" is `dt=None`.', table(head, rows)]
 
 
-def _settings(kept: dict[str, Any]) -> list[str]:
-    rows = []
-    for one in there_are(kept):
-        for kind, there in kept[one.key]["there"].items():
-            if "tried" not in there:
-                continue
-            best = there["best"]
-            stopped = sum(not math.isfinite(cost) for cost in there["tried"].values())
-            theirs, ours = whole_cost(kept[one.key], kind)
-            rows.append(
-                (
-                    one.name,
-                    kind,
-                    setting_of(best["setting"]).name,
-                    _ms(best["dt"]),
-                    f"{100.0 * best['error']:.2f}",
-                    str(best.get("rescued", 0)),
-                    f"{stopped} of {len(there['tried'])}",
-                    _number(theirs),
-                    _number(ours),
-                )
-            )
-    head = (
-        "structure",
-        "element",
-        "best setting",
-        "step [ms]",
-        "error [%]",
-        "steps by KrylovNewton",
-        "settings that stop",
-        "whole run [s]",
-        "here [s]",
+def verdict(goal: float, ratio: float) -> str:
+    """Say whether a ratio meets a goal, and what is missing."""
+    return "met" if ratio >= goal else f"**missed**, by a factor of {goal / ratio:.1f}"
+
+
+def batch_goals(here: dict[str, Any]) -> list[tuple[str, ...]]:
+    """Return the rows of the goals for the batch; on a busy machine CPU time tells more."""
+    many = batch.GOAL_HISTORIES / here["histories"]
+    clock, cpu = here["clock"] * many, here["cpu"] * many / here["cores"]
+    what = (
+        f"{batch.GOAL_HISTORIES} histories of the building in {batch.GOAL_SECONDS / 60.0:g} minutes"
     )
     return [
-        table(head, rows),
-        f"Steps {', '.join(f'{1e3 * dt:g}' for dt in STEPS)} ms. Whole run: {DURATION:g} s with "
-        "building the model, equilibrium at rest and reading the results, in both programs. Of a "
-        "single run here the steps are the smaller part; in a batch the rest is done once.",
+        (
+            what,
+            "LIR-DCFP",
+            f"{cpu / 60.0:.1f} minutes by CPU time over {here['cores']} cores, {clock / 60.0:.1f} by "
+            "the clock",
+            verdict(batch.GOAL_SECONDS, batch.GOAL_SECONDS**2 / cpu),
+        ),
+        (
+            "memory below 2 GiB",
+            "LIR-DCFP",
+            f"{here['memory'] / 2**30:.2f} GiB",
+            verdict(batch.GOAL_BYTES, batch.GOAL_BYTES**2 / here["memory"]),
+        ),
     ]
 
 
-def _growth(kept: dict[str, Any]) -> list[str]:
-    rows = growth(kept)
-    parts = []
-    if rows:
-        parts = [
-            "Exponents of the cost of a step over the numbers of bearings and of unknowns, fitted "
-            "to cases b, c and d:",
-            table(("program", "over bearings", "over unknowns"), rows),
-            "Not linear: a frame lets every bearing act on every other. Bearings share the "
-            "slab's three unknowns, but each keeps its vertical displacement and its rotations, "
-            "whose stiffness against all others is a full matrix; and the modes that are kept grow "
-            "with the bearings, each coupled with all of them. Both products grow with the square. "
-            "The reduced method keeps fewer modes, not fewer bearings.",
-        ]
-    if kept.get("b", {}).get("state") == "ok":
-        parts.append(
-            "Over the number of steps of the building on nine bearings, here: "
-            f"{growth_with_steps(kept['b']):.2f}; below 1, for smaller steps take fewer iterations."
-        )
-    return parts
+def before(found: dict[str, Any]) -> dict[str, Any]:
+    """Return what is kept of results that are measured anew."""
+    rows = goals({found.get("key", "e"): found})
+    return {"when": found["when"], "found": {_name(row): row[2] for row in rows}}
 
 
-def _batch(kept: dict[str, Any]) -> list[str]:
-    found = kept.get("e")
-    if not found or found["state"] != "ok":
-        return ["Not measured."]
-    here = found["here"]
-    each = here["cpu"] / here["histories"]
-    lines = [
-        f"{HISTORIES} histories of {LENGTH:g} s of the building on nine bearings, steps of "
-        f"{1e3 * here['dt']:g} ms, by {here['how']}: {here['clock']:.1f} s by the clock, "
-        f"{here['cpu']:.1f} s of CPU time on {here['cores']} cores, {here['memory'] / 2**30:.2f} "
-        f"GiB at most ({here['before'] / 2**30:.2f} before).",
-    ]
-    rows = [
-        (kind, str(one["run"]), _ms(one["dt"]), _number(one["cpu"]), _number(one["cpu"] / each))
-        for kind, one in found["there"].items()
-    ]
-    head = (
-        "in OpenSees, at its best",
-        "histories run",
-        "step [ms]",
-        "CPU time of one [s]",
-        "there / here",
-    )
-    return [
-        *lines,
-        table(head, rows),
-        f"OpenSees runs {THERE} of them in each of {here['cores']} processes; all others cost the "
-        "same.",
-    ]
+def _name(row: tuple[str, ...]) -> str:
+    return f"{row[0]}, {row[1]}"
 
 
-def _profiles(kept: dict[str, Any]) -> list[str]:
-    rows = []
-    for key, spent in kept.get("profile", {}).items():
-        if key not in STRUCTURES or not spent:
-            continue
-        left = spent["step"] - spent["states"] - spent["tangents"] - spent["arithmetic"]
-        rows.append(
-            (
-                STRUCTURES[key].name,
-                f"{spent['coordinates']:.0f}, {spent['modes']:.0f}",
-                f"{spent['iterations']:.2f}, {spent['states made']:.2f}, {spent['tangents made']:.2f}",
-                *(f"{spent[name]:.1f}" for name in ("step", "states", "tangents")),
-                f"{spent['multiply-adds']:.0f}",
-                f"{spent['arithmetic']:.1f}",
-                f"{left:.1f}",
-                f"{spent['recording']:.1f}",
-            )
-        )
-    if not rows:
-        return ["Not measured."]
-    head = (
-        "structure",
-        "bearing coordinates, modes",
-        "iterations, states, tangents a step",
-        "step [µs]",
-        "state determinations [µs]",
-        "tangents [µs]",
-        "multiply-adds",
-        "their time [µs]",
-        "left [µs]",
-        "recording all, on top [µs]",
-    )
-    return [
-        table(head, rows),
-        "State determinations and tangents: as often as a step makes them, at their cost alone "
-        "along an orbit of 0.2 m. Multiply-adds: what mass, damping, stiffness, elimination of the "
-        "modes and Newton's solutions need, counted, and their time at the machine's rate in a "
-        "product of a matrix of 160 x 160 and a vector. Left: energies, control of the step, "
-        "recording of the bearings' displacements; below zero where the orbit's states cost more "
-        "than those of the motion.",
-    ]
+def goals_text(kept: dict[str, Any]) -> str:
+    """Return the page, from what was kept of the benchmark."""
+    earlier = {
+        name: f"{got}; {one['before']['when']}"
+        for one in kept.values()
+        if isinstance(one, dict) and "before" in one
+        for name, got in one["before"]["found"].items()
+    }
+    rows = [(*row[:2], earlier.get(_name(row), "-"), *row[2:]) for row in goals(kept)]
+    yields = any(one.yields for one in there_are(kept))
+    return render(globals(), "benchmark_goals", lines=rows, yields=yields)
