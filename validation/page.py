@@ -179,6 +179,7 @@ def render(script: dict[str, Any], name: str = "", **values: Any) -> str:
     return re.sub(r"\n{3,}", "\n\n", template.render({**script, **values})).strip("\n") + "\n"
 
 
+_TEMPLATES.globals["table"] = table
 _TEMPLATES.filters |= {"f": format, "rows": rows}
 
 

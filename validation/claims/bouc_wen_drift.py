@@ -300,10 +300,7 @@ def page(folder: Path | None) -> Page:
         f"exponent 2, 7 to 20 s: {low:+.2f} mm with u_y = 0.01 mm, {high:+.2f} mm with 1 mm",
         results,
         text(_grid(numbers, "exponent"), tables),
-        {
-            "held": drift_figure(held, ratios, curve),
-            "newhall": newhall_figure(first),
-        },
+        {"held": drift_figure(held, ratios, curve), "newhall": newhall_figure(first)},
     )
 
 

@@ -109,11 +109,7 @@ VERTICAL: Rung = (
     "here: `Features(vertical_coupling=False)`",
     {"coupled": False},
 )
-LIFT: Rung = (
-    VERTICAL[0],
-    "there: the option `-inclVertdisp` (`lift=True`)",
-    {"lift": True},
-)
+LIFT: Rung = (VERTICAL[0], "there: the option `-inclVertdisp` (`lift=True`)", {"lift": True})
 LARGE: Rung = (
     "large displacements: sphere, its inclined normal force",
     "both: motion and friction times 0.1",
@@ -130,11 +126,7 @@ FRICTION: Rung = (
     "there: μ (R1 + R2)/L in place of μ",
     {"unmapped": ("rate", "yield")},
 )
-SPEED: Rung = (
-    "measure of speed",
-    "there: rate α R/L in place of α",
-    {"unmapped": ("yield",)},
-)
+SPEED: Rung = ("measure of speed", "there: rate α R/L in place of α", {"unmapped": ("yield",)})
 YIELD: Rung = (
     "yield displacement over the bearing",
     "there: u_y L/R in place of u_y",

@@ -251,7 +251,7 @@ def rim_checks(found: dict[str, Rim]) -> list[Check]:
             1e-3,
             float(np.ptp(ours) / ours.mean()),
             "",
-        ),
+        )
     ]
     for n in CORNERS:
         corner = math.pi / n

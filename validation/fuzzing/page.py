@@ -7,13 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from validation.fuzzing.checks import (
-    BALANCE,
-    GIVEN_BACK,
-    LEDGER,
-    SMALL_INPUT,
-    WORKS,
-)
+from validation.fuzzing.checks import BALANCE, GIVEN_BACK, LEDGER, SMALL_INPUT, WORKS
 from validation.fuzzing.ends import FAILED_BEARINGS, INACCURATE, LATE
 from validation.fuzzing.scenes import LEVELS, MODELS
 from validation.fuzzing.trial import AUTO, FINER, MARGIN, NOISE, SENSITIVE_ERROR, SMALL_PEAK, TURN

@@ -8,16 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames import ModalDamping, moment_frame, shear_building
-from frames.laws import (
-    Bilinear,
-    BoucWen,
-    Gap,
-    HertzGap,
-    Pinching,
-    PlasticHinge,
-    Tie,
-    ViscousDamper,
-)
+from frames.laws import Bilinear, BoucWen, Gap, HertzGap, Pinching, PlasticHinge, Tie, ViscousDamper
 from lir_element import CoulombFriction, LIRBearing
 from validation.fuzzing.bearings import log_uniform
 from validation.fuzzing.motions import GRAVITY, random_motion

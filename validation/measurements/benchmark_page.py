@@ -20,10 +20,7 @@ if TYPE_CHECKING:
 
     from validation.measurements.benchmark_models import Structure
 
-GROUPS = {
-    "plain DCFP": tuple(kind for kind in PLAIN if kind not in OWN),
-    "LIR-DCFP": RESILIENT,
-}
+GROUPS = {"plain DCFP": tuple(kind for kind in PLAIN if kind not in OWN), "LIR-DCFP": RESILIENT}
 """What stands for our devices in OpenSees; for the plain one only what is its own."""
 GOALS = {
     "a": {"best": 20.0},

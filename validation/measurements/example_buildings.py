@@ -21,7 +21,7 @@ import pandas as pd
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
 from frames.plots import model_view
-from validation.page import FOLDER
+from validation.page import FOLDER, render
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -145,104 +145,16 @@ def draw(name: str, inputs: ProjectInputs) -> None:
 
 def rebuilt(page: str, found: Mapping[str, Any]) -> str:
     """Return the page with the tables of these numbers."""
-    block = f"{BEGIN}\n\n{tables(found)}\n\n{END}"
+    block = f"{BEGIN}\n\n{render(globals(), found=found)}\n{END}"
     pattern = re.escape(BEGIN) + ".*?" + re.escape(END)
     return re.sub(pattern, lambda _: block, page, count=1, flags=re.DOTALL)
 
 
-def tables(found: Mapping[str, Any]) -> str:
-    """Return the tables of the page: what was run and reached, types, what governs."""
-    return "\n\n".join((reached(found), sliders(found), governing(found)))
-
-
-def reached(found: Mapping[str, Any]) -> str:
-    """Return the table of what was run, and of the demands at each level."""
-    heads = [(name, level) for name, own in found.items() for level in own["levels"]]
-    own = [found[name] for name, _ in heads]
-    rows = [
-        ["", *(f"{name}, {level} level" for name, level in heads)],
-        ["---"] * (len(heads) + 1),
-        ["code", *(each["code"] for each in own)],
-        ["weight, MN", *(f"{each['weight'] / 1e6:.1f}" for each in own)],
-        ["period on a held base, s", *(f"{each['fixed']:.2f}" for each in own)],
-        ["level of the sliders", *(each["device_level"] for each in own)],
-        [
-            "bounds of friction",
-            *(", ".join(_bounds(found[n]["runs"], level)) for n, level in heads),
-        ],
-        [
-            "runs, of them with moved masses",
-            *(f"{_runs(found[n], level)}, {_moved(found[n], level)}" for n, level in heads),
-        ],
-    ]
-    for quantity, (words, factor, digits) in ASKED.items():
-        values = [found[n]["demands"][level].get(quantity) for n, level in heads]
-        cells = ["" if v is None else f"{factor * v:.{digits}f}" for v in values]
-        rows.append([words, *cells])
-    return _table(rows)
-
-
-def _of_level(runs: Mapping[str, Any], level: str) -> dict[str, Any]:
-    own = {k: v for k, v in runs.items() if k.startswith(f"{level}-")}
-    return own or dict(runs)
-
-
-def _bounds(runs: Mapping[str, Any], level: str) -> list[str]:
-    return [key.rpartition("-")[2] for key in _of_level(runs, level)]
-
-
-def _moved(own: Mapping[str, Any], level: str) -> int:
-    return sum(int(n) for n in _of_level(own["moved"], level).values())
-
-
-def _runs(own: Mapping[str, Any], level: str) -> int:
-    return sum(int(n) for n in _of_level(own["runs"], level).values()) + _moved(own, level)
-
-
-def sliders(found: Mapping[str, Any]) -> str:
-    """Return the table of the types of bearings and their loads."""
-    rows = [
-        [
-            "building, type",
-            "bearings",
-            "slider, mm",
-            "rims at, mm",
-            "average load, MN",
-            "pressure under it, MPa",
-            "largest load, MN",
-        ],
-        ["---"] * 7,
-    ]
-    for name, own in found.items():
-        for kind, each in own["types"].items():
-            low, high = each["loads"]
-            area = 1e6 * each["area"]  # MPa from N
-            rows.append(
-                [
-                    f"{name}, {kind}",
-                    str(each["count"]),
-                    f"{2e3 * each['slider']:.0f}",
-                    f"{1e3 * each['capacity']:.0f}",
-                    f"{low / 1e6:.1f} to {high / 1e6:.1f}",
-                    f"{low / area:.0f} to {high / area:.0f}",
-                    f"{each['most'] / 1e6:.1f}",
-                ]
-            )
-    return _table(rows)
-
-
-def governing(found: Mapping[str, Any]) -> str:
-    """Return the highest ratios of each building and what fails."""
-    rows = [["building", "checks", "fail", "to be agreed", "highest ratios"], ["---"] * 5]
-    for name, own in found.items():
-        ratios = "; ".join(f"{title} {ratio:.2f}" for title, ratio, _ in own["ratios"])
-        failing, agree = len(own["failed"]), len(own["agree"])
-        rows.append([name, str(own["checks"]), str(failing), str(agree), ratios])
-    return _table(rows)
-
-
-def _table(rows: list[list[str]]) -> str:
-    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+def runs_of(runs: Mapping[str, Any], level: str) -> dict[str, int]:
+    """Return the numbers of runs of a level by bound; all where levels are not told apart."""
+    own = {k: int(n) for k, n in runs.items() if k.startswith(f"{level}-")}
+    own = own or {k: int(n) for k, n in runs.items()}
+    return {key.rpartition("-")[2]: n for key, n in own.items()}
 
 
 if __name__ == "__main__":

@@ -22,13 +22,14 @@ from frames.demo import design, pacoima
 from frames.solve.time_history import escalate_level
 from lir_element import AnalysisWarning, Features
 from validation.cases import example_bearing
+from validation.page import FOLDER, render
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from frames import Frame
 
-TARGET = Path(__file__).parents[2] / "docs" / "features.md"
+TARGET = FOLDER.parent / "features.md"
 REPEATS = 7
 CHEAPEST = Features().without(
     "rims", "interface", "plate_rotation", "velocity_dependence", "vertical_coupling"
@@ -130,44 +131,8 @@ def start_rows(all_scenes: list[Scene]) -> list[str]:
 
 def write() -> str:
     """Measure everything and return the page."""
-    lines = [
-        "# What features cost",
-        "",
-        "Written by `python -m validation.measurements.features`; the fastest of some runs, on a "
-        "machine with "
-        f"{os.cpu_count()} cores ({platform.machine()}). What each feature is: "
-        "[choices.md](choices.md#features).",
-        "",
-        "## Each feature left out",
-        "",
-        "'Unknowns' are the bearings' degrees of freedom over which Newton's method runs; 'time' "
-        "is the processor's, gravity and assumption check included, over that with nothing left out; 'peak' "
-        "the change of the peak lateral displacement. The last column repeats what the assumption check of "
-        "that run says.",
-    ]
-    all_scenes = scenes()
-    for scene in all_scenes:
-        lines += [
-            "",
-            f"**{scene.title}**",
-            "",
-            "| left out | unknowns | steps | iterations | seconds | time | peak | assumption check |",
-            "|---|---|---|---|---|---|---|---|",
-            *feature_rows(scene),
-        ]
-    lines += [
-        "",
-        "## Where `auto` should begin",
-        "",
-        "Time of all runs until nothing left out mattered, gravity and assumption checks included, over that "
-        "of beginning with everything; in brackets the number of runs.",
-        "",
-        "| test case | " + " | ".join(STARTS) + " |",
-        "|---|" + "---|" * len(STARTS),
-        *start_rows(all_scenes),
-        "",
-    ]
-    return "\n".join(lines)
+    machine = f"{os.cpu_count()} cores ({platform.machine()})"
+    return render(globals(), machine=machine, measured=scenes())
 
 
 if __name__ == "__main__":

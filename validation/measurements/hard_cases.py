@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,11 +22,12 @@ from lir_element.errors import AnalysisWarning
 from validation.cases import example_bearing
 from validation.measurements.hard_scenes import Case, cases
 from validation.measures import response
+from validation.page import FOLDER, render
 
 if TYPE_CHECKING:
     import xarray as xr
 
-TARGET = Path(__file__).parents[2] / "docs" / "validation" / "hard_cases.md"
+TARGET = FOLDER / "hard_cases.md"
 REFERENCE_TOLERANCE = 1e-9
 LEDGER = 1e-3
 """Largest gap of the energy balance that passes [-]."""
@@ -206,28 +206,7 @@ def line(entry: Outcome) -> str:
 
 def write(found: list[Outcome]) -> str:
     """Return the page."""
-    unsound = sum(not entry.sound for entry in found)
-    return "\n".join(
-        [
-            "# Hard cases",
-            "",
-            "Written by `python -m validation.measurements.hard_cases`. "
-            f"{len(found)} runs, {unsound} of them unsound.",
-            "",
-            "A run is sound if it completed, or stopped because the bearing failed (slip, restrainer failure, "
-            f"snap-back); all numbers are finite; the energy balance closes to {LEDGER:g} of the "
-            "input; and friction never gave energy back. Error: of the peak displacement against the "
-            "reference, up to the end of the shorter run, in per cent (cyclic test: of the force). Rim "
-            "speed: just before the first contact. N: minimum axial force over its static value. "
-            "Steps in milliseconds, displacements in millimetres, tilts in radian.",
-            "",
-            "| case | level | step | outcome | rim speed (m/s) | N | tilt | peak | error | energy balance | "
-            "energy given back | sound |",
-            "|---" * 12 + "|",
-            *(line(entry) for entry in found),
-            "",
-        ]
-    )
+    return render(globals(), found=found)
 
 
 def main() -> None:
@@ -238,7 +217,6 @@ def main() -> None:
         print("\n".join(line(entry) for entry in found[-len(case.runs) - 1 :]), flush=True)
     found += creep()
     page = write(found)
-    TARGET.parent.mkdir(parents=True, exist_ok=True)
     TARGET.write_text(page, encoding="utf-8")
     print(page)
 

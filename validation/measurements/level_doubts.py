@@ -18,17 +18,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.results.level_doubts import (
-    CLASSES,
-    LONG_TRAVEL,
-    SHORT_TRAVEL,
-    STILL,
-    errors_of,
-    travels,
-)
+from frames.results import level_doubts
+from frames.results.level_doubts import CLASSES, STILL, errors_of, travels
 from validation.fuzzing.level_scenes import UNLIKE_GOALS, factor_for, random_level_scene, run_level
 from validation.fuzzing.pool import in_children
-from validation.page import FOLDER, table
+from validation.page import FOLDER, render
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -111,8 +105,8 @@ class Compared(NamedTuple):
     """Its errors, as `SHOWN`."""
     calm: list[bool]
     """Whether `auto` keeps the run."""
-    wrong: list[bool]
-    """Whether it has an error that counts."""
+    both: list[bool]
+    """Whether it keeps a run that has an error that counts."""
     ends: str
     """The runs that end otherwise."""
     ratio: float
@@ -129,40 +123,35 @@ def compared(found: list[dict[str, Any]]) -> Compared:
         f"{e['number']} ({e['pendulum']['status']}, {e['contact']['status']})" for e in ends
     )
     kinds, off = [classes(entry) for entry in fine], [errors(entry) for entry in fine]
+    calm = [set(those) == {NOTHING} for those in kinds]
     return Compared(
         kinds=[kind for those in kinds for kind in those],
         off=np.concatenate(off),
-        calm=[set(those) == {NOTHING} for those in kinds],
-        wrong=[bool((np.abs(those) > BOUNDS).any()) for those in off],
+        calm=calm,
+        both=[
+            c and bool((np.abs(those) > BOUNDS).any()) for c, those in zip(calm, off, strict=True)
+        ],
         ends=said or "none",
         ratio=seconds[1] / max(seconds[0], 1e-9),
     )
 
 
-def by_class(those: Compared) -> str:
-    """Return the table of errors by class."""
-    rows = []
+def spreads(those: Compared) -> dict[str, tuple[int, Iterator[tuple[float, float, float]]]]:
+    """Return quantile of 90 %, least and largest of the errors, as `SHOWN`, by class [%]."""
+    found = {}
     for kind in (NOTHING, *(each.name for each in CLASSES)):
-        off = those.off[[own == kind for own in those.kinds]]
-        if not len(off):
-            continue
-        cells = [
-            f"{100 * np.quantile(abs(off[:, k]), 0.9):.2g} ({100 * off[:, k].min():.0f} to "
-            f"{100 * off[:, k].max():+.0f})"
-            for k in range(len(SHOWN))
-        ]
-        rows.append((kind, str(len(off)), *cells))
-    return table(("class", "bearings", *SHOWN), rows)
-
-
-def kept(those: Compared) -> str:
-    """Say how many runs `auto` keeps, and how many of them are wrong."""
-    wrong = sum(c and w for c, w in zip(those.calm, those.wrong, strict=True))
-    return (
-        f"{sum(those.calm)} of {len(those.calm)}. Of these {wrong} are more than 5 % off in "
-        "displacement, force, axial force, rim force or base shear of a bearing, or more than 10 % "
-        "in slip."
-    )
+        off = 100.0 * those.off[[own == kind for own in those.kinds]]
+        if len(off):
+            found[kind] = (
+                len(off),
+                zip(
+                    np.quantile(abs(off), 0.9, axis=0),
+                    off.min(axis=0),
+                    off.max(axis=0),
+                    strict=True,
+                ),
+            )
+    return found
 
 
 def page(
@@ -171,38 +160,15 @@ def page(
     """Return the page."""
     alike, other = compared(found), compared(unlike)
     count = sum(entry["factor"] is not None for entry in found)
-    return (
-        "\n\n".join(
-            (
-                "# What the level `pendulum` has wrong in buildings",
-                f"Written by `{call}`: {count} random buildings of one to four storeys that "
-                "overturn, on four to nine bearings, near their rims and beyond; masses off the centre, "
-                "two or three components of motion. The level `pendulum` against `contact`, which is "
-                "held against rigid bodies in [slip.md](slip.md); `dt=None`; peaks of single steps.",
-                "Errors of bearings in per cent: nine in ten are smaller (least to largest).",
-                by_class(alike),
-                f"Errors of a slip below {100 * LEAST_SLIP:.0f} % of the capacity are over that, of a "
-                f"rim force below {100 * LEAST_RIM:.0f} % of the bearing's force over that, of a "
-                f"displacement below {100 * STILL:.1f} % of the effective radius over that.",
-                "## Surfaces of unlike friction",
-                f"{len(other.calm)} buildings more, on bearings whose two coefficients of friction are "
-                f"up to five times one another, at displacements from {UNLIKE_GOALS[0]:g} to "
-                f"{UNLIKE_GOALS[1]:g} of that at which rims are met. In full contact both surfaces "
-                "slide at once, at the mean of both coefficients. A slider that may rock slides on the "
-                "surface of the lower friction first, and further. The travel is the displacement over "
-                "the difference of both coefficients times the effective radius: short below "
-                f"{SHORT_TRAVEL:g}, long from {LONG_TRAVEL:g} on.",
-                by_class(other),
-                "## What is kept at the level `pendulum`",
-                '`level="auto"` keeps runs in which no bearing met a rim or lifted, or travelled short '
-                f"of {LONG_TRAVEL:g} on surfaces of unlike friction: {kept(alike)} With unlike friction: "
-                f"{kept(other)}",
-                f"Runs that end otherwise: {alike.ends}; with unlike friction: {other.ends}. Test cases "
-                f"lost: {', '.join(lost) or 'none'}.",
-                f"Time of the loops: {alike.ratio:.1f} times that of `pendulum`.",
-            )
-        )
-        + "\n"
+    return render(
+        globals(),
+        alike=alike,
+        call=call,
+        count=count,
+        doubts=level_doubts,
+        goals=UNLIKE_GOALS,
+        lost=lost,
+        other=other,
     )
 
 

@@ -18,7 +18,6 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -37,12 +36,12 @@ from validation.opensees.model import (
     solver,
     transient_steps,
 )
-from validation.page import table
+from validation.page import FOLDER, render, table
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-TARGET = Path(__file__).parents[2] / "docs" / "validation" / "opensees_cost.md"
+TARGET = FOLDER / "opensees_cost.md"
 TURNS = 3
 STEPS, STEP = 1000, 0.005  # of the transient analysis, s
 FAST_GOAL, PORTABLE_GOAL = 1.5, 3.0
@@ -205,35 +204,13 @@ def page(
     found: Mapping[str, Mapping[str, list[float]]], framed: Mapping[str, Mapping[str, list[float]]]
 ) -> str:
     """Return the page in Markdown."""
-    return (
-        "\n\n".join(
-            [
-                "# Cost of a bearing inside OpenSees",
-                f"Written by `python -m validation.measurements.opensees_cost`, OpenSees "
-                f"{opensees().version()}, Python "
-                f"{platform.python_version()}, {os.cpu_count()} cores. Time of a step of the whole "
-                f"transient analysis, Newmark, to a norm of the correction of 1e-8, UmfPack; medians of "
-                f"{TURNS} turns. Ratios to {BASE}. The LIR-DCFP meets its rims and slips; {BASE} and the "
-                "plain DCFP have no rims.",
-                "## Frames by KrylovNewton",
-                f"{FRAME_STEPS} steps of {1e3 * FRAME_STEP:g} ms; one that fails is halved.",
-                ratios(framed),
-                f"Goals: in-process coupling {FAST_GOAL:g}, out-of-process coupling {PORTABLE_GOAL:g}. "
-                + " ".join(verdict(name, times) for name, times in framed.items()),
-                "A step at level contact over one at level pendulum, in-process (goal "
-                f"{CONTACT_GOAL:g}): {contact_verdict(framed)}.",
-                "## Plain Newton",
-                f"{STEPS} steps of {1e3 * STEP:g} ms.",
-                ratios(found),
-                "An element of the out-of-process coupling waits for some four answers of another process an "
-                'iteration; the smaller the rest of the model, the more that counts. "stops": plain '
-                "Newton runs in circles in some step, as friction turns round or slips under a rim; "
-                "`KrylovNewton` and `NewtonLineSearch` pass with the element (the macro-model asks for "
-                "smaller steps, [opensees_macro_model.md](opensees_macro_model.md)). "
-                "The last row is `time_history` of this package with the same step.",
-            ]
-        )
-        + "\n"
+    return render(
+        globals(),
+        found=found,
+        framed=framed,
+        opensees=opensees().version(),
+        os=os,
+        platform=platform,
     )
 
 

@@ -26,7 +26,7 @@ from lir_element.opensees import bearing_response, isolate, opensees
 from validation.opensees.isolators import waves
 from validation.opensees.model import empty_model, gravity_analysis, permanent_loads, settle
 from validation.opensees.runs import respond
-from validation.page import DPI, FOLDER, table
+from validation.page import DPI, FOLDER, render
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -271,53 +271,7 @@ def page(found: Sequence[Outcome]) -> str:
             name, _apart(here.axial, there.axial), f"{one.ledger:.1e}",
             f"{1e3 * there.seconds / steps:.1f}", f"{1e3 * here.seconds / steps:.1f}",
         ))  # fmt: skip
-    return "\n\n".join([
-        "# Public models of OpenSees on LIR-DCFP bearings",
-        f"Written by `python -m validation.measurements.{NAME}`, OpenSees "
-        f"{opensees().version()}. The models are examples of opstool {version('opstool')} "
-        '(`pip install "lir-dcfp[public-models]"`), loaded from that package and not copied.',
-        "Each stands on fixed supports. It is given a slab above the bearings (a tenth of its "
-        f"mass), its masses' weight, and damping of {100.0 * DAMPING:g} % at its first period, "
-        "proportional to the stiffness. In OpenSees `isolate` puts bearings under it; in `frames` "
-        "`Frame.from_opensees` does. Both calls are given the same bearing and the model's units. "
-        "A synthetic motion in three directions shakes both, OpenSees by Newmark's average acceleration.",
-        "## Periods",
-        "The first periods on fixed supports, and how far those of `frames` with its bearings "
-        "held differ; the same on bearings that stick at rest.",
-        table(
-            ("model", "what", "nodes", "bearings", "fixed, OpenSees [s]", "difference",
-             "sticking, OpenSees [s]", "difference"),
-            periods,
-        ),
-        "`frames` forms the sticking stiffness of a bearing by a closed form, OpenSees has the "
-        "element's own tangent under the force at rest: that is the difference.",
-        "## Histories",
-        "Largest values of the horizontal displacement of a base node, of the top against it, and "
-        "of the slip in an interface [mm], OpenSees / `frames`; largest differences of the two "
-        "histories over the largest value.",
-        table(
-            ("model", "step [ms]", "base", "top against base", "slip", "difference, base",
-             "difference, top", "halvings"),
-            histories,
-        ),
-        f"![Displacements from both programs, one upon the other](figures/{NAME}.png)",
-        "The element is the same code in both, the superstructure the same matrices, and both "
-        "integrate by average acceleration. Where no step is halved, nothing differs but "
-        "round-off and the tolerances of Newton's method. `frames` halves a step in which a rim "
-        "would give back more energy than it has stored ([theory.md](../theory.md)), OpenSees does "
-        "not: that is the difference of the others, and it shrinks with the step.",
-        "## Equilibrium and cost",
-        "Axial forces at rest, the energy balance of `frames`, and computation for a step (the "
-        "smaller one) in both programs on the same machine, which had other work: the ratio "
-        "counts. `frames` keeps all modes of the structure; damping that is not proportional to "
-        "the present stiffness costs the square of their number a step. Plain Newton's method of "
-        "OpenSees factorises the whole model several times a step.",
-        table(
-            ("model", "axial forces differ by", "energy balance, error / input", "OpenSees [ms]",
-             "frames [ms]"),
-            costs,
-        ),
-    ]) + "\n"  # fmt: skip
+    return render(globals(), costs=costs, histories=histories, opstool=version("opstool"), periods=periods)  # fmt: skip
 
 
 def _list(values: FloatArray) -> str:

@@ -15,7 +15,7 @@ import subprocess  # runs this interpreter on the lines below  # noqa: S404
 import sys
 import tempfile
 import time
-from pathlib import Path
+from itertools import product
 from typing import Any
 
 import numba
@@ -31,11 +31,14 @@ from lir_element.element import Level, heat_parts, initial_state
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
 from lir_element.layout import WORK, Floats, Records, Words
 from validation.cases import example_bearing
-from validation.measurements.performance_many import many_rows
+from validation.measurements.benchmark_models import Structure, strong
+from validation.page import FOLDER, render
 
 REPEATS = 9
 STATES = ("linear", "elastic", "yielding")
-TARGET = Path(__file__).parents[2] / "docs" / "performance.md"
+TARGET = FOLDER.parent / "performance.md"
+
+MANY_STOREYS, MANY_STEP, MANY_SECONDS = 10, 0.01, 4.0  # -, s, s
 
 START = "import numpy as np; from lir_element import *; "
 ELEMENT = START + (
@@ -272,63 +275,27 @@ def _yielded(data: Any) -> str:
     return f"{int((reached > 1.0).sum())} links, ductility up to {float(reached.max()):.0f}"
 
 
+def many_rows() -> list[str]:
+    """Return a row a case: unknowns, vectors, microseconds a step, milliseconds a second."""
+    rows = []
+    for side, method in product((6, 10, 16), ("direct", "reduced")):
+        one = Structure(f"{side**2} bearings", "d", (side - 1, side - 1), MANY_STOREYS)
+        frame = one.frame(one.bearing())
+        options: Any = {"duration": MANY_SECONDS, "dt": MANY_STEP, "method": method}
+        found = time_history(frame, strong(MANY_SECONDS), **options).attrs
+        spent = found["seconds_loop"]
+        rows.append(
+            f"| {side**2} | {found['degrees_of_freedom']} | {method} | {found['modes']} "
+            f"| {1e6 * spent / found['steps']:.0f} | {1e3 * spent / MANY_SECONDS:.0f} "
+            f"| {found['newton_iterations'] / found['steps']:.1f} | {found['tangents']}, "
+            f"{found['shared_tangents']} | {found['seconds_gravity']:.1f} |"
+        )
+    return rows
+
+
 def write() -> str:
     """Measure everything and return the page."""
-    lines = [
-        "# Performance",
-        "",
-        "Written by `python -m validation.measurements.performance`; medians, on a machine with "
-        f"{os.cpu_count()} cores ({platform.machine()}), Python {platform.python_version()}, "
-        f"numba {numba.__version__}, numpy {np.__version__}.",
-        "",
-        "## Element",
-        "",
-        "Microseconds a state determination (20 000 steps along an orbit with tilting plates, at "
-        "the level 'contact' 4000; commit and energies included).",
-        "",
-        "| level | case | force only | with the 12 x 12 tangent | iterations inside |",
-        "|---|---|---|---|---|",
-        *element_rows(),
-        "",
-        "## Time history",
-        "",
-        "Ten seconds of a made three-component motion, Newmark, Newton's method to 1e-7 of the "
-        "weight. 'Share' is time of computation over time of the earthquake.",
-        "",
-        "| model | DOFs (of bearings) | dt (s) | µs a step | Newton iterations | share |",
-        "|---|---|---|---|---|---|",
-        *run_rows(),
-        "",
-        "## Structures that yield",
-        "",
-        "Microseconds a step under the same motion: without nonlinear parts, with parts that stay "
-        "elastic, with parts that yield.",
-        "",
-        "| model | dt (s) | linear | elastic parts | yielding parts | yielding / linear | yields |",
-        "|---|---|---|---|---|---|---|",
-        *yielding_rows(),
-        "",
-        "## Many bearings",
-        "",
-        "Ten storeys, 2 % Rayleigh damping, strong part of the benchmark's motion, steps of 10 ms; the loop, and the "
-        "equilibrium with its modes or vectors before it. Method 'reduced' runs two to five times.",
-        "",
-        "| bearings | DOFs | method | modes or vectors | µs a step | ms a second of motion "
-        "| Newton iterations | tangents, of what is shared | set-up (s) |",
-        "|---|---|---|---|---|---|---|---|---|",
-        *many_rows(),
-        "",
-        "## Start",
-        "",
-        "Seconds of CPU of a new process until the first result: with an empty kernel cache "
-        "(compiling), with a filled one, and for the imports alone.",
-        "",
-        "| first | cold | cached | imports |",
-        "|---|---|---|---|",
-        *compile_rows(),
-        "",
-    ]
-    return "\n".join(lines)
+    return render(globals(), numba=numba, platform=platform)
 
 
 if __name__ == "__main__":

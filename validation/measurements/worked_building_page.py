@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from frames.design.histories.demand_table import COUNTED
 from frames.plots.plot_style import PALETTE, SMALL, caption, grid_of, new_figure
-from validation.page import table
+from validation.page import render, table
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -33,31 +32,7 @@ UNITS = {
     "storey drift ratio": ("%", 1e2),
     "floor acceleration in plan": ("m/s2", 1.0),
 }
-LEVEL_COLUMNS = {"displacement": 1e3, "slip": 1e3, "seconds": 1.0}
 DRAWN = ("isolator displacement", "base shear", "storey drift ratio", "floor acceleration in plan")
-WHY = (
-    "The chain begins with the code's displacement. *Spectrum* is the mean RotD100 spectrum of the "
-    "scaled motions over the target, both at 5 % and the code's period; *B* is the damping factor "
-    "of the code over that of the records (with EN 1998, 1/η): their product makes *records*, the "
-    "displacement of linear oscillators with the code's own period and damping. *Settled* is where "
-    "period and damping under these records agree with the displacement. *Centre* is the mean of "
-    "the histories in the middle of the plan, *corner* that of the worst bearing.",
-    "- **Spectrum**: RotD100 counts the largest direction of both components; ASCE 7-22 puts its "
-    "target on it, so that what exceeds 1 is the mean above the target where another period of "
-    "the range governs. EN 1998 has the mean of single components in a range up to 2 T and at the "
-    "period 0, NCh2745 SRSS; the target of both falls with the square of the period beyond 2 s, "
-    "the records do not.\n"
-    "- **Damping factor**: η and B have a lower bound or a table; records give what they give.\n"
-    "- **Iteration**, records to settled: a longer displacement has a longer period and less "
-    "damping. Where the target's displacement does not grow with the period, beyond 2 s in two "
-    "of the codes, the code's own iteration hardly feels that.\n"
-    "- **Sliding in two directions against a linear oscillator**, settled to centre: what is left, "
-    "the one step that belongs to the procedure itself and not to motions and factors.\n"
-    "- **Torsion**, corner over centre, against the code's total over its displacement. Friction "
-    "and stiffness of a pendulum go with the load that it carries, so that the eccentric mass has "
-    "next to no lever; what the codes add is accidental eccentricity, which the histories do not "
-    "have. ASCE 7-22 keeps 0.8 of D_TM as a least value for them.",
-)
 
 
 def number(value: float | None, factor: float = 1.0, digits: int = 4) -> str:
@@ -66,57 +41,6 @@ def number(value: float | None, factor: float = 1.0, digits: int = 4) -> str:
         return "-"
     shown = value * factor
     return f"{shown:.0f}" if abs(shown) >= 1000.0 else f"{shown:.{min(digits, 3)}g}"
-
-
-def chain_rows(codes: Mapping[str, Any]) -> list[list[str]]:
-    """Return the displacements from the code's formula to the worst bearing [mm]."""
-    rows = []
-    for code, known in codes.items():
-        for bound in BOUNDS:
-            e, free = known["equivalent"][bound], known["free"][bound]
-            damping = e["B"] / e["B of records"]
-            chain = [
-                e["D"],
-                e["records"],
-                e["settled"],
-                free["centre"],
-                free["isolator displacement"],
-            ]
-            rows.append(
-                [
-                    code,
-                    bound,
-                    f"{e['T']:.2f}",
-                    f"{100.0 * e['beta']:.1f}",
-                    number(e["D"], 1e3),
-                    f"{e['records'] / e['D'] / damping:.2f}",
-                    f"{damping:.2f}",
-                    *(f"{number(b, 1e3)} ({b / a:.2f})" for a, b in pairwise(chain)),
-                    f"{number(e['total'], 1e3)} ({e['total'] / e['D']:.2f})",
-                ]
-            )
-    return rows
-
-
-def ratio_rows(codes: Mapping[str, Any]) -> list[list[str]]:
-    """Return total displacement, base shear and drift, by the code and by the histories."""
-    rows = []
-    for code, known in codes.items():
-        for bound in BOUNDS:
-            e, free = known["equivalent"][bound], known["free"][bound]
-            row = [code, bound]
-            for ours, theirs, factor in (
-                ("total", "isolator displacement", 1e3),
-                ("V", "base shear", 1e-3),
-                ("drift", "storey drift ratio", 1e2),
-            ):
-                row += [
-                    number(e[ours], factor),
-                    number(free[theirs], factor),
-                    f"{free[theirs] / e[ours]:.2f}",
-                ]
-            rows.append(row)
-    return rows
 
 
 def device_rows(columns: Iterable[Mapping[str, Any]]) -> list[list[str]]:
@@ -158,60 +82,7 @@ def code_row(code: str, known: Mapping[str, Any]) -> str:
 def page(found: Mapping[str, Any]) -> str:
     """Return the page in Markdown."""
     codes = found["codes"]
-    asce = codes["ASCE 7-22"]
-    seconds = asce["seconds"]
-    by_code = [[c, *(number(f) for f in k["factors"].values())] for c, k in codes.items()]
-    failures = [
-        [c, str(k["checks"]), f"{len(k['failed'])}", f"{len(k['failed_with_uplift'])}",
-         str(len(k["raised"])), "; ".join(k["failed_with_uplift"]) or "-"]
-        for c, k in codes.items()
-    ]  # fmt: skip
-    return "\n\n".join([
-        "# The worked building: codes against histories, and what the rims change",
-        "Written by `python -m validation.measurements.worked_building` on "
-        f"{found['date']} ({found['machine']}). The building, its bearings and seven motions are "
-        "those of the [design guide](../design_guide.md): five storeys, 3 x 2 bays, eccentric "
-        "mass, 12 bearings. The motions are scaled to each code's spectrum by its rule.",
-        table(("factor on", *(n.split(",")[0].split(" 19")[0] for n in asce["factors"])), by_code),
-        "## Plain DCFP without rims: equivalent-linear against the mean of seven histories",
-        "Displacements in mm, in brackets over the one before. EN 1998 without γ_x; NCh2745 at the "
-        "design level, D_D and D_TD, as its motions are.",
-        table(("code", "bound", "T [s]", "β [%]", "code D", "spectrum", "B", "records", "settled",
-               "centre", "corner", "code, with torsion"), chain_rows(codes)),
-        *WHY,
-        "![Displacement of the bearings by the codes' formulas and by histories]"
-        "(figures/worked_building-chain.png)",
-        table(("code", "bound", "total [mm]", "histories", "ratio", "V_b [kN]", "histories",
-               "ratio", "drift [%]", "histories", "ratio"), ratio_rows(codes)),
-        "Shears are those below the structure, without the reductions R_I, q and R_1. NCh2745 "
-        "takes the stiffness of the upper bound for V_b at both. The codes' drift is that of their "
-        "storey forces on storeys with the first mode of the fixed base; forces are statically "
-        "distributed, histories have the higher modes that friction excites.",
-        "## The LIR-DCFP: what the rims change (ASCE 7-22)",
-        "Means of seven histories, the worst of the bounds. On the same plates the one-piece "
-        "slider meets the same rims; on larger ones it meets none.",
-        device_table(asce),
-        "![The three bearings side by side](figures/worked_building-devices.png)",
-        "The run that displaces a bearing most, at two levels of the model (ASCE 7-22, "
-        f"{', '.join(asce['worst'])} bound):",
-        table(
-            ("level", "displacement [mm]", "largest slip [mm]", "time [s]"),
-            [
-                [level, *(number(r[k], f) for k, f in LEVEL_COLUMNS.items())]
-                for level, r in found["contact"].items()
-            ],
-        ),
-        "## The LIR-DCFP under three codes",
-        "Means of seven histories, the worst of the bounds, uplift allowed; NCh2745 at the design "
-        "level. Its checks have the bearings at the maximum level, motions 1.2 times as strong.",
-        table(("", "unit", *codes), device_rows(k["lir"]["envelope"] for k in codes.values())),
-        "Checks that fail, with uplift as the code counts it, and allowed:",
-        table(("code", "checks", "fail", "fail with uplift allowed", "raised", "which fail"), failures),
-        "## Time",
-        "ASCE 7-22, two workers, kernels compiled before; the least of repeated measurements, on a "
-        "machine that others shared.",
-        table(("part", "s"), [[name, f"{value:.2f}"] for name, value in seconds.items()]),
-    ]) + "\n"  # fmt: skip
+    return render(globals(), found=found, codes=codes, asce=codes["ASCE 7-22"])
 
 
 def _bars(ax: Axes, groups: list[str], series: Mapping[str, list[float]]) -> None:

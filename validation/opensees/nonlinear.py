@@ -112,14 +112,7 @@ def _stop(ops: Any, tag: int, law: Gap) -> None:
 
 
 def _hertz(ops: Any, tag: int, law: HertzGap) -> None:
-    ops.uniaxialMaterial(
-        "Hertzdamp",
-        tag,
-        law.stiffness,
-        law.damping,
-        -law.gap,
-        law.exponent,
-    )
+    ops.uniaxialMaterial("Hertzdamp", tag, law.stiffness, law.damping, -law.gap, law.exponent)
 
 
 def add_links(ops: Any, frame: Frame, nodes: dict[str, int]) -> dict[str, int]:
