@@ -7,6 +7,7 @@ import pytest
 
 from frames import gravity
 from validation.measurements import yielding_comparison
+from validation.measurements.yielding_page import ends, wins, worse
 from validation.measurements.yielding_runs import (
     LIR,
     MOAT,
@@ -20,7 +21,6 @@ from validation.measurements.yielding_runs import (
     model_of,
     structures,
 )
-from validation.measurements.yielding_tables import ends, wins, worse
 
 
 def fibres(width, depth, solid):

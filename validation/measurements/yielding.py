@@ -23,10 +23,10 @@ from lir_element import RunStatus
 from validation.fuzzing.pool import in_children
 from validation.fuzzing.yielding import random_yielding
 from validation.measurements.benchmark_runs import cpu_clock
-from validation.page import FOLDER, table
+from validation.page import FOLDER, render
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     import xarray as xr
 
@@ -50,7 +50,7 @@ WORDS = {
     "link": "ductility of yielding storeys",
     "hinge": "plastic rotation of hinges",
 }
-QUANTILES = (0.5, 0.9, 1.0)
+QUANTILES = {0.5: "median", 0.9: "90 %", 1.0: "largest"}
 CALL = "python -m validation.measurements.yielding"
 
 
@@ -132,149 +132,29 @@ def is_sound(entry: dict[str, Any]) -> bool:
 def page(found: Sequence[dict[str, Any]], lost: Sequence[str], call: str) -> str:
     """Return the page from the entries of `perform`, and test cases whose process hung or died."""
     first, second = (Counter(entry["status"][k] for entry in found) for k in range(2))
-    ends = [
-        (status, str(first[status]), str(second[status])) for status in sorted({*first, *second})
-    ]
-    bad = [entry for entry in found if not is_sound(entry)]
-    texts = [
-        "# Random buildings that yield",
-        f"Written by `{call}`. {len(found)} test cases: sticks of one to six storeys with bilinear and "
-        "Bouc-Wen storeys (degrading and pinching, too), and moment frames with hinges in beams "
-        "and columns (with axial force, too), on LIR-DCFPs; some of them with dampers, ties and "
-        "walls around the base. Motions are scaled to peaks of 2 to 12 m/s². Every test case is run "
-        "as drawn (half of them at given steps of 2, 5 or 10 ms, the others at steps that the "
-        "program chooses), and again at half the step or a quarter of the tolerance.",
-        "## Ends",
-        table(("end", "as drawn", "finer"), ends),
-        "What the bearing names (`slip_exceeded` and its like) is a failure of the bearing, not of "
-        f"the computation. The rims are met in {sum(one['rims'] for one in found)} test cases; "
-        f"{_count(found, 'link')} sticks and {_count(found, 'hinge')} frames yield.",
-        *_unexplained(bad, lost),
-        "## Energy",
-        table(
-            ("what", "limit", "median", "worst"),
-            [
-                ("energy balance: error / input", f"{LEDGER:g}", *_middle(found, "ledger", max)),
-                (
-                    "work given back by a part / input",
-                    f"{-GIVEN_BACK:g}",
-                    *_middle(found, "given_back", min),
-                ),
-            ],
-        ),
-        "A link or hinge may give back what it stores, but never more than it has taken up.",
-        "## Step",
-        f"Difference of the two runs over the value of the finer one, of what is above "
-        f"{1e3 * LEAST['peak']:g} mm, a ductility of {LEAST['link']:g}, or {LEAST['hinge']:g} rad; "
-        "runs that end early are compared up to the end of the shorter one.",
-        table(
+    among = {
+        (name, adaptive): sorted(
             (
-                "quantity",
-                "step",
-                "test cases",
-                *(_quantile(q) for q in QUANTILES),
-                "worst test case",
+                (float(abs(one[name][0] - one[name][1]) / one[name][1]), one)
+                for one in found
+                if one["adaptive"] == adaptive and one[name][1] > LEAST[name] and is_sound(one)
             ),
-            [
-                row
-                for name in WORDS
-                for adaptive in (True, False)
-                if (row := _difference(found, name, adaptive=adaptive))
-            ],
-        ),
-        _worst(found),
-        "## Cost",
-        table(
-            (
-                "model",
-                "test cases",
-                *(f"µs a step, {_quantile(q)}" for q in QUANTILES),
-                "largest, runs to the end",
-                "costliest test case",
-            ),
-            [_cost(found, kind) for kind in (False, True)],
-        ),
-        "CPU time of the compiled loop over its steps, what was tried and halved included. A run that "
-        "ends early tries its last step again and again.",
-    ]
-    return "\n\n".join(text for text in texts if text) + "\n"
-
-
-def _count(found: Sequence[dict[str, Any]], name: str) -> int:
-    return sum(one[name][0] > LEAST[name] for one in found)
-
-
-def _unexplained(bad: Sequence[dict[str, Any]], lost: Sequence[str]) -> list[str]:
-    count = f"Test cases with an end that is not explained, or energies out of bounds: {len(bad)}."
-    lines = [
-        f"- {one['number']} ({one['words']}): {' / '.join(one['status'])}; energy balance "
-        f"{one['ledger']:.1e}, given back {one['given_back']:.1e}"
-        for one in bad
-    ]
-    lines += [f"- {one}" for one in lost]
-    return [count, "\n".join(lines)]
-
-
-def _middle(
-    found: Sequence[dict[str, Any]], name: str, worst: Callable[[list[float]], float]
-) -> tuple[str, str]:
-    values = [one[name] for one in found]
-    return f"{abs(np.median(values)):.1e}", f"{abs(worst(values)):.1e}"
-
-
-def _quantile(share: float) -> str:
-    return {0.5: "median", 1.0: "largest"}.get(share, f"{100.0 * share:g} %")
-
-
-def _apart(one: dict[str, Any], name: str) -> float:
-    first, second = one[name]
-    return float(abs(first - second) / second)
-
-
-def _compared(found: Sequence[dict[str, Any]], name: str) -> list[dict[str, Any]]:
-    return [one for one in found if one[name][1] > LEAST[name] and is_sound(one)]
-
-
-def _difference(
-    found: Sequence[dict[str, Any]], name: str, *, adaptive: bool
-) -> tuple[str, ...] | None:
-    among = [one for one in _compared(found, name) if one["adaptive"] == adaptive]
-    if not among:
-        return None
-    apart = [_apart(one, name) for one in among]
-    how = "chosen, against a quarter of the tolerance" if adaptive else "given, against half of it"
-    shares = (f"{100.0 * np.quantile(apart, q):.2g} %" for q in QUANTILES)
-    return WORDS[name], how, str(len(among)), *shares, str(among[int(np.argmax(apart))]["number"])
-
-
-def _worst(found: Sequence[dict[str, Any]]) -> str:
-    named = {
-        one["number"]: one
+            key=lambda pair: pair[0],
+        )
         for name in WORDS
         for adaptive in (True, False)
-        for one in sorted(
-            (one for one in _compared(found, name) if one["adaptive"] == adaptive),
-            key=lambda one: _apart(one, name),
-        )[-1:]
     }
-    lines = [f"- {number}: {one['words']}" for number, one in sorted(named.items())]
-    return "Test cases named there:\n\n" + "\n".join(lines) if lines else ""
-
-
-def _cost(found: Sequence[dict[str, Any]], frame: bool) -> tuple[str, ...]:
-    among = [one for one in found if one["frame"] == frame]
-    name = "frame with hinges" if frame else "stick"
-    if not among:
-        return name, "0", *[""] * (len(QUANTILES) + 2)
-    costs = [one["microseconds"] for one in among]
-    whole = [one["microseconds"] for one in among if one["status"][0] == "ok"]
-    worst = among[int(np.argmax(costs))]
-    return (
-        name,
-        str(len(among)),
-        *(f"{np.quantile(costs, q):.0f}" for q in QUANTILES),
-        f"{max(whole):.0f}" if whole else "",
-        f"{worst['number']}: {worst['words']}",
+    worst = {pairs[-1][1]["number"]: pairs[-1][1] for pairs in among.values() if pairs}
+    return render(
+        globals(),
+        among=among,
+        bad=[entry for entry in found if not is_sound(entry)],
+        call=call,
+        ends=[(status, first[status], second[status]) for status in sorted({*first, *second})],
+        found=found,
+        lost=lost,
+        yielded={name: sum(one[name][0] > LEAST[name] for one in found) for name in WORDS},
+        worst=sorted(worst.items()),
     )
 
 
