@@ -134,25 +134,29 @@ class Page:
         return "\n\n".join(parts)
 
 
-def near(what: str, source: str, expected: float, got: float, within: float, unit: str) -> Check:
-    """Return the check that `got` agrees with `expected` within a share `within`."""
-    holds = bool(abs(got - expected) <= within * abs(expected))
-    text = f"{expected:.4g}{_of(unit)} ± {100.0 * within:.2g} %"
-    return Check(what, source, text, f"{got:.4g}{_of(unit)}", holds)
+_EXPECTED = re.compile(r"([<>] )?(\S+)( [^\s±]+)?(?: ± (\S+) %)?")
 
 
-def below(what: str, source: str, limit: float, got: float, unit: str) -> Check:
-    """Return the check that `got` stays below a limit."""
-    return Check(
-        what, source, f"< {limit:.4g}{_of(unit)}", f"{got:.4g}{_of(unit)}", bool(got < limit)
-    )
+def stated(lines: str) -> list[Check]:
+    """Return checks from lines "statement | source | expected | got".
 
-
-def above(what: str, source: str, limit: float, got: float, unit: str) -> Check:
-    """Return the check that `got` exceeds a limit."""
-    return Check(
-        what, source, f"> {limit:.4g}{_of(unit)}", f"{got:.4g}{_of(unit)}", bool(got > limit)
-    )
+    Expected is a bound, "< 3 mm" or "> 3 mm", or a value, "175 mm ± 0.5 %".
+    """
+    checks = []
+    for line in lines.strip().splitlines():
+        what, source, expected, number = line.strip().split(" | ")
+        found = _EXPECTED.fullmatch(expected)
+        if found is None:
+            msg = f'"{expected}" is no bound and no value: write "< 3 mm" or "175 mm ± 0.5 %"'
+            raise ValueError(msg)
+        way, unit, got, limit = found[1] or "", found[3] or "", float(number), float(found[2])
+        within = float(found[4] or 0.0)
+        holds = abs(got - limit) <= 0.01 * within * abs(limit)
+        if way:
+            holds = got < limit if way == "< " else got > limit
+        text = f"{way}{limit:.4g}{unit}" + ("" if way else f" ± {within:.2g} %")
+        checks.append(Check(what, source, text, f"{got:.4g}{unit}", holds))
+    return checks
 
 
 def table(head: Sequence[str], lines: Iterable[Sequence[str]]) -> str:
@@ -233,7 +237,3 @@ def index(folder: Path = FOLDER) -> str:
             statement, rest = summary.removeprefix("| ").split(" | ", 1)
             lines.append(f"| [{statement}]({name}.md) | {rest}")
     return render(globals(), "README", head=head, lines=lines)
-
-
-def _of(unit: str) -> str:
-    return f" {unit}" if unit else ""

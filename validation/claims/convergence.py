@@ -18,7 +18,7 @@ import numpy as np
 from frames import GroundMotion, energy_error, lumped_mass, time_history
 from frames.plots.plot_style import PALETTE, caption, grid_of, new_figure
 from validation.cases import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing
-from validation.page import Check, Claim, Page, below, run, table
+from validation.page import Check, Claim, Page, run, stated, table
 from validation.page import figure as reference
 
 if TYPE_CHECKING:
@@ -171,20 +171,14 @@ def page(folder: Path | None) -> Page:
     points = rows_of_points(record)
     implicit = [row for row in steps if row.name.startswith("tolerance")]
     explicit = [row for row in steps if not row.name.startswith("tolerance")]
-    checks: list[Check] = [
-        below("peak, tolerance 1e-6 to 1e-10", "refinement", 0.1, spread(implicit), "%"),
-        below(
-            "peak, finest implicit against explicit",
-            "other method",
-            0.02,
-            spread([implicit[-1], explicit[-1]]),
-            "%",
-        ),
-        below("peak, both explicit steps", "refinement", 0.02, spread(explicit), "%"),
-        below("peak, contacts × 0.3 to × 10", "refinement", 0.1, spread(stiffness[1:]), "%"),
-        below("peak, 4 to 32 points", "refinement", 0.1, spread(points), "%"),
-        below("peak, 8 to 32 points", "refinement", 0.01, spread(points[2:]), "%"),
-    ]
+    checks: list[Check] = stated(f"""
+        peak, tolerance 1e-6 to 1e-10 | refinement | < 0.1 % | {spread(implicit)}
+        peak, finest implicit against explicit | other method | < 0.02 % | {spread([implicit[-1], explicit[-1]])}
+        peak, both explicit steps | refinement | < 0.02 % | {spread(explicit)}
+        peak, contacts × 0.3 to × 10 | refinement | < 0.1 % | {spread(stiffness[1:])}
+        peak, 4 to 32 points | refinement | < 0.1 % | {spread(points)}
+        peak, 8 to 32 points | refinement | < 0.01 % | {spread(points[2:])}
+        """)
     result = (
         f"peak {1e3 * implicit[-1].peak:.2f} mm; spread {spread(implicit):.2f} % over the step, "
         f"{spread(stiffness[1:]):.2f} % over the contact stiffness, {spread(points):.2f} % over "

@@ -17,7 +17,7 @@ from lir_element import LIRBearing
 from validation.articulated import Articulated, articulated
 from validation.claims.double_pendulum_figures import draw
 from validation.claims.double_pendulum_loops import CASES, HEIGHT, LOAD, STEP, Loops, loops
-from validation.page import Check, Claim, Page, below, figure, near, run, table
+from validation.page import Check, Claim, Page, figure, run, stated, table
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -54,33 +54,21 @@ def checks(found: dict[str, Loops]) -> list[Check]:
         linear = u / bearing.effective_radius + bearing.effective_friction
         gap = np.abs(one.element[one.first] / linear - 1.0)[small].max()
         of = f" ({one.case.name})"
-        results += [
-            below("element / W tan(θ + atan m) − 1" + of, "rigid slider, exact", 5e-3,
-                  float(error), ""),
-            below("element / W (U + μ1 R1 + μ2 R2)/L − 1, up to 100 mm" + of,
-                  "rigid slider, small tilt", 5e-3, float(gap), ""),
-        ]  # fmt: skip
+        results += stated(f"""
+        element / W tan(θ + atan m) − 1{of} | rigid slider, exact | < 0.005 | {error}
+        element / W (U + μ1 R1 + μ2 R2)/L − 1, up to 100 mm{of} | rigid slider, small tilt | < 0.005 | {gap}
+        """)
     equal, unequal = free[0], free[-1]
-    results.append(below("sliding d1/R1 − d2/R2, over the largest", "one axis for both surfaces",
-                         1e-9, max(one.turn for one in free), ""))  # fmt: skip
     pair = articulated(unequal.case.bearing, moments=True)
-    results += [
-        near("force at zero, equal surfaces: element / Fenz and Constantinou", "(R1 + R2)/L",
-             1.0 + HEIGHT / equal.case.bearing.effective_radius,
-             _at_zero(equal, equal.element) / articulated(equal.case.bearing).at_zero, 0.005, ""),
-        near("stiffness × L / W, equal surfaces, both sliding: element", "1", 1.0,
-             _stiffness(equal, equal.element), 0.01, ""),
-        near("the same: Fenz and Constantinou", "1", 1.0, _stiffness(equal, equal.hinged), 0.01,
-             ""),
-        near("force at zero, unequal surfaces: articulated with moment equilibrium",
-             "(μ1 R1 + μ2 R2)/L", unequal.case.bearing.effective_friction, pair.at_zero, 1e-9, ""),
-        below("equal surfaces: loop of the element against the articulated with moment "
-              "equilibrium, over the peak", "derived below", 0.01,
-              _apart(equal), ""),
-        below("unequal surfaces, both sliding (100 mm): the same difference", "derived below",
-              0.01, abs(unequal.at(unequal.element, SMALL) / unequal.at(unequal.moments, SMALL)
-                        - 1.0), ""),
-    ]  # fmt: skip
+    results += stated(f"""
+        sliding d1/R1 − d2/R2, over the largest | one axis for both surfaces | < 1e-9 | {max(one.turn for one in free)}
+        force at zero, equal surfaces: element / Fenz and Constantinou | (R1 + R2)/L | {1.0 + HEIGHT / equal.case.bearing.effective_radius} ± 0.5 % | {_at_zero(equal, equal.element) / articulated(equal.case.bearing).at_zero}
+        stiffness × L / W, equal surfaces, both sliding: element | 1 | 1 ± 1 % | {_stiffness(equal, equal.element)}
+        the same: Fenz and Constantinou | 1 | 1 ± 1 % | {_stiffness(equal, equal.hinged)}
+        force at zero, unequal surfaces: articulated with moment equilibrium | (μ1 R1 + μ2 R2)/L | {unequal.case.bearing.effective_friction} ± 1e-07 % | {pair.at_zero}
+        equal surfaces: loop of the element against the articulated with moment equilibrium, over the peak | derived below | < 0.01 | {_apart(equal)}
+        unequal surfaces, both sliding (100 mm): the same difference | derived below | < 0.01 | {abs(unequal.at(unequal.element, SMALL) / unequal.at(unequal.moments, SMALL) - 1.0)}
+        """)
     return [*results, *_rim_checks(found[CASES[-1].name])]
 
 
@@ -106,24 +94,10 @@ def _rim_checks(one: Loops) -> list[Check]:
     parts = list(zip(model.radii, model.frictions, model.reach, strict=True))
     touches = min(reach / radius + mu for radius, mu, reach in parts)  # force over the load
     place = sum(max(0.0, (touches - mu) * radius) for radius, mu, _ in parts)
-    return [
-        near(
-            "first rim contact: element",
-            "L min(d1/R1, d2/R2)",
-            1e3 * bearing.lateral_capacity,
-            1e3 * element,
-            0.01,
-            "mm",
-        ),
-        near(
-            "first rim contact: Fenz and Constantinou",
-            "u1 + u2 as it happens",
-            1e3 * place,
-            1e3 * hinged,
-            0.01,
-            "mm",
-        ),
-    ]
+    return stated(f"""
+        first rim contact: element | L min(d1/R1, d2/R2) | {1e3 * bearing.lateral_capacity} mm ± 1 % | {1e3 * element}
+        first rim contact: Fenz and Constantinou | u1 + u2 as it happens | {1e3 * place} mm ± 1 % | {1e3 * hinged}
+        """)
 
 
 def _apart(one: Loops) -> float:

@@ -27,7 +27,7 @@ from validation.claims.static_test import LOAD, REACH, STEP, path
 from validation.opensees.devices import Device, macro
 from validation.opensees.model import ABOVE
 from validation.opensees.trials import Shaken, pull, shake
-from validation.page import Check, Claim, Page, below, near, run
+from validation.page import Check, Claim, Page, run, stated
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -140,71 +140,16 @@ def static_checks(found: dict[str, Loop]) -> list[Check]:
     limit, length = bearing.force_limit(1.0), bearing.effective_radius
     left, rest = theirs.slip[round(REACH / STEP)], theirs.slip[theirs.zero()]
     early = length * (bearing.interface_friction - bearing.effective_friction)
-    return [
-        near(
-            "force at 170 mm, macro-model / element",
-            "closed forms of both, below",
-            pendulum_force(bearing, BEFORE) / element_force(bearing, BEFORE),
-            theirs.at(BEFORE) / ours.at(BEFORE),
-            3e-3,
-            "",
-        ),
-        near(
-            "displacement at the first slip, macro-model",
-            "element",
-            1e3 * ours.displacement[ours.first()],
-            1e3 * theirs.displacement[theirs.first()],
-            5e-3,
-            "mm",
-        ),
-        near(
-            "force at the first slip over load, macro-model",
-            "tan(θ + atan μ_h)",
-            limit,
-            theirs.force[theirs.first()],
-            5e-3,
-            "",
-        ),
-        near(
-            "slip that the first way out leaves, macro-model",
-            "element",
-            1e3 * ours.slip[round(REACH / STEP)],
-            1e3 * left,
-            0.02,
-            "mm",
-        ),
-        near(
-            "force at zero on the way back, macro-model less element, over load",
-            "−s/L",
-            -rest / length,
-            theirs.back() - ours.back(),
-            0.02,
-            "",
-        ),
-        below(
-            "the same with springs across, over −s/L",
-            "restoring force of U",
-            0.02,
-            abs((across.back() - ours.back()) * length / rest),
-            "",
-        ),
-        near(
-            "largest force over load, springs across",
-            "limit + s/L",
-            limit + left / length,
-            across.force[: round(REACH / STEP) + 1].max(),
-            5e-3,
-            "",
-        ),
-        near(
-            "displacement at the first slip, flat slider with μ_h itself",
-            "L (μ_h − m)",
-            1e3 * early,
-            1e3 * plain.displacement[plain.first()],
-            0.05,
-            "mm",
-        ),
-    ]
+    return stated(f"""
+        force at 170 mm, macro-model / element | closed forms of both, below | {pendulum_force(bearing, BEFORE) / element_force(bearing, BEFORE)} ± 0.3 % | {theirs.at(BEFORE) / ours.at(BEFORE)}
+        displacement at the first slip, macro-model | element | {1e3 * ours.displacement[ours.first()]} mm ± 0.5 % | {1e3 * theirs.displacement[theirs.first()]}
+        force at the first slip over load, macro-model | tan(θ + atan μ_h) | {limit} ± 0.5 % | {theirs.force[theirs.first()]}
+        slip that the first way out leaves, macro-model | element | {1e3 * ours.slip[round(REACH / STEP)]} mm ± 2 % | {1e3 * left}
+        force at zero on the way back, macro-model less element, over load | −s/L | {-rest / length} ± 2 % | {theirs.back() - ours.back()}
+        the same with springs across, over −s/L | restoring force of U | < 0.02 | {abs((across.back() - ours.back()) * length / rest)}
+        largest force over load, springs across | limit + s/L | {limit + left / length} ± 0.5 % | {across.force[: round(REACH / STEP) + 1].max()}
+        displacement at the first slip, flat slider with μ_h itself | L (μ_h − m) | {1e3 * early} mm ± 5 % | {1e3 * plain.displacement[plain.first()]}
+        """)
 
 
 def rims() -> dict[str, Rim]:
@@ -244,28 +189,15 @@ def rim_checks(found: dict[str, Rim]) -> list[Check]:
     """Check where the rims are met: on a circle, and on polygons about it."""
     capacity = static_bearing().lateral_capacity
     ours = found["element"].reach
-    results = [
-        below(
-            "displacement at the first slip over the direction, element: spread",
-            "circle",
-            1e-3,
-            float(np.ptp(ours) / ours.mean()),
-            "",
-        )
-    ]
+    results = stated(f"""
+        displacement at the first slip over the direction, element: spread | circle | < 0.001 | {np.ptp(ours) / ours.mean()}
+        """)
     for n in CORNERS:
         corner = math.pi / n
         reach = _theirs(partial(macro, directions=n), static_bearing(), corner)
-        results.append(
-            near(
-                f"the same in a corner, {n} gaps",
-                "U_cap / cos(π/n)",
-                1e3 * capacity / math.cos(corner),
-                1e3 * reach,
-                5e-3,
-                "mm",
-            )
-        )
+        results += stated(f"""
+        the same in a corner, {n} gaps | U_cap / cos(π/n) | {1e3 * capacity / math.cos(corner)} mm ± 0.5 % | {1e3 * reach}
+        """)
     return results
 
 
@@ -296,40 +228,13 @@ def history_checks(ours: xr.Dataset, theirs: Shaken) -> list[Check]:
     share, _ = moments(theirs)
     weight = EXAMPLE_MASS * STANDARD_GRAVITY
     ours_share = np.abs(own[:, 1]).max() / np.abs(own.sum(axis=1)).max()
-    return [
-        near(
-            "Newhall, peak displacement, macro-model",
-            "element",
-            1e3 * np.abs(u).max(),
-            1e3 * np.abs(theirs.displacement[:, 0]).max(),
-            0.01,
-            "mm",
-        ),
-        near(
-            "Newhall, slip at the end, macro-model",
-            "element",
-            1e3 * abs(slip[-1]),
-            1e3 * abs(theirs.displacement[-1, 0] - theirs.middle[-1, 0]),
-            0.03,
-            "mm",
-        ),
-        below(
-            "Newhall, largest force over limit, macro-model",
-            "W tan(θ + atan μ_h)",
-            1.005,
-            np.abs(theirs.force[:, 0]).max() / example_bearing().force_limit(weight),
-            "",
-        ),
-        near(
-            "Newhall, largest moment on the superstructure over that on both ends, element",
-            "about half",
-            0.5,
-            ours_share,
-            0.1,
-            "",
-        ),
-        below("the same, macro-model", "P-Delta on node i alone", 0.2, share, ""),
-    ]
+    return stated(f"""
+        Newhall, peak displacement, macro-model | element | {1e3 * np.abs(u).max()} mm ± 1 % | {1e3 * np.abs(theirs.displacement[:, 0]).max()}
+        Newhall, slip at the end, macro-model | element | {1e3 * abs(slip[-1])} mm ± 3 % | {1e3 * abs(theirs.displacement[-1, 0] - theirs.middle[-1, 0])}
+        Newhall, largest force over limit, macro-model | W tan(θ + atan μ_h) | < 1.005 | {np.abs(theirs.force[:, 0]).max() / example_bearing().force_limit(weight)}
+        Newhall, largest moment on the superstructure over that on both ends, element | about half | 0.5 ± 10 % | {ours_share}
+        the same, macro-model | P-Delta on node i alone | < 0.2 | {share}
+        """)
 
 
 def cost(motion: GroundMotion) -> tuple[float, float, float]:

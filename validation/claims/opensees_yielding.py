@@ -28,7 +28,7 @@ from validation.claims.opensees_yielding_runs import (
     run_both,
     stick,
 )
-from validation.page import Check, Claim, Page, above, below, figure, near, run, table
+from validation.page import Check, Claim, Page, figure, run, stated, table
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -163,42 +163,28 @@ def differences(case: Case, both: Both) -> dict[str, float]:
 
 def _checks(found: dict[Case, Both], apart: dict[Case, dict[str, float]]) -> list[Check]:
     limits = {"displacement": DISPLACEMENT, "ductility": DUCTILITY, "energy": ENERGY}
-    checks = [
-        below(f"{case.name}: {what}", case.theirs, limits[what], value, "")
+    lines = [
+        f"{case.name}: {what} | {case.theirs} | < {limits[what]} | {value}"
         for case, values in apart.items()
         for what, value in values.items()
     ]
-    for case in (CASES[0], CASES[-1]):
-        slip = 1e3 * found[case].slip
-        checks.append(above(f"{case.name}: largest interface slip", "rims met", 10.0, slip, "mm"))
+    lines += [
+        f"{case.name}: largest interface slip | rims met | > 10 mm | {1e3 * found[case].slip}"
+        for case in (CASES[0], CASES[-1])
+    ]
     ledger = max(both.ledger for both in found.values())
-    checks.append(
-        below("energy balance: error / input", "conservation of energy", LEDGER, ledger, "")
-    )
-    return checks
+    lines.append(f"energy balance: error / input | conservation of energy | < {LEDGER} | {ledger}")
+    return stated("\n".join(lines))
 
 
 def _column_checks(own: section.Path, fibres: section.Path) -> list[Check]:
     what, source = "column with N and My", "section of fibres"
     turned = [float(np.abs(one.rotation).max()) for one in (own, fibres)]
-    return [
-        near(f"{what}: largest plastic rotation", source, turned[1], turned[0], DUCTILITY, "rad"),
-        near(
-            f"{what}: energy dissipated",
-            source,
-            1e-3 * fibres.dissipated,
-            1e-3 * own.dissipated,
-            ENERGY,
-            "kJ",
-        ),
-        below(
-            f"{what}: largest value of n + m",
-            "rounded corners",
-            1.03,
-            float(own.utilisation.max()),
-            "",
-        ),
-    ]
+    return stated(f"""
+        {what}: largest plastic rotation | {source} | {turned[1]} rad ± {100.0 * DUCTILITY} % | {turned[0]}
+        {what}: energy dissipated | {source} | {1e-3 * fibres.dissipated} kJ ± {100.0 * ENERGY} % | {1e-3 * own.dissipated}
+        {what}: largest value of n + m | rounded corners | < 1.03 | {own.utilisation.max()}
+        """)
 
 
 def text(found: dict[Case, Both], own: section.Path, fibres: section.Path) -> list[str]:

@@ -28,7 +28,7 @@ from frames.plots.plot_style import (
 )
 from lir_element import cyclic_test
 from validation.cases import LEVELS_STATIC, static_bearing
-from validation.page import Check, Claim, Page, below, figure, near, run
+from validation.page import Check, Claim, Page, figure, run, stated
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -90,50 +90,16 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
     slides = 4.0 * (REACH - bearing.lateral_capacity)
     of = f" ({level})"
     within = DYNAMIC if level == "rigid_body" else 0.005
-    return [
-        near(
-            "displacement at the first high-friction sliding" + of,
-            "paper 2.2",
-            175.0,
-            1e3 * way[first],
-            0.005,
-            "mm",
-        ),
-        near("slip that it leaves" + of, "paper 2.2", 10.0, 1e3 * left, 0.005, "mm"),
-        near("displacement at the next one" + of, "paper 2.2", -165.0, 1e3 * second, 0.005, "mm"),
-        below(
-            "largest force / force that starts the first high-friction sliding" + of,
-            "paper 2.2",
-            1.0 + within,
-            float(np.abs(force).max() / force[first]),
-            "",
-        ),
-        near(
-            "largest force" + of,
-            "W tan(θ + atan μ_h)",
-            1e-3 * limit,
-            1e-3 * force.max(),
-            within,
-            "kN",
-        ),
-        near("smallest force" + of, "the same", -1e-3 * limit, 1e-3 * force.min(), within, "kN"),
-        near(
-            "characteristic strength Q" + of,
-            "μ (R1 + R2)/L W",
-            1e-3 * sliding,
-            -1e-3 * zero,
-            0.005,
-            "kN",
-        ),
-        near(
-            "energy that the interface takes up in a cycle" + of,
-            "μ_h N 4 (18.5 − 17.5 cm)",
-            bearing.interface_friction * normal * slides,
-            work[cycle][-1] - work[cycle][0],
-            0.01,
-            "J",
-        ),
-    ]
+    return stated(f"""
+        displacement at the first high-friction sliding{of} | paper 2.2 | 175 mm ± 0.5 % | {1e3 * way[first]}
+        slip that it leaves{of} | paper 2.2 | 10 mm ± 0.5 % | {1e3 * left}
+        displacement at the next one{of} | paper 2.2 | -165 mm ± 0.5 % | {1e3 * second}
+        largest force / force that starts the first high-friction sliding{of} | paper 2.2 | < {1.0 + within} | {np.abs(force).max() / force[first]}
+        largest force{of} | W tan(θ + atan μ_h) | {1e-3 * limit} kN ± {100.0 * within} % | {1e-3 * force.max()}
+        smallest force{of} | the same | {-1e-3 * limit} kN ± {100.0 * within} % | {1e-3 * force.min()}
+        characteristic strength Q{of} | μ (R1 + R2)/L W | {1e-3 * sliding} kN ± 0.5 % | {-1e-3 * zero}
+        energy that the interface takes up in a cycle{of} | μ_h N 4 (18.5 − 17.5 cm) | {bearing.interface_friction * normal * slides} J ± 1 % | {work[cycle][-1] - work[cycle][0]}
+        """)
 
 
 def draw(found: dict[str, xr.Dataset]) -> Figure:
