@@ -22,12 +22,18 @@ from lir_element.opensees import opensees
 from validation.cases import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing, static_bearing
 from validation.claims.opensees_macro_figures import Rim, draw_loops, draw_rims
 from validation.claims.opensees_macro_loops import SLIPS, Loop
-from validation.claims.opensees_macro_text import SCENES, scenes_table, settings_table, text
+from validation.claims.opensees_macro_text import (
+    SCENE_STEP,
+    SCENES,
+    Ended,
+    scenes_runs,
+    settings_runs,
+)
 from validation.claims.static_test import LOAD, REACH, STEP, path
 from validation.opensees.devices import Device, macro
 from validation.opensees.model import ABOVE
 from validation.opensees.trials import Shaken, pull, shake
-from validation.page import Check, Claim, Page, run, stated
+from validation.page import Check, Claim, Page, render, run, stated
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -259,13 +265,14 @@ def page(folder: Path | None) -> Page:
     found, shapes = loops(path()), rims()
     ours, theirs = histories(motion)
     results = [*static_checks(found), *rim_checks(shapes), *history_checks(ours, theirs)]
-    scenes, orbits, peaks = scenes_table()
-    settings, _ = settings_table(motion)
-    numbers = _numbers(found, ours, theirs, peaks)
+    scenes, orbits = scenes_runs()
+    numbers = _numbers(found, ours, theirs, scenes)
     numbers["square"] = 1e3 * float(shapes["4 gaps"].reach[ANGLES // 2])
     numbers["capacity"] = 1e3 * static_bearing().lateral_capacity
     numbers |= dict(zip(("ours", "theirs", "ratio"), cost(motion), strict=True))
-    parts = text(CLAIM, numbers, settings, scenes)
+    body = render(
+        globals(), n=numbers, scenes=scenes, settings=settings_runs(motion), step=SCENE_STEP
+    )
     oblique = orbits["oblique rim contact"]
     shown = {
         "element": oblique["pendulum"],
@@ -282,11 +289,11 @@ def page(folder: Path | None) -> Page:
         f"{1e3 * numbers['lifted']:.0f} against {1e3 * numbers['lifted reference']:.0f} mm; a step "
         f"costs {numbers['ratio']:.0f} times as much"
     )
-    return Page(CLAIM, result, results, parts, figures)
+    return Page(CLAIM, result, results, body, figures)
 
 
 def _numbers(
-    found: dict[str, Loop], ours: xr.Dataset, theirs: Shaken, peaks: dict[str, float]
+    found: dict[str, Loop], ours: xr.Dataset, theirs: Shaken, scenes: list[Ended]
 ) -> dict[str, float]:
     """Return the numbers that the text names."""
     bearing = static_bearing()
@@ -295,7 +302,9 @@ def _numbers(
     left = found["macro-model"].slip[round(REACH / STEP)]
     friction = bearing.effective_friction
     ratio = pendulum_force(bearing, BEFORE) / element_force(bearing, BEFORE)
-    lifted = "uplift and landing, "
+    peaks = {run.model: run.peak for run in scenes}
+    newton, fallback = (f"macro-model, 16 gaps, {how}" for how in ("Newton", "with fallback"))
+    exact = "element, level rigid_body"
     return {
         "apart": 100.0 * (ratio - 1.0),
         "early": 1e3 * bearing.effective_radius * (bearing.interface_friction - friction),
@@ -303,12 +312,9 @@ def _numbers(
         "corner 8": 100.0 * (1.0 / math.cos(math.pi / 8) - 1.0),
         "corner 16": 100.0 * (1.0 / math.cos(math.pi / 16) - 1.0),
         "compressed": 100.0
-        * max(
-            abs(peaks[f"{name}, macro-model, 16 gaps, Newton"] / peaks[f"{name}, rigid_body"] - 1.0)
-            for name in SCENES[:2]
-        ),
-        "lifted": peaks[lifted + "macro-model, 16 gaps, with fallback"],
-        "lifted reference": peaks[lifted + "rigid_body"],
+        * max(abs(peaks[name, newton] / peaks[name, exact] - 1.0) for name in SCENES[:2]),
+        "lifted": peaks[SCENES[2], fallback],
+        "lifted reference": peaks[SCENES[2], exact],
         "moment": 1e-3 * own[1],
         "moment i": 1e-3 * own[0],
         "their moment": 1e-3 * other[1],

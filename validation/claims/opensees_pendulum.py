@@ -9,7 +9,7 @@ slider docs/theory.md, section 2); OpenSeesPy itself.
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -41,7 +41,7 @@ from validation.claims.opensees_causes import (
 )
 from validation.claims.opensees_pendulum_figures import loops as draw_loops
 from validation.claims.opensees_pendulum_figures import newhall as draw_newhall
-from validation.page import Check, Claim, Page, figure, run, stated, table
+from validation.page import Check, Claim, Page, render, run, stated, table
 from validation.scenes import TCU065
 
 if TYPE_CHECKING:
@@ -171,22 +171,6 @@ def in_building(record: GroundMotion) -> list[list[Row]]:
     return [ladder(building.Building(kind), building.RUNGS, differences) for kind in kinds]
 
 
-def ladder_table(ladders: Sequence[Sequence[Row]]) -> str:
-    """Return the table of causes with the differences before and after."""
-    names = list(ladders[0][0].before)
-    rows = [
-        (
-            row.kind if not k else "",
-            row.cause,
-            row.how,
-            *(percent(row.before[name], row.after[name]) for name in names),
-        )
-        for rows in ladders
-        for k, row in enumerate(rows)
-    ]
-    return table(("element", "cause", "left out by", *(f"{name} [%]" for name in names)), rows)
-
-
 def left(what: str, ladders: Sequence[Sequence[Row]]) -> list[Check]:
     """Check that what remains at the end of each ladder needs no cause."""
     rest = "largest difference with all causes left out | OpenSeesPy"
@@ -204,75 +188,6 @@ def mapped_check(what: str, rows: Sequence[Row], name: str) -> list[Check]:
     plain = next(row for row in rows if row.cause not in {FRICTION[0], SPEED[0], YIELD[0]})
     of = f"{what}: {plain.kind} as mapped, difference of the {name}"
     return stated(f"{of} | OpenSeesPy | < {MAPPED} | {abs(plain.before[name])}")
-
-
-def text(parts: dict[str, Any]) -> list[str]:
-    """Return the text of the page."""
-    values = builtin_values(loops.plain(), loops.LOAD)
-    three = (
-        [
-            "Chi-Chi 1999, TCU065, three components times "
-            f"{SCALE:g}; the same mass and bearing. The vertical motion keeps its size where the "
-            "motion in plan is reduced.",
-            ladder_table(parts["tcu"]),
-            "TFP remains: its increments of force do not follow the axial force, and beyond that its "
-            "error falls with its step.",
-        ]
-        if parts["tcu"]
-        else ["Not run: the folder of records does not hold TCU065."]
-    )
-    return [
-        f"openseespy {parts['version']}. The mapping is `lir_element.opensees.builtin_element`; "
-        "its docstrings state it element by element. For the bearing of the static test: "
-        f"L = {values.length:.3f} m, strength over load (μ1 R1 + μ2 R2)/L = "
-        f"{values.friction_max:.4f} for μ = {loops.plain().frictions[0].f_max:g}, yield "
-        f"displacement u_y L/R = {1e3 * values.yield_displacement:.3f} mm.",
-        "All differences below are those of OpenSees from the bearing of this package.",
-        "## Quasi-static loops",
-        figure(CLAIM, "loops", "Loops of the bearing and of four elements of OpenSees"),
-        f"Bearing of the static test without rims, {1e-3 * loops.LOAD:.0f} kN, "
-        f"±{1e3 * loops.AMPLITUDE:.0f} mm. In brackets the closed form of that element's own law; "
-        "TFP, which adds up increments, has none.",
-        parts["static"][0],
-        "Friction, yield displacement and amplitude times 0.1 leave the large displacements out; "
-        f"for TFP, whose force lags behind by a step, steps {FINER['TFP']} times finer besides:",
-        parts["static"][1],
-        "With s = U/L and m the strength over load, the forces while sliding are "
-        "`tan(asin s + atan m)` (rigid slider, exact), `(s + m)/(1 − s(s + m))` (singleFPBearing), "
-        "`s/sqrt(1 − s²) + m` (FPBearingPTV) and `s + m` (TripleFrictionPendulum). They agree to "
-        "the first order; singleFPBearing has more of the higher terms than the sphere, the others "
-        "less or none.",
-        "## Newhall, a mass on one bearing",
-        figure(CLAIM, "newhall", "Displacement and loops under Newhall"),
-        "The bearing and mass of the paper's numerical example, without rims. One cause after the "
-        "other is left out; each line begins where the one above it ended. Friction depends on "
-        "speed with the first two elements, and is constant with the other two. "
-        f"TFP is run for the first {SHORT:g} s.",
-        ladder_table(parts["newhall"]),
-        "The first three lines are the mapping: the parameters as they are printed for the bearing "
-        "against those that the element needs. Their errors partly cancel in the peak, and show in "
-        "the path and the energy. `path` is the largest distance of the displacements at any time, "
-        "over the peak.",
-        "The vertical coupling can also be given to singleFPBearing in place of being taken from "
-        "the bearing:",
-        ladder_table([parts["lift"]]),
-        "## TCU065, three components",
-        *three,
-        "## A building",
-        "A steel frame of two storeys on four bearings, constant friction, 2 % of damping in its "
-        "first mode, proportional to stiffness, which leaves the isolation undamped in both. "
-        f"Newhall at {np.degrees(building.ANGLE):.0f}° in plan, {building.DURATION:g} s.",
-        ladder_table(parts["building"]),
-        "`base` and `path`: displacement of the base; `drift`: of the roof against the base.",
-        "## Advice",
-        "- Give an element of OpenSees (μ1 R1 + μ2 R2)/L, not μ, and the rate α R/L, not α.",
-        "- What remains is a few per cent of force, for the mass of a building does rise on the "
-        "spheres: without that coupling, and with the second-order terms of its own law, "
-        "singleFPBearing overestimates base shear and drift.",
-        "- `lift=True` gives singleFPBearing that coupling, and with it the largest force.",
-        "- TripleFrictionPendulum and TFP are for constant friction here. TFP wants steps that "
-        "are a hundred times smaller, and a steady axial force.",
-    ]
 
 
 def page(folder: Path | None) -> Page:
@@ -301,14 +216,6 @@ def page(folder: Path | None) -> Page:
     setting = Setting("singleFPBearing")
     tracks = {loops.OURS: here(setting, record)}
     tracks |= {kind: there(Setting(kind), record) for kind in VELOCITY}
-    parts = {
-        "version": opensees().version(),
-        "static": static,
-        "newhall": newhall,
-        "lift": lift,
-        "tcu": tcu,
-        "building": frames,
-    }
     peaks = [abs(row.before["peak"]) for row in (newhall[0][3], newhall[1][0], newhall[2][0])]
     rest = max(largest(rows[-1].after) for rows in (*newhall, *tcu[:3], *frames))
     weight = bearing_of(setting).resolved()["design_load"]
@@ -317,7 +224,20 @@ def page(folder: Path | None) -> Page:
         f"peak under Newhall within {100.0 * max(peaks):.1f} % as mapped; with causes left out "
         f"all differences are below {100.0 * rest:.1f} %",
         checks,
-        text(parts),
+        render(
+            globals(),
+            building=building,
+            buildings=frames,
+            lift=[lift],
+            loops=loops,
+            mapped=builtin_values(loops.plain(), loops.LOAD),
+            newhall=newhall,
+            np=np,
+            percent=percent,
+            static=static,
+            tcu=tcu,
+            version=opensees().version(),
+        ),
         {"loops": draw_loops(drawn, loops.LOAD), "newhall": draw_newhall(tracks, weight)},
     )
 

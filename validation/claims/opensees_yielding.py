@@ -28,7 +28,7 @@ from validation.claims.opensees_yielding_runs import (
     run_both,
     stick,
 )
-from validation.page import Check, Claim, Page, figure, run, stated, table
+from validation.page import Check, Claim, Page, render, run, stated
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -145,7 +145,17 @@ def page(_: Path | None) -> Page:
         f"ties and walls, {100.0 * frames:.1f} % with hinges; ductilities within "
         f"{100.0 * worst[0]:.1f} %, energies within {100.0 * worst[1]:.1f} %",
         checks=[*_checks(found, apart), *_column_checks(own, fibres)],
-        parts=text(found, own, fibres),
+        body=render(
+            globals(),
+            apart=[
+                100.0 * float(np.abs(getattr(own, name) - getattr(fibres, name)).max()) / scale
+                for name, scale in (("axial", section.AXIAL), ("moment", section.HINGE.moment_y))
+            ],
+            beyond=[100.0 * (float(one.utilisation.max()) - 1.0) for one in (own, fibres)],
+            found=found,
+            least=100.0 * LEAST,
+            share=100.0 * YIELD / (3.0 * MASS * STANDARD_GRAVITY),
+        ),
         figures={
             "loops": draw_loops([(one.name, found[one]) for one in (CASES[k] for k in SHOWN)]),
             "column": draw_column(own, fibres),
@@ -185,65 +195,6 @@ def _column_checks(own: section.Path, fibres: section.Path) -> list[Check]:
         {what}: energy dissipated | {source} | {1e-3 * fibres.dissipated} kJ ± {100.0 * ENERGY} % | {1e-3 * own.dissipated}
         {what}: largest value of n + m | rounded corners | < 1.03 | {own.utilisation.max()}
         """)
-
-
-def text(found: dict[Case, Both], own: section.Path, fibres: section.Path) -> list[str]:
-    """Return the text of the page."""
-    rows = []
-    for case, both in found.items():
-        here, there = (float(one.max()) for one in both.reached)
-        work = [f"{1e-3 * one.sum():.1f}" if case.works else "" for one in both.work]
-        rows.append(
-            (case.name, case.theirs, f"{1e3 * both.slip:.0f}", f"{here:.4g}", f"{there:.4g}", *work)
-        )
-    head = (
-        "case",
-        "in OpenSees",
-        "slip (mm)",
-        "reached here",
-        "in OpenSees",
-        "energy here (kJ)",
-        "in OpenSees",
-    )
-    apart = [
-        100.0 * float(np.abs(getattr(own, name) - getattr(fibres, name)).max()) / scale
-        for name, scale in (("axial", section.AXIAL), ("moment", section.HINGE.moment_y))
-    ]
-    return [
-        figure(CLAIM, "loops", "Loops of a part of four buildings from both programs"),
-        "Both programs analyse the same building by Newmark's method with the same step, the "
-        "bearing being that of `bearing_element` in OpenSees. Differences are over the largest "
-        "value: of the displacements of all nodes; of the largest deformation of every part over "
-        "that at yield (of dampers, ties and walls in metres, of hinges the plastic rotation); of "
-        f"the energy that every part took up. Parts that reach {100.0 * LEAST:g} % of the largest "
-        "value are compared.",
-        table(head, rows),
-        "## Storeys, dampers, ties and walls",
-        f"A shear building of two storeys (the first case has three) whose storeys yield at "
-        f"{1e-3 * YIELD:g} kN, {100.0 * YIELD / (3.0 * MASS * STANDARD_GRAVITY):.0f} % of the "
-        "weight, or a linear one with links at its base and in its first storey. The laws are the "
-        "same in both programs. `ViscoelasticGap` pulls at the end of a damped contact and a "
-        "`Gap` never does: the elastic one is compared here. The energy of links that yield is "
-        "without what is elastic at the end.",
-        "## Hinges",
-        "A steel moment frame of one bay and two storeys, hinges in the beams of its floors "
-        "(moments about one axis) and columns (both moments, on a circle). In OpenSees a member "
-        "is a "
-        "`forceBeamColumn` with the integration `ConcentratedPlasticity`: sections at its ends "
-        "that are rigid until they yield, of `Steel01` and of the kind `Bidirectional`. The "
-        "geometric stiffness differs: here the consistent one of a bent column, there that of a "
-        "straight one, which little hardening makes felt.",
-        "## Axial force and moment",
-        figure(CLAIM, "column", "A column under drift and changing length"),
-        "A column clamped at both ends is taken along a drift and a change of its length, both "
-        "prescribed and out of phase. Its hinge yields at |n| + |m| = 1; in OpenSees the same "
-        "surface is that of a section of fibres. The surface here is smooth: it is rounded "
-        "where no moment and where no axial force is left, and bulges by up to "
-        f"{100.0 * (float(own.utilisation.max()) - 1.0):.1f} % between (the fibres, which harden, "
-        f"reach {100.0 * (float(fibres.utilisation.max()) - 1.0):.1f} % more than 1). Along this "
-        f"path axial forces differ by up to {apart[0]:.1f} % of the axial capacity and moments by "
-        f"{apart[1]:.1f} % of the plastic moment.",
-    ]
 
 
 if __name__ == "__main__":

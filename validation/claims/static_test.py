@@ -28,7 +28,7 @@ from frames.plots.plot_style import (
 )
 from lir_element import cyclic_test
 from validation.cases import LEVELS_STATIC, static_bearing
-from validation.page import Check, Claim, Page, figure, run, stated
+from validation.page import Check, Claim, Page, render, run, stated
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -143,25 +143,8 @@ def page(_: Path | None = None) -> Page:
     found = loops()
     results = [check for level, data in found.items() for check in checks(data, level)]
     first, left, second = (check.got for check in results[:3])
-    parts = [
-        figure(CLAIM, "loops", "Normalised loops and slip of the static cyclic test"),
-        "The interface slides first where the slider meets its rims, at 17.5 cm. The last "
-        "centimetre of the amplitude becomes slip and stays, so that on the way back the rims are met "
-        "at 16.5 cm. The rims are met at `U - s = ± U_cap` while the restoring force stays centred "
-        "on U = 0: the force at which the interface slides is the same each time.",
-        "At the level rigid_body the rig's plate has a mass (it weighs what it carries) and is "
-        "free vertically: the axial force swings by half a per cent where the slider meets a rim, "
-        "and the largest force with it.",
-        "**Friction from a loop.** The rigid slider's moment equilibrium makes the force at "
-        "zero displacement `μ (R1 + R2)/L W`, here 0.070 W for μ = 0.066. The paper does not "
-        "say how its value was found: if 0.066 was read off a measured loop, as force at zero "
-        "displacement over load, enter `μ = 0.066 L/(R1 + R2) = 0.0623`; see "
-        "[double_pendulum.md](double_pendulum.md).",
-        "Assumed, for the paper does not give it: a slider radius of 80 mm. It sets the default "
-        "stiffnesses only.",
-    ]
     result = f"slides first at {first}, leaves {left} of slip, slides again at {second}"
-    return Page(CLAIM, result, results, parts, {"loops": draw(found)})
+    return Page(CLAIM, result, results, render(globals()), {"loops": draw(found)})
 
 
 if __name__ == "__main__":
