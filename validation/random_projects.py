@@ -27,8 +27,7 @@ from typer.testing import CliRunner
 
 from frames.command.app import app
 from validation.fuzzing.pool import in_children
-from validation.fuzzing.project_errors import ERRORS, SPOILT
-from validation.fuzzing.sound_projects import Document, sound
+from validation.fuzzing.projects import ERRORS, SPOILT, Document, sound
 from validation.golden_review import recomputed
 
 if TYPE_CHECKING:

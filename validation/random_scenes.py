@@ -21,13 +21,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames import GroundMotion, lumped_mass, time_history
-from validation.cases import LEVELS_STATIC, static_bearing
 from validation.fuzzing.buildings import random_building, try_building
 from validation.fuzzing.checks import Report
 from validation.fuzzing.page import write
 from validation.fuzzing.pool import in_children
 from validation.fuzzing.scenes import random_scene
 from validation.fuzzing.trial import try_scene
+from validation.scenes import LEVELS_STATIC, static_bearing
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

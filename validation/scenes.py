@@ -10,17 +10,17 @@ import os
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from frames import GroundMotion, lumped_mass, moment_frame
 from frames.demo import design, pacoima
-from validation.cases import example_bearing
+from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
 if TYPE_CHECKING:
     from frames import Frame
-    from lir_element import LIRBearing
+    from lir_element.element import AnyLevel
     from lir_element.layout import Floats
 
 MASS = 204e3
@@ -165,3 +165,44 @@ def building(duration: float = 7.0) -> tuple[Frame, GroundMotion, float] | None:
     except FileNotFoundError:
         return None
     return moment_frame(bearing=design()), motion, duration
+
+
+LEVELS_STATIC: tuple[AnyLevel, ...] = ("pendulum", "contact", "rigid_body")
+"""Levels of the static cyclic test."""
+
+LEVELS_HISTORY: tuple[AnyLevel, ...] = ("rigid_body", "contact", "pendulum")
+"""Levels of the numerical example."""
+
+LEVELS_DRIFT: tuple[AnyLevel, ...] = ("pendulum", "rigid_body")
+"""Levels at which the drift under Bouc-Wen friction is followed through the numerical example."""
+
+EXAMPLE_MASS = 204e3
+"""Mass on the bearing of the numerical example [kg] (section 3.1)."""
+
+EXAMPLE_RECORD = "RSN1044_NORTHR_NWH360.AT2"
+"""PEER file of the numerical example: Newhall, Northridge 1994, 360."""
+
+
+def static_bearing() -> LIRBearing:
+    """Return the bearing of the static cyclic test (section 2.2); slider radius assumed."""
+    return LIRBearing(
+        radius=0.75,
+        slider_height=0.085,
+        slider_radius=0.08,
+        capacity=0.175,
+        friction=CoulombFriction(0.066),
+        interface_friction=0.126,
+    )
+
+
+def example_bearing(**changes: Any) -> LIRBearing:
+    """Return the bearing of the numerical example (section 3.1); slider radius assumed."""
+    options: dict[str, Any] = {
+        "radius": 1.185,
+        "slider_height": 0.12,
+        "slider_radius": 0.15,
+        "capacity": 0.25,
+        "friction": VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
+        "interface_friction": 0.13,
+    }
+    return LIRBearing(**{**options, **changes})

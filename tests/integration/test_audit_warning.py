@@ -24,7 +24,7 @@ from frames.plots import histories
 from frames.results.assumption_checks import needed_level
 from frames.results.findings import Findings, remark
 from lir_element import Features
-from validation.cases import EXAMPLE_MASS, example_bearing
+from validation.scenes import EXAMPLE_MASS, example_bearing
 
 TIME = np.arange(0.0, 5.0, 0.005)
 PUSH = GroundMotion(

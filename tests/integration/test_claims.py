@@ -11,7 +11,6 @@ from numpy.testing import assert_allclose
 from frames.plots.bearing_geometry import slider_axis
 from validation.articulated import Articulated
 from validation.body_motion import body_motion
-from validation.cases import LEVELS_HISTORY, LEVELS_STATIC, example_bearing
 from validation.claims import (
     bouc_wen_drift,
     double_pendulum,
@@ -22,6 +21,7 @@ from validation.claims import (
     static_test,
 )
 from validation.page import records, run, write
+from validation.scenes import LEVELS_HISTORY, LEVELS_STATIC, example_bearing
 
 
 def assert_all_hold(checks):

@@ -16,7 +16,6 @@ from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import macro_model, opensees
 from tests.patience import patience
 from validation.claims import static_test
-from validation.claims.opensees_macro_loops import Loop
 from validation.claims.opensees_macro_model import (
     element_force,
     loops,
@@ -24,11 +23,20 @@ from validation.claims.opensees_macro_model import (
     series_with_mu_h,
     static_checks,
 )
+from validation.claims.opensees_macro_runs import Loop
 from validation.measurements.hard_scenes import impact, vertical
 from validation.measurements.opensees_hard_cases import cases, energies, kinds
-from validation.opensees.devices import DEVICES, macro
 from validation.opensees.model import ABOVE, BELOW, stand
-from validation.opensees.trials import PLAIN, ROBUST, load_down, pull, shake, take_back
+from validation.opensees.trials import (
+    DEVICES,
+    PLAIN,
+    ROBUST,
+    load_down,
+    macro,
+    pull,
+    shake,
+    take_back,
+)
 from validation.opensees.worker import Worker
 from validation.scenes import MASS
 

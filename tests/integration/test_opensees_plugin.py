@@ -11,7 +11,6 @@ from frames import GroundMotion, gravity, lumped_mass, time_history
 from lir_element import BackupSupport, CoulombFriction, Element
 from lir_element.opensees import bearing_response
 from lir_element.units import STANDARD_GRAVITY
-from validation.cases import example_bearing
 from validation.measurements.opensees_cost import ours, pulse, slender_frame, stepped
 from validation.opensees.frames import add_loads, build
 from validation.opensees.model import (
@@ -22,6 +21,7 @@ from validation.opensees.model import (
     transient_steps,
 )
 from validation.opensees.runs import lumped
+from validation.scenes import example_bearing
 
 LEVELS = ("pendulum", "contact")
 

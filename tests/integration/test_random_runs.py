@@ -9,8 +9,7 @@ import pytest
 
 from lir_element import RunStatus
 from validation.fuzzing.buildings import try_building
-from validation.fuzzing.rims import with_yielding_rims
-from validation.fuzzing.scenes import random_scene
+from validation.fuzzing.scenes import random_scene, with_yielding_rims
 from validation.fuzzing.trial import try_scene
 
 SEED = 1

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from frames import GroundMotion, energy_error, lumped_mass, time_history
-from validation.cases import EXAMPLE_MASS, example_bearing
+from validation.scenes import EXAMPLE_MASS, example_bearing
 
 TIME = np.arange(0.0, 8.0, 0.005)
 BELL = np.exp(-(((TIME - 2.5) / 1.5) ** 2))

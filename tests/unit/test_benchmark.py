@@ -9,8 +9,7 @@ import pytest
 
 from frames.solve import recorder, run
 from validation.measurements import benchmark
-from validation.measurements.benchmark_batch import DIRECTIONS, HISTORIES, SCALES, motions
-from validation.measurements.benchmark_figure import draw
+from validation.measurements.benchmark import draw
 from validation.measurements.benchmark_models import STRUCTURES, motion_of, strong
 from validation.measurements.benchmark_page import (
     before,
@@ -28,10 +27,14 @@ from validation.measurements.benchmark_page import (
 )
 from validation.measurements.benchmark_profile import multiply_adds
 from validation.measurements.benchmark_runs import (
+    DIRECTIONS,
+    HISTORIES,
+    SCALES,
     USUAL,
     Run,
     Setting,
     cpu_clock,
+    motions,
     run_here,
     run_there,
 )

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.refusals import refused
-from validation.cases import static_bearing
+from validation.scenes import static_bearing
 
 pytest.importorskip("openseespy")
 pytest.importorskip("psutil")

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from validation.cases import static_bearing
+from validation.scenes import static_bearing
 
 pytest.importorskip("openseespy")
 pytest.importorskip("psutil")

@@ -14,8 +14,16 @@ from lir_element import AnalysisError, LIRBearing, RunStatus
 from tests.scenes import paper_bearing
 from validation.fuzzing import trial
 from validation.fuzzing.buildings import try_building
-from validation.fuzzing.checks import Report, check_gravity, check_result, forces_on_springs, same
-from validation.fuzzing.ends import LATE, left_over, same_end
+from validation.fuzzing.checks import (
+    LATE,
+    Report,
+    check_gravity,
+    check_result,
+    forces_on_springs,
+    left_over,
+    same,
+    same_end,
+)
 from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.page import KINDS, write
 from validation.fuzzing.pool import in_children

@@ -16,8 +16,8 @@ import numpy as np
 
 from frames import GroundMotion, energy_error, lumped_mass, time_history
 from frames.plots.plot_style import PALETTE, caption, grid_of, new_figure
-from validation.cases import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing
 from validation.page import Check, Claim, Page, render, run, stated
+from validation.scenes import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing
 
 if TYPE_CHECKING:
     from pathlib import Path

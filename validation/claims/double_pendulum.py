@@ -9,19 +9,24 @@ Sources: moment equilibrium of a rigid slider (docs/theory.md, section 2); Fenz 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.lines import Line2D
 
-from lir_element import LIRBearing
+from frames.plots.plot_style import PALETTE, add_legend, caption, grid_of, new_figure
+from lir_element import CoulombFriction, LIRBearing, cyclic_test
 from validation.articulated import articulated
-from validation.claims.double_pendulum_figures import draw
-from validation.claims.double_pendulum_loops import CASES, HEIGHT, LOAD, STEP, Loops, loops
 from validation.page import Check, Claim, Page, render, run, stated
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from pathlib import Path
+
+    from matplotlib.figure import Figure
 
     from frames._types import FloatArray
 
@@ -172,3 +177,115 @@ def page(_: Path | None = None) -> Page:
 
 if __name__ == "__main__":
     run(CLAIM, page)
+
+
+LOOKS: tuple[dict[str, Any], ...] = (
+    {"color": PALETTE[0], "linewidth": 2.0, "label": "rigid slider (element)"},
+    {
+        "color": PALETTE[1],
+        "linewidth": 1.2,
+        "linestyle": "--",
+        "label": "articulated (Fenz and Constantinou)",
+    },
+    {
+        "color": PALETTE[2],
+        "linewidth": 1.2,
+        "linestyle": ":",
+        "label": "articulated, moments in equilibrium",
+    },
+)
+
+
+def draw(found: Mapping[str, Loops]) -> Figure:
+    """Draw the loops of all cases."""
+    drawn = new_figure(5.2)
+    panels = [panel for row in grid_of(drawn, 2, 2) for panel in row]
+    for panel, (name, one) in zip(panels, found.items(), strict=True):
+        for force, look in zip((one.element, one.hinged, one.moments), LOOKS, strict=True):
+            panel.plot(1e3 * one.path, force, **look)
+        caption(panel, x="displacement [mm]", y="lateral force / load [-]", title=name)
+    for panel in panels:
+        panel.set_ylim(-0.24, 0.24)
+    handles = [Line2D([], [], **look) for look in LOOKS]
+    add_legend(drawn, handles, title="Double concave bearings with rigid and articulated sliders")
+    return drawn
+
+
+LOAD = 500e3  # N
+HEIGHT = 0.1  # m
+STEP = 5e-4  # m, between the points of the path
+
+
+@dataclass(frozen=True)
+class Case:
+    """A bearing and the amplitude of its cycle [m]."""
+
+    name: str
+    radii: tuple[float, float]
+    frictions: tuple[float, float]
+    amplitude: float
+    rims: tuple[float, float] | None = None
+
+    @property
+    def bearing(self) -> LIRBearing:
+        """The bearing, its rigid slider."""
+        return LIRBearing(
+            radius=self.radii,
+            slider_height=HEIGHT,
+            slider_radius=0.1,
+            capacity=math.inf if self.rims is None else None,
+            rims=self.rims,
+            friction=(CoulombFriction(self.frictions[0]), CoulombFriction(self.frictions[1])),
+            interface_friction=0.3,
+            yield_displacement=0.02e-3,
+            design_load=LOAD,
+        ).as_dcfp()
+
+
+CASES = (
+    Case("equal surfaces", (1.0, 1.0), (0.06, 0.06), 0.15),
+    Case("unequal frictions", (1.0, 1.0), (0.03, 0.09), 0.15),
+    Case("unequal radii and frictions", (1.2, 0.8), (0.03, 0.09), 0.15),
+    Case("the same, with rims at 120 mm", (1.2, 0.8), (0.03, 0.09), 0.20, (0.12, 0.12)),
+)
+
+
+@dataclass(frozen=True)
+class Loops:
+    """Forces over the load along one path: of the element, and of both articulated theories."""
+
+    case: Case
+    path: FloatArray
+    element: FloatArray
+    hinged: FloatArray
+    moments: FloatArray
+    turn: float
+
+    @property
+    def first(self) -> slice:
+        """The first way out, without the elastic begin and the turn."""
+        return slice(round(0.005 / STEP), round(self.case.amplitude / STEP))
+
+    def at(self, force: FloatArray, displacement: float) -> float:
+        """Return a force on the first way out, at a displacement [m]."""
+        count = round(self.case.amplitude / STEP) + 1
+        return float(np.interp(displacement, self.path[:count], force[:count]))
+
+    def energy(self, force: FloatArray) -> float:
+        """Return the energy of the full cycle over the load [m]."""
+        begin = round(self.case.amplitude / STEP)
+        return float(np.trapezoid(force[begin:], self.path[begin:]))
+
+
+def loops(case: Case) -> Loops:
+    """Run a case: out to the amplitude and one full cycle."""
+    turns = [0.0, case.amplitude, -case.amplitude, case.amplitude]
+    pieces = [np.linspace(a, b, round(abs(b - a) / STEP) + 1)[1:] for a, b in pairwise(turns)]
+    path = np.concatenate([[0.0], *pieces])
+    data = cyclic_test(case.bearing, path, LOAD, on_failure="raise")
+    force = data["bearing_force"].sel(axis="x")[:, 0].to_numpy() / LOAD
+    sliding = data["slider_displacement"].sel(axis="x")[:, 0].to_numpy()
+    shares = sliding[1:] / np.array(case.radii)
+    turn = float(np.abs(shares[:, 0] - shares[:, 1]).max() / np.abs(shares).max())
+    hinged, moments = (articulated(case.bearing, moments=m).force(path) for m in (False, True))
+    return Loops(case, path, force, hinged, moments, turn)

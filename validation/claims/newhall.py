@@ -20,9 +20,9 @@ from frames import GroundMotion, energy_error, lumped_mass, time_history
 from frames.plots import bearing_sections
 from lir_element import AnalysisWarning
 from validation.body_motion import body_motion, rise
-from validation.cases import EXAMPLE_MASS, EXAMPLE_RECORD, LEVELS_HISTORY, example_bearing
 from validation.claims.newhall_figures import NAME, film, forces, motions
 from validation.page import Check, Claim, Page, render, run, stated
+from validation.scenes import EXAMPLE_MASS, EXAMPLE_RECORD, LEVELS_HISTORY, example_bearing
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

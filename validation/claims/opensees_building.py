@@ -25,9 +25,9 @@ from frames import (
 from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from lir_element import CoulombFriction, Features, LIRBearing
 from lir_element.opensees import builtin_element
-from validation.cases import example_bearing
 from validation.claims.opensees_causes import F_MAX, LARGE, SLIP, STEP, VERTICAL, Gap, Rung
 from validation.opensees.frames import frame_history
+from validation.scenes import example_bearing
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

@@ -16,8 +16,8 @@ from frames import GroundMotion, lumped_mass, time_history
 from lir_element import CoulombFriction, Features, LIRBearing, VelocityFriction
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import builtin_element
-from validation.cases import EXAMPLE_MASS, example_bearing
 from validation.opensees.runs import Track, lumped
+from validation.scenes import EXAMPLE_MASS, example_bearing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

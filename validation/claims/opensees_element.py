@@ -17,10 +17,10 @@ import numpy as np
 from frames import Frame, GroundMotion, time_history
 from frames.plots.plot_style import PALETTE, caption, grid_of, new_figure, style
 from lir_element.opensees import bearing_element, record_bearings
-from validation.cases import EXAMPLE_RECORD, example_bearing
 from validation.claims.opensees_building import LOAD, RATIO, steel_frame, stiffness_damping
 from validation.opensees.frames import frame_history
 from validation.page import Check, Claim, Page, render, run, stated
+from validation.scenes import EXAMPLE_RECORD, example_bearing
 
 if TYPE_CHECKING:
     from pathlib import Path

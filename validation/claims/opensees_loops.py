@@ -11,8 +11,8 @@ import numpy as np
 
 from lir_element import CoulombFriction, LIRBearing, cyclic_test
 from lir_element.opensees import builtin_element, builtin_values
-from validation.cases import static_bearing
 from validation.opensees.runs import cycle
+from validation.scenes import static_bearing
 
 if TYPE_CHECKING:
     from collections.abc import Callable

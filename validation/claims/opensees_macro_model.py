@@ -19,21 +19,23 @@ from frames import GroundMotion, lumped_mass, time_history
 from lir_element import cyclic_test
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import opensees
-from validation.cases import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing, static_bearing
-from validation.claims.opensees_macro_figures import Rim, draw_loops, draw_rims
-from validation.claims.opensees_macro_loops import SLIPS, Loop
-from validation.claims.opensees_macro_text import (
+from validation.claims.opensees_macro_runs import (
     SCENE_STEP,
     SCENES,
+    SLIPS,
     Ended,
+    Loop,
+    Rim,
+    draw_loops,
+    draw_rims,
     scenes_runs,
     settings_runs,
 )
 from validation.claims.static_test import LOAD, REACH, STEP, path
-from validation.opensees.devices import Device, macro
 from validation.opensees.model import ABOVE
-from validation.opensees.trials import Shaken, pull, shake
+from validation.opensees.trials import Device, Shaken, macro, pull, shake
 from validation.page import Check, Claim, Page, render, run, stated
+from validation.scenes import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing, static_bearing
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -42,7 +44,7 @@ if TYPE_CHECKING:
 
     from lir_element import LIRBearing
     from lir_element.layout import Floats
-    from validation.opensees.devices import Maker
+    from validation.opensees.trials import Maker
 
 CLAIM = Claim(
     "opensees_macro_model",

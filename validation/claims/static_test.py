@@ -27,8 +27,8 @@ from frames.plots.plot_style import (
     new_figure,
 )
 from lir_element import cyclic_test
-from validation.cases import LEVELS_STATIC, static_bearing
 from validation.page import Check, Claim, Page, render, run, stated
+from validation.scenes import LEVELS_STATIC, static_bearing
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from validation.fuzzing import checks, ends, trial
-from validation.fuzzing.checks import BALANCE, GIVEN_BACK, LEDGER, WORKS
-from validation.fuzzing.ends import INACCURATE
+from validation.fuzzing import checks, trial
+from validation.fuzzing.checks import BALANCE, GIVEN_BACK, INACCURATE, LEDGER, WORKS
 from validation.fuzzing.scenes import LEVELS, MODELS
 from validation.fuzzing.trial import AUTO, FINER, TURN
 from validation.page import render
@@ -62,7 +61,6 @@ def write(scenes: Sequence[Entry], buildings: Sequence[Entry], call: str, spent:
         checks=checks,
         columns=[*LEVELS, "mixed"],
         counts=Counter((entry["outcome"], entry["level"]) for entry in scenes),
-        ends=ends,
         everything=everything,
         found=Counter(kind for e in everything for kind in {f[0] for f in e["findings"]}),
         ledgers=[0.0, *(entry["ledger"] for entry in scenes)],

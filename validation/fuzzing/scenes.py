@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -16,6 +16,7 @@ from validation.fuzzing.motions import GRAVITY, random_motion
 if TYPE_CHECKING:
     from frames import GroundMotion
     from lir_element import LIRBearing
+    from validation.fuzzing.scenes import Scene
 
 MODELS = {"mass": 0.72, "tilting mass": 0.06, "stick": 0.09, "stick on a grid": 0.07, "frame": 0.06}
 """Shares of the models."""
@@ -259,3 +260,28 @@ _MAKERS: dict[str, Callable[[np.random.Generator], tuple[list[LIRBearing], Build
     "stick on a grid": a_stick_on_a_grid,
     "frame": a_frame,
 }
+
+
+def with_yielding_rims(scene: Scene) -> Scene:
+    """Return a test case with rims of a drawn strength, in half of the cases with a flange."""
+    rng = np.random.default_rng((scene.seed, scene.number, 77))
+    flange = 0.05 if rng.random() < 0.5 else None
+    share, hardening, overrun = (
+        log_uniform(rng, *bounds) for bounds in ((0.02, 1.0), (1e-3, 0.2), (0.003, 0.05))
+    )
+
+    def build(in_mirror: bool) -> Frame:
+        frame = scene.build(in_mirror)
+        changed = {
+            name: replace(
+                link.bearing,
+                rim_yield_force=share * link.bearing.resolved()["design_load"],
+                rim_hardening=hardening,
+                rim_overrun=overrun,
+                flange=flange,
+            )
+            for name, link in frame.bearings.items()
+        }
+        return frame.with_bearings(changed)
+
+    return replace(scene, build=build)

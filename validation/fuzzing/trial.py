@@ -11,8 +11,7 @@ import numpy as np
 
 from frames import GroundMotion, ModelError, time_history
 from lir_element import AnalysisError, AnalysisWarning
-from validation.fuzzing.checks import Report, check_gravity, check_result, same
-from validation.fuzzing.ends import end_of, same_end
+from validation.fuzzing.checks import Report, check_gravity, check_result, end_of, same, same_end
 from validation.fuzzing.motions import mirrored, turned
 from validation.fuzzing.scenes import random_scene
 

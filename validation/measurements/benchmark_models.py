@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING
 
 from frames import GroundMotion, RayleighDamping, gravity, lumped_mass
 from lir_element import CoulombFriction
-from validation.cases import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing
 from validation.claims.opensees_building import FAR, RATIO, first_period
 from validation.claims.opensees_yielding_runs import bearing as yielding_bearing
 from validation.claims.opensees_yielding_runs import hinged
 from validation.measurements.opensees_cost import slender_frame
 from validation.opensees.isolators import waves
+from validation.scenes import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing
 
 if TYPE_CHECKING:
     from frames import Frame

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from validation.measurements import benchmark_batch as batch
 from validation.measurements import benchmark_runs as runs
 from validation.measurements import benchmark_search as search
 from validation.measurements.benchmark_cases import EFFORTS, METHODS, device_of
@@ -166,7 +165,6 @@ def text(kept: dict[str, Any]) -> str:
     spent = {k: v for k, v in kept.get("profile", {}).items() if k in STRUCTURES and v}
     return render(
         globals(),
-        batch=batch,
         bounds=[f"{STRUCTURES[key].name}: {bound(values)}" for key, values in spent.items()],
         dates=sorted({one["when"] for one in kept.values() if isinstance(one, dict)}),
         efforts=EFFORTS,
@@ -224,10 +222,10 @@ def verdict(goal: float, ratio: float) -> str:
 
 def batch_goals(here: dict[str, Any]) -> list[tuple[str, ...]]:
     """Return the rows of the goals for the batch; on a busy machine CPU time tells more."""
-    many = batch.GOAL_HISTORIES / here["histories"]
+    many = runs.GOAL_HISTORIES / here["histories"]
     clock, cpu = here["clock"] * many, here["cpu"] * many / here["cores"]
     what = (
-        f"{batch.GOAL_HISTORIES} histories of the building in {batch.GOAL_SECONDS / 60.0:g} minutes"
+        f"{runs.GOAL_HISTORIES} histories of the building in {runs.GOAL_SECONDS / 60.0:g} minutes"
     )
     return [
         (
@@ -235,13 +233,13 @@ def batch_goals(here: dict[str, Any]) -> list[tuple[str, ...]]:
             "LIR-DCFP",
             f"{cpu / 60.0:.1f} minutes by CPU time over {here['cores']} cores, {clock / 60.0:.1f} by "
             "the clock",
-            verdict(batch.GOAL_SECONDS, batch.GOAL_SECONDS**2 / cpu),
+            verdict(runs.GOAL_SECONDS, runs.GOAL_SECONDS**2 / cpu),
         ),
         (
             "memory below 2 GiB",
             "LIR-DCFP",
             f"{here['memory'] / 2**30:.2f} GiB",
-            verdict(batch.GOAL_BYTES, batch.GOAL_BYTES**2 / here["memory"]),
+            verdict(runs.GOAL_BYTES, runs.GOAL_BYTES**2 / here["memory"]),
         ),
     ]
 

@@ -21,8 +21,8 @@ from frames import GroundMotion, audit, gravity, lumped_mass, moment_frame, time
 from frames.demo import design, pacoima
 from frames.solve.time_history import escalate_level
 from lir_element import AnalysisWarning, Features
-from validation.cases import example_bearing
 from validation.page import FOLDER, render
+from validation.scenes import example_bearing
 
 if TYPE_CHECKING:
     import xarray as xr

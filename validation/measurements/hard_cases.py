@@ -19,10 +19,10 @@ import numpy as np
 from frames import energy_error, time_history
 from lir_element import RunStatus, cyclic_test
 from lir_element.errors import AnalysisWarning
-from validation.cases import example_bearing
 from validation.measurements.hard_scenes import Case, cases
 from validation.measures import response
 from validation.page import FOLDER, render
+from validation.scenes import example_bearing
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -15,8 +15,7 @@ import numpy as np
 
 from frames import Frame, GroundMotion, Section, lumped_mass
 from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
-from validation.cases import example_bearing
-from validation.scenes import MASS, made
+from validation.scenes import MASS, example_bearing, made
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats

@@ -14,9 +14,8 @@ import numpy as np
 
 from frames import GroundMotion, lumped_mass, moment_frame, time_history
 from lir_element import LIRBearing, VelocityFriction
-from validation.cases import EXAMPLE_RECORD, example_bearing
 from validation.measurements.performance import near_fault
-from validation.scenes import records
+from validation.scenes import EXAMPLE_RECORD, example_bearing, records
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats

@@ -26,7 +26,6 @@ from frames import Frame, GroundMotion, gravity, lumped_mass, moment_frame, time
 from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_element, builtin_element, macro_model, opensees
-from validation.cases import EXAMPLE_MASS, example_bearing
 from validation.claims.opensees_building import slender
 from validation.opensees.frames import add_loads, build
 from validation.opensees.model import (
@@ -37,6 +36,7 @@ from validation.opensees.model import (
     transient_steps,
 )
 from validation.page import FOLDER, render, table
+from validation.scenes import EXAMPLE_MASS, example_bearing
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

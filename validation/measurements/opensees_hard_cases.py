@@ -20,12 +20,11 @@ from frames import lumped_mass, time_history
 from lir_element import CoulombFriction, Element
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import opensees
-from validation.cases import example_bearing
 from validation.measurements.hard_cases import given_back, outcome, quiet
 from validation.measurements.hard_scenes import Case, impact, vertical
-from validation.opensees.devices import DEVICES
 from validation.opensees.trials import (
     CODES,
+    DEVICES,
     ITERATIONS,
     PLAIN,
     ROBUST,
@@ -37,7 +36,7 @@ from validation.opensees.trials import (
 )
 from validation.opensees.worker import LIMIT, Worker
 from validation.page import FOLDER, render
-from validation.scenes import MASS
+from validation.scenes import MASS, example_bearing
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -30,9 +30,9 @@ from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.element import Level, heat_parts, initial_state
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
 from lir_element.layout import WORK, Floats, Records, Words
-from validation.cases import example_bearing
 from validation.measurements.benchmark_models import Structure, strong
 from validation.page import FOLDER, render
+from validation.scenes import example_bearing
 
 REPEATS = 9
 STATES = ("linear", "elastic", "yielding")

@@ -21,8 +21,8 @@ from scipy.interpolate import CubicSpline
 from frames import audit
 from frames.results.assumption_checks import needed_level
 from validation import held_slip
+from validation.fuzzing.level_scenes import meeting, random_rim_scene
 from validation.fuzzing.pool import in_children
-from validation.fuzzing.rim_scenes import meeting, random_rim_scene
 from validation.page import FOLDER, render
 
 if TYPE_CHECKING:

@@ -13,9 +13,8 @@ import numpy as np
 from frames import GroundMotion, time_history
 from lir_element import CoulombFriction, cyclic_test
 from lir_element.errors import AnalysisWarning
-from validation.cases import static_bearing
 from validation.measures import Errors, Response, errors, response
-from validation.scenes import building, static_path
+from validation.scenes import building, static_bearing, static_path
 
 if TYPE_CHECKING:
     from collections.abc import Callable
