@@ -29,21 +29,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Articulated:
-    """A double concave bearing with an articulated slider; the load is 1.
-
-    Attributes
-    ----------
-    radii : (float, float)
-        Effective radii R_i - h_i [m].
-    frictions : (float, float)
-        Coefficients of friction [-].
-    reach : (float, float)
-        Displacements of the hinge at which each rim is met [m].
-    """
+    """A double concave bearing with an articulated slider; the load is 1."""
 
     radii: tuple[float, float]
+    """Effective radii R_i - h_i [m]."""
     frictions: tuple[float, float]
+    """Coefficients of friction [-]."""
     reach: tuple[float, float] = (math.inf, math.inf)
+    """Displacements of the hinge at which each rim is met [m]."""
 
     @property
     def at_zero(self) -> float:

@@ -29,27 +29,18 @@ _RAN = (0, 1)  # exit codes of `lir run` that leave results: checks pass, or som
 
 
 class Review(NamedTuple):
-    """What the comparison of one project found.
-
-    Attributes
-    ----------
-    counts : dict of str to int
-        Number of values compared, by category.
-    worst : dict of str to float
-        Largest relative difference of those that agree.
-    tolerances : dict of str to (float, str)
-        Tolerance, and its reason.
-    bad : list
-        Category, label, reported, found and difference of what disagrees.
-    missing : list
-        Category and label of what was reported and not recomputed.
-    """
+    """What the comparison of one project found."""
 
     counts: dict[str, int]
+    """Number of values compared, by category."""
     worst: dict[str, float]
+    """Largest relative difference of those that agree."""
     tolerances: dict[str, tuple[float, str]]
+    """Tolerance, and its reason."""
     bad: list[list[str]]
+    """Category, label, reported, found and difference of what disagrees."""
     missing: list[list[str]]
+    """Category and label of what was reported and not recomputed."""
 
 
 def projects() -> list[Path]:

@@ -46,27 +46,18 @@ CHECK_HEAD = ("statement", "source", "expected", "got", "holds")
 
 @dataclass(frozen=True)
 class Claim:
-    """What a script claims.
-
-    Attributes
-    ----------
-    name : str
-        Its module in this package, and its page.
-    title : str
-        Heading of the page.
-    statement : str
-        The claim in one sentence.
-    source : str
-        Where it comes from.
-    record : str
-        File of a recorded ground motion that it needs; empty if none.
-    """
+    """What a script claims."""
 
     name: str
+    """Its module in this package, and its page."""
     title: str
+    """Heading of the page."""
     statement: str
+    """The claim in one sentence."""
     source: str
+    """Where it comes from."""
     record: str = ""
+    """File of a recorded ground motion that it needs; empty if none."""
 
 
 @dataclass(frozen=True)
@@ -82,30 +73,20 @@ class Check:
 
 @dataclass(frozen=True)
 class Page:
-    """What a claim hands back.
-
-    Attributes
-    ----------
-    claim : Claim
-        What it claims.
-    result : str
-        The numbers that matter, in one sentence.
-    checks : sequence of Check
-        The statements one by one.
-    body : str
-        The text of the page in Markdown.
-    figures : dict of str to Figure
-        By name; the text refers to them as `figure`.
-    files : dict of str to callable
-        Other files in the folder of figures: by name, a function that writes to a path.
-    """
+    """What a claim hands back."""
 
     claim: Claim
+    """What it claims."""
     result: str
+    """The numbers that matter, in one sentence."""
     checks: Sequence[Check]
+    """The statements one by one."""
     body: str
+    """The text of the page in Markdown."""
     figures: dict[str, Figure]
+    """By name; the text refers to them as `figure`."""
     files: dict[str, Callable[[Path], None]] = field(default_factory=dict)
+    """Other files in the folder of figures: by name, a function that writes to a path."""
 
     @property
     def holds(self) -> str:

@@ -42,25 +42,16 @@ _TWICE = 0.15  # share of the others in which two things are
 
 
 class Outcome(NamedTuple):
-    """What became of a project.
-
-    Attributes
-    ----------
-    number : int
-        Of the project.
-    wrong : str
-        What was put wrong, in words.
-    outcome : str
-        "refused", "checked", "run", or what was found: "traceback", "exit code", "no remedy",
-        "not a number", "disagrees", "hang", "crash".
-    words : str
-        The message, or what was found.
-    """
+    """What became of a project."""
 
     number: int
+    """Of the project."""
     wrong: str
+    """What was put wrong, in words."""
     outcome: str
+    """"refused", "checked", "run", or what was found: "traceback", "exit code", "no remedy", "not a number", "disagrees", "hang", "crash"."""
     words: str
+    """The message, or what was found."""
 
 
 FINDINGS = (

@@ -53,41 +53,28 @@ S = TypeVar("S", bound=Chosen)
 
 @dataclass(frozen=True)
 class Setting:
-    """What is run: which element, and what is modelled.
-
-    Attributes
-    ----------
-    kind : str
-        Element of OpenSees.
-    unmapped : tuple of str
-        What it is given as it stands for the bearing: of "friction", "rate", "yield".
-    speed : bool
-        Whether friction depends on speed.
-    coupled : bool
-        Whether axial force and lateral motion are coupled in our bearing.
-    scale : float
-        Factor of similarity [-].
-    slip : float
-        Yield displacement on a surface [m].
-    dt, their_dt : float
-        Step here, and in OpenSees [s].
-    level, plane : bool
-        Whether the vertical motion, and the motion along y are left out.
-    lift : bool
-        Whether the element of OpenSees lifts the mass as it moves.
-    """
+    """What is run: which element, and what is modelled."""
 
     kind: BuiltinKind
+    """Element of OpenSees."""
     unmapped: tuple[str, ...] = ()
+    """What it is given as it stands for the bearing: of "friction", "rate", "yield"."""
     speed: bool = True
+    """Whether friction depends on speed."""
     coupled: bool = True
+    """Whether axial force and lateral motion are coupled in our bearing."""
     scale: float = 1.0
+    """Factor of similarity [-]."""
     slip: float = SLIP
+    """Yield displacement on a surface [m]."""
     dt: float = STEP
     their_dt: float = STEP
+    """Step here, and in OpenSees [s]."""
     level: bool = False
     plane: bool = False
+    """Whether the vertical motion, and the motion along y are left out."""
     lift: bool = False
+    """Whether the element of OpenSees lifts the mass as it moves."""
 
 
 @dataclass(frozen=True)

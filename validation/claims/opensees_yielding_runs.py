@@ -47,37 +47,25 @@ HINGES = {
 
 @dataclass(frozen=True)
 class Both:
-    """What both programs say of a building; `found` here, `expected` in OpenSees.
-
-    Attributes
-    ----------
-    time : ndarray, (n,)
-        Times [s].
-    names : tuple of str
-        Links, or hinges with the moment's axis.
-    moves : tuple of two ndarrays, (n, nodes, 3)
-        Displacements of all nodes from the beginning, found and expected [m].
-    deformation, force : tuple of two ndarrays, (n, parts)
-        Of links [m, N], or plastic rotations and moments of hinges [rad, N m].
-    work : tuple of two ndarrays, (parts,)
-        Taken up until the end, without what is elastic of links that yield [J].
-    limit : ndarray, (parts,)
-        Deformation at yield, 1 where there is none [m, rad].
-    slip : float
-        Largest slip in the bearings' interface [m].
-    ledger : float
-        Error of the energy balance here over the input [-].
-    """
+    """What both programs say of a building; `found` here, `expected` in OpenSees."""
 
     time: FloatArray
+    """(n,): Times [s]."""
     names: tuple[str, ...]
+    """Links, or hinges with the moment's axis."""
     moves: tuple[FloatArray, FloatArray]
+    """(n, nodes, 3): Displacements of all nodes from the beginning, found and expected [m]."""
     deformation: tuple[FloatArray, FloatArray]
     force: tuple[FloatArray, FloatArray]
+    """(n, parts): Of links [m, N], or plastic rotations and moments of hinges [rad, N m]."""
     work: tuple[FloatArray, FloatArray]
+    """(parts,): Taken up until the end, without what is elastic of links that yield [J]."""
     limit: FloatArray
+    """(parts,): Deformation at yield, 1 where there is none [m, rad]."""
     slip: float
+    """Largest slip in the bearings' interface [m]."""
     ledger: float
+    """Error of the energy balance here over the input [-]."""
 
     @property
     def displacement(self) -> float:

@@ -36,23 +36,16 @@ FOOT, HEAD, COLUMN = 1, 2, 1  # tags
 
 @dataclass(frozen=True)
 class Path:
-    """What a column did.
-
-    Attributes
-    ----------
-    axial, moment : ndarray, (n,)
-        Axial force (tension positive) and moment at the foot [N, N m].
-    rotation : ndarray, (n,)
-        Plastic rotation of the hinge there [rad].
-    drift, stretch : ndarray, (n,)
-        The path [m].
-    """
+    """What a column did."""
 
     axial: FloatArray
     moment: FloatArray
+    """(n,): Axial force (tension positive) and moment at the foot [N, N m]."""
     rotation: FloatArray
+    """(n,): Plastic rotation of the hinge there [rad]."""
     drift: FloatArray
     stretch: FloatArray
+    """(n,): The path [m]."""
 
     @property
     def dissipated(self) -> float:

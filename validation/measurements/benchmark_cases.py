@@ -48,24 +48,16 @@ COARSE = 2.5e-3
 
 @dataclass(frozen=True)
 class Effort:
-    """How much of a structure is run.
-
-    Attributes
-    ----------
-    kinds : tuple of str
-        Elements in OpenSees.
-    full : bool
-        Whether OpenSees is run at all steps; else it takes those of structure b.
-    window : float
-        Length of the part of the motion in which the programs take turns [s].
-    turns : int
-        How often.
-    """
+    """How much of a structure is run."""
 
     kinds: tuple[str, ...] = (*PLAIN, *RESILIENT)
+    """Elements in OpenSees."""
     full: bool = True
+    """Whether OpenSees is run at all steps; else it takes those of structure b."""
     window: float = 4.0
+    """Length of the part of the motion in which the programs take turns [s]."""
     turns: int = 3
+    """How often."""
 
 
 EFFORTS = {
@@ -80,27 +72,18 @@ EFFORTS = {
 
 @dataclass
 class Found:
-    """What was found of a structure, as it is kept: numbers, texts, lists and dictionaries.
-
-    Attributes
-    ----------
-    key : str
-        Of the structure.
-    sizes : dict
-        Numbers of bearings, degrees of freedom, bearing coordinates and modes.
-    here : dict
-        By device and method: runs at all steps, the fine one last, and the step chosen.
-    there : dict
-        By kind: runs, steps and settings, "usual" and "best", and what the search tried.
-    pairs : dict
-        By kind: medians of the ratios of cost and of the costs themselves.
-    """
+    """What was found of a structure, as it is kept: numbers, texts, lists and dictionaries."""
 
     key: str
+    """Of the structure."""
     sizes: dict[str, int] = field(default_factory=dict)
+    """Numbers of bearings, degrees of freedom, bearing coordinates and modes."""
     here: dict[str, dict[str, Any]] = field(default_factory=dict)
+    """By device and method: runs at all steps, the fine one last, and the step chosen."""
     there: dict[str, dict[str, Any]] = field(default_factory=dict)
+    """By kind: runs, steps and settings, "usual" and "best", and what the search tried."""
     pairs: dict[str, dict[str, Any]] = field(default_factory=dict)
+    """By kind: medians of the ratios of cost and of the costs themselves."""
 
 
 def device_of(kind: str) -> str:

@@ -35,27 +35,18 @@ MADE_SCALE = 0.9  # of the synthetic motions, where there is no record
 
 @dataclass(frozen=True)
 class Structure:
-    """One structure of the benchmark.
-
-    Attributes
-    ----------
-    key : str
-        By which results are kept.
-    case : str
-        Letter of the case it belongs to.
-    bays : (int, int)
-        Numbers of bays, 0 for a mass on one bearing.
-    storeys : int
-        Number of storeys.
-    yields : bool
-        Whether its members have plastic hinges.
-    """
+    """One structure of the benchmark."""
 
     key: str
+    """By which results are kept."""
     case: str
+    """Letter of the case it belongs to."""
     bays: tuple[int, int]
+    """Numbers of bays, 0 for a mass on one bearing."""
     storeys: int
+    """Number of storeys."""
     yields: bool = False
+    """Whether its members have plastic hinges."""
 
     @property
     def bearings(self) -> int:

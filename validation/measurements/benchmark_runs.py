@@ -54,38 +54,26 @@ _RESCUE_TOLERANCE = 1e-8  # m and rad, of the steps of a setting that fails
 
 @dataclass(frozen=True)
 class Run:
-    """What one run took and found.
-
-    Attributes
-    ----------
-    dt : float
-        Step [s]; NaN where the program chose it.
-    steps : int
-        Steps of the motion that were done.
-    loop : float
-        CPU time of the steps alone [s].
-    whole : float
-        CPU time with building the model, equilibrium at rest and reading the results [s].
-    peak : float
-        Largest displacement of a bearing in plan [m].
-    status : str
-        "ok", or why there is no result.
-    rescued : int
-        Steps of OpenSees that its algorithm did not solve, and another one did.
-    iterations, states, tangents : int
-        Of Newton's method here; determinations of all bearings' states, and tangents made.
-    """
+    """What one run took and found."""
 
     dt: float
+    """Step [s]; NaN where the program chose it."""
     steps: int
+    """Steps of the motion that were done."""
     loop: float
+    """CPU time of the steps alone [s]."""
     whole: float
+    """CPU time with building the model, equilibrium at rest and reading the results [s]."""
     peak: float
+    """Largest displacement of a bearing in plan [m]."""
     status: str = "ok"
+    """"ok", or why there is no result."""
     rescued: int = 0
+    """Steps of OpenSees that its algorithm did not solve, and another one did."""
     iterations: int = 0
     states: int = 0
     tangents: int = 0
+    """Of Newton's method here; determinations of all bearings' states, and tangents made."""
 
     @property
     def step(self) -> float:

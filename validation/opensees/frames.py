@@ -35,25 +35,17 @@ PlaceBearing: TypeAlias = Callable[[int, int, int, "LIRBearing"], object]
 
 @dataclass(frozen=True)
 class Built:
-    """Tags of what was built.
-
-    Attributes
-    ----------
-    nodes, members : dict of str to int
-        By name.
-    bases : tuple of int
-        Nodes above the bearings, in the frame's order.
-    bearings : tuple of int
-        Elements of the bearings in that order; none where they were left out.
-    links : dict of str to int
-        Nonlinear links by name.
-    """
+    """Tags of what was built."""
 
     nodes: dict[str, int]
     members: dict[str, int]
+    """By name."""
     bases: tuple[int, ...]
+    """Nodes above the bearings, in the frame's order."""
     bearings: tuple[int, ...]
+    """Elements of the bearings in that order; none where they were left out."""
     links: dict[str, int]
+    """Nonlinear links by name."""
 
 
 def frame_history(

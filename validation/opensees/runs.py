@@ -42,28 +42,18 @@ Place: TypeAlias = Callable[[int, int, int], object]
 
 @dataclass(frozen=True)
 class Track:
-    """What a run did.
-
-    Attributes
-    ----------
-    time : ndarray, (n,)
-        Times [s].
-    displacement : ndarray, (n, nodes, 6)
-        Of the nodes asked for, relative to the ground [m, rad]; of one bearing (n, 3).
-    force : ndarray, (n, elements, 3)
-        Which the elements asked for need on the node above, as `bearing_force` of a Dataset of
-        `frames` [N]; of one bearing (n, 3).
-    seconds : float
-        Time of computation [s].
-    loose : int
-        Steps with the larger tolerance, see `opensees_model.advance`.
-    """
+    """What a run did."""
 
     time: FloatArray
+    """(n,): Times [s]."""
     displacement: FloatArray
+    """(n, nodes, 6): Of the nodes asked for, relative to the ground [m, rad]; of one bearing (n, 3)."""
     force: FloatArray
+    """(n, elements, 3): Which the elements asked for need on the node above, as `bearing_force` of a Dataset of `frames` [N]; of one bearing (n, 3)."""
     seconds: float
+    """Time of computation [s]."""
     loose: int
+    """Steps with the larger tolerance, see `opensees_model.advance`."""
 
 
 def cycle(place: Place, height: float, load: float, path: FloatArray) -> Track:
