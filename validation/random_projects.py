@@ -13,7 +13,6 @@ number again.
 
 from __future__ import annotations
 
-import argparse
 import re
 import tempfile
 from collections import Counter
@@ -26,7 +25,7 @@ import numpy as np
 from typer.testing import CliRunner
 
 from frames.command.app import app
-from validation.fuzzing.pool import in_children
+from validation.fuzzing.pool import in_children, series_parser
 from validation.fuzzing.projects import ERRORS, SPOILT, Document, sound
 from validation.golden_review import recomputed
 
@@ -198,10 +197,7 @@ def table(found: Sequence[Outcome]) -> str:
 
 def main(given: Sequence[str] | None = None) -> int:
     """Run the series, print the table; return 1 where there is a finding."""
-    parser = argparse.ArgumentParser(prog="python -m validation.random_projects")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--count", type=int, default=200)
-    parser.add_argument("--workers", type=int, default=1)
+    parser = series_parser("validation.random_projects", keeps=False, count=200)
     parser.add_argument("--most", type=float, default=1.0, help="share of sound ones to be run")
     parser.add_argument("--only", type=int, metavar="NUMBER")
     chosen = parser.parse_args(given)

@@ -24,13 +24,13 @@ from frames import GroundMotion, lumped_mass, time_history
 from validation.fuzzing.buildings import random_building, try_building
 from validation.fuzzing.checks import Report
 from validation.fuzzing.page import write
-from validation.fuzzing.pool import in_children
+from validation.fuzzing.pool import in_children, kept, series_parser
 from validation.fuzzing.scenes import random_scene
 from validation.fuzzing.trial import try_scene
 from validation.scenes import LEVELS_STATIC, static_bearing
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
 Task = tuple[str, int]
 """Test case or building, and its number."""
@@ -98,11 +98,8 @@ def only(task: Task, seed: int, level: str | None) -> None:
 
 def arguments(given: Sequence[str] | None) -> argparse.Namespace:
     """Read the command line."""
-    parser = argparse.ArgumentParser(prog="python -m validation.random_scenes")
-    parser.add_argument("--seed", type=int, default=1, help="of the series")
-    parser.add_argument("--count", type=int, default=5000, help="number of test cases")
+    parser = series_parser("validation.random_scenes", count=5000)
     parser.add_argument("--buildings", type=int, help="under their weight (0.16 a test case)")
-    parser.add_argument("--workers", type=int, default=1, help="child processes")
     parser.add_argument("--minutes", type=float, default=float("inf"), help="begin none after")
     parser.add_argument("--only", type=int, metavar="NUMBER", help="run this test case alone")
     parser.add_argument(
@@ -112,7 +109,6 @@ def arguments(given: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--building", action="store_true", help="NUMBER is that of a building")
     parser.add_argument("--page", type=Path, default=TARGET, help="where the page is written")
-    parser.add_argument("--keep", type=Path, help="a file for the reports, JSON by line")
     found = parser.parse_args(given)
     for name in ("count", "workers"):
         if getattr(found, name) < 1:
@@ -129,10 +125,14 @@ def main(given: Sequence[str] | None = None) -> int:
         kind = "building" if chosen.building else "scene"
         only((kind, chosen.only), chosen.seed, chosen.level)
         return 0
-    warm_up()
     began = time.monotonic()
     found: dict[str, list[dict[str, Any]]] = {"scene": [], "building": []}
-    todo = tasks(chosen.count, chosen.buildings, chosen.minutes)
+    for entry in kept(chosen.kept):
+        found["building" if entry["model"] == "building" else "scene"].append(entry)
+    todo: Iterable[Task] = ()
+    if not chosen.kept:
+        warm_up()
+        todo = tasks(chosen.count, chosen.buildings, chosen.minutes)
     run = partial(perform, seed=chosen.seed, level=chosen.level)
     for task, result, how in in_children(run, todo, chosen.workers, LIMIT):
         entry = lost(task, how, chosen.seed, chosen.level) if how else result

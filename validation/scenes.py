@@ -19,14 +19,30 @@ from frames.demo import design, pacoima
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from frames import Frame
     from lir_element.element import AnyLevel
     from lir_element.layout import Floats
 
-MASS = 204e3
+LEVELS_STATIC: tuple[AnyLevel, ...] = ("pendulum", "contact", "rigid_body")
+"""Levels of the static cyclic test."""
+
+LEVELS_HISTORY: tuple[AnyLevel, ...] = ("rigid_body", "contact", "pendulum")
+"""Levels of the numerical example."""
+
+LEVELS_DRIFT: tuple[AnyLevel, ...] = ("pendulum", "rigid_body")
+"""Levels at which the drift under Bouc-Wen friction is followed through the numerical example."""
+
+EXAMPLE_MASS = 204e3
+"""Mass on the bearing of the numerical example [kg] (section 3.1)."""
+
+EXAMPLE_RECORD = "RSN1044_NORTHR_NWH360.AT2"
+"""PEER file of the numerical example: Newhall, Northridge 1994, 360."""
+
+MASS = EXAMPLE_MASS
 REACH = 0.185
 PULSE_STEP = 0.005
-NEWHALL = "RSN1044_NORTHR_NWH360.AT2"
 TCU065 = ("TCU065-E.ATH", "TCU065-N.ATH", "TCU065-V.ATH")
 
 
@@ -65,11 +81,15 @@ def made(name: str, duration: float, **components: tuple[float, ...]) -> GroundM
     return GroundMotion(**waves, dt=PULSE_STEP, name=name)
 
 
+def path_along(turns: Sequence[float], spacing: float) -> Floats:
+    """Return a path (n,) from turn to turn, its points `spacing` apart [m]."""
+    pieces = [np.linspace(a, b, round(abs(b - a) / spacing) + 1)[1:] for a, b in pairwise(turns)]
+    return np.concatenate([turns[:1], *pieces])
+
+
 def static_path(reach: float = REACH, spacing: float = 1e-4) -> Floats:
     """Return two cycles of `reach`, points `spacing` apart [m]."""
-    turns = [0.0, reach, -reach, reach, -reach, 0.0]
-    pieces = [np.linspace(a, b, round(abs(b - a) / spacing) + 1)[1:] for a, b in pairwise(turns)]
-    return np.concatenate([[0.0], *pieces])
+    return path_along([0.0, reach, -reach, reach, -reach, 0.0], spacing)
 
 
 def records() -> Path | None:
@@ -131,13 +151,13 @@ def recorded_scenes(folder: Path | None) -> list[Scene]:
     scenes: list[Scene] = []
     if folder is None:
         return scenes
-    if (folder / NEWHALL).is_file():
+    if (folder / EXAMPLE_RECORD).is_file():
         scenes.append(
             Scene(
                 "Newhall",
                 "the paper's example, one component of the record of 1994",
                 example_bearing(),
-                GroundMotion.from_at2(x=folder / NEWHALL),
+                GroundMotion.from_at2(x=folder / EXAMPLE_RECORD),
                 20.0,
                 explicit=6.0,
             )
@@ -165,22 +185,6 @@ def building(duration: float = 7.0) -> tuple[Frame, GroundMotion, float] | None:
     except FileNotFoundError:
         return None
     return moment_frame(bearing=design()), motion, duration
-
-
-LEVELS_STATIC: tuple[AnyLevel, ...] = ("pendulum", "contact", "rigid_body")
-"""Levels of the static cyclic test."""
-
-LEVELS_HISTORY: tuple[AnyLevel, ...] = ("rigid_body", "contact", "pendulum")
-"""Levels of the numerical example."""
-
-LEVELS_DRIFT: tuple[AnyLevel, ...] = ("pendulum", "rigid_body")
-"""Levels at which the drift under Bouc-Wen friction is followed through the numerical example."""
-
-EXAMPLE_MASS = 204e3
-"""Mass on the bearing of the numerical example [kg] (section 3.1)."""
-
-EXAMPLE_RECORD = "RSN1044_NORTHR_NWH360.AT2"
-"""PEER file of the numerical example: Newhall, Northridge 1994, 360."""
 
 
 def static_bearing() -> LIRBearing:

@@ -38,7 +38,7 @@ from validation.opensees.trials import (
     take_back,
 )
 from validation.opensees.worker import Worker
-from validation.scenes import MASS
+from validation.scenes import MASS, static_path
 
 LOAD = 150e3
 REACH = 0.185
@@ -89,7 +89,7 @@ def test_restoring_force_is_centred_on_the_slip(loop):
 
 
 def test_all_statements_on_the_static_test_hold():
-    half = static_test.path()[: 3 * round(static_test.REACH / static_test.STEP)]
+    half = static_path()[: 3 * round(static_test.REACH / static_test.STEP)]
     checks = static_checks(loops(half))
     assert len(checks) == 8
     assert not [check for check in checks if not check.holds]

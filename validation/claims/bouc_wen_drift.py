@@ -17,6 +17,7 @@ from scipy.integrate import quad
 
 from frames import GroundMotion, lumped_mass, time_history
 from frames.plots.plot_style import GREY, PALETTE, add_legend, caption, grid_of, new_figure
+from lir_element.units import STANDARD_GRAVITY
 from validation.page import Check, Claim, Page, render, run, stated
 from validation.scenes import EXAMPLE_MASS, EXAMPLE_RECORD, LEVELS_DRIFT, example_bearing
 
@@ -38,7 +39,6 @@ CLAIM = Claim(
     "derived; paper 3 (law), 3.1 (Newhall)",
     EXAMPLE_RECORD,
 )
-GRAVITY = 9.80665
 EXPONENTS = (1.0, 2.0, 4.0, 8.0, 20.0)
 YIELDS = (0.01e-3, 0.1e-3, 1e-3)  # m
 HELD, VIBRATION = 0.19, 0.01  # g, of the synthetic motion: held, and its vibration
@@ -63,7 +63,7 @@ def made_input() -> GroundMotion:
     held = HELD * share**2 * (3.0 - 2.0 * share)
     since = t - RISE - REST
     wave = VIBRATION * np.sin(2.0 * np.pi * FREQUENCY * since) * (since > 0.0)
-    return GroundMotion(x=-GRAVITY * (held + wave), dt=dt, name="held and vibrating")
+    return GroundMotion(x=-STANDARD_GRAVITY * (held + wave), dt=dt, name="held and vibrating")
 
 
 def bias() -> tuple[float, float]:

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +20,7 @@ from frames.plots.plot_style import PALETTE, add_legend, caption, grid_of, new_f
 from lir_element import CoulombFriction, LIRBearing, cyclic_test
 from validation.articulated import articulated
 from validation.page import Check, Claim, Page, render, run, stated
+from validation.scenes import path_along
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -279,9 +279,7 @@ class Loops:
 
 def loops(case: Case) -> Loops:
     """Run a case: out to the amplitude and one full cycle."""
-    turns = [0.0, case.amplitude, -case.amplitude, case.amplitude]
-    pieces = [np.linspace(a, b, round(abs(b - a) / STEP) + 1)[1:] for a, b in pairwise(turns)]
-    path = np.concatenate([[0.0], *pieces])
+    path = path_along([0.0, case.amplitude, -case.amplitude, case.amplitude], STEP)
     data = cyclic_test(case.bearing, path, LOAD, on_failure="raise")
     force = data["bearing_force"].sel(axis="x")[:, 0].to_numpy() / LOAD
     sliding = data["slider_displacement"].sel(axis="x")[:, 0].to_numpy()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +11,7 @@ import numpy as np
 from lir_element import CoulombFriction, LIRBearing, cyclic_test
 from lir_element.opensees import builtin_element, builtin_values
 from validation.opensees.runs import cycle
-from validation.scenes import static_bearing
+from validation.scenes import path_along, static_bearing
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -70,12 +69,8 @@ def plain(scale: float = 1.0) -> LIRBearing:
 
 def path_of(scale: float, finer: int = 1) -> FloatArray:
     """Return out to the amplitude times a factor, and one full cycle; `finer` divides its steps."""
-    turns = [0.0, AMPLITUDE, -AMPLITUDE, AMPLITUDE]
-    pieces = [
-        np.linspace(a, b, round(finer * STEPS * abs(b - a) / AMPLITUDE) + 1)[1:]
-        for a, b in pairwise(turns)
-    ]
-    return scale * np.concatenate([[0.0], *pieces])
+    way = path_along([0.0, AMPLITUDE, -AMPLITUDE, AMPLITUDE], AMPLITUDE / (finer * STEPS))
+    return scale * way
 
 
 def here(scale: float = 1.0) -> Loop:

@@ -31,11 +31,17 @@ from validation.claims.opensees_macro_runs import (
     scenes_runs,
     settings_runs,
 )
-from validation.claims.static_test import LOAD, REACH, STEP, path
+from validation.claims.static_test import LOAD, REACH, STEP
 from validation.opensees.model import ABOVE
 from validation.opensees.trials import Device, Shaken, macro, pull, shake
 from validation.page import Check, Claim, Page, render, run, stated
-from validation.scenes import EXAMPLE_MASS, EXAMPLE_RECORD, example_bearing, static_bearing
+from validation.scenes import (
+    EXAMPLE_MASS,
+    EXAMPLE_RECORD,
+    example_bearing,
+    static_bearing,
+    static_path,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -264,7 +270,7 @@ def page(folder: Path | None) -> Page:
     """Run all and return the page."""
     assert folder is not None
     motion = GroundMotion.from_at2(x=folder / EXAMPLE_RECORD)
-    found, shapes = loops(path()), rims()
+    found, shapes = loops(static_path()), rims()
     ours, theirs = histories(motion)
     results = [*static_checks(found), *rim_checks(shapes), *history_checks(ours, theirs)]
     scenes, orbits = scenes_runs()

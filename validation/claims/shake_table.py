@@ -21,6 +21,7 @@ from matplotlib.lines import Line2D
 from frames import Frame, GroundMotion, energy_error, shear_building, time_history
 from frames.plots.plot_style import GREY, PALETTE, add_legend, caption, grid_of, new_figure
 from lir_element import AnalysisWarning, LIRBearing, VelocityFriction
+from lir_element.units import STANDARD_GRAVITY
 from validation.page import Check, Claim, Page, render, run, stated
 
 if TYPE_CHECKING:
@@ -39,7 +40,6 @@ CLAIM = Claim(
     "and a base shear below 60 % of the weight",
     "paper 4, Figs 10-11",
 )
-GRAVITY = 9.80665
 WEIGHT = 26.6e3  # N, paper
 BEARINGS = 4
 PERIOD = 1.25  # s, of the input: about half that of the sliding pendulum, 2.42 s
@@ -55,7 +55,7 @@ SLIDE = 1e-3  # m, slip in one direction that counts as a slide
 
 def seat_stiffness(frequency: float = VERTICAL) -> float:
     """Return the vertical stiffness of a bearing's seat for a vertical frequency [N/m]."""
-    return WEIGHT / BEARINGS / GRAVITY * (2.0 * math.pi * frequency) ** 2
+    return WEIGHT / BEARINGS / STANDARD_GRAVITY * (2.0 * math.pi * frequency) ** 2
 
 
 def bearing(**changes: Any) -> LIRBearing:
@@ -77,7 +77,7 @@ def bearing(**changes: Any) -> LIRBearing:
 
 def structure(device: LIRBearing) -> Frame:
     """Return two stiff storeys on a square of four bearings, guided along x as on the table."""
-    mass = WEIGHT / GRAVITY / 3.0
+    mass = WEIGHT / STANDARD_GRAVITY / 3.0
     # equal masses m and storeys k on a held base: first circular frequency 0.618 sqrt(k / m)
     stiffness = mass * (2.0 * math.pi / STRUCTURE_PERIOD / 0.618034) ** 2
     frame = shear_building(

@@ -9,7 +9,6 @@ constant speed. Closed forms: docs/theory.md, section 2.
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,7 +27,7 @@ from frames.plots.plot_style import (
 )
 from lir_element import cyclic_test
 from validation.page import Check, Claim, Page, render, run, stated
-from validation.scenes import LEVELS_STATIC, static_bearing
+from validation.scenes import LEVELS_STATIC, REACH, static_bearing, static_path
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -37,7 +36,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-    from frames._types import FloatArray
     from lir_element.element import AnyLevel
 
 CLAIM = Claim(
@@ -47,22 +45,14 @@ CLAIM = Claim(
     "paper 2.2, Fig. 4",
 )
 LOAD = 150e3  # N
-REACH = 0.185  # m
 FRICTION = 0.066
 STEP = 1e-4  # m, between the points of the path
 SLIPS = 1e-4  # m, slip that counts as sliding
 
 
-def path() -> FloatArray:
-    """Return two cycles of 0.185 m, points 0.1 mm apart."""
-    turns = [0.0, REACH, -REACH, REACH, -REACH, 0.0]
-    pieces = [np.linspace(a, b, round(abs(b - a) / STEP) + 1)[1:] for a, b in pairwise(turns)]
-    return np.concatenate([[0.0], *pieces])
-
-
 def loops(levels: Sequence[AnyLevel] = LEVELS_STATIC) -> dict[str, xr.Dataset]:
     """Run the test at some levels of fidelity."""
-    bearing, way = static_bearing(), path()
+    bearing, way = static_bearing(), static_path()
     return {level: cyclic_test(bearing, way, axial_load=LOAD, level=level) for level in levels}
 
 
@@ -72,7 +62,7 @@ DYNAMIC = 0.01
 
 def checks(data: xr.Dataset, level: str) -> list[Check]:
     """Check the statements about the test at one level."""
-    bearing, way = static_bearing(), path()
+    bearing, way = static_bearing(), static_path()
     slip = data["interface_slip"].sel(axis="x")[:, 0].to_numpy()
     force = data["bearing_force"].sel(axis="x")[:, 0].to_numpy()
     turn = round(REACH / STEP)
@@ -106,7 +96,7 @@ def draw(found: dict[str, xr.Dataset]) -> Figure:
     """Draw the normalised loops, after the paper's Fig. 4, and the slip of the interface."""
     drawn = new_figure(3.1)
     left, right = grid_of(drawn, 1, 2)[0]
-    way, limit = 1e3 * path(), static_bearing().force_limit(1.0)
+    way, limit = 1e3 * static_path(), static_bearing().force_limit(1.0)
     handles = []
     for k, (level, data) in enumerate(found.items()):
         look: dict[str, Any] = {"color": PALETTE[k], "linestyle": LINES[k], "linewidth": WIDTHS[k]}

@@ -10,6 +10,7 @@ import numpy as np
 
 from frames import GroundMotion, ModelError, Section, moment_frame, shear_building, time_history
 from lir_element import AnalysisError, LIRBearing
+from lir_element.units import STANDARD_GRAVITY
 from validation.fuzzing.bearings import log_uniform, random_bearing
 from validation.fuzzing.checks import Report, check_gravity
 from validation.fuzzing.scenes import storey_values
@@ -36,7 +37,7 @@ def random_building(seed: int, number: int) -> tuple[Frame, str]:
     grid = {place: kinds[int(rng.integers(0, len(kinds)))] for place in places}
     area = bays[0] * width[0] * bays[1] * width[1]
     slider = np.mean([np.pi * device.slider_radius**2 for device in grid.values()])
-    mass = float(len(grid) * slider * log_uniform(rng, *PRESSURES) / 9.80665)
+    mass = float(len(grid) * slider * log_uniform(rng, *PRESSURES) / STANDARD_GRAVITY)
     if rng.random() < 0.7:
         side = float(rng.uniform(0.25, 0.7))
         frame = moment_frame(
@@ -55,12 +56,12 @@ def random_building(seed: int, number: int) -> tuple[Frame, str]:
         kind = "stick"
     for _ in range(int(rng.integers(0, 4))):  # loads that are not masses, downwards or aside
         node = str(rng.choice(sorted(set(frame.masses))))
-        force = 9.80665 * mass * rng.uniform(0.0, 0.02, 3) * np.array([0.1, 0.1, -3.0])
+        force = STANDARD_GRAVITY * mass * rng.uniform(0.0, 0.02, 3) * np.array([0.1, 0.1, -3.0])
         frame.add_load(node, [*force, 0.0, 0.0, 0.0])
     smallest = min(device.yield_displacement for device in grid.values())
     line = (
         f"{kind}, {bays[0]} x {bays[1]} bays, {storeys} storeys, {mass / 1e3:.3g} t, "
-        f"{mass * 9.80665 / len(grid) / slider / 1e6:.3g} MPa, "
+        f"{mass * STANDARD_GRAVITY / len(grid) / slider / 1e6:.3g} MPa, "
         f"smallest yield displacement {1e3 * smallest:.2g} mm"
     )
     return frame, line

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames import GroundMotion
+from lir_element.units import STANDARD_GRAVITY
 from validation.fuzzing.bearings import chosen, log_uniform
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
 
-GRAVITY = 9.80665
 MOST_SAMPLES = 4000
 DIRECTIONS = {"xyz": 0.45, "xy": 0.25, "x": 0.15, "xz": 0.08, "y": 0.04, "z": 0.03}
 """Shares of the components that a motion has."""
@@ -30,9 +30,9 @@ def random_motion(
     waves: dict[str, FloatArray] = {}
     for axis in chosen(rng, DIRECTIONS):
         if axis == "z":
-            strength = GRAVITY * log_uniform(rng, 0.01, 1.6)
+            strength = STANDARD_GRAVITY * log_uniform(rng, 0.01, 1.6)
         else:
-            strength = GRAVITY * log_uniform(rng, 0.02, 1.5 if rng.random() < 0.2 else 0.5)
+            strength = STANDARD_GRAVITY * log_uniform(rng, 0.02, 1.5 if rng.random() < 0.2 else 0.5)
         waves[axis] = random_wave(rng, t, strength, period if axis != "z" else 0.3 * period)
     return GroundMotion(**waves, dt=step, name="random")
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import argparse
+import json
 import multiprocessing
 import time
 from dataclasses import dataclass
 from multiprocessing.connection import wait
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -22,6 +25,46 @@ class _Worker:
     pipe: Connection
     task: Any = None
     deadline: float = 0.0
+
+
+def series_parser(module: str, *, keeps: bool = True, **counts: int) -> argparse.ArgumentParser:
+    """Return the parser of a series of test cases, with an option for each count."""
+    parser = argparse.ArgumentParser(prog=f"python -m {module}")
+    parser.add_argument("--seed", type=int, default=1, help="series of test cases (default 1)")
+    for name, count in counts.items():
+        parser.add_argument(f"--{name}", type=int, default=count, help=f"how many ({count})")
+    parser.add_argument("--workers", type=int, default=1, help="child processes")
+    if keeps:
+        parser.add_argument("--keep", type=Path, help="a file for the numbers, JSON by line")
+        parser.add_argument("--kept", type=Path, help="such a file: the page alone, from it")
+    return parser
+
+
+def kept(path: Path | None) -> list[dict[str, Any]]:
+    """Return what a file of numbers holds, JSON by line."""
+    lines = path.read_text(encoding="utf-8").splitlines() if path else []
+    return [json.loads(line) for line in lines]
+
+
+def series(
+    perform: Callable[[Any], dict[str, Any]],
+    tasks: Iterable[Any],
+    options: argparse.Namespace,
+    limit: float,
+) -> tuple[list[dict[str, Any]], list[tuple[Any, str]]]:
+    """Run a series, and keep its numbers if asked; return them, and tasks that hung or died."""
+    if options.kept:
+        return kept(options.kept), []
+    found, lost = [], []
+    for task, result, how in in_children(perform, tasks, options.workers, limit):
+        if how:
+            lost.append((task, how))
+            continue
+        found.append(result)
+        if options.keep:
+            with options.keep.open("a", encoding="utf-8") as file:
+                file.write(json.dumps(result) + "\n")
+    return found, lost
 
 
 def in_children(

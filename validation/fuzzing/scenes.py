@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from frames import Frame, ModalDamping, RayleighDamping, lumped_mass, moment_frame, shear_building
+from lir_element.units import STANDARD_GRAVITY
 from validation.fuzzing.bearings import SIZES, chosen, log_uniform, random_bearing
-from validation.fuzzing.motions import GRAVITY, random_motion
+from validation.fuzzing.motions import random_motion
 
 if TYPE_CHECKING:
     from frames import GroundMotion
@@ -94,7 +95,7 @@ def random_scene(seed: int, number: int, level: str | None = None) -> Scene:
     devices, build = _MAKERS[kind](rng)
     length = min(device.effective_radius for device in devices)
     rng = np.random.default_rng((seed, number, 2))
-    motion = random_motion(rng, 2.0 * math.pi * math.sqrt(length / GRAVITY))
+    motion = random_motion(rng, 2.0 * math.pi * math.sqrt(length / STANDARD_GRAVITY))
     options = random_options(np.random.default_rng((seed, number, 3)), kind, motion, build)
     if level is not None:
         options["level"] = level
@@ -147,7 +148,7 @@ def random_options(
 def random_load(rng: np.random.Generator, bearing: LIRBearing) -> float:
     """Return a mass for a bearing [kg]: 2 % to twice of its design load."""
     low, high = (0.02, 0.2) if rng.random() < 0.15 else (0.2, 2.0)
-    return bearing.resolved()["design_load"] / GRAVITY * log_uniform(rng, low, high)
+    return bearing.resolved()["design_load"] / STANDARD_GRAVITY * log_uniform(rng, low, high)
 
 
 def a_mass(rng: np.random.Generator) -> tuple[list[LIRBearing], Build]:

@@ -10,8 +10,9 @@ import numpy as np
 from frames import ModalDamping, moment_frame, shear_building
 from frames.laws import Bilinear, BoucWen, Gap, HertzGap, Pinching, PlasticHinge, Tie, ViscousDamper
 from lir_element import CoulombFriction, LIRBearing
+from lir_element.units import STANDARD_GRAVITY
 from validation.fuzzing.bearings import log_uniform
-from validation.fuzzing.motions import GRAVITY, random_motion
+from validation.fuzzing.motions import random_motion
 
 if TYPE_CHECKING:
     from frames import Frame, GroundMotion
@@ -28,7 +29,7 @@ def random_yielding(seed: int, number: int) -> tuple[Frame, GroundMotion, dict[s
         frame, line = _frame(rng)
     more = [add(rng, frame) for share, add in _EXTRAS if rng.random() < share]
     length = next(iter(frame.bearings.values())).bearing.effective_radius
-    motion = random_motion(rng, 2.0 * math.pi * math.sqrt(length / GRAVITY))
+    motion = random_motion(rng, 2.0 * math.pi * math.sqrt(length / STANDARD_GRAVITY))
     peak = max(float(np.abs(motion.components).max()), 1e-9)
     motion = motion.scaled(log_uniform(rng, 2.0, 12.0) / peak)
     dt = None if rng.random() < 0.5 else float(rng.choice([0.002, 0.005, 0.01]))
@@ -75,7 +76,7 @@ def _stick(rng: np.random.Generator) -> tuple[Frame, str]:
     mass = log_uniform(rng, 5e4, 1e6)
     period = 0.1 * storeys * rng.uniform(0.4, 1.6)
     stiffness = (2.0 * math.pi / period) ** 2 * mass * storeys**2 / 2.5
-    weight = (storeys + 1) * mass * GRAVITY
+    weight = (storeys + 1) * mass * STANDARD_GRAVITY
     share = log_uniform(rng, 0.08, 0.6)
 
     def law(k: float) -> Bilinear | BoucWen:
@@ -99,7 +100,7 @@ def _stick(rng: np.random.Generator) -> tuple[Frame, str]:
 def _frame(rng: np.random.Generator) -> tuple[Frame, str]:
     bays, storeys = (int(rng.integers(1, 3)), int(rng.integers(1, 3))), int(rng.integers(1, 5))
     columns = (bays[0] + 1) * (bays[1] + 1)
-    weight = 1450.0 * GRAVITY * 36.0 * bays[0] * bays[1] * (storeys + 1)
+    weight = 1450.0 * STANDARD_GRAVITY * 36.0 * bays[0] * bays[1] * (storeys + 1)
     moment = log_uniform(rng, 0.05, 0.5) * weight / columns * 1.75
     hardening = 0.0 if rng.random() < 0.2 else float(rng.uniform(0.001, 0.05))
     steel = PlasticHinge(moment_y=moment * rng.uniform(0.5, 1.0), hardening=hardening)
@@ -126,7 +127,7 @@ def _ends(frame: Frame) -> tuple[str, str]:
 
 
 def _weight(frame: Frame) -> float:
-    return float(sum(values[0] for values in frame.masses.values())) * GRAVITY
+    return float(sum(values[0] for values in frame.masses.values())) * STANDARD_GRAVITY
 
 
 def _damper(rng: np.random.Generator, frame: Frame) -> str:
@@ -162,7 +163,7 @@ def _walls(rng: np.random.Generator, frame: Frame) -> str:
     nodes = list(frame.levels[0].nodes)
     stiffness = weight / len(nodes) * log_uniform(rng, 20.0, 2000.0)
     if rng.random() < 0.5:
-        mass = weight / GRAVITY / len(nodes)
+        mass = weight / STANDARD_GRAVITY / len(nodes)
         damping = Gap.damping_for(rng.uniform(0.4, 1.0), stiffness, mass)
         frame.add_moat("moat", nodes, Gap(gap=gap, stiffness=stiffness, damping=damping))
     else:

@@ -15,6 +15,7 @@ import numpy as np
 
 from frames import Frame, GroundMotion, Section, lumped_mass
 from lir_element import CoulombFriction, DesignWarning, LIRBearing, VelocityFriction
+from lir_element.units import STANDARD_GRAVITY
 from validation.scenes import MASS, example_bearing, made
 
 if TYPE_CHECKING:
@@ -24,7 +25,6 @@ USUAL = (("pendulum", 5e-3), ("contact", 5e-3), ("contact", 1e-3))
 SHOCK = 0.1
 """Duration of a shock [s]."""
 SHOCK_STEP = 1e-3
-GRAVITY = 9.80665
 
 
 @dataclass(frozen=True)
@@ -49,8 +49,8 @@ def shock(t: Floats, speed: float, start: float) -> Floats:
 
 def take_off(rim_speed: float, distance: float, bearing: LIRBearing) -> float:
     """Return the speed that leaves `rim_speed` after `distance`: friction and pendulum take."""
-    lost = 2.0 * bearing.effective_friction * GRAVITY * distance
-    lost += GRAVITY / bearing.effective_radius * distance**2
+    lost = 2.0 * bearing.effective_friction * STANDARD_GRAVITY * distance
+    lost += STANDARD_GRAVITY / bearing.effective_radius * distance**2
     return math.sqrt(rim_speed**2 + lost)
 
 

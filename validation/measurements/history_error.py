@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames import GroundMotion, lumped_mass, moment_frame, time_history
-from lir_element import LIRBearing, VelocityFriction
 from validation.measurements.performance import near_fault
 from validation.scenes import EXAMPLE_RECORD, example_bearing, records
 
@@ -28,14 +27,7 @@ MASS = 204e3
 
 def scenes() -> dict[str, tuple[Any, GroundMotion]]:
     """Return models and motions by name; those of records where there are any."""
-    device = LIRBearing(
-        radius=1.185,
-        slider_height=0.12,
-        slider_radius=0.15,
-        capacity=0.25,
-        friction=VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
-        interface_friction=0.13,
-    )
+    device = example_bearing()
     below = example_bearing(slider_radius=0.12)
     mass = lumped_mass(device, MASS)
     building = moment_frame(bays=(2, 2), storeys=3, bearing=below)

@@ -10,10 +10,7 @@ against rigid bodies in docs/validation/slip.md.
 
 from __future__ import annotations
 
-import argparse
-import json
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -21,7 +18,7 @@ import numpy as np
 from frames.results import level_doubts
 from frames.results.level_doubts import CLASSES, STILL, errors_of, travels
 from validation.fuzzing.level_scenes import UNLIKE_GOALS, factor_for, random_level_scene, run_level
-from validation.fuzzing.pool import in_children
+from validation.fuzzing.pool import series, series_parser
 from validation.page import FOLDER, render
 
 if TYPE_CHECKING:
@@ -41,8 +38,9 @@ BOUNDS = (0.05, 0.05, 0.05, 0.10, 0.05, 0.05)
 """Errors that count, as `SHOWN` [-]."""
 
 
-def perform(number: int, *, seed: int, unlike: bool) -> dict[str, Any]:
+def perform(task: tuple[int, bool], *, seed: int) -> dict[str, Any]:
     """Run a test case at both levels; the factor is None where it comes to no peak as wanted."""
+    number, unlike = task
     model, bearing, motion, goal = random_level_scene(seed, number, unlike=unlike)
     factor = factor_for(model, bearing, motion, goal)
     found: dict[str, Any] = {"number": number, "unlike": unlike, "factor": factor}
@@ -174,44 +172,20 @@ def page(
 
 def main(given: Sequence[str] | None = None) -> None:
     """Run the test cases and write the page."""
-    parser = argparse.ArgumentParser(prog="python -m validation.measurements.level_doubts")
-    parser.add_argument("--seed", type=int, default=1, help="series of test cases (default 1)")
-    parser.add_argument("--count", type=int, default=1000, help="how many are drawn")
-    parser.add_argument("--unlike", type=int, default=400, help="how many of unlike friction")
-    parser.add_argument("--workers", type=int, default=1, help="child processes")
-    parser.add_argument("--keep", type=Path, help="a file for the numbers, JSON by line")
-    parser.add_argument("--kept", type=Path, help="such a file: the page alone, from its numbers")
+    parser = series_parser("validation.measurements.level_doubts", count=1000, unlike=400)
     options = parser.parse_args(given)
-    lost: list[str] = []
-    if options.kept:
-        lines = options.kept.read_text(encoding="utf-8").splitlines()
-        found = [json.loads(line) for line in lines]
-    else:
-        found = [*measure(options, lost, unlike=False), *measure(options, lost, unlike=True)]
-    found.sort(key=lambda entry: int(entry["number"]))
-    series = [[e for e in found if e["unlike"] is unlike] for unlike in (False, True)]
-    call = (
-        f"python -m validation.measurements.level_doubts --seed {options.seed} "
-        f"--count {options.count} --unlike {options.unlike}"
+    found, hung = series(
+        partial(perform, seed=options.seed),
+        [*((n, False) for n in range(options.count)), *((n, True) for n in range(options.unlike))],
+        options,
+        LIMIT,
     )
-    TARGET.write_text(page(*series, lost, call), encoding="utf-8")
+    found.sort(key=lambda entry: int(entry["number"]))
+    each = [[e for e in found if e["unlike"] is unlike] for unlike in (False, True)]
+    lost = [f"{n}{' of unlike friction' if unlike else ''} ({how})" for (n, unlike), how in hung]
+    call = f"{parser.prog} --seed {options.seed} --count {options.count} --unlike {options.unlike}"
+    TARGET.write_text(page(*each, lost, call), encoding="utf-8")
     print(f"written to {TARGET}")
-
-
-def measure(
-    options: argparse.Namespace, lost: list[str], *, unlike: bool
-) -> Iterator[dict[str, Any]]:
-    """Yield the test cases of a series as they end; those without an end go into `lost`."""
-    run = partial(perform, seed=options.seed, unlike=unlike)
-    count = options.unlike if unlike else options.count
-    for number, result, how in in_children(run, range(count), options.workers, LIMIT):
-        if how:
-            lost.append(f"{number}{' of unlike friction' if unlike else ''} ({how})")
-            continue
-        if options.keep:
-            with options.keep.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(result) + "\n")
-        yield result
 
 
 if __name__ == "__main__":

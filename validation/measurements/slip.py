@@ -9,8 +9,6 @@ have a mass, and with both what `level="auto"` calls sufficient. Test cases are 
 
 from __future__ import annotations
 
-import argparse
-import json
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,7 +20,7 @@ from frames import audit
 from frames.results.assumption_checks import needed_level
 from validation import held_slip
 from validation.fuzzing.level_scenes import meeting, random_rim_scene
-from validation.fuzzing.pool import in_children
+from validation.fuzzing.pool import kept, series, series_parser
 from validation.page import FOLDER, render
 
 if TYPE_CHECKING:
@@ -264,34 +262,17 @@ def _listed(entries: Sequence[Entry]) -> str:
     return "Scenes " + ", ".join(parts) + "."
 
 
-def _read(path: Path | None) -> list[dict[str, Any]]:
-    if path is None:
-        return []
-    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
-
-
 def main(given: Sequence[str] | None = None) -> None:
     """Run the test cases and write the page."""
-    parser = argparse.ArgumentParser(prog="python -m validation.measurements.slip")
-    parser.add_argument("--seed", type=int, default=1, help="series of test cases (default 1)")
-    parser.add_argument("--count", type=int, default=1000, help="how many are drawn")
-    parser.add_argument("--workers", type=int, default=1, help="child processes")
-    parser.add_argument("--keep", type=Path, help="a file for the numbers, JSON by line")
+    parser = series_parser("validation.measurements.slip", count=1000)
     parser.add_argument("--before", type=Path, help="such a file of an earlier state of the code")
     options = parser.parse_args(given)
-    found, lost = [], []
     run = partial(perform, seed=options.seed)
-    for number, result, how in in_children(run, range(options.count), options.workers, LIMIT):
-        if how:
-            lost.append(f"{number} ({how})")
-            continue
-        found.append(result)
-        if options.keep:
-            with options.keep.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(result) + "\n")
+    found, hung = series(run, range(options.count), options, LIMIT)
     found.sort(key=lambda entry: int(entry["number"]))
-    call = f"python -m validation.measurements.slip --seed {options.seed} --count {options.count}"
-    text = page(found, lost, call, _read(options.before), held_slip.rows(), held_slip.HEAD)
+    lost = [f"{number} ({how})" for number, how in hung]
+    call = f"{parser.prog} --seed {options.seed} --count {options.count}"
+    text = page(found, lost, call, kept(options.before), held_slip.rows(), held_slip.HEAD)
     TARGET.write_text(text, encoding="utf-8")
     print(f"written to {TARGET}")
 

@@ -9,7 +9,6 @@ program chooses the step. Test cases are run in child processes.
 
 from __future__ import annotations
 
-import argparse
 import warnings
 from collections import Counter
 from functools import partial
@@ -20,7 +19,7 @@ import numpy as np
 from frames import energy_error, time_history
 from frames.laws import Bilinear, BoucWen
 from lir_element import RunStatus
-from validation.fuzzing.pool import in_children
+from validation.fuzzing.pool import series, series_parser
 from validation.fuzzing.yielding import random_yielding
 from validation.measurements.benchmark_runs import cpu_clock
 from validation.page import FOLDER, render
@@ -51,7 +50,6 @@ WORDS = {
     "hinge": "plastic rotation of hinges",
 }
 QUANTILES = {0.5: "median", 0.9: "90 %", 1.0: "largest"}
-CALL = "python -m validation.measurements.yielding"
 
 
 def perform(number: int, *, seed: int) -> dict[str, Any]:
@@ -160,26 +158,22 @@ def page(found: Sequence[dict[str, Any]], lost: Sequence[str], call: str) -> str
 
 def main(given: Sequence[str] | None = None) -> int:
     """Run the test cases and write the page; return how many are not sound."""
-    parser = argparse.ArgumentParser(prog=CALL)
-    parser.add_argument("--seed", type=int, default=1, help="series of test cases (default 1)")
-    parser.add_argument("--count", type=int, default=200, help="how many are drawn")
-    parser.add_argument("--workers", type=int, default=1, help="child processes")
+    parser = series_parser("validation.measurements.yielding", count=200)
     parser.add_argument("--only", type=int, metavar="NUMBER", help="run this test case alone")
     options = parser.parse_args(given)
     if options.only is not None:
         for name, value in perform(options.only, seed=options.seed).items():
             print(f"{name:>12}: {value}")
         return 0
-    found, lost = [], []
     run = partial(perform, seed=options.seed)
-    for number, entry, how in in_children(run, range(options.count), options.workers, LIMIT):
-        if how:
-            why = f"not done within {LIMIT:g} s" if how == "hang" else how
-            lost.append(f"{number} ({random_yielding(options.seed, number)[3]}): {why}")
-        else:
-            found.append(entry)
+    found, hung = series(run, range(options.count), options, LIMIT)
     found.sort(key=lambda entry: int(entry["number"]))
-    call = f"{CALL} --seed {options.seed} --count {options.count}"
+    lost = [
+        f"{n} ({random_yielding(options.seed, n)[3]}): "
+        + (f"not done within {LIMIT:g} s" if how == "hang" else how)
+        for n, how in hung
+    ]
+    call = f"{parser.prog} --seed {options.seed} --count {options.count}"
     TARGET.write_text(page(found, lost, call), encoding="utf-8")
     return len(lost) + sum(not is_sound(entry) for entry in found)
 

@@ -9,15 +9,13 @@ these in a moat whose walls stand where the rims were. Records are scaled to equ
 
 from __future__ import annotations
 
-import argparse
-import json
 import os
 from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from validation.fuzzing.pool import in_children
+from validation.fuzzing.pool import series, series_parser
 from validation.measurements.yielding_page import FIGURE, figure, page
 from validation.measurements.yielding_runs import (
     AT2,
@@ -88,32 +86,17 @@ def write(found: Sequence[dict[str, Any]], left_out: Sequence[str]) -> None:
 
 def main(given: Sequence[str] | None = None) -> None:
     """Run the buildings and write the page; skipped where a record is lacking."""
-    parser = argparse.ArgumentParser(prog="python -m validation.measurements.yielding_comparison")
-    parser.add_argument("--keep", type=Path, help="a file for the numbers, JSON by line")
-    parser.add_argument("--workers", type=int, default=1, help="child processes")
-    parser.add_argument("--again", type=Path, help="such a file: write the page from it, run none")
-    options = parser.parse_args(given)
+    options = series_parser("validation.measurements.yielding_comparison").parse_args(given)
     folder = Path(os.environ.get("LIR_RECORDS", ""))
     missing = lacking(folder)
     if missing:
         print(f"yielding_comparison: skipped, LIR_RECORDS names no folder with {missing[0]}")
         return
     todo, left_out = plan(folder, list(records_in(folder)))
-    if options.again:
-        lines = options.again.read_text(encoding="utf-8").splitlines()
-        write([json.loads(line) for line in lines], left_out)
-        return
-    found = []
-    for task, result, how in in_children(
-        partial(perform, folder=folder), todo, options.workers, LIMIT
-    ):
-        if how:
-            print(f"{task}: {how}")
-            raise SystemExit(1)
-        found.append(result)
-        if options.keep:
-            with options.keep.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(result) + "\n")
+    found, hung = series(partial(perform, folder=folder), todo, options, LIMIT)
+    if hung:
+        print(*hung, sep="\n")
+        raise SystemExit(1)
     write(found, left_out)
 
 
