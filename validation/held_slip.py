@@ -52,8 +52,7 @@ _CHANGES: dict[str, dict[str, Any]] = {
 
 def bearings() -> dict[str, LIRBearing]:
     """Return the bearings by name: all hold less slip than their sliders overlap."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DesignWarning)
+    with warnings.catch_warnings(action="ignore", category=DesignWarning):
         return {name: LIRBearing(**(_PLAIN | changes)) for name, changes in _CHANGES.items()}
 
 
@@ -63,8 +62,7 @@ def end(bearing: LIRBearing, share: float, level: str) -> tuple[str, float]:
     peak = capacity + share * bearing.slip_stability
     path = np.array([0.0, peak, 0.0, -0.5 * capacity, 0.0, 0.5 * capacity, 0.0])
     load = bearing.resolved()["design_load"]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AnalysisWarning)
+    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
         data = cyclic_test(bearing, path, load, velocity=SPEED, level=level)  # type: ignore[arg-type]
     return str(data.attrs["status"]), float(data["interface_slip_size"][2, 0])
 

@@ -110,8 +110,9 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
 def comparison(lir: xr.Dataset, record: GroundMotion) -> tuple[list[Check], float, xr.Dataset]:
     """Return the rise of the force at the impact, here and of the plain DCFP with the same rims."""
     bearing = example_bearing()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AnalysisWarning)  # the rims are overrun in a later impact
+    with warnings.catch_warnings(
+        action="ignore", category=AnalysisWarning
+    ):  # the rims are overrun in a later impact
         model = lumped_mass(bearing.as_dcfp(), EXAMPLE_MASS)
         plain = time_history(model, record)
     tilt = math.asin(bearing.lateral_capacity / bearing.effective_radius)

@@ -104,8 +104,9 @@ def scenes_runs() -> tuple[list[Ended], dict[str, dict[str, Floats]]]:
     for scene in (s for s in made_scenes() if s.name in SCENES):
         orbits[scene.name] = {}
         for level in ("rigid_body", "pendulum"):
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", AnalysisWarning)  # the table tells it
+            with warnings.catch_warnings(
+                action="ignore", category=AnalysisWarning
+            ):  # the table tells it
                 data = time_history(scene.model(), scene.motion, scene.duration, level=level)
             u = data["bearing_displacement"][:, 0, :2].to_numpy()
             s = data["interface_slip"][:, 0, :2].to_numpy()

@@ -168,8 +168,9 @@ def compare(
     """Analyse the building imported, and wholly in OpenSees."""
     with empty_model() as ops:
         built = fixed_base(ops, building(bearing), damping)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ModelWarning)  # damping of the isolation is meant here
+        with warnings.catch_warnings(
+            action="ignore", category=ModelWarning
+        ):  # damping of the isolation is meant here
             taken = Frame.from_opensees(built.bases, bearing)
         loads = gravity(taken, features).axial_forces
         data = time_history(taken, motion, DURATION, dt, features=features, on_failure="raise")

@@ -106,8 +106,7 @@ def table_motion(amplitude: float) -> GroundMotion:
 
 def respond(device: LIRBearing, amplitude: float, dt: float = STEP) -> xr.Dataset:
     """Run the test; a failure of a bearing is in the attributes."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AnalysisWarning)
+    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
         return time_history(structure(device), table_motion(amplitude), dt=dt)
 
 

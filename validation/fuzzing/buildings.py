@@ -78,8 +78,7 @@ def _bearing(rng: np.random.Generator) -> LIRBearing:
 def try_building(seed: int, number: int) -> Report:
     """Bring a building into equilibrium and leave it alone for a moment."""
     began = time.process_time()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # overloaded sliders are meant
+    with warnings.catch_warnings(action="ignore"):  # overloaded sliders are meant
         frame, line = random_building(seed, number)
     draw = np.random.default_rng((seed, number, 21)).random()
     level = "contact" if draw < CONTACT_SHARE else "pendulum"

@@ -39,8 +39,7 @@ def random_level_scene(
 
     One to four storeys that overturn, slender ones that lift among them, masses off the centre.
     """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DesignWarning)
+    with warnings.catch_warnings(action="ignore", category=DesignWarning):
         scene = random_rim_scene(seed, number)
     rng = np.random.default_rng((seed, number, 33))
     bearing, bays = scene.bearing, random_bays(rng)
@@ -60,8 +59,9 @@ def random_level_scene(
         plan=(bays, width),
         eccentricity=tuple(float(share) for share in rng.uniform(-0.05, 0.05, 2)),
     )
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MotionWarning)  # the ground may move on at the end
+    with warnings.catch_warnings(
+        action="ignore", category=MotionWarning
+    ):  # the ground may move on at the end
         x, y, z = scene.waves.T
         motion = GroundMotion(x=x, y=y, z=z if z.any() else None, dt=DT, name="random")
     goal = log_uniform(own, *UNLIKE_GOALS) if unlike else float(rng.uniform(*LEVEL_GOALS))
@@ -79,8 +79,7 @@ def with_unlike_friction(rng: np.random.Generator, bearing: LIRBearing) -> LIRBe
         for law, share in zip(bearing.frictions, shares, strict=True)
     )
     high = max(bearing.interface_friction, 1.1 * max(bottom.f_max, top.f_max))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DesignWarning)
+    with warnings.catch_warnings(action="ignore", category=DesignWarning):
         return replace(bearing, friction=(bottom, top), interface_friction=high)
 
 
@@ -143,14 +142,14 @@ class RimScene(NamedTuple):
         """Return the motion, its horizontal components scaled."""
         x, y = (factor * self.waves[:, k] for k in range(2))
         z = self.waves[:, 2]
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", MotionWarning)  # the ground may move on at the end
+        with warnings.catch_warnings(
+            action="ignore", category=MotionWarning
+        ):  # the ground may move on at the end
             return GroundMotion(x=x, y=y, z=z if z.any() else None, dt=DT, name="random")
 
     def run(self, factor: float, level: str, dt: float | None = None) -> xr.Dataset:
         """Analyse the test case; failures are results, too."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", AnalysisWarning)
+        with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
             return time_history(self.model, self.motion(factor), level=level, dt=dt)
 
 

@@ -127,8 +127,7 @@ def run_here(
     options: Any = {"method": method, "recording": recording}
     cpu = process_time()
     try:
-        with warnings.catch_warnings(), cpu_clock():
-            warnings.simplefilter("ignore", AnalysisWarning)
+        with warnings.catch_warnings(action="ignore", category=AnalysisWarning), cpu_clock():
             data = time_history(frame, motion, duration, dt, **options)
     except (ValueError, MemoryError) as refusal:
         return refused(dt, f"refused: {refusal}")
@@ -246,8 +245,7 @@ def batch_here(dt: float) -> dict[str, Any]:
     together = getattr(frames, "time_histories", None)
     before = _memory()
     clock, cpu = perf_counter(), process_time()
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AnalysisWarning)
+    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
         if together is None:
             _one_by_one(frame, dt)
         else:

@@ -67,8 +67,7 @@ def scenes() -> list[Scene]:
 
 def analyse(scene: Scene, features: Features) -> xr.Dataset:
     """Run a test case; a failure is told by the table."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AnalysisWarning)
+    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
         return time_history(scene.frame, scene.motion, features=features)
 
 

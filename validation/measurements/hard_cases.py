@@ -135,8 +135,7 @@ def compare(one: xr.Dataset, other: xr.Dataset) -> float:
 
 def quiet(run: Any, *arguments: Any, **options: Any) -> Any:
     """Run without the warning of a failure: the table tells it."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AnalysisWarning)
+    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
         return run(*arguments, **options)
 
 

@@ -90,8 +90,7 @@ def pulsed(name: str, bearing: LIRBearing, peak: float = 2.5, **options: Any) ->
 
 def weak(mu_h: float) -> LIRBearing:
     """Return a bearing whose interface is barely stronger than its surfaces."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DesignWarning)
+    with warnings.catch_warnings(action="ignore", category=DesignWarning):
         return example_bearing(interface_friction=mu_h)
 
 

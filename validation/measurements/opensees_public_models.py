@@ -199,8 +199,7 @@ def compare(public: Public, duration: float = DURATION) -> Outcome:
         with empty_model() as ops:
             standing = stand(ops, public)
             if not place:
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore", ModelWarning)
+                with warnings.catch_warnings(action="ignore", category=ModelWarning):
                     frame = Frame.from_opensees(standing.bases, standing.device, **units)
             isolation = isolate(standing.bases, standing.device, **units)
             settle(ops)

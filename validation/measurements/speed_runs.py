@@ -81,8 +81,7 @@ def timed(run: Callable[[], Response]) -> Response:
 
 def history(model: Frame, motion: GroundMotion, duration: float, **options: Any) -> Response:
     """Run a time history, warnings off: the table says what failed."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AnalysisWarning)
+    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
         return response(time_history(model, motion, duration, **options))
 
 

@@ -281,8 +281,10 @@ def main() -> None:
         }
         before = json.loads(kept.read_text(encoding="utf-8"))["codes"] if kept.is_file() else {}
         for code in SPECTRA:
-            with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # what runs leave doubtful is in their checks
+            with (
+                tempfile.TemporaryDirectory() as folder,
+                warnings.catch_warnings(action="ignore"),
+            ):  # what runs leave doubtful is in their checks
                 found["codes"][code] = measured(code, Path(folder))
             seconds = found["codes"][code]["seconds"]
             other = before.get(code, {}).get("seconds", {})
@@ -292,8 +294,7 @@ def main() -> None:
             kept.write_text(json.dumps(found, indent=1), encoding="utf-8")
     found = json.loads(kept.read_text(encoding="utf-8"))
     if not options.page:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             found["contact"] = at_levels(*found["codes"]["ASCE 7-22"]["worst"])
         kept.write_text(json.dumps(found, indent=1), encoding="utf-8")
     write(found)

@@ -54,8 +54,9 @@ QUANTILES = {0.5: "median", 0.9: "90 %", 1.0: "largest"}
 
 def perform(number: int, *, seed: int) -> dict[str, Any]:
     """Run a test case at both steps and return what the page says of it."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # bearings near their limits, and the ends of the runs
+    with warnings.catch_warnings(
+        action="ignore"
+    ):  # bearings near their limits, and the ends of the runs
         frame, motion, options, words = random_yielding(seed, number)
         finer = {**options, **_finer(options["dt"])}
         with cpu_clock():

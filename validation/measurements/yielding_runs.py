@@ -215,8 +215,7 @@ def _add_walls(frame: Frame, mass: float, gap: float, share: float) -> None:
 
 def motion_of(record: str, folder: Path, factor: float) -> GroundMotion:
     """Return the first 45 s of a record times a factor."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MotionWarning)
+    with warnings.catch_warnings(action="ignore", category=MotionWarning):
         motion = records_in(folder)[record]()
         if motion.duration > LONGEST:
             motion = motion.trimmed(0.0, LONGEST)

@@ -198,8 +198,7 @@ def halved(motions: Mapping[str, GroundMotion]) -> list[dict[str, Any]]:
         for device in (LIR, WEAK):
             runs = []
             for dt in (STEP, 0.5 * STEP):
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore", AnalysisWarning)
+                with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
                     data = time_histories(
                         {device: frames[device]}, {name: motion}, scales=[HALVED_AT], dt=dt
                     )

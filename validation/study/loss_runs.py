@@ -301,8 +301,7 @@ def rates_of(runs: Mapping[str, IntensityRuns], resamples: int) -> dict[str, Any
     for key, hazard in hazards().items():
         found["rates"][key] = {name: {} for name in curves}
         for limit_name, own_curves in curves.items():
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", RiskWarning)
+            with warnings.catch_warnings(action="ignore", category=RiskWarning):
                 risks = {
                     name: mean_annual_frequency(curve, hazard) for name, curve in own_curves.items()
                 }

@@ -102,8 +102,7 @@ def _joined(first: GroundMotion, second: GroundMotion) -> GroundMotion:
     dt = min(first.dt, second.dt)
     both = [each if each.dt == dt else each.resampled(dt) for each in (first, second)]
     parts = {axis: np.concatenate([_component(each, axis) for each in both]) for axis in ("x", "y")}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MotionWarning)
+    with warnings.catch_warnings(action="ignore", category=MotionWarning):
         return GroundMotion(**parts, dt=dt, name=f"{first.name}, and again")
 
 
@@ -114,8 +113,7 @@ def _component(motion: GroundMotion, axis: str) -> Any:
 
 def three_components(folder: Path) -> dict[str, GroundMotion]:
     """Return records with a vertical component whose factors stay small, normalised."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MotionWarning)
+    with warnings.catch_warnings(action="ignore", category=MotionWarning):
         found = {
             "Pacoima Dam 1971": pacoima(),
             "Chi-Chi TCU065 1999": records_in(folder)["Chi-Chi TCU065 1999"](),
@@ -165,8 +163,7 @@ class Pulse:
             phase=PHASES[self.kind],
         )
         times = np.arange(0.0, pulse.duration + 0.5 * SAMPLING, SAMPLING)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", MotionWarning)
+        with warnings.catch_warnings(action="ignore", category=MotionWarning):
             return GroundMotion(x=pulse.accelerations(times), dt=SAMPLING, name=self.name)
 
 

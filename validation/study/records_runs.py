@@ -112,8 +112,7 @@ def devices() -> dict[str, Frame]:
 
 def normalised(motions: Mapping[str, GroundMotion]) -> dict[str, GroundMotion]:
     """Return motions of an intensity of 1 m/s2, with time to come to rest behind."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MotionWarning)
+    with warnings.catch_warnings(action="ignore", category=MotionWarning):
         return {
             name: motion.scaled(1.0 / INTENSITY.of(motion)).with_tail(TAIL)
             for name, motion in motions.items()
