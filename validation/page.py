@@ -38,8 +38,8 @@ CLAIMS = (
 )
 """The modules of the claims, in the order of the index."""
 
-_TEMPLATES = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=False)  # noqa: S701  (Markdown)
-_TEMPLATES.globals |= vars(builtins)
+TEMPLATES = jinja2.Environment(undefined=jinja2.StrictUndefined, autoescape=False)  # noqa: S701  (Markdown)
+TEMPLATES.globals |= vars(builtins)
 SUMMARY_HEAD = ("claim", "source", "result", "holds")
 CHECK_HEAD = ("statement", "source", "expected", "got", "holds")
 
@@ -158,14 +158,14 @@ def render(script: dict[str, Any], name: str = "", **values: Any) -> str:
     A template is a page with its numbers left out; `name` is that of its script unless given.
     """
     place = Path(script["__file__"])
-    template = _TEMPLATES.from_string(
+    template = TEMPLATES.from_string(
         place.with_name(f"{name or place.stem}.md.j2").read_text(encoding="utf-8")
     )
     return re.sub(r"\n{3,}", "\n\n", template.render({**script, **values})).strip("\n") + "\n"
 
 
-_TEMPLATES.globals["table"] = table
-_TEMPLATES.filters |= {"f": format, "rows": rows}
+TEMPLATES.globals["table"] = table
+TEMPLATES.filters |= {"f": format, "rows": rows}
 
 
 def figure(claim: Claim, name: str, caption: str, suffix: str = "png") -> str:

@@ -1,14 +1,16 @@
 """docs/validation: a page for each claim, all in the index, figures there and small."""
 
+import ast
 import re
 from importlib import import_module
 from pathlib import Path
 
 import pytest
+from jinja2 import meta
 
 import validation
 from validation.measurements.opensees_cost import BASE, verdict
-from validation.page import CLAIMS, FOLDER, index
+from validation.page import CLAIMS, FOLDER, TEMPLATES, index
 
 MEASUREMENTS = (
     "benchmark",
@@ -130,3 +132,24 @@ def test_each_coupling_is_held_against_its_goal():
     assert verdict("house", times) == (
         "house: in-process 1.30 (met), out-of-process 3.62 (**missed**)."
     )
+
+
+def rendered():
+    """Module, template and names given of every call of `render`."""
+    for path in sorted(PACKAGE.rglob("*.py")):
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "render":
+                name = call.args[1].value if len(call.args) > 1 else path.stem
+                given = {keyword.arg for keyword in call.keywords}
+                yield path, path.with_name(f"{name}.md.j2"), given
+
+
+def test_templates_have_the_names_they_use():
+    found = list(rendered())
+    assert {template for _, template, _ in found} == set(PACKAGE.rglob("*.md.j2"))
+    for path, template, given in found:
+        used = meta.find_undeclared_variables(TEMPLATES.parse(template.read_text("utf-8")))
+        module = ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts)
+        own = set(vars(import_module(module)))
+        assert used <= own | given | set(TEMPLATES.globals), template.name
+        assert given <= used, template.name

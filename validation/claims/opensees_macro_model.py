@@ -81,29 +81,9 @@ def series_with_mu_h(bearing: LIRBearing, weight: float) -> Device:
     ops.frictionModel("Coulomb", first, bearing.interface_friction)
     ops.uniaxialMaterial("Elastic", first, 2.0 * own["axial_stiffness"])
     ops.uniaxialMaterial("Elastic", first + 1, 1.0)
-    ops.element(
-        "flatSliderBearing",
-        first,
-        made.middle,
-        ABOVE,
-        first,
-        stiffness,
-        "-P",
-        first,
-        "-T",
-        first + 1,
-        "-My",
-        first + 1,
-        "-Mz",
-        first + 1,
-        "-orient",
-        0,
-        0,
-        1,
-        1,
-        0,
-        0,
-    )
+    materials = ("-P", first, "-T", first + 1, "-My", first + 1, "-Mz", first + 1)
+    place = (made.middle, ABOVE, first, stiffness)
+    ops.element("flatSliderBearing", first, *place, *materials, "-orient", 0, 0, 1, 1, 0, 0)
     return Device((first,), made.middle)
 
 

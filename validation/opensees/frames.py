@@ -144,33 +144,12 @@ def _member(
         length = float(np.linalg.norm(end - start))
         hinged_member(ops, tag, member, ends, length, frame.hinges[member.name])
     elif stiff:
-        ops.element(
-            "elasticBeamColumn",
-            tag,
-            *ends,
-            s.area,
-            s.elastic_modulus,
-            s.shear_modulus,
-            s.torsion_constant,
-            s.inertia_y,
-            s.inertia_z,
-            tag,
-        )
+        first = (s.area, s.elastic_modulus, s.shear_modulus, s.torsion_constant)
+        ops.element("elasticBeamColumn", tag, *ends, *first, s.inertia_y, s.inertia_z, tag)
     else:
-        ops.element(
-            "ElasticTimoshenkoBeam",
-            tag,
-            *ends,
-            s.elastic_modulus,
-            s.shear_modulus,
-            s.area,
-            s.torsion_constant,
-            s.inertia_y,
-            s.inertia_z,
-            s.shear_area_y,
-            s.shear_area_z,
-            tag,
-        )
+        first = (s.elastic_modulus, s.shear_modulus, s.area, s.torsion_constant)
+        rest = (s.inertia_y, s.inertia_z, s.shear_area_y, s.shear_area_z)
+        ops.element("ElasticTimoshenkoBeam", tag, *ends, *first, *rest, tag)
 
 
 def _spring(ops: Any, tag: int, i: int, j: int, stiffness: Sequence[float]) -> None:
@@ -178,25 +157,5 @@ def _spring(ops: Any, tag: int, i: int, j: int, stiffness: Sequence[float]) -> N
     for k, value in enumerate(stiffness):
         ops.uniaxialMaterial("Elastic", first + k, value)
     materials = [first + k for k in range(6)]
-    ops.element(
-        "twoNodeLink",
-        tag,
-        i,
-        j,
-        "-mat",
-        *materials,
-        "-dir",
-        1,
-        2,
-        3,
-        4,
-        5,
-        6,
-        "-orient",
-        1,
-        0,
-        0,
-        0,
-        1,
-        0,
-    )
+    way = ("-dir", *range(1, 7), "-orient", 1, 0, 0, 0, 1, 0)
+    ops.element("twoNodeLink", tag, i, j, "-mat", *materials, *way)

@@ -46,73 +46,31 @@ def material(ops: Any, tag: int, law: Law) -> None:
         _bouc_wen(ops, tag, law)
     elif isinstance(law, Tie):
         limit = 1e12 if math.isinf(law.yield_force) else law.yield_force
-        ops.uniaxialMaterial(
-            "ElasticPPGap",
-            tag,
-            law.stiffness,
-            limit,
-            max(law.slack, 1e-12),
-            law.hardening,
-            "damage",
-        )
+        values = (law.stiffness, limit, max(law.slack, 1e-12), law.hardening)
+        ops.uniaxialMaterial("ElasticPPGap", tag, *values, "damage")
     elif isinstance(law, ViscousDamper):
         if math.isinf(law.stiffness):
             ops.uniaxialMaterial("Viscous", tag, law.coefficient, law.exponent)
         else:
             ops.uniaxialMaterial("ViscousDamper", tag, law.stiffness, law.coefficient, law.exponent)
-    elif isinstance(law, Gap):
-        _stop(ops, tag, law)
-    else:
-        _hertz(ops, tag, law)
+    else:  # OpenSees' gaps close in compression: what is pushed there has negative strains
+        kind = "ViscoelasticGap" if isinstance(law, Gap) else "Hertzdamp"
+        last = () if isinstance(law, Gap) else (law.exponent,)
+        ops.uniaxialMaterial(kind, tag, law.stiffness, law.damping, -law.gap, *last)
 
 
 def _bouc_wen(ops: Any, tag: int, law: BoucWen) -> None:
     scale = law.yield_deformation**law.exponent
     bent, straight = law.shape / scale, (1.0 - law.shape) / scale
     energy = (1.0 - law.hardening) * law.yield_force * law.yield_deformation
+    first = (law.hardening, law.stiffness, law.exponent, straight, bent, 1.0)
     if law.pinching is None:
-        ops.uniaxialMaterial(
-            "BoucWen",
-            tag,
-            law.hardening,
-            law.stiffness,
-            law.exponent,
-            straight,
-            bent,
-            1.0,
-            0.0,
-            law.strength_loss / energy,
-            law.stiffness_loss / energy,
-        )
+        losses = (0.0, law.strength_loss / energy, law.stiffness_loss / energy)
+        ops.uniaxialMaterial("BoucWen", tag, *first, *losses)
         return
-    p = law.pinching
-    ops.uniaxialMaterial(
-        "BWBN",
-        tag,
-        law.hardening,
-        law.stiffness,
-        law.exponent,
-        straight,
-        bent,
-        1.0,
-        p.place,
-        p.slip,
-        p.rate / energy,
-        p.width * law.yield_deformation,
-        p.spreading / energy * law.yield_deformation,
-        p.severity,
-        1e-14,
-        100,
-    )
-
-
-def _stop(ops: Any, tag: int, law: Gap) -> None:
-    # OpenSees' gaps close in compression: what is pushed there has negative strains.
-    ops.uniaxialMaterial("ViscoelasticGap", tag, law.stiffness, law.damping, -law.gap)
-
-
-def _hertz(ops: Any, tag: int, law: HertzGap) -> None:
-    ops.uniaxialMaterial("Hertzdamp", tag, law.stiffness, law.damping, -law.gap, law.exponent)
+    p, d = law.pinching, law.yield_deformation
+    pinched = (p.place, p.slip, p.rate / energy, p.width * d, p.spreading / energy * d, p.severity)
+    ops.uniaxialMaterial("BWBN", tag, *first, *pinched, 1e-14, 100)
 
 
 def add_links(ops: Any, frame: Frame, nodes: dict[str, int]) -> dict[str, int]:
@@ -134,18 +92,8 @@ def add_link(ops: Any, tag: int, link: Link, nodes: dict[str, int]) -> None:
         direction = -direction
     across = np.eye(3)[int(np.abs(direction).argmin())]
     across = across - (across @ direction) * direction
-    ops.element(
-        "twoNodeLink",
-        tag,
-        *ends,
-        "-mat",
-        tag,
-        "-dir",
-        4 if link.turns else 1,
-        "-orient",
-        *direction.tolist(),
-        *across.tolist(),
-    )
+    way = ("-dir", 4 if link.turns else 1, "-orient", *direction.tolist(), *across.tolist())
+    ops.element("twoNodeLink", tag, *ends, "-mat", tag, *way)
 
 
 def hinged_member(
@@ -160,16 +108,8 @@ def hinged_member(
     s = member.section
     first = FIRST + SECTIONS * tag
     elastic = first + SECTIONS - 1
-    ops.section(
-        "Elastic",
-        elastic,
-        s.elastic_modulus,
-        s.area,
-        s.inertia_z,
-        s.inertia_y,
-        s.shear_modulus,
-        s.torsion_constant,
-    )
+    bending = (s.elastic_modulus, s.area, s.inertia_z, s.inertia_y)
+    ops.section("Elastic", elastic, *bending, s.shear_modulus, s.torsion_constant)
     sections = [
         elastic if hinge is None else _hinge(ops, first + 10 * side, member, hinge, length)
         for side, hinge in enumerate(hinges)
@@ -194,16 +134,8 @@ def _hinge(ops: Any, first: int, member: Member, hinge: PlasticHinge, length: fl
         if moments[0] != moments[1] or not math.isclose(*bend):
             msg = f'member "{member.name}": Bidirectional is a section with equal axes'
             raise ValueError(msg)
-        ops.section(
-            "Bidirectional",
-            first,
-            bend[0],
-            moments[0],
-            0.0,
-            6.0 * ratio * bend[0] / length,
-            "Mz",
-            "My",
-        )
+        hardening = 6.0 * ratio * bend[0] / length
+        ops.section("Bidirectional", first, bend[0], moments[0], 0.0, hardening, "Mz", "My")
         ops.section("Aggregator", first + 1, first, "P", first + 1, "T", "-section", first)
         return first + 1
     for k, (moment, stiffness) in enumerate(zip(moments, bend, strict=True)):

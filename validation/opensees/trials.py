@@ -222,16 +222,9 @@ def shake(
         made = make(bearing, weight)
         code = load_down(weight)
         if code != 0:
-            empty = np.zeros((1, 3))
-            return Shaken(
-                np.zeros(1),
-                empty,
-                empty,
-                np.zeros((1, 2, 3)),
-                empty,
-                empty,
-                f"gravity: {CODES.get(code, code)}",
-            )
+            empty, status = np.zeros((1, 3)), f"gravity: {CODES.get(code, code)}"
+            both = np.zeros((1, 2, 3))
+            return Shaken(np.zeros(1), empty, empty, both, empty, empty, status)
         ground_motion(ops, motion)
         _solver(weight)
         transient_steps(ops)
@@ -264,18 +257,11 @@ class _March:
                 status = "not finite"
                 break
         table = np.asarray(self.rows)
-        return Shaken(
-            table[:, 0],
-            table[:, 1:4],
-            table[:, 7:10],
-            table[:, 10:16].reshape(-1, 2, 3),
-            table[:, 16:19],
-            table[:, 4:7],
-            status,
-            self.seconds,
-            self.steps,
-            self.iterations,
-        )
+        spent = (self.seconds, self.steps, self.iterations)
+        moments = table[:, 10:16].reshape(-1, 2, 3)
+        middle, speed = table[:, 16:19], table[:, 4:7]
+        motion = (table[:, 0], table[:, 1:4], table[:, 7:10], moments, middle, speed)
+        return Shaken(*motion, status, *spent)
 
     def advance(self, dt: float, halvings: int) -> int:
         """Take a step, whole or in halves; return the code of `analyze`."""
