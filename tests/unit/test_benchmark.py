@@ -9,7 +9,7 @@ import pytest
 
 from frames.solve import recorder, run
 from validation.measurements import benchmark
-from validation.measurements.benchmark import draw
+from validation.measurements.benchmark import draw, multiply_adds
 from validation.measurements.benchmark_models import STRUCTURES, motion_of, strong
 from validation.measurements.benchmark_page import (
     before,
@@ -25,7 +25,6 @@ from validation.measurements.benchmark_page import (
     verdict,
     whole_cost,
 )
-from validation.measurements.benchmark_profile import multiply_adds
 from validation.measurements.benchmark_runs import (
     DIRECTIONS,
     HISTORIES,

@@ -7,7 +7,7 @@ import pytest
 
 from frames import gravity
 from validation.measurements import yielding_comparison
-from validation.measurements.yielding_page import ends, wins, worse
+from validation.measurements.yielding_comparison import ends, wins, worse
 from validation.measurements.yielding_runs import (
     LIR,
     MOAT,
