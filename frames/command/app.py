@@ -14,10 +14,9 @@ import typer
 from rich.markup import escape
 
 from frames.command.campaigns import campaign, campaign_status
-from frames.command.comparing import compare
 from frames.command.console import FAILED_CHECKS, err, out, project_in, say, told, trust
 from frames.command.designing import propose
-from frames.command.viewing import view
+from frames.command.viewing import compare, view
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

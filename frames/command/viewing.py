@@ -1,4 +1,4 @@
-"""The command that writes the page on which a run is looked at in motion."""
+"""The commands that show results: a run in motion, and the bearings beside rigid sliders."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from frames.command.console import project_in, say, told
+from frames.command.console import out, project_in, say, told
 
 
 def view(
@@ -35,3 +35,37 @@ def view(
         except ValueError as cause:
             raise ProjectError(str(cause)) from cause
         say(f"{said}; the run: {named_case(most_displaced(runs))}")
+
+
+def compare(
+    file: Annotated[Path, typer.Argument(help="The project's file.")] = Path("project.toml"),
+    results: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("results"),
+    figures: Annotated[bool, typer.Option(help="Draw the figures of the page.")] = True,
+) -> None:
+    """Compare the LIR-DCFP with the same bearing and a rigid slider, the plain DCFP.
+
+    Writes compare.html, compare.csv and compare-motions.csv.
+    """
+    from frames.design.project.comparison import compare_project, compared_histories
+    from frames.design.report.comparison_page import write_comparison
+    from frames.design.report.comparison_words import verdicts
+    from frames.design.report.tables import rows_of
+    from frames.results.storage import make_folder
+    from lir_element.tables import text_table
+
+    with told():
+        parts = project_in(file)
+        make_folder(results)
+        found = compare_project(parts, progress=True)
+        histories = compared_histories(parts, found) if figures else None
+        written = write_comparison(found, results, parts.sources.text, histories)
+        table = found.table()
+        out.print("\n[bold]Envelope over bounds[/]")
+        say(text_table(rows_of(table), ("", *map(str, table.columns))))
+        said = verdicts(found)
+        for one in said:
+            say(f"\n{f'{one.level}: ' if len(said) > 1 else ''}{one.head}")
+            for text in one.details:
+                say(f"  {text}")
+        say(f"\n{found.eccentricity}")
+        say(f"\n{', '.join(path.name for path in written)} in {results}")
