@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from frames.plots import plot_style as ps
-from validation.page import table
+from validation.page import render, table
 from validation.study.after_runs import (
     DEVICES,
     DROPS,
@@ -41,29 +41,7 @@ FIGURE = f"{NAME}-collapse.png"
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return (
-        "\n\n".join(
-            [
-                "# After the failure of a bearing: collapse, or a stop that carries on",
-                _introduction(found),
-                "## In short",
-                _verdict(found),
-                f"![Failed bearings and collapse over intensity](figures/{FIGURE})",
-                "Share of the records in which the building collapses, by what follows the failure of "
-                "a bearing; dotted: the maximum considered earthquake that fills the capacity of "
-                "the study's bearings.",
-                "## Margins",
-                _margins(found),
-                "## What runs that went on reached",
-                _reached(found),
-                "## Limits of this study",
-                _limits(),
-                "## Cost",
-                _cost(found),
-            ]
-        )
-        + "\n"
-    )
+    return render(globals(), found=found)
 
 
 def _introduction(found: Found) -> str:
@@ -196,24 +174,6 @@ def _reached(found: Found) -> str:
         "floor acceleration [g]",
     ]
     return "Medians of the runs in which a bearing failed and that went on.\n\n" + table(head, rows)
-
-
-def _limits() -> str:
-    return (
-        "A stop is flat, wide enough and does not break; the parts of the bearing that lie about "
-        "are gone. The frame is linear but for its hinges and P-Delta of the permanent loads, and "
-        "hinges do not degrade, so that a frame which sags far is stronger here than in truth. "
-        "All bearings fail within tens of milliseconds of one another, since the base moves as "
-        "one. One building, one plan."
-    )
-
-
-def _cost(found: Found) -> str:
-    cost = found["cost"]
-    return (
-        f"{cost['runs']} histories, {found['loop']:.0f} s in the time loop. Digest of the results database: "
-        f"`{cost['digest']}`."
-    )
 
 
 def figure_of(found: Found) -> Figure:

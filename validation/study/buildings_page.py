@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from validation.page import table
+from validation.page import render, table
 from validation.study.buildings_figures import CURVES_FIGURE, RATIOS_FIGURE
 from validation.study.buildings_numbers import (
     DEFINITIONS,
@@ -44,40 +44,13 @@ NAME = "study_buildings"
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return (
-        "\n\n".join(
-            [
-                "# Buildings of frames and of walls, low and high: does the result hold?",
-                _introduction(found),
-                "## In short",
-                _verdict(found),
-                f"![Medians of the LIR-DCFP over those of the DCFPs, by building](figures/{RATIOS_FIGURE})",
-                f"Median of the {LIR} over that of each DCFP, intervals of 90 %: above 1 the {LIR} is "
-                "better. A building without a mark has no median on one of both.",
-                "## The buildings",
-                _buildings(found),
-                "## Medians and margins",
-                _medians(found),
-                f"![Fragility of collapse by building](figures/{CURVES_FIGURE})",
-                "Collapse; points are shares of the runs whose outcome is known.",
-                "## Ratios",
-                _ratios(found),
-                "## How runs ended",
-                _ends(found),
-                "## Uplift",
-                _uplift(found),
-                "## What is called collapse",
-                _definitions(found),
-                _unharmed(found),
-                "## The step",
-                _steps(found),
-                "## Limits of this study",
-                _limits(),
-                "## Cost",
-                cost_line(found["cost"]),
-            ]
-        )
-        + "\n"
+    return render(
+        globals(),
+        CURVES_FIGURE=CURVES_FIGURE,
+        LIR=LIR,
+        RATIOS_FIGURE=RATIOS_FIGURE,
+        cost_line=cost_line,
+        found=found,
     )
 
 
@@ -362,18 +335,6 @@ def _steps(found: Found) -> str:
     return (
         f"A record a building at {HALVED_AT:g} m/s2, at {1e3 * STEP:g} ms and at half of it: {ends}; demands "
         f"of complete runs differ by at most {told}. Runs that fail end a little earlier or later.\n\n{table(head, rows)}"
-    )
-
-
-def _limits() -> str:
-    return (
-        "One plan of 12 m x 12 m under all heights: high buildings on it are slender, and lift on every "
-        "device. Members scale by a rule of three storeys, not by a design; hinges do not degrade, walls "
-        "do not yield above their feet nor in shear, and the moment of their feet does not follow the "
-        "axial force. Bearings are at the level `pendulum`. "
-        f"One {LIR} with one friction of the interface stands for all. Records without a "
-        "vertical component, factors without spectral shape; nothing follows the failure of a bearing. "
-        "Strength, hardening and deformation at failure of rims as in [study_rims.md](study_rims.md)."
     )
 
 

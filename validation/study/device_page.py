@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from validation.measurements.yielding_runs import LIR
-from validation.page import table
+from validation.page import render, table
 from validation.study.device_cost_page import cost, cost_verdict, equal_cost
 from validation.study.device_figures import COST, MARGINS, REGIONS, SEARCH, labelled, winner
 from validation.study.device_runs import BY_LOAD, OTHERS
@@ -34,47 +34,26 @@ NAME = "study_device"
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return (
-        "\n\n".join(
-            [
-                "# The best LIR-DCFP of a plan, beside DCFPs of the same plan and of the same cost",
-                _introduction(found),
-                "## In short",
-                _verdict(found),
-                "## What must govern, by hand",
-                theory(found),
-                "## The search",
-                search(found),
-                f"![Collapse over sliders, interface and work of all devices tried](figures/{SEARCH})",
-                "Every LIR-DCFP tried, under every second record; circles: first design; diamonds: the "
-                "points tried at each plan after it.",
-                "## Devices, margins and failures",
-                f"![Collapse margins over the plan, and shares of collapse](figures/{MARGINS})",
-                "Shares of records that collapse, failed bearings included; an open mark is the share "
-                "of failed bearings where the frame has collapsed in others besides. Dotted: the "
-                "maximum considered earthquake that fills 250 mm.",
-                devices(found),
-                "## Who is ahead, where",
-                f"![Who is ahead over intensity and plan](figures/{REGIONS})",
-                "The LIR-DCFP against each DCFP of its plan: share of records that collapse (above), and "
-                "median floor acceleration with failed bearings as infinite (below). A cell is "
-                "decided where 90 % of resamples of the records agree.",
-                pairs(found),
-                "## Soft rims",
-                soft(found),
-                "## Varied, and with sliders as bodies",
-                varied(found),
-                "## Cost",
-                cost(found),
-                f"![Margin over cost](figures/{COST})",
-                equal_cost(found),
-                "## Limits of this study",
-                _limits(found),
-                "## What it took",
-                _took(found),
-            ]
-        )
-        + "\n"
+    return render(
+        globals(),
+        BREAKS=BREAKS,
+        COST=COST,
+        LIR=LIR,
+        MARGINS=MARGINS,
+        OTHERS=OTHERS,
+        REGIONS=REGIONS,
+        SEARCH=SEARCH,
+        cost=cost,
+        devices=devices,
+        equal_cost=equal_cost,
+        found=found,
+        math=math,
+        pairs=pairs,
+        reference=reference,
+        search=search,
+        soft=soft,
+        theory=theory,
+        varied=varied,
     )
 
 
@@ -170,26 +149,6 @@ def _cells(found: Found) -> str:
             )
         sentences.append(f"{text}, over plans and intensities: {'; '.join(counts)}.")
     return " ".join(sentences)
-
-
-def _limits(found: Found) -> str:
-    room = reference(found)["devices"]
-    own, other = room[LIR], room[OTHERS[1]]
-    pressure = found["least_load"] / (math.pi * own["sliders"][0] ** 2)
-    return (
-        "One building, one set of records without vertical component and without spectral shape, hinges "
-        "that do not degrade, one friction of the surfaces. The search has a surface through few points: "
-        "the optimum is flat, and its neighbours may be as good. Rims of the LIR-DCFP have 1 W. "
-        "Friction of the interface is that of the level `pendulum`, constant; its sliders press the "
-        f"corners' liners with {pressure / 1e6:.1f} MPa, where friction of liners is "
-        "less well known. The interface is loaded at kappa = 2 up to the edge of the slider, where the "
-        "checks of `lir check` propose 0.8. The gap around the building must let the LIR-DCFP "
-        f"travel {1e3 * (own['capacity'] + own['sliders'][0]):.0f} mm, a DCFP with rims "
-        f"{1e3 * (other['capacity'] + BREAKS):.0f} mm: its cost, that of larger joints and of what is "
-        "above and below the rims, is not in the comparison. At equal cost the LIR-DCFP is the one of "
-        "the largest margin of its plan, not the one that gives most for its cost. Without rims, a slider may not leave its "
-        "dish by its edge."
-    )
 
 
 def _took(found: Found) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from validation.page import table
+from validation.page import render, table
 from validation.study.consequences import COMPONENTS, REPLACEMENT
 from validation.study.hazards import SHORTEST
 from validation.study.loss_figures import FLOORS, LOSSES, SHAPE
@@ -26,64 +26,23 @@ ABOVE, BELOW, NEITHER = "higher", "lower", "not told apart"
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return (
-        "\n\n".join(
-            [
-                "# Loss, annual rates, spectral shape and floors: LIR-DCFP and DCFPs of its plan",
-                _introduction(found),
-                "## In short",
-                _verdict(found),
-                "## Expected loss over intensity",
-                _losses(found),
-                f"![Expected loss and its parts over the intensity](figures/{LOSSES})",
-                "Bands of 90 % are from resampled records. Collapse counts as the whole building, "
-                "failed bearings are collapses: their share is in every mean.",
-                _components(),
-                "## Annual rates at three sites",
-                _sites(found),
-                _rates(found),
-                "## Spectral shape",
-                _shape(found),
-                f"![Collapse capacity over the shape of the spectrum](figures/{SHAPE})",
-                "A bar a record, between the highest intensity that it bore and the lowest that it "
-                "did not; lines are fitted to the bars. Dotted: a spectrum that falls as 1 / T.",
-                _efficiency(found),
-                "## Floor spectra",
-                _floors(found),
-                f"![Floor spectra of base and roof](figures/{FLOORS})",
-                "Medians over all records, 5 % damping, the larger component; records under which a "
-                "bearing fails count as infinite, their number is in the legend.",
-                "## Against published results",
-                published(found),
-                "## Limits of this study",
-                _limits(),
-                "## Cost",
-                _cost(found),
-            ]
-        )
-        + "\n"
+    return render(
+        globals(),
+        BY_LOAD=BY_LOAD,
+        FLOORS=FLOORS,
+        INTENSITY=INTENSITY,
+        LOSSES=LOSSES,
+        NAMES=NAMES,
+        OURS=OURS,
+        SHAPE=SHAPE,
+        found=found,
+        published=published,
     )
 
 
 def told(ratio: list[float]) -> str:
     """Return on which side of 1 an interval lies."""
     return ABOVE if ratio[1] > 1.0 else BELOW if ratio[2] < 1.0 else NEITHER
-
-
-def _introduction(found: Found) -> str:
-    cost = found["cost"]
-    return (
-        f"Written by `python -m validation.study.loss` ({cost['date']}, {cost['machine']}). The "
-        f"building, the {found['records']} far-field records of FEMA P695 and the intensities "
-        f"({INTENSITY.label}) are those of [study.md](study.md); the devices, all in a dish of 689 mm "
-        f"under the centre bearing: {'; '.join(NAMES)} ([study_rims.md](study_rims.md)). Collapse is "
-        "the failure of a bearing or a ductility of 9. Intervals are of 90 %, by resampling records, "
-        f"the same for all devices. {OURS}: no slider is smaller than 153 mm, so that its interface may "
-        "slip as far under all columns, mu_h 0.20, rims of 1 W; it has the displacement of the DCFPs, "
-        f"and its corner bearings have larger dishes than theirs. {BY_LOAD}: sliders by their loads "
-        "and 30 mm more, mu_h 0.16, rims that never break. The maximum considered earthquake that the "
-        f"bearings of the smaller plan are made for has {found['considered']:.2f} m/s2."
-    )
 
 
 def _verdict(found: Found) -> str:
@@ -291,21 +250,6 @@ def _floors(found: Found) -> str:
     return (
         "Medians over records [g]. The impact of a slider on a rim is a pulse of milliseconds at the "
         "base: it shows at short periods first.\n\n" + table(head, rows)
-    )
-
-
-def _limits() -> str:
-    return (
-        "One building of three storeys, one plan, two LIR-DCFPs. Quantities of components are assumed "
-        "where FEMA P-58 leaves them open, and its costs of connections are of heavier beams than these; "
-        "neither downtime, injuries, residual drift nor repair of "
-        "the bearings is in the loss. Hazards are approximations from what public sources give, "
-        "taken as of RotD50 whatever component they are of: a site has its own. Loss below the lowest intensity falls straight to 0, and motions that come "
-        "more often than the hazard's shortest return period are left out. Rims that never "
-        "break have the default stiffness, which decides over the accelerations of an "
-        "impact. Floor spectra are of histories of 10 ms: of "
-        "two records on two devices, half and a quarter of the step moved them by up to 6 % from 0.2 s "
-        "on, and by up to a quarter at 0.1 s. No vertical component."
     )
 
 

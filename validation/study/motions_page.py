@@ -8,7 +8,7 @@ from scipy.stats import fisher_exact
 
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import LIR, TAIL
-from validation.page import table
+from validation.page import render, table
 from validation.study.motions_figures import PULSES_FIGURE, SHOCKS_FIGURE
 from validation.study.motions_runs import (
     GAMMA,
@@ -40,59 +40,16 @@ NAME = "study_motions"
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return (
-        "\n\n".join(
-            [
-                "# What motions change: turned, vertical, one after another, pulses",
-                _introduction(found),
-                "## In short",
-                _verdict(found),
-                "## Records turned",
-                _angles(found),
-                "## A second shock",
-                _seconds(found),
-                f"![Share of survivors of a first shock that collapse in a second](figures/{SHOCKS_FIGURE})",
-                "Of the buildings that survived the first shock, the share that collapses in the second. "
-                "Dotted: intact buildings under that second shock alone.",
-                "## The vertical component",
-                _vertical(found),
-                "## Pulses by their period",
-                _pulses(found),
-                f"![Intensity of collapse over the period of a pulse](figures/{PULSES_FIGURE})",
-                "Intensity at which collapse begins, over the period of the pulse; open markers at the top: "
-                "no collapse up to the largest intensity run.",
-                "## Limits of this study",
-                _limits(found),
-                "## Cost",
-                cost_line(found["cost"]),
-            ]
-        )
-        + "\n"
-    )
-
-
-def _introduction(found: Found) -> str:
-    cost = found["cost"]
-    return (
-        f"Written by `python -m validation.study.motions` ({cost['date']}, {cost['machine']}). "
-        "[study_buildings.md](study_buildings.md) has the devices, the building of three storeys with "
-        f"frames that stands here on each of them, and the limit states: {LIR} "
-        f"{told_lir(found['lir'])} and {WEAK}, of equal plan. "
-        "Here the motions change: records turned in plan, records with a vertical component, "
-        "a second shock after the first, and pulses of one period each. Intensities are "
-        f"{INTENSITY.label} in m/s2; all devices meet the same motions. A failed bearing counts as "
-        "collapse, a failed analysis as unknown."
-    )
-
-
-def _verdict(found: Found) -> str:
-    return "\n".join(
-        [
-            f"- **Direction.** {_verdict_angles(found)}",
-            f"- **Second shock.** {_verdict_seconds(found)}",
-            f"- **Vertical component.** {_verdict_vertical(found)}",
-            f"- **Pulses.** {_verdict_pulses(found)}",
-        ]
+    return render(
+        globals(),
+        INTENSITY=INTENSITY,
+        LIR=LIR,
+        PULSES_FIGURE=PULSES_FIGURE,
+        SHOCKS_FIGURE=SHOCKS_FIGURE,
+        WEAK=WEAK,
+        cost_line=cost_line,
+        found=found,
+        told_lir=told_lir,
     )
 
 
@@ -369,17 +326,6 @@ def _quotient(own: Mapping[str, Any], other: Mapping[str, Any]) -> str:
     word = "above " if own["high"] is None else "below " if other["high"] is None else ""
     value = (own["high"] or own["low"]) / (other["high"] or other["low"])
     return f"{word}{value:.2f}"
-
-
-def _limits(found: Found) -> str:
-    return (
-        "One building of three storeys, square, with its bearings at the level `pendulum`. The angle is "
-        "tried in three steps. A second shock comes on bearings that were not inspected: "
-        "friction does not change with wear or heat, rims are not repaired, hinges do not degrade. The "
-        f"vertical component is known from {len(found['three'])} records alone, with the same factor as "
-        "the horizontal ones, and the bearing has one axial stiffness. Pulses have no background "
-        "motion, no second component and no fling."
-    )
 
 
 def csv_tables(found: Found) -> dict[str, str]:

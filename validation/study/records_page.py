@@ -10,7 +10,7 @@ from frames.demo import bearing_for
 from frames.design.hazard.motion_folder import RECORD_SETS
 from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.yielding_runs import LIR, RIMS, TAIL, WIDE, bearings_of
-from validation.page import table
+from validation.page import render, table
 from validation.study.records_figures import CURVES, FLOOR, MEDIANS, SHOWN
 from validation.study.records_runs import (
     ALL,
@@ -40,38 +40,7 @@ SETS = (ALL, *RECORD_SETS)
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return (
-        "\n\n".join(
-            [
-                "# A study: the records of FEMA P695 on LIR-DCFP, DCFP and a larger DCFP",
-                _introduction(found),
-                "## What counts as what",
-                _definitions(),
-                "## In short",
-                _verdict(found),
-                f"![Fragility of four devices against six limit states, all records](figures/{CURVES})",
-                "All records; points are shares of stripes, bands of 90 % are from resampled records.",
-                "## Collapse margin",
-                _margins(found),
-                "## Fragility",
-                _fragilities(found),
-                "## Demands",
-                f"![Median ductility, floor acceleration, residual displacement and share of collapse over the intensity](figures/{MEDIANS})",
-                "Medians over all records, and the range of the middle 68 %; a line ends where half of "
-                "the records have failed a bearing. The last panel has the share of records that "
-                "collapse, failed bearings included.",
-                _demands(found),
-                "## Size of the larger DCFP",
-                _sizes(found),
-                "## Runs that failed, and the step",
-                _failures(found),
-                _halved(found),
-                "## Cost",
-                _cost(found),
-            ]
-        )
-        + "\n"
-    )
+    return render(globals(), CURVES=CURVES, MEDIANS=MEDIANS, found=found)
 
 
 def _introduction(found: Found) -> str:

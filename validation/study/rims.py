@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from frames.plots import plot_style as ps
-from validation.page import table
+from validation.page import render, table
 from validation.study.far_field import RECORDS, far_field
 from validation.study.part import run_part, write_part
 from validation.study.records_runs import COLLAPSE, INTENSITY
@@ -34,28 +34,7 @@ PLANS = {False: "smaller plan", True: "larger plan"}
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return (
-        "\n\n".join(
-            [
-                "# Rims that yield and break: LIR-DCFP and DCFP of equal plan",
-                _introduction(found),
-                "## In short",
-                _verdict(found),
-                f"![Collapse fragility of devices of two plans](figures/{FIGURE})",
-                "Collapse fragility, far-field records; dotted: the maximum considered earthquake "
-                "that fills the capacity of the smaller plan's bearings.",
-                "## Medians and margins",
-                _medians(found),
-                "## Who wins",
-                _ratios(found),
-                "## Limits of this study",
-                _limits(),
-                "## Cost",
-                _cost(found),
-            ]
-        )
-        + "\n"
-    )
+    return render(globals(), BREAKS=BREAKS, found=found)
 
 
 def _introduction(found: Found) -> str:
@@ -178,26 +157,6 @@ def _ratios(found: Found) -> str:
     return (
         "Median of the best LIR-DCFP of a plan over that of a DCFP of the same plan: above 1 the "
         "LIR-DCFP is better.\n\n" + table(head, rows)
-    )
-
-
-def _limits() -> str:
-    return (
-        f"The strength of a rim is not that of a product: 0.5 to 2 W and {1e3 * BREAKS:g} mm span "
-        "what a ring of steel may do, and a designer has to state both. Plates, sliders, bolts and "
-        "the columns over the bearings are taken to bear what the rims pass on. Hinges do not "
-        "degrade, records have no vertical component, factors no spectral shape. One building, two "
-        "plans, and a few LIR-DCFPs; the best of a plan, whose small sliders are larger, and cost are in "
-        "[study_device.md](study_device.md)."
-    )
-
-
-def _cost(found: Found) -> str:
-    cost = found["cost"]
-    return (
-        f"{cost['runs']} histories, {cost['computed']} of them in the last call ({cost['cpu']:.0f} s "
-        f"of processor time with {cost['workers']} workers). Digest of the results database: "
-        f"`{cost['digest']}`."
     )
 
 

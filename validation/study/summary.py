@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from validation.page import FOLDER, table
+from validation.page import FOLDER, render, table
 from validation.study.device_cost_page import equal_ratios
 from validation.study.pairs import OURS as EQUAL
 from validation.study.part import write_part
@@ -47,43 +47,7 @@ def parts_of(folder: Path = FOLDER) -> dict[str, dict[str, Any]]:
 
 def page(parts: Parts) -> str:
     """Return the page in Markdown."""
-    return (
-        "\n\n".join(
-            [
-                "# When the LIR-DCFP does better than a DCFP, when not, and what it costs",
-                "Written by `python -m validation.study.summary` from the numbers of the parts of this "
-                "study, which have methods, intervals, limits and data of each.",
-                "## Abstract",
-                _abstract(parts),
-                "## 1. Question and method",
-                _method(parts),
-                "## 2. Devices of equal plan",
-                _margins(parts),
-                "![Who is ahead over intensity and plan](figures/study_device-regions.png)",
-                "Figure 1. Who is ahead over intensity and plan: share of records that collapse (above), "
-                "median floor acceleration (below), failed bearings counted.",
-                "## 3. Does it hold?",
-                f"![Ratios of medians, by condition](figures/{FIGURE})",
-                "Figure 2. Median intensity of the LIR-DCFP over that of the DCFP with rims of 1 W, "
-                "intervals of 90 % by resampling records for both: right of 1 the LIR-DCFP is better. "
-                "Where a mark is missing, one of both has no median.",
-                _robust(parts),
-                "## 4. What is called collapse",
-                _after(parts),
-                "## 5. Loss and annual rates",
-                _loss(parts),
-                "## 6. Cost",
-                _cost(parts),
-                "## 7. Discussion",
-                _discussion(parts),
-                "## 8. Limits",
-                _limits(),
-                "## 9. To repeat it",
-                _repeat(parts),
-            ]
-        )
-        + "\n"
-    )
+    return render(globals(), PLAIN=PLAIN, parts=parts, with_interval=with_interval)
 
 
 def _plan(parts: Parts, place: int = REFERENCE) -> Mapping[str, Any]:
@@ -251,18 +215,6 @@ def _robust(parts: Parts) -> str:
     )
 
 
-def _after(parts: Parts) -> str:
-    ends, stop = parts["after"]["ratios"]["storey drift 4 %"]
-    return (
-        "A bearing that has failed is collapse only if nothing carries its load. With a flat stop "
-        "below ([study_after.md](study_after.md)) a hinge reaches a ductility of 9, of the runs in "
-        f"which bearings fail, in {_carried(parts)}: no median of collapse is left to compare. The "
-        f"median of a storey drift of 4 % on the LIR-DCFP over that on the DCFP with {PLAIN} is "
-        f"{with_interval(stop)} then, and {with_interval(ends)} where the failure counts as collapse. Other "
-        "definitions of collapse: [study_buildings.md](study_buildings.md)."
-    )
-
-
 def _loss(parts: Parts) -> str:
     found = parts["loss"]
     rows = []
@@ -315,36 +267,6 @@ def _cost(parts: Parts) -> str:
         + table(head, rows)
         + "\n\n![Margin over cost](figures/study_device-cost.png)\n\n"
         "Figure 3. Collapse margin over cost."
-    )
-
-
-def _discussion(parts: Parts) -> str:
-    energies = _plan(parts)["devices"]["LIR-DCFP"]["energies"]
-    slip, rims = 1e3 * energies["slip"], 1e3 * energies["rims"]
-    return (
-        "**Why.** Up to its rims the LIR-DCFP is a DCFP. From there its interface takes "
-        f"(D / L + mu_h) W over the slip of the smallest slider, {slip:.0f} mm of W in the example; "
-        f"rims of 1 W take {rims:.0f} mm of W over 20 mm, and pass on the frame what they bear: its "
-        "yielding takes the rest, until it has no more. So the LIR-DCFP keeps drift, ductility and "
-        "floor acceleration low up to its end, which is sudden; the DCFP lets the frame yield and "
-        "ends later, the later the stronger its rims.\n\n"
-        "**For a designer.** Give all sliders one radius, that of the most loaded; raise mu_h until "
-        "the resultant stands on the slider's edge at the full slip; provide a stop that carries "
-        "after the last millimetre of slip. Choose the LIR-DCFP where contents and a frame that "
-        "stays in use count, or where rims cannot be relied on for a force of the order of W; choose "
-        "a DCFP of a larger plan where there is room, and one with strong rims where collapse alone "
-        "counts and frame and connections bear several g."
-    )
-
-
-def _limits() -> str:
-    return (
-        "Bearings are those of this program's level `pendulum`; hinges do not degrade; one friction "
-        "of the surfaces and one period; plates, bolts and columns bear what the rims pass on; prices "
-        "are assumed; no maker's data of rims; the far-field set is scaled without a target spectrum "
-        "(what that does: [study_loss.md](study_loss.md#spectral-shape)). Each part lists its own. "
-        "No text of Auad, Castaldo and Almazan (2022) with numbers could be read, so that nothing "
-        "is compared with them."
     )
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames.plots import plot_style as ps
-from validation.page import table
+from validation.page import render, table
 from validation.study.rounded import with_interval
 from validation.study.uncertainty_runs import (
     BEST,
@@ -61,31 +61,7 @@ def shares_of_kind(kind: str) -> tuple[float, ...]:
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return (
-        "\n\n".join(
-            [
-                "# Modelling uncertainty: which properties decide, and the stiffness of rims",
-                _introduction(found),
-                "## In short",
-                _verdict(found),
-                "## Shares of the variance",
-                _indices(found),
-                f"![Total Sobol' indices of properties](figures/{INDICES})",
-                "Total indices with intervals of 90 %; the record is left out of the figure.",
-                "## What a property changes",
-                _effects(found),
-                "## Stiffness and strength of rims",
-                _margins(found),
-                f"![Collapse margin over the stiffness of rims](figures/{MARGINS})",
-                "Bands of 90 % are from resampled records.",
-                "## Limits of this study",
-                _limits(),
-                "## Cost",
-                _cost(found),
-            ]
-        )
-        + "\n"
-    )
+    return render(globals(), found=found)
 
 
 def _introduction(found: Found) -> str:
@@ -233,17 +209,6 @@ def _margins(found: Found) -> str:
         "DCFP do. The collapse capacity of a "
         "record lies between two intensities; a lognormal curve is fitted to these intervals by "
         "maximum likelihood.\n\n" + table(head, rows)
-    )
-
-
-def _limits() -> str:
-    return (
-        "Distributions are assumed, not measured, and independent. The rims of both devices have the "
-        "same properties in a run, which a maker of one device need not share. One intensity for the "
-        "indices: below it less collapses and the record matters otherwise. Ductility is cut at "
-        "collapse, so that a share cannot tell bad from worse. The building is that of the study; its "
-        "strength, its hinges and the geometry of the bearings are not varied. The interface of a "
-        "DCFP is rigid: its index is 0 by construction and a check of the method."
     )
 
 
