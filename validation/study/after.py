@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from frames.plots import plot_style as ps
-from validation.page import render, table
+from validation.page import render
 from validation.study.after_runs import (
     DEVICES,
     DROPS,
@@ -41,22 +41,12 @@ FIGURE = f"{NAME}-collapse.png"
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return render(globals(), found=found)
+    return render(globals(), found=found, FRICTION=FRICTION, INTENSITY=INTENSITY, RECORDS=RECORDS)
 
 
-def _introduction(found: Found) -> str:
+def _introduction(found: Found) -> Any:
     drops = " and ".join(f"{1e3 * drop:.0f}" for drop in DROPS if drop is not None)
-    return (
-        f"Written by `python -m validation.study.after` ({found['cost']['date']}, "
-        f"{found['cost']['machine']}). In the other parts of the study the failure of a bearing is "
-        "collapse: of an LIR-DCFP whose sliders have left their overlap, of a DCFP whose rim is "
-        "broken. Here the building comes down on a flat stop instead "
-        f"([theory](../theory_friction.md), 3.13), {drops} mm below, with a friction of "
-        f"{FRICTION:g}, and collapses when a hinge reaches a ductility of 9. The devices are the "
-        "best of the plan of 689 mm ([study_device.md](study_device.md)); building, intensities "
-        f"({INTENSITY.label}) and the {found['records']} pairs of FEMA P695's {RECORDS} set are "
-        "those of the study."
-    )
+    return drops
 
 
 def _name(device: str, drop: float | None) -> str:
@@ -123,7 +113,7 @@ def _conclusion(found: Found) -> str:
     )
 
 
-def _margins(found: Found) -> str:
+def _margins(found: Found) -> tuple[Any, ...]:
     head = ["device and what follows", *(f"{limit.name}, median [m/s2]" for limit in LIMITS)]
     rows = []
     for kind in KINDS:
@@ -137,10 +127,10 @@ def _margins(found: Found) -> str:
                 ends,
             ]
         )
-    return table([*head, "collapse margin (90 %)", "ends"], rows)
+    return head, rows
 
 
-def _reached(found: Found) -> str:
+def _reached(found: Found) -> Any:
     rows = []
     for kind in KINDS:
         if kind.drop is None:
@@ -164,16 +154,7 @@ def _reached(found: Found) -> str:
                     ),
                 ]
             )
-    head = [
-        "device and what follows",
-        "Sa [m/s2]",
-        "bearing failed",
-        "collapsed",
-        "storey drift [%]",
-        "ductility [-]",
-        "floor acceleration [g]",
-    ]
-    return "Medians of the runs in which a bearing failed and that went on.\n\n" + table(head, rows)
+    return rows
 
 
 def figure_of(found: Found) -> Figure:

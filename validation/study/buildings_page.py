@@ -51,30 +51,30 @@ def page(found: Found) -> str:
         RATIOS_FIGURE=RATIOS_FIGURE,
         cost_line=cost_line,
         found=found,
+        HALVED_AT=HALVED_AT,
+        HEIGHT=HEIGHT,
+        INTENSITY=INTENSITY,
+        LENGTH=LENGTH,
+        LIMITS=LIMITS,
+        SPAN=SPAN,
+        STEP=STEP,
+        THICKNESS=THICKNESS,
+        ULTIMATE=ULTIMATE,
+        UPLIFT=UPLIFT,
+        WALL_YIELDS=WALL_YIELDS,
+        told_lir=told_lir,
     )
 
 
-def _introduction(found: Found) -> str:
+def _introduction(found: Found) -> tuple[Any, ...]:
     cost = found["cost"]
     scales = ", ".join(f"{scale:g}" for scale in SCALES)
     fewer = [name for name, own in found["buildings"].items() if own["records"] < found["records"]]
     spared = f" To save time, {_of(fewer)} are run under every second record." if fewer else ""
-    return (
-        f"Written by `python -m validation.study.buildings` ({cost['date']}, {cost['machine']}). "
-        "[study_rims.md](study_rims.md) compares devices of equal plan under one building. Here "
-        f"{len(found['buildings'])} stand on devices of one plan, that is one dish under the centre "
-        f"bearing: the {LIR} {told_lir(found['lir'])}, and DCFPs whose rims yield at 1 W, or neither yield "
-        "nor break. Sliders of DCFPs have one pressure under the building's own loads; all of the "
-        f"{LIR} are as wide as the widest of these, for the smallest overlap lets the whole interface slip "
-        "no further. So taller buildings have wider sliders, and more room for the slip; period (3 s) and "
-        f"the way to the rims are the same in all. The {found['records']} far-field pairs of FEMA P695 "
-        f"are scaled to {INTENSITY.label} of {scales} m/s2, steps {1e3 * STEP:g} ms.{spared} Collapse "
-        f"is a ductility of {ULTIMATE:g} of a hinge or the failure of a bearing; a failed bearing exceeds "
-        "every limit state, a failed analysis counts as unknown."
-    )
+    return cost, scales, spared
 
 
-def _verdict(found: Found) -> str:
+def _verdict(found: Found) -> Any:
     lines = []
     for limit in LIMITS:
         for other in OTHERS:
@@ -93,7 +93,7 @@ def _verdict(found: Found) -> str:
                 f"{len(values)} buildings; better in {_of(above)}, worse in {_of(below)}, not told apart "
                 f"in {_of(open_)}."
             )
-    return "\n".join([*lines, f"- **What is called collapse.** {_verdict_definitions(found)}"])
+    return lines
 
 
 def _verdict_definitions(found: Found) -> str:
@@ -121,7 +121,7 @@ def _of(names: Sequence[str]) -> str:
     return f"{len(names)} ({'; '.join(names)})" if names else "none"
 
 
-def _buildings(found: Found) -> str:
+def _buildings(found: Found) -> tuple[Any, ...]:
     rows = []
     for name, each in found["buildings"].items():
         own = each["facts"]
@@ -147,24 +147,10 @@ def _buildings(found: Found) -> str:
         "radii of sliders, smaller plan [mm]",
         "height of sliders [mm]",
     ]
-    return (
-        f"Plan 2 x 2 bays of {SPAN:g} m, storeys of {HEIGHT:g} m. Frames: from the top, three storeys have "
-        "the members of the light frame of [yielding_comparison.md](yielding_comparison.md), three those of "
-        "the demo, three heavier ones (box 500 x 30 mm, I 650 x 250 mm), so that the strength over the "
-        "weight stays alike: the base shear of a mechanism in which beams turn at all floors and columns "
-        "at their feet, under equal forces at the floors. Walls: the same, with the middle columns of the "
-        f"four facades replaced by walls of {LENGTH:g} m x {1e3 * THICKNESS:g} mm over their bearings, "
-        "cracked to half of their stiffness, with a hinge at the foot (1 % of bars; the moment under the "
-        f"load at rest). {WALL_YIELDS:g} rad of plastic rotation of a wall count as one unit of "
-        f"ductility, so that ductility {ULTIMATE:g} is "
-        f"{(ULTIMATE - 1.0) * WALL_YIELDS:.2f} rad: an assumption. Above their feet walls stay "
-        "elastic. "
-        f"Sliders are higher in taller buildings, as wide ones ask for; radii of the plates grow with "
-        f"them.\n\n{table(head, rows)}"
-    )
+    return head, rows
 
 
-def _medians(found: Found) -> str:
+def _medians(found: Found) -> Any:
     rows = []
     for name, own in found["buildings"].items():
         for device in own["statuses"]:
@@ -176,25 +162,14 @@ def _medians(found: Found) -> str:
             collapse = own["limits"][COLLAPSE.name]["medians"][device]
             margin = [value / found["considered"] for value in collapse] if collapse else None
             rows.append([name, device, *cells, with_interval(margin)])
-    head = [
-        "building",
-        "device",
-        *(f"{limit.name}, median [m/s2]" for limit in LIMITS),
-        "collapse margin",
-    ]
-    return (
-        "Intervals of 90 %; a median above the largest intensity that was run is extrapolated, and none is "
-        "given beyond 1.25 of it. Margin: median of collapse over the Sa of the maximum considered earthquake "
-        f"that fills the capacity of the smaller plan, {found['considered']:.2f} m/s2, as in "
-        "[study.md](study.md).\n\n" + table(head, rows)
-    )
+    return rows
 
 
 def _why(text: str) -> str:
     return f"none: {text.split(':')[0].split(';')[0]}"
 
 
-def _ratios(found: Found) -> str:
+def _ratios(found: Found) -> tuple[Any, ...]:
     rows = [
         [
             name,
@@ -204,11 +179,10 @@ def _ratios(found: Found) -> str:
         for name, own in found["buildings"].items()
         for other in OTHERS
     ]
-    head = ["building", f"{LIR} over", *(limit.name for limit in LIMITS)]
-    return "Records are resampled for both devices alike.\n\n" + table(head, rows)
+    return rows, [limit.name for limit in LIMITS]
 
 
-def _ends(found: Found) -> str:
+def _ends(found: Found) -> tuple[Any, ...]:
     rows = []
     for name, own in found["buildings"].items():
         for device in own["statuses"]:
@@ -217,19 +191,10 @@ def _ends(found: Found) -> str:
             told = ", ".join(f"{over}/{failed}/{unknown}" for _, over, failed, _, unknown in shares)
             rows.append([name, device, ends, told])
     scales = ", ".join(f"{scale:g}" for scale in SCALES)
-    head = [
-        "building",
-        "device",
-        "ends",
-        f"collapse / of them bearings failed / unknown, at {scales} m/s2",
-    ]
-    return (
-        f"Of {found['records']} runs at each intensity, or of {found['records'] // 2}.\n\n"
-        + table(head, rows)
-    )
+    return rows, scales
 
 
-def _uplift(found: Found) -> str:
+def _uplift(found: Found) -> tuple[Any, ...]:
     rows = []
     for name, own in found["buildings"].items():
         for device in own["statuses"]:
@@ -239,12 +204,7 @@ def _uplift(found: Found) -> str:
             }
             rows.append([name, device, *(cells.get(scale, "-") for scale in SCALES)])
     head = ["building", "device", *(f"{scale:g} m/s2" for scale in SCALES)]
-    return (
-        f"Complete runs in which a bearing lifts by more than {1e3 * UPLIFT:g} mm, and the median of the "
-        "largest uplift [mm]. Bearings press alone; nothing holds them down, and a bearing that comes down "
-        "again takes the blow. Codes that allow no uplift would refuse what lifts at their "
-        f"intensity, on any of these devices.\n\n{table(head, rows)}"
-    )
+    return head, rows
 
 
 def _definitions(found: Found) -> str:
@@ -286,7 +246,7 @@ def _definitions(found: Found) -> str:
     )
 
 
-def _unharmed(found: Found) -> str:
+def _unharmed(found: Found) -> tuple[Any, ...]:
     rows = []
     for name, own in found["buildings"].items():
         for device in own["statuses"]:
@@ -299,13 +259,10 @@ def _unharmed(found: Found) -> str:
         "runs whose bearing failed",
         *(f"frame at ductility {bound:g} or less until then" for bound in UNHARMED),
     ]
-    return (
-        "Runs that end with a failed bearing, and how many of their frames had not failed, or had not even "
-        f"yielded (ductility 1), when it failed:\n\n{table(head, rows)}"
-    )
+    return head, rows
 
 
-def _steps(found: Found) -> str:
+def _steps(found: Found) -> tuple[Any, ...]:
     shown = {quantity: SHOWN[quantity] for quantity in STEPPED}
     rows, apart = [], []
     for row in found["halved"]:
@@ -332,10 +289,7 @@ def _steps(found: Found) -> str:
     )
     ends = f"ends differ in {'; '.join(apart)}" if apart else "all end alike"
     head = ["building", "device", "record", "status", *(text for text, *_ in shown.values())]
-    return (
-        f"A record a building at {HALVED_AT:g} m/s2, at {1e3 * STEP:g} ms and at half of it: {ends}; demands "
-        f"of complete runs differ by at most {told}. Runs that fail end a little earlier or later.\n\n{table(head, rows)}"
-    )
+    return ends, head, rows, told
 
 
 def csv_tables(found: Found) -> dict[str, str]:

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from validation.measurements.yielding_runs import LIR
-from validation.page import render, table
+from validation.page import render
 from validation.study.device_cost_page import cost, cost_verdict, equal_cost
 from validation.study.device_figures import COST, MARGINS, REGIONS, SEARCH, labelled, winner
 from validation.study.device_runs import BY_LOAD, OTHERS
@@ -54,23 +54,13 @@ def page(found: Found) -> str:
         soft=soft,
         theory=theory,
         varied=varied,
+        INTENSITY=INTENSITY,
     )
 
 
-def _introduction(found: Found) -> str:
+def _introduction(found: Found) -> Any:
     plans = ", ".join(millimetres(plan["plan"]) for plan in found["plans"])
-    return (
-        f"Written by `python -m validation.study.device` ({found['date']}, {found['machine']}). "
-        "[study_rims.md](study_rims.md) compares devices of equal plan, but not the best ones. Here "
-        "the LIR-DCFP of each plan is searched for: the radius of its sliders and the friction of its "
-        "interface with the largest collapse margin. It stands beside DCFPs whose sliders are as small "
-        "as the pressure allows, so that all of the plan is displacement. The plan is the diameter "
-        f"of the dish under the centre bearing: {plans} mm. Rims have 1 W unless told otherwise and "
-        f"break at {1e3 * BREAKS:g} mm; building, intensities ({INTENSITY.label}) and collapse (a "
-        "ductility of 9 of a hinge, or the failure of a bearing) are those of "
-        f"[study.md](study.md), records the {found['records']} pairs of FEMA P695's far-field set, "
-        "steps 10 ms, the same records for all. A failed bearing is an infinite demand."
-    )
+    return plans
 
 
 def _verdict(found: Found) -> str:
@@ -151,22 +141,11 @@ def _cells(found: Found) -> str:
     return " ".join(sentences)
 
 
-def _took(found: Found) -> str:
+def _took(found: Found) -> Any:
     rows = [
         [each["what"], str(each["runs"]), f"{each['seconds']:.0f}", f"`{each['digest'][:16]}`"]
         for each in found["costs"]
     ]
     runs, seconds = (sum(each[key] for each in found["costs"]) for key in ("runs", "seconds"))
     rows.append(["all", str(runs), f"{seconds:.0f}", ""])
-    return (
-        "All numbers are in study_device.json; devices and search as tables in SI units in "
-        f"tables/{NAME}-devices.csv and {NAME}-search.csv.\n\n"
-    ) + table(
-        [
-            "campaign",
-            "histories",
-            "time loops [s by the clock, on a machine that others used]",
-            "digest of its results database",
-        ],
-        rows,
-    )
+    return rows

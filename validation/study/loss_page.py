@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from validation.page import render, table
+from validation.page import render
 from validation.study.consequences import COMPONENTS, REPLACEMENT
 from validation.study.hazards import SHORTEST
 from validation.study.loss_figures import FLOORS, LOSSES, SHAPE
@@ -37,6 +37,10 @@ def page(found: Found) -> str:
         SHAPE=SHAPE,
         found=found,
         published=published,
+        FLOOR_PERIODS=FLOOR_PERIODS,
+        LIMITS=LIMITS,
+        REPLACEMENT=REPLACEMENT,
+        SHORTEST=SHORTEST,
     )
 
 
@@ -85,7 +89,7 @@ def _counted(sides: list[str]) -> str:
     return f"{counts} of {len(sides)} comparisons"
 
 
-def _losses(found: Found) -> str:
+def _losses(found: Found) -> tuple[Any, ...]:
     loss = found["loss"]
     rows = []
     for k, im in enumerate(loss["im"]):
@@ -97,14 +101,10 @@ def _losses(found: Found) -> str:
             cells.append(f"{with_interval(three, 1)}; {down:.0f}")
         rows.append([f"{im:g}", *cells])
     unknown = sum(each["unknown"] for each in found["statuses"].values())
-    return (
-        "Expected loss in per cent of the cost of a new building, and after it the share of records "
-        f"that collapse [%]. Runs whose analysis failed, {unknown}, are left out.\n\n"
-        + table(["Sa(3 s) [m/s2]", *NAMES], rows)
-    )
+    return rows, unknown
 
 
-def _components() -> str:
+def _components() -> Any:
     rows = [
         [
             each.name,
@@ -119,25 +119,10 @@ def _components() -> str:
         ]
         for each in COMPONENTS
     ]
-    head = [
-        "FEMA P-58",
-        "component",
-        "damaged by",
-        "medians [-, g]",
-        "dispersions",
-        "repair, a unit [USD]",
-        "units in a storey",
-    ]
-    return (
-        "Components of FEMA P-58, second edition (database 3.1.2, from the damage and loss model "
-        "library of NHERI SimCenter); damage states come one after the other, costs fall with the "
-        "number that is mended. A new building costs "
-        f"{REPLACEMENT:.0f} USD/m2 (Hwang and Lignos 2017, as in Kitayama and Cilsalar 2022); repair "
-        "that costs more is a new building.\n\n" + table(head, rows)
-    )
+    return rows
 
 
-def _sites(found: Found) -> str:
+def _sites(found: Found) -> Any:
     rows = [
         [
             name,
@@ -148,23 +133,10 @@ def _sites(found: Found) -> str:
         ]
         for name, site in found["sites"].items()
     ]
-    head = [
-        "site",
-        "Sa(3 s), 475 years [m/s2]",
-        "2,475 years",
-        "slope",
-        "return period of the maximum considered [years]",
-        "from",
-    ]
-    return (
-        "The same bearings do not fit all sites: rates are given for the hazard as it is, and for "
-        "its shape moved so that the intensity of 2,475 years is the maximum considered one of the "
-        "bearings. What is beyond the given points goes on as a power law; motions that come more "
-        f"often than once in {SHORTEST:.0f} years are left out.\n\n" + table(head, rows)
-    )
+    return rows
 
 
-def _rates(found: Found) -> str:
+def _rates(found: Found) -> Any:
     rows = []
     for key in found["rates"]:
         for name in NAMES:
@@ -174,16 +146,10 @@ def _rates(found: Found) -> str:
                 cells.append("-" if row is None else with_interval(row["rate"], 2, 1e4))
             own = found["loss"]["annual"][key][name]
             rows.append([key, name, *cells, with_interval(own["loss"], 2, 1e2)])
-    head = [
-        "hazard",
-        "device",
-        *(f"{limit.name} [1e-4/year]" for limit in LIMITS),
-        "loss [% of a new building a year]",
-    ]
-    return table(head, rows)
+    return rows
 
 
-def _shape(found: Found) -> str:
+def _shape(found: Found) -> tuple[Any, ...]:
     shape = found["shape"]
     rows = []
     for name in NAMES:
@@ -198,41 +164,21 @@ def _shape(found: Found) -> str:
                 "-" if name == OURS else with_interval(shape["ratios"][name]),
             ]
         )
-    head = [
-        "device",
-        "slope",
-        "dispersion without, with it",
-        "collapse margin, mean shape of the records",
-        "at the target",
-        f"{OURS}, over it, at the target",
-    ]
     middle = float(np.median([*shape["ratio"].values()]))
-    return (
-        "SaRatio is Sa(3 s) over the geometric mean of Sa at ten periods from 0.6 to 4.5 s (0.2 to "
-        "1.5 times 3 s). A record that is peaked at 3 s needs a larger Sa(3 s) to do the same; rare "
-        "motions are peaked. The logarithm of each record's collapse capacity, known between two "
-        f"intensities, is fitted by a line over ln SaRatio. Records have {middle:.2f} in the median; "
-        f"the target, {shape['target']:.2f}, is a spectrum that falls as 1 / T, as codes have it "
-        "between 0.6 and 4.5 s. It has no epsilon of a site: a target from disaggregation is higher.\n\n"
-        + table(head, rows)
-    )
+    return middle, rows, shape
 
 
-def _efficiency(found: Found) -> str:
+def _efficiency(found: Found) -> tuple[Any, ...]:
     efficiency = found["shape"]["efficiency"]
     rows = [
         [measure, *(with_interval(each[name]) for name in NAMES)]
         for measure, each in efficiency.items()
     ]
     best = min(efficiency, key=lambda m: float(np.mean([row[0] for row in efficiency[m].values()])))
-    return (
-        "Efficiency: dispersion of the collapse capacity in each measure; the smaller, the fewer "
-        f"records are needed. Smallest on average over devices: {best}.\n\n"
-        + table(["measure", *NAMES], rows)
-    )
+    return best, rows
 
 
-def _floors(found: Found) -> str:
+def _floors(found: Found) -> tuple[Any, ...]:
     rows = []
     near = [int(np.argmin(abs(FLOOR_PERIODS - t))) for t in (0.05, 0.1, 0.2, 0.5, 1.0, 3.0)]
     for level, each in found["floors"].items():
@@ -240,17 +186,7 @@ def _floors(found: Found) -> str:
             for place, line in zip(("base", "roof"), own["median"], strict=True):
                 cells = ["-" if line[k] is None else f"{line[k] / 9.80665:.2f}" for k in near]
                 rows.append([level, name, place, *cells, f"{own['failed']} of {own['records']}"])
-    head = [
-        "intensity",
-        "device",
-        "level",
-        *(f"{FLOOR_PERIODS[k]:.2f} s" for k in near),
-        "records that fail",
-    ]
-    return (
-        "Medians over records [g]. The impact of a slider on a rim is a pulse of milliseconds at the "
-        "base: it shows at short periods first.\n\n" + table(head, rows)
-    )
+    return near, rows
 
 
 def _cost(found: Found) -> str:

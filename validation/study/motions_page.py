@@ -50,6 +50,8 @@ def page(found: Found) -> str:
         cost_line=cost_line,
         found=found,
         told_lir=told_lir,
+        PULSES=PULSES,
+        PULSE_STEP=PULSE_STEP,
     )
 
 
@@ -108,7 +110,7 @@ def _verdict_seconds(found: Found) -> str:
     )
 
 
-def _verdict_vertical(found: Found) -> str:
+def _verdict_vertical(found: Found) -> tuple[Any, ...]:
     words = []
     for name, own in found["vertical"]["devices"].items():
         more, less = own["turned"]
@@ -121,10 +123,10 @@ def _verdict_vertical(found: Found) -> str:
         if ratios[kind]
     )
     told = f" Collapse median of the {LIR} over that of the {WEAK}: {both}." if both else ""
-    return f"With it collapse: {'; '.join(words)}.{told}"
+    return told, words
 
 
-def _verdict_pulses(found: Found) -> str:
+def _verdict_pulses(found: Found) -> tuple[Any, ...]:
     pairs = [[_begins(found, name, pulse.name) for name in TRIED] for pulse in PULSES]
     above, below = (sum(sign * (a - b) > 0.0 for a, b in pairs) for sign in (1.0, -1.0))
     neither = sum(
@@ -132,13 +134,7 @@ def _verdict_pulses(found: Found) -> str:
     )
     lowest = min(PULSES, key=lambda pulse: _begins(found, LIR, pulse.name))
     least = ", ".join(f"{name} {min(row[k] for row in pairs):.2f}" for k, name in enumerate(TRIED))
-    return (
-        f"Of {len(PULSES)} pulses collapse begins on the {LIR} at a higher intensity than on the {WEAK} "
-        f"in {above}, at a lower one in {below}, in the same step of "
-        f"{100.0 * (PULSE_STEP - 1.0):.0f} % in {len(PULSES) - above - below - neither}; in {neither} on "
-        f"neither. Least intensities of collapse [m/s2]: {least}, on the {LIR} by the pulse of "
-        f"{lowest.ratio:g} T_iso."
-    )
+    return above, below, least, lowest, neither
 
 
 def _begins(found: Found, device: str, pulse: str) -> float:

@@ -40,10 +40,23 @@ SETS = (ALL, *RECORD_SETS)
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return render(globals(), CURVES=CURVES, MEDIANS=MEDIANS, found=found)
+    return render(
+        globals(),
+        CURVES=CURVES,
+        MEDIANS=MEDIANS,
+        found=found,
+        INTENSITY=INTENSITY,
+        ROOM=ROOM,
+        ROOM_FRICTION=ROOM_FRICTION,
+        ROOM_RADIUS=ROOM_RADIUS,
+        STANDARD_GRAVITY=STANDARD_GRAVITY,
+        STEP=STEP,
+        TAIL=TAIL,
+        bearing_for=bearing_for,
+    )
 
 
-def _introduction(found: Found) -> str:
+def _introduction(found: Found) -> tuple[Any, ...]:
     columns, beams = (1e3 * value for value in yield_rotations().values())
     counts = ", ".join(
         f"{found['parts'][kind]['motions']} {kind}"
@@ -52,25 +65,10 @@ def _introduction(found: Found) -> str:
     )
     scales = ", ".join(f"{scale:g}" for scale in found["scales"])
     cost = found["cost"]
-    return (
-        "Written by `python -m validation.study.records` "
-        f"({cost['date']}, {cost['machine']}). Auad, Castaldo and Almazan (2022) asked what the "
-        "LIR-DCFP does to the reliability of a building that yields. This study asks the same with "
-        "the building, the bearings and the time histories of this project; it does not repeat "
-        "their models. The light frame of [yielding_comparison.md](yielding_comparison.md) (three "
-        "storeys, nine bearings, plastic hinges) stands on the LIR-DCFP, on the DCFP of the same "
-        "plates with rims, on a DCFP so large that it meets no rims, and on a LIR-DCFP with the "
-        f"same rims whose sliders have {1e3 * ROOM_RADIUS:g} mm more in radius and an interface "
-        f"friction of {ROOM_FRICTION:g} in place of "
-        f"{bearing_for(1000e3).interface_friction:g}. "
-        f"Record pairs of FEMA P695 ({counts}; horizontal, both at once, whole, and {TAIL:g} s to "
-        f"come to rest) are scaled to {INTENSITY.label} of {scales} m/s2, so that factors differ "
-        f"by record. Members yield at rotations of {columns:.1f} (columns) and {beams:.1f} mrad "
-        f"(beams). All runs have a step of {1e3 * STEP:g} ms."
-    )
+    return beams, columns, cost, counts, scales
 
 
-def _definitions() -> str:
+def _definitions() -> Any:
     rows = [
         ("rim contact", "a force of any rim"),
         ("slip over half of the overlap", "of the interface, any bearing; LIR-DCFPs alone"),
@@ -90,26 +88,17 @@ def _definitions() -> str:
             "is 250 mm; without spectral shape factor",
         ),
     ]
-    return table(("term", "definition"), rows)
+    return rows
 
 
-def _verdict(found: Found) -> str:
+def _verdict(found: Found) -> tuple[Any, ...]:
     limits = found["parts"][ALL]["limits"]
     pairs = [(own, other) for own in (LIR, ROOM) for other in (RIMS, WIDE)]
     rows = [
         (limit.name, *(_ratio(limits[limit.name]["ratios"][own].get(o)) for own, o in pairs))
         for limit in LIMITS
     ]
-    head = ("limit state", *(f"{own} over {other}" for own, other in pairs))
-    return "\n\n".join(
-        [
-            "Median of one device over that of another under all records (interval of 90 %): above 1 "
-            "it is better, below 1 worse.",
-            table(head, rows),
-            _physics(found),
-            _larger_sliders(found),
-        ]
-    )
+    return pairs, rows
 
 
 def _ratio(value: list[float] | None) -> str:
@@ -132,7 +121,7 @@ def _floor_and_shear(found: Found, device: str, at: int) -> str:
     return f"{_of(floor, 1.0 / STANDARD_GRAVITY, '.2f')} g and {_of(shear, 1.0, '.2f')} W"
 
 
-def _larger_sliders(found: Found) -> str:
+def _larger_sliders(found: Found) -> tuple[Any, ...]:
     at = _last_held(found, ROOM)
     margins = [margin(found, ALL, name) for name in (LIR, ROOM, RIMS)]
     own, larger, rims = ("none" if each is None else f"{each[0]:.2f}" for each in margins)
@@ -141,20 +130,10 @@ def _larger_sliders(found: Found) -> str:
         for name in (LIR, ROOM, RIMS)
     ]
     runs = sum(found["statuses"][LIR].values())
-    return (
-        "**Larger sliders.** How far its sliders may slip governs the collapse of the LIR-DCFP, and "
-        f"is a choice of the designer: with {1e3 * ROOM_RADIUS:g} mm more in radius and an interface "
-        f"friction of {ROOM_FRICTION:g} its bearings fail in {failed[1]} of {runs} runs in place "
-        f"of {failed[0]} (DCFP with rims: {failed[2]}), and the collapse margin is {larger} in "
-        f"place of {own} (DCFP with rims: {rims}). At {found['scales'][at]:g} m/s2 medians of "
-        f"floor acceleration and base shear are {_floor_and_shear(found, ROOM, at)}. "
-        "The price is the plan: dishes of "
-        f"{_dish(bearing_for(1000e3).lateral_capacity, ROOM_RADIUS):.0f} mm in place of "
-        f"{_dish(bearing_for(1000e3).lateral_capacity):.0f} mm."
-    )
+    return at, failed, larger, own, rims, runs
 
 
-def _physics(found: Found) -> str:
+def _physics(found: Found) -> tuple[Any, ...]:
     limits, at = found["parts"][ALL]["limits"], _last_held(found, LIR)
     failures = limits[COLLAPSE.name]["stripes"][LIR]
     alone = [name for name, own in limits.items() if own["stripes"][LIR] == failures]
@@ -163,31 +142,7 @@ def _physics(found: Found) -> str:
     slip = 1e3 * min(b.resolved()["slip_capacity"] for b in bearings)
     overrun = found["statuses"][RIMS].get("rim_overrun", 0)
     runs = sum(found["statuses"][RIMS].values())
-    return (
-        "The interface slips instead of pushing on the rims, so that its friction limits "
-        f"the force: at {found['scales'][at]:g} m/s2 medians of floor acceleration and base shear "
-        f"are {told}. The price "
-        "is travel: the sliders carry each other only until the slip uses up "
-        f"their overlap ({slip:.0f} mm and more). The friction is the same at every intensity, "
-        "and only it and the restoring force of the spheres bring the slip to a stop. "
-        "Beyond that the bearing has failed, where a DCFP whose rims hold still stands "
-        "and its frame yields. So the LIR-DCFP collapses at lower intensities than the "
-        "DCFP **if** rims and plates bear the forces of the table below, and the frame, its "
-        "connections and contents a floor acceleration of several g: nothing above breaks by "
-        "acceleration in this model. Its rims are strong, but not without limit: they fail "
-        "at a force (stiffness times deformation at failure) of "
-        f"{_rim_strength(bearings)} times the design load of a bearing (corner, edge and centre), "
-        f"and do so in {overrun} of {runs} runs of the DCFP with rims. Stiffness and deformation at "
-        "failure are the defaults of the program and are not varied here. The sign of the collapse result depends on both: "
-        "softer rims, or rims that fail earlier, let the DCFP collapse at lower intensities "
-        "and narrow the comparison: [study_rims.md](study_rims.md) has rims that yield and break, "
-        "down to half of the load, with which it does not turn. Read it for rims of this strength alone. A "
-        "larger DCFP meets neither; its cost is its plan.\n\n"
-        "The runs of the LIR-DCFP that exceed one of these are the same, those whose bearing "
-        f"fails: {', '.join(alone)}. Where its bearings hold, all are kept. At the maximum "
-        "considered earthquake, which fills the capacity by its definition, the slip is all that "
-        "is left."
-    )
+    return alone, at, bearings, overrun, runs, slip, told
 
 
 def _rim_strength(bearings: Iterable[LIRBearing]) -> str:
@@ -197,7 +152,7 @@ def _rim_strength(bearings: Iterable[LIRBearing]) -> str:
     return ", ".join(f"{ratio:.1f}" for ratio in sorted(ratios))
 
 
-def _margins(found: Found) -> str:
+def _margins(found: Found) -> Any:
     rows = []
     for kind in _kinds(found):
         for name in DEVICES:
@@ -212,15 +167,10 @@ def _margins(found: Found) -> str:
                     "-" if ratio is None else f"{ratio[0]:.2f} ({ratio[1]:.2f} to {ratio[2]:.2f})",
                 )
             )
-    head = ("records", "device", "median [m/s2] (90 %)", "dispersion", "margin (90 %)")
-    return (
-        f"The maximum considered earthquake that fills the capacity has {INTENSITY.label} of "
-        f"{found['considered']:.2f} m/s2 ({found['considered'] / STANDARD_GRAVITY:.2f} g).\n\n"
-        + table(head, rows)
-    )
+    return rows
 
 
-def _fragilities(found: Found) -> str:
+def _fragilities(found: Found) -> tuple[Any, ...]:
     note = (
         "Medians in m/s2 of all records (interval of 90 %, records resampled), and dispersion. "
         "Curves of each set are in study.json; there fewer than 20 records make intervals too "
@@ -231,10 +181,10 @@ def _fragilities(found: Found) -> str:
         own = found["parts"][ALL]["limits"][limit.name]["curves"]
         rows += [(limit.name, name, _median(own[name]), _spread(own[name])) for name in DEVICES]
     head = ("limit state", "device", "median", "dispersion")
-    return f"{note}\n\n{table(head, rows)}"
+    return head, note, rows
 
 
-def _demands(found: Found) -> str:
+def _demands(found: Found) -> tuple[Any, ...]:
     shares = ", ".join(f"{100 * share:g} %" for share in FRACTILES)
     at = [_near(found, share) for share in (0.75, 1.0, 1.25)]
     rows = []
@@ -250,10 +200,10 @@ def _demands(found: Found) -> str:
         f"All records: fractiles of {shares} at the intensities next to 0.75, 1 and 1.25 of that "
         'of the maximum considered earthquake; "failed": that part has failed a bearing.'
     )
-    return f"{note}\n\n{table(head, rows)}"
+    return head, note, rows
 
 
-def _sizes(found: Found) -> str:
+def _sizes(found: Found) -> tuple[Any, ...]:
     bearing = bearing_for(1000e3)
     displacements = found["parts"][ALL]["demands"]["bearing displacement"][WIDE]
     rows = [
@@ -262,13 +212,7 @@ def _sizes(found: Found) -> str:
             found["scales"], displacements, found["largest"], strict=True
         )
     ]
-    return (
-        "Displacement, and the diameter of the dish that it needs under the centre bearing, "
-        f"2 (D R / L + a) [mm]. Those of the LIR-DCFP and the DCFP with rims are "
-        f"{_dish(bearing.lateral_capacity):.0f} mm for {1e3 * bearing.lateral_capacity:.0f} mm, "
-        f"with larger sliders {_dish(bearing.lateral_capacity, ROOM_RADIUS):.0f} mm.\n\n"
-        + table(("Sa [m/s2]", "median", "84 %", "largest"), rows)
-    )
+    return bearing, rows
 
 
 def _dish(displacement: float, more: float = 0.0) -> float:
@@ -322,19 +266,14 @@ def _halved(found: Found) -> str:
     )
 
 
-def _cost(found: Found) -> str:
+def _cost(found: Found) -> tuple[Any, ...]:
     cost, seconds = found["cost"], found["seconds"]
     loops = "; ".join(
         f"{name} {1e3 * total * len(seconds) / cost['runs']:.0f} ms a history, "
         f"{most:.1f} s the longest"
         for name, (total, most) in seconds.items()
     )
-    return (
-        f"{cost['runs']} histories, {cost['computed']} of them in this call: "
-        f"{cost['clock']:.0f} s of clock, {cost['cpu']:.0f} s of processor time with "
-        f"{cost['workers']} workers (compilation is cached), {cost['memory']:.0f} MB of memory at "
-        f"most. The time loop takes: {loops}. Digest of the results database: `{cost['digest']}`."
-    )
+    return cost, loops
 
 
 def _kinds(found: Found) -> list[str]:

@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from frames.plots import plot_style as ps
-from validation.page import render, table
+from validation.page import render
 from validation.study.far_field import RECORDS, far_field
 from validation.study.part import run_part, write_part
 from validation.study.records_runs import COLLAPSE, INTENSITY
@@ -34,30 +34,17 @@ PLANS = {False: "smaller plan", True: "larger plan"}
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return render(globals(), BREAKS=BREAKS, found=found)
+    return render(
+        globals(), BREAKS=BREAKS, found=found, INTENSITY=INTENSITY, LIMITS=LIMITS, RECORDS=RECORDS
+    )
 
 
-def _introduction(found: Found) -> str:
+def _introduction(found: Found) -> tuple[Any, ...]:
     dishes = {wider: 1e3 * max(found["dishes"][kinds[0].name]) for wider, kinds in PLAINS.items()}
     reach = {
         wider: 1e3 * max(found["capacities"][kinds[0].name]) for wider, kinds in PLAINS.items()
     }
-    return (
-        f"Written by `python -m validation.study.rims` ({found['cost']['date']}, "
-        f"{found['cost']['machine']}). In [study.md](study.md) the rims of the DCFP break at several "
-        "times the load that the bearing carries, and its comparison of collapse rests on that. Here "
-        "rims have a strength: they yield at 0.5, 1 or 2 times the design load W of their bearing and "
-        f"break at a deformation of {1e3 * BREAKS:g} mm (hardening 0.005, "
-        "[theory](../theory_friction.md)); beside them stand rims that stay elastic and never break. "
-        "A broken rim is the failure of its bearing. Devices are compared at equal plan: the dish "
-        "under the centre bearing, 2 (D R / L + a), has a diameter of "
-        f"{dishes[False]:.0f} mm (smaller plan) or {dishes[True]:.0f} mm (larger plan). "
-        f"A DCFP takes it all for displacement, {reach[False]:.0f} and {reach[True]:.0f} mm; a "
-        "LIR-DCFP may have larger sliders instead, which let its interface slip further. Building, "
-        f"intensities ({INTENSITY.label}) and limit states are those of the study, the records the "
-        f"{found['records']} pairs of FEMA P695's {RECORDS} set, steps 10 ms. Collapse is a "
-        "ductility of 9 of a hinge or the failure of a bearing."
-    )
+    return dishes, reach
 
 
 def _verdict(found: Found) -> str:
@@ -116,15 +103,7 @@ def _best(found: Found, wider: bool) -> Kind:
     return max(known, key=lambda kind: found["margins"][kind.name][0])
 
 
-def _medians(found: Found) -> str:
-    head = [
-        "device",
-        "D [mm]",
-        *(f"{limit.name}, median [m/s2]" for limit in LIMITS),
-        "collapse margin (90 %)",
-        "runs with rims that yield [%]",
-        "ends",
-    ]
+def _medians(found: Found) -> Any:
     rows = []
     for kind in KINDS:
         curves = [found["limits"][limit.name][kind.name] for limit in LIMITS]
@@ -140,10 +119,10 @@ def _medians(found: Found) -> str:
                 ends,
             ]
         )
-    return table(head, rows)
+    return rows
 
 
-def _ratios(found: Found) -> str:
+def _ratios(found: Found) -> tuple[Any, ...]:
     # Collapse medians of the best LIR-DCFP over those of each DCFP, and of accelerations.
     rows = []
     for wider, plan in PLANS.items():
@@ -153,11 +132,7 @@ def _ratios(found: Found) -> str:
             cells = ["-" if ratio is None else f"{ratio:.2f}" for ratio in ratios]
             rims = "never break" if kind.strength is None else f"{kind.strength:g} W"
             rows.append([plan, rims, *cells])
-    head = ["plan", "rims of the DCFP", *(limit.name for limit in LIMITS)]
-    return (
-        "Median of the best LIR-DCFP of a plan over that of a DCFP of the same plan: above 1 the "
-        "LIR-DCFP is better.\n\n" + table(head, rows)
-    )
+    return (rows, [limit.name for limit in LIMITS])
 
 
 def figure_of(found: Found) -> Figure:

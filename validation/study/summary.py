@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from validation.page import FOLDER, render, table
+from validation.page import FOLDER, render
 from validation.study.device_cost_page import equal_ratios
 from validation.study.pairs import OURS as EQUAL
 from validation.study.part import write_part
@@ -58,7 +58,7 @@ def _width(plan: Mapping[str, Any]) -> str:
     return f"{1e3 * plan['plan']:.0f} mm"
 
 
-def _abstract(parts: Parts) -> str:
+def _abstract(parts: Parts) -> tuple[Any, ...]:
     plan = _plan(parts)
     ours, pair = plan["devices"]["LIR-DCFP"], plan["pairs"][PLAIN]["ratios"]
     plains = [
@@ -70,20 +70,7 @@ def _abstract(parts: Parts) -> str:
         f"{limit} {with_interval(pair[limit])}" for limit in (DRIFT, "ductility 4", FLOOR, COLLAPSE)
     ]
     after = parts["after"]["ratios"]["storey drift 4 %"]
-    return (
-        "The LIR-DCFP bounds what presses on its rims by the friction of its interface, at the price "
-        f"of a slip that its sliders must have room for. {_runs(parts)} time histories of buildings "
-        "that yield ask when that pays, against double concave bearings (DCFP) of the same plan whose "
-        "rims yield and break at a stated force. The LIR-DCFP is searched for at each plan: all "
-        "sliders as wide as the widest, for the smallest ends the slip of all, and an interface as "
-        f"strong as its resultant allows. In dishes of {_width(plan)} its collapse margin is "
-        f"{with_interval(ours['margin'])}, those of DCFPs {', '.join(plains)}. Medians of intensity over "
-        f"those of the DCFP with {PLAIN}: {'; '.join(verdicts)}. "
-        f"{_plans_words(parts)} Collapse counts the failure of a bearing; where a stop carries on "
-        f"after it, a frame collapses in {_carried(parts)} of these runs, and the median of a storey "
-        f"drift of 4 % is {with_interval(after[1])} times that of the DCFP, {with_interval(after[0])} without. "
-        f"{_equal_cost(parts)}"
-    )
+    return after, ours, plains, plan, verdicts
 
 
 def _carried(parts: Parts) -> str:
@@ -135,28 +122,12 @@ def _runs(parts: Parts) -> str:
     return f"{round(total, -2):,}"
 
 
-def _method(parts: Parts) -> str:
+def _method(parts: Parts) -> Any:
     plans = ", ".join(_width(plan) for plan in parts["device"]["plans"])
-    return (
-        "**Devices.** Plan is the diameter of the dish under the centre bearing: "
-        f"{plans}. What is not slider is displacement; sliders of DCFPs are as small as their "
-        "pressure allows. Rims yield at 0.5, 1 or 2 times the load W of their bearing and break at "
-        "20 mm, or never do ([study_rims.md](study_rims.md), [study_device.md](study_device.md)).\n\n"
-        "**Buildings.** Steel frames with plastic hinges on nine bearings, of three storeys unless told "
-        f"otherwise; in one part {'; '.join(parts['buildings']['buildings'])} "
-        "([study_buildings.md](study_buildings.md)).\n\n"
-        "**Motions.** The 22 pairs of FEMA P695's far-field set, scaled to Sa(3 s, 5 %), RotD50; "
-        "near-fault sets ([study.md](study.md)); turned, with a vertical component, one after "
-        "another, pulses ([study_motions.md](study_motions.md)). The same records for all devices.\n\n"
-        "**Limits.** Storey drift of 2 %, ductility of 4, floor acceleration of 1 g, collapse: "
-        "a ductility of 9 of a hinge or the failure of a bearing. A failed bearing exceeds every "
-        "limit, a failed analysis counts as unknown; lognormal curves by maximum likelihood; "
-        "margin is the median of collapse over the maximum considered earthquake that fills "
-        f"250 mm, {parts['device']['considered']:.2f} m/s2."
-    )
+    return plans
 
 
-def _margins(parts: Parts) -> str:
+def _margins(parts: Parts) -> tuple[Any, ...]:
     # Collapse margins by plan and rims; those of 2 W are of the part on rims, by plan.
     rows = []
     others = parts["rims"]["margins"]
@@ -168,14 +139,7 @@ def _margins(parts: Parts) -> str:
             cells.append(with_interval(own) if own else "-")
         rows.append([_width(plan), *cells])
     plan = _plan(parts)
-    return (
-        "Collapse margins (90 %); rims of 2 W from [study_rims.md](study_rims.md).\n\n"
-        + table(["plan", "best LIR-DCFP", *(f"DCFP, {rims}" for rims in RIMS)], rows)
-        + "\n\nWhat the strength of the rims gives the DCFP, it takes from what stands on it: of the "
-        f"DCFP of {_width(plan)} with rims that never break the median floor acceleration that "
-        f"exceeds 1 g begins at {plan['devices'][RIMS[0]]['limits'][FLOOR]['median'][0]:.2f} m/s2, of "
-        f"the LIR-DCFP at {plan['devices']['LIR-DCFP']['limits'][FLOOR]['median'][0]:.2f} m/s2."
-    )
+    return plan, rows
 
 
 def _robust(parts: Parts) -> str:
@@ -215,7 +179,7 @@ def _robust(parts: Parts) -> str:
     )
 
 
-def _loss(parts: Parts) -> str:
+def _loss(parts: Parts) -> tuple[Any, ...]:
     found = parts["loss"]
     rows = []
     for site, devices in found["loss"]["annual"].items():
@@ -225,17 +189,7 @@ def _loss(parts: Parts) -> str:
             for name in (f"DCFP, {RIMS[0]}", f"DCFP, {PLAIN}", f"DCFP, {RIMS[3]}")
         ]
         rows.append([site, f"{100.0 * own['loss'][0]:.2f}", *cells])
-    head = ["hazard", "LIR-DCFP, % of a new building a year"]
-    head += [f"over DCFP, {rims}" for rims in (RIMS[0], RIMS[2], RIMS[3])]
-    return (
-        "FEMA P-58 components, hazards of three sites as they are, and moved so that the earthquake "
-        "of 2,475 years fills the bearings ([study_loss.md](study_loss.md), with sources, rates of "
-        "drift, floor acceleration and collapse, spectral shape, floor spectra and published "
-        "results). Annual loss of the LIR-DCFP over that of a DCFP (90 %), below 1 it is better:\n\n"
-        + table(head, rows)
-        + "\n\nMost of the repair of frames on DCFPs is that of the connections of beams, whose costs "
-        f"are of heavier frames; without it the ratios are {_without(found)}."
-    )
+    return found, rows
 
 
 def _without(found: Mapping[str, Any]) -> str:
@@ -247,7 +201,7 @@ def _without(found: Mapping[str, Any]) -> str:
     return ", ".join(words)
 
 
-def _cost(parts: Parts) -> str:
+def _cost(parts: Parts) -> Any:
     rows = []
     for plan in parts["device"]["plans"]:
         costs = {
@@ -260,17 +214,10 @@ def _cost(parts: Parts) -> str:
             [_width(plan), f"{own:,.0f}"]
             + [f"{own / costs[rims]:.2f}" for rims in (RIMS[0], RIMS[2], RIMS[3])]
         )
-    head = ["plan", "LIR-DCFP", *(f"over DCFP, {rims}" for rims in (RIMS[0], RIMS[2], RIMS[3]))]
-    return (
-        "Nine bearings in kilograms of machined steel, by prices that are assumed; each is varied by "
-        f"half in [study_device.md](study_device.md#cost). {_equal_cost(parts)}\n\n"
-        + table(head, rows)
-        + "\n\n![Margin over cost](figures/study_device-cost.png)\n\n"
-        "Figure 3. Collapse margin over cost."
-    )
+    return rows
 
 
-def _repeat(parts: Parts) -> str:
+def _repeat(parts: Parts) -> Any:
     rows = []
     for name, part in parts.items():
         if name == "device":
@@ -284,17 +231,7 @@ def _repeat(parts: Parts) -> str:
             digests = list(own.values()) if isinstance(own, dict) else own
         more = f" and {len(digests) - 1} more" if len(digests) > 1 else ""
         rows.append([name, str(runs), f"{seconds:.0f}", f"`{digests[0][:16]}`{more}"])
-    head = ["part", "histories", "time loops [s]", "digest of the results database"]
-    return (
-        "`python -m validation.study --store runs` runs all parts, on one machine overnight; "
-        "`--workers tcp://host:port` on a Dask cluster. Numbers are in `study_<part>.json`, tables "
-        "as CSV in `docs/validation/tables/`. For a building of your own: `lir campaign` with `[compare]` "
-        "([campaigns](../campaigns.md#devices-compared)). The building that yields takes 27 s of "
-        "processor time for 88 histories, 23,000 an hour on two cores; before its time loop was "
-        "shortened it took 35 s, 18,000 an hour (both on one machine, in turns). 14 medians of the "
-        "part `after` were recomputed from its results database by scipy alone, to six digits.\n\n"
-        + table(head, rows)
-    )
+    return rows
 
 
 def write(parts: Parts) -> None:

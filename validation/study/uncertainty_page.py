@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames.plots import plot_style as ps
-from validation.page import render, table
+from validation.page import render
 from validation.study.rounded import with_interval
 from validation.study.uncertainty_runs import (
     BEST,
@@ -61,22 +61,14 @@ def shares_of_kind(kind: str) -> tuple[float, ...]:
 
 def page(found: Found) -> str:
     """Return the page in Markdown."""
-    return render(globals(), found=found)
-
-
-def _introduction(found: Found) -> str:
-    rows = [[key, MEANINGS[key], RANGES[key]] for key in SPREADS]
-    return (
-        f"Written by `python -m validation.study.uncertainty` ({found['cost']['date']}, "
-        f"{found['cost']['machine']}). The comparison of [study_rims.md](study_rims.md) rests on "
-        "properties that nobody knows well. Here they are varied, all together, for the LIR-DCFP and "
-        "the DCFP of the same plan (dish of 689 mm; the best LIR-DCFP of [study_device.md](study_device.md), "
-        "all sliders as wide as the widest), under the far-field records of FEMA P695 at "
-        f"Sa(3 s) = {LEVEL:g} m/s2, next to the maximum considered earthquake. Both devices have the "
-        "same properties and record in each run, rims yield and break. The result is the logarithm "
-        "of the ductility of the worst hinge, at most that of collapse, 9, which a failed bearing "
-        "counts as.\n\n" + table(["property", "is", "distribution (assumed)"], rows)
+    return render(
+        globals(), found=found, BEST=BEST, LEVEL=LEVEL, SAMPLES=SAMPLES, SPREADS=SPREADS, math=math
     )
+
+
+def _introduction(found: Found) -> Any:
+    rows = [[key, MEANINGS[key], RANGES[key]] for key in SPREADS]
+    return rows
 
 
 def _leading(found: Found, name: str) -> list[str]:
@@ -125,7 +117,7 @@ def _cause(found: Found) -> str:
     )
 
 
-def _indices(found: Found) -> str:
+def _indices(found: Found) -> tuple[Any, ...]:
     rows = []
     for key in SPREADS:
         cells = []
@@ -133,10 +125,6 @@ def _indices(found: Found) -> str:
             own = found["shares"][name]
             cells += [with_interval(own["first"][key]), with_interval(own["total"][key])]
         rows.append([key, *cells])
-    head = [
-        "property",
-        *(f"{text}, {kind}" for text in WHAT.values() for kind in ("first", "total")),
-    ]
     told = "; ".join(
         f"{text}: mean {found['shares'][name]['mean']:.2f}, deviation "
         f"{found['shares'][name]['deviation']:.2f}, {found['shares'][name]['left out']} samples left "
@@ -145,15 +133,14 @@ def _indices(found: Found) -> str:
     )
     collapsed = ", ".join(f"{name} {100.0 * v:.0f} %" for name, v in found["collapsed"].items())
     return (
-        f"Sobol' indices of {SAMPLES} samples (Saltelli et al. 2010), the record as one property more: "
-        f"{SAMPLES * (len(SPREADS) + 2)} sets, each run on both devices. Intervals of 90 % are from "
-        "resampled samples; first indices may come out below 0. "
-        f"Logarithm of the ductility: {told}. Share of runs that count as collapse: {collapsed}.\n\n"
-        + table(head, rows)
+        collapsed,
+        rows,
+        told,
+        [f"{text}, {kind}" for text in WHAT.values() for kind in ("first", "total")],
     )
 
 
-def _effects(found: Found) -> str:
+def _effects(found: Found) -> Any:
     rows = [
         [
             key,
@@ -165,18 +152,10 @@ def _effects(found: Found) -> str:
         for key in SPREADS
         if key != RECORD
     ]
-    return (
-        "Change of the ductility from the fractile of 16 % of a property to that of 84 % [%], the "
-        "others as they come, from a line through all runs with a constant for each record. Above 0: "
-        "more of the property, more ductility. Ratio: above 0 is worse for the LIR-DCFP. Intervals of "
-        "90 % are from resampled samples. The interface of a DCFP changes nothing: what stands there, "
-        f"{100.0 * math.expm1(found['effects']['DCFP']['interface'][0]):.0f} %, is the error of the line "
-        "through so few samples, and effects of that size are not told apart from none.\n\n"
-        + table(["property", *WHAT.values()], rows)
-    )
+    return rows
 
 
-def _margins(found: Found) -> str:
+def _margins(found: Found) -> tuple[Any, ...]:
     rows = []
     stiff = found["stiffness"]
     for kind, text in KINDS.items():
@@ -195,30 +174,13 @@ def _margins(found: Found) -> str:
                     down,
                 ]
             )
-    head = [
-        "device",
-        "stiffness of rims over the default",
-        "collapse margin",
-        f"{BEST}, over it",
-        f"failed bearings at {', '.join(f'{v:g}' for v in LEVELS)} m/s2 [%]",
-        "collapse there [%]",
-    ]
-    return (
-        f"All records at five intensities, everything else as it was. {BEST}: the best of the plan "
-        "([study_loss.md](study_loss.md)), its rims yield at 1 W and break as those of the "
-        "DCFP do. The collapse capacity of a "
-        "record lies between two intensities; a lognormal curve is fitted to these intervals by "
-        "maximum likelihood.\n\n" + table(head, rows)
-    )
+    return (rows, ", ".join(f"{v:g}" for v in LEVELS))
 
 
-def _cost(found: Found) -> str:
+def _cost(found: Found) -> tuple[Any, ...]:
     cost = found["cost"]
     digests = "; ".join(f"{name}: `{digest}`" for name, digest in cost["digests"].items())
-    return (
-        f"{cost['runs']} histories ({cost['loop']:.0f} s in the time loop). Digests of the results "
-        f"databases: {digests}."
-    )
+    return cost, digests
 
 
 def figures(found: Found) -> dict[str, Figure]:
