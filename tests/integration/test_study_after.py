@@ -10,8 +10,7 @@ from scipy.stats import binom, norm
 
 from frames.risk.campaign.comparison import dish_diameter
 from validation.page import FOLDER
-from validation.study.after import NAME, page
-from validation.study.after_runs import DEVICES, DROPS, KINDS, Kind, devices
+from validation.study.after import DEVICES, DROPS, KINDS, NAME, Kind, devices, page
 from validation.study.device_runs import REFERENCE, plan_of
 from validation.study.records_runs import COLLAPSE, SCALES, considered
 

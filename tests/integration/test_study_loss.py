@@ -16,7 +16,7 @@ from validation.study import loss
 from validation.study.capacities import bounds_of, fitted
 from validation.study.consequences import AREA, COMPONENTS, REPLACEMENT, STOREYS, repair
 from validation.study.hazards import CONSIDERED_PERIOD, L_AQUILA, italian, sites
-from validation.study.loss_page import page
+from validation.study.loss import page
 from validation.study.loss_runs import TARGET, annual
 from validation.study.pairs import BY_LOAD, NAMES, OTHERS, OURS, device
 from validation.study.records_runs import COLLAPSE, INTENSITY, considered

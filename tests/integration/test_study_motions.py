@@ -14,7 +14,7 @@ from lir_element.errors import AnalysisWarning
 from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
 from validation.study.buildings_runs import BUILDINGS, SCALES, building
-from validation.study.motions_numbers import first_over, of_seconds
+from validation.study.motions import first_over, of_seconds
 from validation.study.motions_page import NAME, csv_tables, page
 from validation.study.motions_runs import (
     ANGLE_SCALES,

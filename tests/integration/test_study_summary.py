@@ -4,8 +4,7 @@ import pytest
 
 from validation.page import FOLDER
 from validation.study import __main__ as whole
-from validation.study.summary import NAME, READ, page, parts_of
-from validation.study.summary_figure import LIMITS, comparisons
+from validation.study.summary import LIMITS, NAME, READ, comparisons, page, parts_of
 
 
 def test_the_page_is_that_of_the_numbers_of_the_parts():

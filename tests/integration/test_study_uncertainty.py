@@ -11,7 +11,7 @@ from frames.risk import sobol_indices
 from validation.page import FOLDER
 from validation.study import uncertainty
 from validation.study.pairs import BY_LOAD, OURS, UNBREAKABLE, device
-from validation.study.uncertainty_numbers import effects_of, shares_of
+from validation.study.uncertainty import effects_of, shares_of
 from validation.study.uncertainty_page import KINDS, page, shares_of_kind
 from validation.study.uncertainty_runs import (
     BEST,

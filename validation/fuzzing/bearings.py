@@ -10,7 +10,6 @@ from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 if TYPE_CHECKING:
     import numpy as np
 
-    from lir_element.device.friction import Friction
 
 SIZES = (0.05, 5.0)
 """Smallest and largest of the mean radius [m]."""
@@ -30,7 +29,7 @@ def chosen(rng: np.random.Generator, shares: dict[Any, float]) -> Any:
     return keys[int(place)]
 
 
-def random_friction(rng: np.random.Generator) -> Friction:
+def random_friction(rng: np.random.Generator) -> CoulombFriction | VelocityFriction:
     """Return the friction of a surface: 0.5 to 20 %, none in a few."""
     mu = 0.0 if rng.random() < 0.02 else log_uniform(rng, 0.005, 0.2)
     if rng.random() < 0.35:
