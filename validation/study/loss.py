@@ -29,10 +29,9 @@ from validation.study.loss_runs import (
     floors_of,
     found_of,
 )
-from validation.study.pairs import BY_LOAD, NAMES, OTHERS, OURS
+from validation.study.pairs import BY_LOAD, NAMES, OTHERS, OURS, UNBREAKABLE
 from validation.study.part import performed, run_part, write_part
-from validation.study.published import published
-from validation.study.records_runs import INTENSITY, normalised
+from validation.study.records_runs import COLLAPSE, INTENSITY, normalised
 from validation.study.rounded import csv_of, rounded, with_interval
 
 if TYPE_CHECKING:
@@ -89,6 +88,20 @@ def main(given: Sequence[str] | None = None) -> None:
     run_part("loss", given, run, write)
 
 
+def collapsed(found: Found) -> tuple[float, dict[str, float]]:
+    """Return the stripe next to the maximum considered earthquake, and shares that collapse."""
+    stripes = found["stripes"][COLLAPSE.name]
+    levels = [row[0] for row in stripes[OURS]]
+    k = min(range(len(levels)), key=lambda n: abs(levels[n] - found["considered"]))
+    return levels[k], {name: rows[k][1] / rows[k][2] for name, rows in stripes.items()}
+
+
+def moved(found: Found, name: str) -> float:
+    """Return what SaRatio changes of a collapse margin [%]."""
+    line = found["shape"]["lines"][name]
+    return 100.0 * float(line["corrected"][0] / line["margin"][0] - 1.0)
+
+
 if __name__ == "__main__":
     main()
 
@@ -108,7 +121,7 @@ def page(found: Found) -> str:
         OURS=OURS,
         SHAPE=SHAPE,
         found=found,
-        published=published,
+        UNBREAKABLE=UNBREAKABLE,
         FLOOR_PERIODS=FLOOR_PERIODS,
         LIMITS=LIMITS,
         REPLACEMENT=REPLACEMENT,
