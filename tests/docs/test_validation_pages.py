@@ -153,3 +153,9 @@ def test_templates_have_the_names_they_use():
         own = set(vars(import_module(module)))
         assert used <= own | given | set(TEMPLATES.globals), template.name
         assert given <= used, template.name
+
+
+def test_a_script_runs_when_all_of_it_is_defined():
+    for path in PACKAGE.rglob("*.py"):
+        body = ast.parse(path.read_text(encoding="utf-8")).body
+        assert not any("__main__" in ast.unparse(each) for each in body[:-1]), path

@@ -196,10 +196,6 @@ def page(folder: Path | None) -> Page:
     )
 
 
-if __name__ == "__main__":
-    run(CLAIM, page)
-
-
 MARKS = ("o", "s", "^")
 
 
@@ -270,3 +266,7 @@ def newhall_figure(found: Mapping[tuple[float, float], xr.Dataset]) -> Figure:
     caption(row[0], y="interface slip [mm]")
     add_legend(drawn, handles, columns=6, title="Slip of the interface, Newhall 360")
     return drawn
+
+
+if __name__ == "__main__":
+    run(CLAIM, page)

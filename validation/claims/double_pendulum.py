@@ -175,10 +175,6 @@ def page(_: Path | None = None) -> Page:
     )
 
 
-if __name__ == "__main__":
-    run(CLAIM, page)
-
-
 LOOKS: tuple[dict[str, Any], ...] = (
     {"color": PALETTE[0], "linewidth": 2.0, "label": "rigid slider (element)"},
     {
@@ -287,3 +283,7 @@ def loops(case: Case) -> Loops:
     turn = float(np.abs(shares[:, 0] - shares[:, 1]).max() / np.abs(shares).max())
     hinged, moments = (articulated(case.bearing, moments=m).force(path) for m in (False, True))
     return Loops(case, path, force, hinged, moments, turn)
+
+
+if __name__ == "__main__":
+    run(CLAIM, page)

@@ -247,10 +247,6 @@ def page(folder: Path | None) -> Page:
     )
 
 
-if __name__ == "__main__":
-    run(CLAIM, page)
-
-
 SHOWN = 15.0  # s, of the histories
 OURS, THEIRS = 3.2, 0.9  # pt; so that equal curves show both
 COLOURS = tuple(PALETTE[k] for k in (5, 1, 0, 3, 2))  # a light one below
@@ -313,3 +309,7 @@ def _handles(first: str, others: list[str]) -> list[Artist]:
         Line2D([], [], color=COLOURS[k], linewidth=_width(k), label=name)
         for k, name in enumerate(names)
     ]
+
+
+if __name__ == "__main__":
+    run(CLAIM, page)

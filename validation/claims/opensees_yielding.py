@@ -199,10 +199,6 @@ def _column_checks(own: section.Path, fibres: section.Path) -> list[Check]:
         """)
 
 
-if __name__ == "__main__":
-    run(CLAIM, page)
-
-
 THEIRS = {"color": "0.65", "linewidth": 3.0}
 OURS = {"color": "C0", "linewidth": 0.9}
 NAMES = ("here", "OpenSees")
@@ -247,3 +243,7 @@ def draw_column(own: section.Path, fibres: section.Path) -> Figure:
     for axis in (left, right):
         axis.grid(visible=True, alpha=0.3)
     return drawn
+
+
+if __name__ == "__main__":
+    run(CLAIM, page)

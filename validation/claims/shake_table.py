@@ -247,10 +247,6 @@ def page(_: Path | None = None) -> Page:
     )
 
 
-if __name__ == "__main__":
-    run(CLAIM, page)
-
-
 def inputs(motions: Mapping[str, GroundMotion]) -> Figure:
     """Draw the accelerations of the table, after Fig. 10."""
     drawn = new_figure(2.0)
@@ -302,3 +298,7 @@ def responses(
     ]
     add_legend(drawn, handles, columns=4, title="Stiff structure on four bearings")
     return drawn
+
+
+if __name__ == "__main__":
+    run(CLAIM, page)

@@ -162,10 +162,6 @@ def main(arguments: list[str] | None = None) -> None:
         write(kept)
 
 
-if __name__ == "__main__":
-    main()
-
-
 KINDS = {"singleFPBearing": "o", "LIR-DCFP, in-process coupling": "s"}
 """By marker; beside a kind stands our own device of it."""
 WHO = {"direct": PALETTE[0], "reduced": PALETTE[2], "usual": PALETTE[3], "best": PALETTE[1]}
@@ -338,3 +334,7 @@ def profile(key: str) -> dict[str, float]:
         "coordinates": float(coordinates),
         "modes": float(modes),
     }
+
+
+if __name__ == "__main__":
+    main()

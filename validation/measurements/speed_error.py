@@ -173,10 +173,6 @@ def main() -> None:
     print(page)
 
 
-if __name__ == "__main__":
-    main()
-
-
 COLUMNS = 3
 FLOOR = 2e-3
 """Errors below are drawn here [%]."""
@@ -283,3 +279,7 @@ def draw(results: list[Result]) -> Figure:
     ]
     add_legend(figure, handles, columns=3, size=SMALL)
     return figure
+
+
+if __name__ == "__main__":
+    main()

@@ -109,10 +109,6 @@ def main(given: Sequence[str] | None = None) -> None:
     write(found, left_out)
 
 
-if __name__ == "__main__":
-    main()
-
-
 Row = dict[str, Any]
 FIGURE = "yielding_comparison-demand.png"
 PACOIMA = "Pacoima Dam 1971"
@@ -321,3 +317,7 @@ def page(found: Sequence[Row], left_out: Sequence[str], elastic_at: float) -> st
         variants_at=sorted({row["demand"] for row in found if row["system"] in VARIANTS}),
         yields=yields,
     )
+
+
+if __name__ == "__main__":
+    main()

@@ -203,10 +203,6 @@ def main(given: Sequence[str] | None = None) -> None:
     run_part("after", given, partial(far_field, campaign, found_of), write)
 
 
-if __name__ == "__main__":
-    main()
-
-
 DROPS = (None, 0.02)
 """Way down to the stop [m]; None: the run ends by the failure, which is collapse."""
 
@@ -322,3 +318,7 @@ def found_of(
 def _median(values: Any) -> float | None:
     # Of the runs that went on; none: None.
     return float(np.round(np.median(values), 5)) if len(values) else None
+
+
+if __name__ == "__main__":
+    main()

@@ -102,10 +102,6 @@ def moved(found: Found, name: str) -> float:
     return 100.0 * float(line["corrected"][0] / line["margin"][0] - 1.0)
 
 
-if __name__ == "__main__":
-    main()
-
-
 ABOVE, BELOW, NEITHER = "higher", "lower", "not told apart"
 
 
@@ -287,3 +283,7 @@ def _cost(found: Found) -> str:
         + ", ".join(f"`{digest}`" for digest in cost["digests"])
         + "."
     )
+
+
+if __name__ == "__main__":
+    main()

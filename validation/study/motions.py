@@ -162,10 +162,6 @@ def main(given: Sequence[str] | None = None) -> None:
     run_part("motions", given, run, write)
 
 
-if __name__ == "__main__":
-    main()
-
-
 def of_angles(runs: Mapping[int, Mapping[str, IntensityRuns]], resamples: int) -> dict[str, Any]:
     """Return medians by angle and device, ratios, and how often an angle decides."""
     found: dict[str, Any] = {"limits": {}, "differ": {}}
@@ -321,3 +317,7 @@ def first_over(im: Any, over: Any, status: Sequence[str]) -> dict[str, Any]:
         "status": str(status[first]),
         "again": int((np.asarray(over)[first:] < 0.5).sum()),
     }
+
+
+if __name__ == "__main__":
+    main()

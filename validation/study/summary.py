@@ -250,10 +250,6 @@ def main(given: Sequence[str] | None = None) -> None:
     write(parts_of())
 
 
-if __name__ == "__main__":
-    main()
-
-
 PLAIN = "rims of 1 W"
 LIMIT = 1.6
 """Where the figure ends; intervals that go on have an arrow."""
@@ -308,3 +304,7 @@ def figure_of(parts: Parts) -> Figure:
     panels[0].set_yticks(range(len(rows)), [name for name, _ in rows])
     panels[0].set_ylim(len(rows) - 0.5, -0.5)
     return figure
+
+
+if __name__ == "__main__":
+    main()

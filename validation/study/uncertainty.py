@@ -122,10 +122,6 @@ def main(given: Sequence[str] | None = None) -> None:
     run_part("uncertainty", given, run, write)
 
 
-if __name__ == "__main__":
-    main()
-
-
 def capped(data: xr.Dataset) -> FloatArray:
     """Return the logarithm of each run's ductility, that of collapse at most; NaN where unknown."""
     outcome = np.array([outcome_of(str(each)) for each in data["status"].to_numpy()])
@@ -242,3 +238,7 @@ def stiffness_of(
                 *interval((again[ours_] / again[name]).tolist()),
             ]
     return found
+
+
+if __name__ == "__main__":
+    main()
