@@ -89,6 +89,7 @@ friction = [0.8, 1.3]
 interface = [0.9, 1.1]
 [analysis]
 bounds = ["lower", "upper"]
+level = "pendulum"
 """
 
 
@@ -424,7 +425,7 @@ FAILS = (
     ("s_ms = 1.2", "s_ms = 2.4"),
     ("s_m1 = 0.6", "s_m1 = 1.2"),
     ("400 kN/mm", "5 kN/mm"),
-    ('bounds = ["lower", "upper"]', 'bounds = ["lower"]\nlevel = "pendulum"'),
+    ('bounds = ["lower", "upper"]', 'bounds = ["lower"]'),
     ("[project]", '[project]\nlanguage = "es"\ndecimal = ","'),
 )
 
