@@ -137,8 +137,8 @@ def made_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
     return put
 
 
-KEPT = slice(500, 3000)
-"""Steps of the artificial motions of ``lir new`` that tests keep: half of them, with the pulse."""
+KEPT = slice(1200, 2400)
+"""Steps of the artificial motions of ``lir new`` that tests keep: a quarter, with the pulse."""
 
 
 def shorten(file: Path) -> None:

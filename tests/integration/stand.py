@@ -11,7 +11,6 @@ from lir_element.opensees import bearing_element
 from lir_element.opensees.plugin import _SESSION
 from tests.scenes import small_bearing
 
-
 ERRORS = tempfile.TemporaryFile()  # noqa: SIM115  (of the whole process)
 WATCHED: list[int] = []  # servers that write there
 
