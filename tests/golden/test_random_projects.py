@@ -9,7 +9,7 @@ pytest.importorskip("typer")
 from validation.random_projects import FINDINGS, perform, random_project
 
 SEED = 3
-DAILY, ALL = 12, 20
+DAILY, ALL = 5, 20
 """Number of projects, and with those that `make nightly` adds."""
 
 

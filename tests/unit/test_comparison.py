@@ -41,7 +41,7 @@ WEAK = ONE.replace("scale = 0.8", "scale = 0.3")
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory, put_example: Callable[..., Path]) -> Path:
     """Motions of the example, and two small projects."""
-    made = put_example(tmp_path_factory.mktemp("compared"), whole=True)
+    made = put_example(tmp_path_factory.mktemp("compared"))
     (made / "one.toml").write_text(ONE)
     (made / "weak.toml").write_text(WEAK)
     return made

@@ -364,7 +364,7 @@ def test_damage_is_a_line_with_its_code(
     assert len(said) < 1000
 
 
-@pytest.mark.parametrize("command", ["run", "report", "view", "compare"])
+@pytest.mark.parametrize("command", ["report", "view"])
 def test_a_full_disk_is_a_line(done: Path, monkeypatch: pytest.MonkeyPatch, command: str) -> None:
     def full(_: int) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
