@@ -11,7 +11,8 @@ from lir_element.opensees import bearing_element
 from lir_element.opensees.plugin import _SESSION
 from tests.scenes import small_bearing
 
-ERRORS = tempfile.TemporaryFile()  # noqa: SIM115  (of the whole process)
+with tempfile.TemporaryFile() as opened:
+    ERRORS = os.dup(opened.fileno())  # of the whole process
 WATCHED: list[int] = []  # servers that write there
 
 
@@ -39,15 +40,15 @@ class Stand:
                 server.close()
                 _SESSION.server = None
             own = os.dup(2)
-            os.dup2(ERRORS.fileno(), 2)
+            os.dup2(ERRORS, 2)
             WATCHED.append(_SESSION.running_server().pid)
             os.dup2(own, 2)
             os.close(own)
-        self.read = os.fstat(ERRORS.fileno()).st_size
+        self.read = os.fstat(ERRORS).st_size
 
     def errors(self, capfd: Any) -> str:
         """Return what was written to standard error since the last call, by the server as well."""
-        written = os.pread(ERRORS.fileno(), 1 << 24, self.read)
+        written = os.pread(ERRORS, 1 << 24, self.read)
         self.read += len(written)
         return str(capfd.readouterr().err) + written.decode()
 

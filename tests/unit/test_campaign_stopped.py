@@ -52,7 +52,7 @@ def marks(store):
 
 assert os.waitpid(in_child("whole"), 0)[1] == 0
 chance, kills, kept = random.Random(7), 0, {}
-while kills < 6:
+while kills < 4:
     child = in_child("killed")
     time.sleep(chance.uniform(0.0, 0.8))
     os.kill(child, signal.SIGKILL)
@@ -86,7 +86,7 @@ def test_kills_at_random_moments_change_nothing(tmp_path: Path) -> None:
     )
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout.splitlines()[-1])
-    assert found["kills"] >= 3
+    assert found["kills"] >= 2
     assert found["digests"][0] == found["digests"][1]
     left = {p.name for p in tmp_path.iterdir()} - {"whole", "killed"}
     assert all(name.startswith(".killed.") for name in left), "stores half made, never taken up"

@@ -8,7 +8,7 @@ import re
 import shutil
 import subprocess  # noqa: S404
 import unicodedata
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import fields
 from functools import reduce
 from html import unescape
@@ -92,6 +92,14 @@ interface = [0.9, 1.1]
 bounds = ["lower", "upper"]
 level = "pendulum"
 """
+
+
+@pytest.fixture(scope="module", autouse=True)
+def coarse_pictures() -> Iterator[None]:
+    """Have pictures of few points: most of the time of a report is drawing."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("frames.design.report.page._DOTS", 40)
+        yield
 
 
 @pytest.fixture(scope="module")
