@@ -804,6 +804,7 @@ def test_twist_under_load(sign: float, weak: int) -> None:
 # ------------------------------------------------------------------------------- plain Python
 
 
+@pytest.mark.nightly  # by day the pendulum's element and the time loop are
 def test_compiled_is_plain_python(lab: SimpleNamespace) -> None:
     u, time = lab.smooth_path(lab.make("coulomb"), 81, 120)
     steps = slice(0, 3)
