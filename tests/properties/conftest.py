@@ -155,9 +155,10 @@ def walk(
     names: tuple[str, ...] = (),
     visit: Callable[[Element, int], None] | None = None,
     features: Features | None = None,
+    level: str = "pendulum",
 ) -> SimpleNamespace:
     """Take a new element through a path; return forces (n, 12) and the histories of `names`."""
-    element = Element(bearing, features=features)
+    element = Element(bearing, level, features=features)
     kept: dict[str, list[Any]] = {name: [] for name in ("resisting", *names)}
     for k in range(len(u)):
         element.set_trial(u[k], np.zeros(12), time[k])
@@ -168,6 +169,18 @@ def walk(
         for name in names:
             kept[name].append(element.response(name))
     return SimpleNamespace(**{k: np.array(v) for k, v in kept.items()}, element=element)
+
+
+def differences(element: Element, u: np.ndarray, time: float, step: float) -> np.ndarray:
+    """Return central differences of fourth order of the resisting forces."""
+    k = np.zeros((12, 12))
+    for column in range(12):
+        for shift, weight in ((-2, 1.0), (-1, -8.0), (1, 8.0), (2, -1.0)):
+            moved = u.copy()
+            moved[column] += shift * step
+            element.set_trial(moved, np.zeros(12), time)
+            k[:, column] += weight * element.resisting_force() / (12.0 * step)
+    return k
 
 
 @pytest.fixture(scope="session")
