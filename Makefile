@@ -30,7 +30,7 @@ test: $(READY)  ## lint, types and all tests
 suite: kernels
 	$(RUN) -m pytest -n auto --maxprocesses 4 --dist worksteal
 
-nightly: $(READY)  ## what takes minutes: compiling, more random cases, all bounds of reviewed projects
+nightly: $(READY)  ## what takes minutes: compiling, the site, more random cases, all reviewed projects
 	$(RUN) -m pytest -m nightly
 
 kernels: $(READY)  ## compile the kernels of usual analyses, once

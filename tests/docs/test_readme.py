@@ -27,7 +27,7 @@ PAGES = (
     "docs/test_programme.md",
     "docs/view.md",
 )
-AT_NIGHT = ("docs/fragility.md", "docs/campaigns.md")
+AT_NIGHT = ("docs/motions.md", "docs/fragility.md", "docs/campaigns.md")
 """Five seconds each."""
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?", re.IGNORECASE)
