@@ -126,6 +126,7 @@ def test_a_server_killed_in_an_analysis_ends_it(stand: Any, capfd: Any) -> None:
     assert stand.errors(capfd).count("has ended: their states are lost") == 1
 
 
+@pytest.mark.nightly  # by day one is killed in an analysis
 def test_a_server_killed_while_idle_is_noticed() -> None:
     """A new model is analysed as ever; and without one the process ends."""
     errors = run(
