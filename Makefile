@@ -20,7 +20,7 @@ demo: $(if $(wildcard $(READY)),$(READY),$(DEMO))  ## run the demonstration
 docs: $(READY)  ## build the site into build/docs
 	$(RUN) -m sphinx -W --keep-going -b html -c docs . build/docs
 
-quick: $(READY)  ## the physics and one path through each door: 80 s, once kernels are compiled
+quick: $(READY)  ## the physics and one path through each door: under a minute, once kernels are compiled
 	$(RUN) -m pytest -m quick -n auto --maxprocesses 4 --dist worksteal -q
 
 test: $(READY)  ## lint, types and all tests
@@ -30,7 +30,7 @@ test: $(READY)  ## lint, types and all tests
 suite: kernels
 	$(RUN) -m pytest -n auto --maxprocesses 4 --dist worksteal
 
-nightly: $(READY)  ## what takes minutes: compiling, more random cases, all bounds of reviewed projects
+nightly: $(READY)  ## what takes minutes: compiling, the site, more random cases, all reviewed projects
 	$(RUN) -m pytest -m nightly
 
 kernels: $(READY)  ## compile the kernels of usual analyses, once

@@ -42,7 +42,7 @@ PLAIN = {
 
 
 LONG = set((Path(__file__).parent / "long.txt").read_text(encoding="utf-8").split())
-"""Modules that `make quick` leaves out, but for what is marked in them: a second and more each."""
+"""Modules and tests of others that `make quick` leaves out, but for what is marked: long ones."""
 
 
 ROOMS = {"unit", "integration", "properties"}
@@ -83,14 +83,21 @@ DOUBTS = ("lir_element.DesignWarning", "lir_element.AnalysisWarning", "frames.Mo
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark what is quick, and what runs as plain Python; let pass the doubts that a test means.
 
+    Quick are the first and the last case of each test, where neither it nor its module is long.
     ``pytest.mark.meant("settles by")`` says that a bearing or a model is strange on purpose: the
     warnings whose text these words (a regular expression) are found in are no errors there.
     """
+    cases: dict[tuple[str, str], list[pytest.Item]] = {}
+    for item in items:
+        if item.path.parent.name in ROOMS and item.get_closest_marker("nightly") is None:
+            name = getattr(item, "originalname", item.name)
+            cases.setdefault((item.path.stem, name), []).append(item)
+    for (module, name), each in cases.items():
+        for item in () if {module, f"{module}::{name}"} & LONG else (each[0], each[-1]):
+            item.add_marker("quick")
     for item in items:
         if item.path.stem in PLAIN and item.path.parent.name == "unit":
             item.add_marker("plain")
-        if item.path.parent.name in ROOMS and item.path.stem not in LONG:
-            item.add_marker("quick")
         words = [each for marker in item.iter_markers("meant") for each in marker.args]
         for each, kind in itertools.product(words, DOUBTS):
             item.add_marker(pytest.mark.filterwarnings(f"ignore:.*{each}:{kind}"))
@@ -137,8 +144,8 @@ def made_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
     return put
 
 
-KEPT = slice(500, 3000)
-"""Steps of the artificial motions of ``lir new`` that tests keep: half of them, with the pulse."""
+KEPT = slice(1200, 2400)
+"""Steps of the artificial motions of ``lir new`` that tests keep: a quarter, with the pulse."""
 
 
 def shorten(file: Path) -> None:

@@ -8,21 +8,15 @@ import numpy as np
 import pytest
 
 from frames import GroundMotion, lumped_mass, time_history
-from lir_element import LIRBearing, VelocityFriction
+from lir_element import LIRBearing
+from tests.scenes import paper_bearing
 
 ROOT = Path(__file__).parents[2]
 CHOICES = (ROOT / "docs" / "choices.md").read_text(encoding="utf-8")
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 T = np.arange(0.0, 6.0, 0.005)
 MOTION = GroundMotion(x=2.0 * np.sin(2.0 * np.pi * T / 1.6) * (T < 1.6), dt=0.005)
-BEARING = LIRBearing(
-    radius=1.185,
-    slider_height=0.12,
-    slider_radius=0.15,
-    capacity=0.25,
-    friction=VelocityFriction(f_max=0.065, f_min=0.0325, rate=15.0),
-    interface_friction=0.13,
-)
+BEARING = paper_bearing()
 RIMS = BEARING.resolved()["rim_stiffness"]
 CHANGED = {
     "defaults": {},

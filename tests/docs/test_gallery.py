@@ -26,12 +26,15 @@ SLOW = {  # over 2 s
 }
 NEEDS = {"a_bearing": "openseespy", "b_builtin": "openseespy", "e_openseespy": "openseespy"}
 NEEDS |= {"e_campaign": "filelock", "a_ida": "pyFragility", "b_fragility": "pyFragility"}
+AT_NIGHT = {"f_design_project"}  # a whole project, as many tests run one
 LINES = 50  # of a script of the gallery, without its text
 
 
 def cases(paths: list[Path]) -> list[object]:
     """Return parameters, long ones marked as slow."""
     marks = {path: [pytest.mark.slow] if path.stem in SLOW else [] for path in paths}
+    for path in paths:
+        marks[path] += [pytest.mark.nightly] if path.stem in AT_NIGHT else []
     return [pytest.param(p, id=f"{p.parent.name}-{p.stem}", marks=marks[p]) for p in paths]
 
 

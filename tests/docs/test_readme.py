@@ -27,6 +27,8 @@ PAGES = (
     "docs/test_programme.md",
     "docs/view.md",
 )
+AT_NIGHT = ("docs/motions.md", "docs/fragility.md", "docs/campaigns.md")
+"""Five seconds each."""
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d*)?(?:e[-+]?\d+)?", re.IGNORECASE)
 
@@ -52,7 +54,10 @@ def assert_same_output(printed: str, shown: str) -> None:
         assert abs(float(got) - float(expected)) <= 1.01 * unit_of(expected), (got, expected)
 
 
-@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.parametrize(
+    "page",
+    [pytest.param(p, marks=[pytest.mark.nightly] if p in AT_NIGHT else []) for p in PAGES],
+)
 def test_blocks_print_what_the_page_shows(
     page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -8,7 +8,6 @@ import re
 import shutil
 import subprocess  # runs this interpreter on the sources of the site  # noqa: S404
 import sys
-import time
 import zlib
 from html import unescape
 from pathlib import Path
@@ -19,6 +18,7 @@ from typer.main import get_group
 from frames.command.app import app
 
 pytest.importorskip("sphinx_gallery")
+pytestmark = pytest.mark.nightly  # half a minute; links of sources: test_generated.py
 
 ROOT = Path(__file__).parents[2]
 MODULES = (
@@ -37,10 +37,7 @@ ELSEWHERE = {"frames": {"AnalysisInterrupted"}}
 """Names of `lir_element` that `frames` hands on."""
 
 
-WAIT = 600.0  # s, for another process that builds
-
-
-def build(folder: Path) -> None:
+def build(folder: Path) -> "subprocess.CompletedProcess[str]":
     """Build the site of a copy of the sources: the build writes pages between them."""
     source = folder / "source"
     beside = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "CITATION.cff")
@@ -55,28 +52,17 @@ def build(folder: Path) -> None:
     command += [str(source), str(folder / "html")]
     packages = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
     around = os.environ | {"LIR_DOCS_RUN": "0", "PYTHONPATH": packages}
-    built = subprocess.run(  # noqa: S603
+    return subprocess.run(  # noqa: S603
         command, capture_output=True, text=True, check=False, env=around
     )
-    (folder / "failed").write_text(built.stderr if built.returncode else "", encoding="utf-8")
-    (folder / "failed").rename(folder / "done")
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The site without what its scripts draw; built once, for all processes of the suite."""
-    base = tmp_path_factory.getbasetemp()
-    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "site"
-    try:
-        folder.mkdir()
-    except FileExistsError:
-        end = time.monotonic() + WAIT
-        while not (folder / "done").exists() and time.monotonic() < end:
-            time.sleep(0.5)
-    else:
-        build(folder)
-    failed = (folder / "done").read_text(encoding="utf-8")
-    assert not failed, failed
+    """The site without what its scripts draw."""
+    folder = tmp_path_factory.mktemp("site")
+    built = build(folder)
+    assert not built.returncode, built.stderr
     return folder / "html"
 
 

@@ -1,5 +1,7 @@
 """A mass on bearings in OpenSees: for the tests, and for the processes that they start."""
 
+import os
+import tempfile
 from typing import Any
 
 import numpy as np
@@ -8,6 +10,10 @@ from lir_element import LIRBearing, VelocityFriction
 from lir_element.opensees import bearing_element
 from lir_element.opensees.plugin import _SESSION
 from tests.scenes import small_bearing
+
+with tempfile.TemporaryFile() as opened:
+    ERRORS = os.dup(opened.fileno())  # of the whole process
+WATCHED: list[int] = []  # servers that write there
 
 
 class Stand:
@@ -26,11 +32,25 @@ class Stand:
         self.ops.wipe()
         self.ops.model("basic", "-ndm", ndm, "-ndf", 6 if ndm == 3 else 3)
 
-    def fresh_server(self) -> None:
-        """End the server of this process: a new one writes to where standard error is captured."""
-        if self.route == "portable" and _SESSION.server is not None:
-            _SESSION.server.close()
-            _SESSION.server = None
+    def watch_server(self) -> None:
+        """Have a server whose standard error is the file of `errors`: one serves many tests."""
+        server = _SESSION.server
+        if self.route == "portable" and (server is None or server.pid not in WATCHED):
+            if server is not None:
+                server.close()
+                _SESSION.server = None
+            own = os.dup(2)
+            os.dup2(ERRORS, 2)
+            WATCHED.append(_SESSION.running_server().pid)
+            os.dup2(own, 2)
+            os.close(own)
+        self.read = os.fstat(ERRORS).st_size
+
+    def errors(self, capfd: Any) -> str:
+        """Return what was written to standard error since the last call, by the server as well."""
+        written = os.pread(ERRORS, 1 << 24, self.read)
+        self.read += len(written)
+        return str(capfd.readouterr().err) + written.decode()
 
     def put(
         self, tag: int, i: int, j: int, bearing: LIRBearing | None = None, **options: Any

@@ -44,38 +44,25 @@ def test_double_pendulum():
     assert_all_hold(double_pendulum.checks({c.name: double_pendulum.loops(c) for c in cases}))
 
 
-DAILY = pytest.mark.parametrize("every", [False, pytest.param(True, marks=pytest.mark.nightly)])
-"""Some cases of a page in the suite, every one in `make nightly`."""
-
-
-@DAILY
+@pytest.mark.nightly  # by day test_from_opensees.py has a building wholly in OpenSees
 @pytest.mark.skipif(find_spec("openseespy") is None, reason="openseespy is not installed")
-def test_opensees_superstructure(monkeypatch, every):
-    """Twice the finest step and a part of the motion; in the suite one storey, shaken harder."""
-    small = {"DURATION": 4.0} if every else {"DURATION": 2.5, "STOREYS": 1, "HARD": 0.8}
-    for name, value in {"FINE": 0.002, **small}.items():
+def test_opensees_superstructure(monkeypatch):
+    """Twice the finest step and a part of the motion."""
+    for name, value in {"FINE": 0.002, "DURATION": 4.0}.items():
         monkeypatch.setattr(opensees_superstructure, name, value)
-    if not every:
-        chosen = ("mass and initial stiffness", "by regions")
-        kinds = {name: opensees_superstructure.DAMPINGS[name] for name in chosen}
-        monkeypatch.setattr(opensees_superstructure, "DAMPINGS", kinds)
     page = opensees_superstructure.page(None)
     assert_all_hold(page.checks)
     plt.close(page.figures["histories"])
 
 
-@DAILY
-@pytest.mark.slow
+@pytest.mark.nightly  # by day test_yielding_step.py steps beside OpenSees
 @pytest.mark.skipif(find_spec("openseespy") is None, reason="openseespy is not installed")
-def test_opensees_yielding(monkeypatch, every):
+def test_opensees_yielding(monkeypatch):
     """Twice the steps, and no more than 4 s: the page has all of it."""
     short = [
         one._replace(dt=2.0 * one.dt, duration=min(one.duration, 4.0))
         for one in opensees_yielding.CASES
     ]
-    if not every:  # one of storeys, dampers, walls and hinges each
-        short = [short[k] for k in (3, 5, 9, 11)]
-        monkeypatch.setattr(opensees_yielding, "SHOWN", (0, 1, 2, 3))
     monkeypatch.setattr(opensees_yielding, "CASES", tuple(short))
     page = opensees_yielding.page(None)
     assert_all_hold(page.checks)

@@ -106,10 +106,10 @@ def child() -> Iterator[Child]:
         ("contact", {"record_every": 100}),
         ("rigid_body", {"record_every": 10}),
         ("rigid_body", {"record_every": 2, "integrator": "explicit"}),
-        ("auto", {"record_every": 1000}),
         ("rig pendulum", {}),
-        ("rig contact", {}),
-        ("rig rigid_body", {}),
+        pytest.param("auto", {"record_every": 1000}, marks=pytest.mark.nightly),
+        pytest.param("rig contact", {}, marks=pytest.mark.nightly),
+        pytest.param("rig rigid_body", {}, marks=pytest.mark.nightly),
     ],
     ids=str,
 )

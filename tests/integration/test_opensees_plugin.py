@@ -316,14 +316,14 @@ def test_friction_follows_the_speed(stand: Any) -> None:
 
 
 def test_a_load_far_from_the_design_load_is_told(stand: Any, capfd: Any) -> None:
-    stand.fresh_server()
+    stand.watch_server()
     words = {1e4: "less than an eighth", 2e7: "more than eight times", 1e6: None}
     for load, word in words.items():
         stand.build()
         stand.gravity(load)
         stand.shaking(0.1)
         stand.run(5)
-        text = capfd.readouterr().err
+        text = stand.errors(capfd)
         assert text.count("bearing element 1 carries") == (word is not None)
         if word is not None:
             assert word in text
@@ -332,7 +332,7 @@ def test_a_load_far_from_the_design_load_is_told(stand: Any, capfd: Any) -> None
 
 
 def test_a_model_whose_vertical_is_another_is_told(stand: Any, capfd: Any) -> None:
-    stand.fresh_server()
+    stand.watch_server()
     stand.build(fixed=(0, 0, 0, 1, 1, 1))
     ops = stand.ops
     ops.timeSeries("Linear", 1)
@@ -342,7 +342,7 @@ def test_a_model_whose_vertical_is_another_is_told(stand: Any, capfd: Any) -> No
     ops.integrator("LoadControl", 0.2)
     ops.analysis("Static")
     assert ops.analyze(5) != 0
-    text = capfd.readouterr().err
+    text = stand.errors(capfd)
     assert "was never compressed along its axis, (0, 0, 1) in the model" in text
     assert "orient=(x, y, z), (0, 1, 0) where y points upwards" in text
     assert "72 degrees" not in text

@@ -33,10 +33,9 @@ from tests.patience import patience
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="kills processes by signals")
-ROUTES = [
-    pytest.param("fast", marks=pytest.mark.skipif(bool(why_not_fast()), reason="not possible")),
-    "portable",
-]
+FAST = pytest.mark.skipif(bool(why_not_fast()), reason="not possible")
+ROUTES = [pytest.param("fast", marks=[FAST, pytest.mark.nightly]), "portable"]
+"""Those of a process of its own: with the server by day."""
 
 PORTABLE = pytest.mark.parametrize("stand", ["portable"], indirect=True)
 
@@ -104,7 +103,7 @@ def gone(pid: int) -> bool:
 
 @PORTABLE
 def test_a_server_killed_in_an_analysis_ends_it(stand: Any, capfd: Any) -> None:
-    stand.fresh_server()
+    stand.watch_server()
     begin(stand, 20)
     ops, server = stand.ops, _SESSION.server
     killer = other(f"import os, time; time.sleep(0.5); os.kill({server.pid}, 9)")
@@ -124,9 +123,10 @@ def test_a_server_killed_in_an_analysis_ends_it(stand: Any, capfd: Any) -> None:
     assert not any(advance(stand)), "the new model"
     assert _SESSION.server.pid != server.pid
     assert bearing_tags() == (1, 2, 3)
-    assert capfd.readouterr().err.count("has ended: their states are lost") == 1
+    assert stand.errors(capfd).count("has ended: their states are lost") == 1
 
 
+@pytest.mark.nightly  # by day one is killed in an analysis
 def test_a_server_killed_while_idle_is_noticed() -> None:
     """A new model is analysed as ever; and without one the process ends."""
     errors = run(
@@ -186,16 +186,19 @@ def shot_at(how, seed, work):
 
 
 @pytest.mark.parametrize(
-    "how", ["group", "process", pytest.param("hidden", marks=pytest.mark.nightly)]
+    ("route", "how"),
+    [
+        pytest.param("fast", "process", marks=FAST),
+        ("portable", "group"),
+        pytest.param("portable", "process", marks=pytest.mark.nightly),
+        pytest.param("portable", "hidden", marks=pytest.mark.nightly),
+    ],
 )
-@pytest.mark.parametrize("route", ROUTES)
 def test_ctrl_c_leaves_the_model_as_it_was(route: str, how: str) -> None:
     """Of a terminal, to all processes of the group, or of a notebook, to the one of the model.
 
     In a build whose functions are hidden the remedy of the documentation holds.
     """
-    if route == "fast" and how != "process":
-        pytest.skip("it needs the functions, and is alone in its group")
     errors = run(
         CTRL_C
         + f"""
@@ -265,7 +268,7 @@ class Broken:
 @PORTABLE
 def test_an_exchange_that_breaks_says_that_the_model_is_lost(stand: Any, capfd: Any) -> None:
     """Never an answer to another question."""
-    stand.fresh_server()
+    stand.watch_server()
     begin(stand)
     advance(stand)
     _SESSION.server._pipe = Broken(_SESSION.server)
@@ -280,7 +283,7 @@ def test_an_exchange_that_breaks_says_that_the_model_is_lost(stand: Any, capfd: 
     stand.ops.wipe()
     begin(stand)
     assert not any(advance(stand))
-    errors = capfd.readouterr().err
+    errors = stand.errors(capfd)
     assert errors.count("their states are lost") == 1
     assert "KrylovNewton" not in errors
 
@@ -290,7 +293,7 @@ def test_an_exchange_that_breaks_says_that_the_model_is_lost(stand: Any, capfd: 
     [
         "os.kill(os.getpid(), signal.SIGKILL)",
         pytest.param("os._exit(3)", marks=pytest.mark.nightly),  # nothing is called, as of a kill
-        "sys.exit(0)",
+        pytest.param("sys.exit(0)", marks=pytest.mark.nightly),
         pytest.param("1 / 0", marks=pytest.mark.nightly),  # what is called at an exit is
     ],
 )
@@ -311,9 +314,9 @@ def test_no_server_outlives_the_model(end: str) -> None:
     assert gone(int(output))
 
 
-@pytest.mark.parametrize("route", ROUTES[:1])
-def test_exit_without_wipe_is_clean(route: str) -> None:
-    errors = run("begin(3); assert not any(advance())", route)
+@FAST
+def test_exit_without_wipe_is_clean() -> None:
+    errors = run("begin(3); assert not any(advance())", "fast")
     assert "Traceback" not in errors
 
 
@@ -418,7 +421,7 @@ def shaken(stand: Any, changes: dict[str, Any]) -> None:
         "friction": CoulombFriction(0.05),
         "interface_friction": 0.126,
     }
-    stand.fresh_server()
+    stand.watch_server()
     stand.build(LIRBearing(**(options | changes)))
     stand.gravity()
     stand.shaking(2.8)
@@ -429,7 +432,7 @@ def test_beyond_a_limit_the_next_step_fails(
     stand: Any, capfd: Any, changes: dict[str, Any], message: str, code: int
 ) -> None:
     shaken(stand, changes)
-    capfd.readouterr()
+    stand.errors(capfd)
     for _ in range(400):
         done = stand.ops.analyze(1, 0.005)
         if done != 0:
@@ -437,7 +440,7 @@ def test_beyond_a_limit_the_next_step_fails(
         assert bearing_response(1, "status") in {0, code}
     assert done != 0
     assert bearing_response(1, "status") == code
-    text = capfd.readouterr().err
+    text = stand.errors(capfd)
     assert "bearing element 1" in text
     assert message in text
     assert text.count("What to try") == 1  # once, not with every iteration
@@ -448,7 +451,7 @@ def test_beyond_a_limit_the_next_step_fails(
 
 def test_what_is_not_a_number_is_never_committed(stand: Any, capfd: Any) -> None:
     """An algorithm without a test goes on with any answer; the bearing does not."""
-    stand.fresh_server()
+    stand.watch_server()
     stand.build()
     stand.gravity()
     ops = stand.ops
@@ -463,7 +466,7 @@ def test_what_is_not_a_number_is_never_committed(stand: Any, capfd: Any) -> None
     for name in ("displacement", "force", "slip", "axis"):
         assert np.isfinite(bearing_response(1, name)).all()
     assert bearing_response(1, "axial_force") == pytest.approx(stand.LOAD, rel=1e-9)
-    assert "What to try" in capfd.readouterr().err
+    assert "What to try" in stand.errors(capfd)
 
 
 @pytest.mark.parametrize(("changes", "message", "code"), LIMITS)
@@ -477,7 +480,7 @@ def test_variable_steps_end_where_the_bearing_does(
     assert bearing_response(1, "status") == code
     stand.ops.analysis("Transient")
     assert stand.ops.analyze(1, 0.005) < 0
-    errors = capfd.readouterr().err
+    errors = stand.errors(capfd)
     assert errors.count("bearing element 1") == errors.count(message) == 1
     assert len(errors.splitlines()) < 200  # of OpenSees itself, for each trial
 
@@ -493,7 +496,7 @@ def refused(command: Any, tag: int) -> bool:
 def test_what_cannot_be_is_told(stand: Any, capfd: Any, tmp_path: Path) -> None:
     """A database is refused; that a system is symmetric is hinted at once."""
     HINTED[:] = 0  # once a process
-    stand.fresh_server()
+    stand.watch_server()
     ops = stand.ops
     begin(stand)
     ops.database("File", str(tmp_path / "base"))
@@ -510,7 +513,7 @@ def test_what_cannot_be_is_told(stand: Any, capfd: Any, tmp_path: Path) -> None:
         error = pytest.raises(AssertionError) if tangent == "consistent" else nullcontext()
         with error:
             push_through(stand, 1e-3, 0.03, 5e6, "ProfileSPD", tangent=tangent)
-    errors = capfd.readouterr().err
+    errors = stand.errors(capfd)
     assert errors.count("whose tangent is unsymmetric") == 1
     assert 'tangent="symmetric" in bearing_element' in errors
     told = errors.count("neither saved to a database nor restored from one")

@@ -145,7 +145,7 @@ def history(data) -> np.ndarray:
     return data["bearing_displacement"].to_numpy()[::every, :, :2]
 
 
-@pytest.mark.parametrize("kind", ["mass", "mass on rims", "plain mass", "building"])
+@pytest.mark.parametrize("kind", ["mass on rims", "plain mass", "building"])
 def test_achieved_error_is_within_a_factor_of_three(run, newhall_bearing, kind):
     bearing = newhall_bearing.as_dcfp() if kind == "plain mass" else newhall_bearing
     if kind == "building":
@@ -162,10 +162,10 @@ def test_achieved_error_is_within_a_factor_of_three(run, newhall_bearing, kind):
         assert tolerance / 3.0 < gap < 3.0 * tolerance, (tolerance, gap)
 
 
-@pytest.mark.parametrize("oblique", [0.0, 0.3, 0.7])
+@pytest.mark.parametrize("oblique", [0.0, 0.7])
 @pytest.mark.parametrize(
     ("kind", "strengths"),
-    [("dcfp", (2.8, 3.0, 3.5, 4.0, 5.0)), ("lir", (2.3, 2.6)), ("building", (2.3,))],
+    [("dcfp", (2.8, 4.0)), ("lir", (2.3, 2.6)), ("building", (2.3,))],
 )
 def test_impacts_are_located(run, pulse, newhall_bearing, kind, strengths, oblique):
     """Compare forces at impacts with those of steps 50 times finer, at the same instants."""

@@ -155,9 +155,10 @@ def walk(
     names: tuple[str, ...] = (),
     visit: Callable[[Element, int], None] | None = None,
     features: Features | None = None,
+    level: str = "pendulum",
 ) -> SimpleNamespace:
     """Take a new element through a path; return forces (n, 12) and the histories of `names`."""
-    element = Element(bearing, features=features)
+    element = Element(bearing, level, features=features)
     kept: dict[str, list[Any]] = {name: [] for name in ("resisting", *names)}
     for k in range(len(u)):
         element.set_trial(u[k], np.zeros(12), time[k])
@@ -170,6 +171,18 @@ def walk(
     return SimpleNamespace(**{k: np.array(v) for k, v in kept.items()}, element=element)
 
 
+def differences(element: Element, u: np.ndarray, time: float, step: float) -> np.ndarray:
+    """Return central differences of fourth order of the resisting forces."""
+    k = np.zeros((12, 12))
+    for column in range(12):
+        for shift, weight in ((-2, 1.0), (-1, -8.0), (1, 8.0), (2, -1.0)):
+            moved = u.copy()
+            moved[column] += shift * step
+            element.set_trial(moved, np.zeros(12), time)
+            k[:, column] += weight * element.resisting_force() / (12.0 * step)
+    return k
+
+
 @pytest.fixture(scope="session")
 def lab() -> SimpleNamespace:
     """Return the makers of bearings and paths."""
@@ -177,6 +190,7 @@ def lab() -> SimpleNamespace:
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """Run a test that takes `variant` over the list and five random bearings."""
+    """Run a test that takes `variant` over the list and a random bearing; four more at night."""
     if "variant" in metafunc.fixturenames:
-        metafunc.parametrize("variant", [*VARIANTS, *(f"random-{k}" for k in range(5))])
+        at_night = [pytest.param(f"random-{k}", marks=pytest.mark.nightly) for k in range(1, 5)]
+        metafunc.parametrize("variant", [*VARIANTS, "random-0", *at_night])

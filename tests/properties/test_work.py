@@ -54,7 +54,7 @@ def test_works_agree(variant: str, lab: SimpleNamespace) -> None:
     assert_allclose(inside / scale, nodes / scale, rtol=0.0, atol=1e-3)
 
 
-@pytest.mark.parametrize("name", ["coulomb", "bouc_wen", "fused", "random-2", "random-3"])
+@pytest.mark.parametrize("name", ["coulomb", "fused", "random-2"])
 def test_works_agree_to_second_order(name: str, lab: SimpleNamespace) -> None:
     """Halving the increment quarters the root-mean-square difference, within [1.7, 2.4] in order.
 

@@ -38,17 +38,11 @@ from frames.risk.campaign.plan import Plan, differences
 from frames.risk.campaign.plot_response import failure_table, response_table
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
+from tests.scenes import small_bearing
 
 pytest.importorskip("filelock")
 
-BEARING = LIRBearing(
-    radius=0.75,
-    slider_height=0.085,
-    slider_radius=0.08,
-    capacity=0.175,
-    friction=CoulombFriction(0.066),
-    interface_friction=0.16,
-)
+BEARING = small_bearing(interface_friction=0.16)
 TIME = np.linspace(0.0, 1.0, 101)
 PULSES = {
     name: GroundMotion(x=size * np.sin(2.0 * np.pi * TIME), dt=0.01, name=name)

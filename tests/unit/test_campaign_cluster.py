@@ -14,8 +14,8 @@ import pytest
 from frames import GroundMotion, lumped_mass
 from frames.batch.cases import BatchProgress
 from frames.risk import Campaign, CampaignError, Measure, full_grid
-from lir_element import CoulombFriction, LIRBearing
 from tests.patience import patience
+from tests.scenes import small_bearing
 
 pytest.importorskip("filelock")
 distributed = pytest.importorskip("distributed")
@@ -47,14 +47,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 
 def small(store: Path, sets: int = 16) -> Campaign:
-    bearing = LIRBearing(
-        radius=0.75,
-        slider_height=0.085,
-        slider_radius=0.08,
-        capacity=0.175,
-        friction=CoulombFriction(0.066),
-        interface_friction=0.16,
-    )
+    bearing = small_bearing(interface_friction=0.16)
     pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.01, name="pulse")
     sample = full_grid({"friction": np.linspace(0.04, 0.08, sets)})
     end = {"end": Measure(lambda data: data["base_shear"].isel(time=-1, axis=0), "N")}
@@ -83,6 +76,7 @@ def test_workers_that_are_slow_or_killed_change_nothing(
     assert far.digest() == whole
 
 
+@pytest.mark.nightly
 def test_a_scheduler_that_is_lost_is_told_and_the_rest_is_run_here(
     tmp_path: Path, client: Any, whole: str
 ) -> None:

@@ -61,7 +61,7 @@ interface_friction = 0.2
 design_load = "300 kN"
 [motions]
 folder = "motions"
-intensities = ["1.6 m/s2", "2 m/s2", "2.5 m/s2", "3 m/s2", "4 m/s2", "5 m/s2"]
+intensities = ["2 m/s2", "2.5 m/s2", "3 m/s2", "4 m/s2", "5 m/s2"]
 tail = "1 s"
 [fragility]
 intensity = "Sa"
@@ -75,7 +75,7 @@ collapse_drift = "0.3 %"
 dt = "10 ms"
 workers = 1
 """
-PERIODS = (1.6, 1.9, 2.2, 2.5, 2.8)
+PERIODS = (1.6, 1.9, 2.2, 2.5)
 run = CliRunner().invoke
 
 
@@ -205,8 +205,8 @@ def test_motions_are_scaled_to_the_intensities(folder: Path, data: xr.Dataset) -
     motions = read_campaign(folder / "rims.toml").motions
     measure = Intensity(kind="Sa", period=2.5, measure="x")
     assert {round(measure.of(motion), 9) for motion in motions.values()} == {1.0}
-    assert [motion.duration for motion in motions.values()] == [pytest.approx(5.99)] * 5
-    assert sorted(set(data["scale"].to_numpy())) == [1.6, 2.0, 2.5, 3.0, 4.0, 5.0]
+    assert [motion.duration for motion in motions.values()] == [pytest.approx(5.99)] * 4
+    assert sorted(set(data["scale"].to_numpy())) == [2.0, 2.5, 3.0, 4.0, 5.0]
     page = (folder / "rims-results/campaign.html").read_text()
     assert "Sa(2.5 s, 5 %), x [m/s2]" in page
     assert "factor on the motions" not in page.split('id="fragility"')[0]
@@ -219,7 +219,7 @@ def test_margins_are_those_of_the_database(folder: Path, data: xr.Dataset) -> No
     found = 0
     for device, row in table.iterrows():
         im, _, exceeded = collapsed(data, str(device))
-        assert (row["runs"], row["collapsed"]) == (30, exceeded.sum())
+        assert (row["runs"], row["collapsed"]) == (20, exceeded.sum())
         if pd.isna(row["median [m/s2]"]):
             assert row["no curve"]
             continue
@@ -277,18 +277,13 @@ def test_sizes_are_those_of_the_devices(folder: Path, data: xr.Dataset) -> None:
     assert "rim_overrun" in data["status"].to_numpy()
 
 
-def test_the_same_command_writes_the_same_page_without_a_run(folder: Path) -> None:
-    before = (folder / "rims-results/campaign-ratios.csv").read_text()
+def test_the_intensity_considered_may_be_given(folder: Path) -> None:
     changed = FILE.replace('collapse_drift = "0.3 %"', 'maximum_considered = "0.3 g"')
     (folder / "other.toml").write_text(changed)
     found = comparison_in(folder / "other.toml")
     assert found is not None
     assert found.considered == pytest.approx(0.3 * 9.80665)
     assert found.collapse == collapse_limit(None)
-    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):  # as before
-        again = run(app, ["campaign", "--no-figures", str(folder / "rims.toml")])
-    assert again.exit_code == 0, again.output
-    assert (folder / "rims-results/campaign-ratios.csv").read_text() == before
 
 
 @pytest.mark.parametrize(

@@ -20,16 +20,10 @@ from frames.risk import (
     Measure,
     open_campaign,
 )
-from lir_element import AnalysisWarning, CoulombFriction, LIRBearing
+from lir_element import AnalysisWarning
+from tests.scenes import small_bearing
 
-BEARING = LIRBearing(
-    radius=0.75,
-    slider_height=0.085,
-    slider_radius=0.08,
-    capacity=0.175,
-    friction=CoulombFriction(0.066),
-    interface_friction=0.16,
-)
+BEARING = small_bearing(interface_friction=0.16)
 FRAME = lumped_mass(BEARING, 5e4)
 MOTIONS = {
     name: GroundMotion(x=np.sin(np.linspace(0.0, 2.0 * np.pi, n)), dt=0.01, name=name)

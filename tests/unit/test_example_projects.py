@@ -129,6 +129,7 @@ def test_vertical_component_follows_two_thirds_at_a_third_of_the_periods() -> No
     assert np.abs(reached / wanted - 1.0).mean() < 0.1  # of a real motion, matched by amplitudes
 
 
+@pytest.mark.nightly  # imported by OpenSees
 @pytest.mark.usefixtures("one_motion")
 def test_hospital_weighs_what_its_parts_do(tmp_path: Path) -> None:
     pytest.importorskip("openseespy")

@@ -88,6 +88,7 @@ def test_what_cannot_be_drawn_is_told() -> None:
         drawn(["lir_element/kernels/slip.py"], 10000, 1)
 
 
+@pytest.mark.nightly
 def test_an_error_that_only_the_old_tests_notice_is_lost(tmp_path) -> None:
     source = "def size(x):\n    return abs(x)\n"
     (tmp_path / "sizes.py").write_text(source)
@@ -105,6 +106,7 @@ def test_an_error_that_only_the_old_tests_notice_is_lost(tmp_path) -> None:
     assert (tmp_path / "sizes.py").read_text() == source
 
 
+@pytest.mark.nightly
 def test_what_takes_too_long_counts_as_noticed(tmp_path) -> None:
     loop = "    while n > 0:\n        sleep(0.01)\n        n -= 1\n"
     source = f"from time import sleep\n\n\ndef count(n):\n{loop}"
@@ -118,6 +120,7 @@ def test_what_takes_too_long_counts_as_noticed(tmp_path) -> None:
     assert found.before == "test_counts.py (longer than 4 s)"
 
 
+@pytest.mark.nightly
 def test_tests_that_fail_without_an_error_are_refused(tmp_path) -> None:
     """They would notice each."""
     (tmp_path / "test_wrong.py").write_text("def test_wrong():\n    assert not __file__\n")

@@ -25,6 +25,7 @@ def test_a_text_that_is_gone_is_told(tmp_path, monkeypatch) -> None:
         mutations()
 
 
+@pytest.mark.nightly
 def test_an_error_is_noticed_and_taken_out_again(tmp_path) -> None:
     """A copy of one module and one test: the error fails it, a change without effect does not."""
     (tmp_path / "sums.py").write_text("def twice(x):\n    return 2 * x\n")

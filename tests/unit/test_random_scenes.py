@@ -395,6 +395,7 @@ def test_the_page_lists_what_was_found():
     json.dumps(entries)
 
 
+@pytest.mark.nightly
 def test_the_command(tmp_path, capsys):
     kept, page = tmp_path / "kept.jsonl", tmp_path / "page.md"
     call = ["--count", "1", "--buildings", "1", "--page", str(page), "--keep", str(kept)]

@@ -15,6 +15,7 @@ from frames.design import (
     ASCE7,
     EN1998,
     CheckError,
+    Design,
     DesignLimits,
     DesignTarget,
     IsolationSystem,
@@ -259,9 +260,15 @@ def test_what_is_made_least_is_least_among_those_that_keep_what_is_asked() -> No
     assert len(frames["displacement"].to_dataframe()) == 6
 
 
-def test_the_pareto_set_is_what_none_beats() -> None:
+@pytest.fixture(scope="module")
+def twenty() -> Design:
+    """Every pair of radius and friction that is tried if none is given."""
     target = DesignTarget(max_displacement=0.60, least_pressure=1e5)
-    found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=target)
+    return design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=target)
+
+
+def test_the_pareto_set_is_what_none_beats(twenty: Design) -> None:
+    found = twenty
     table = found.to_dataframe()
     numbers = ["displacement [m]", "base shear / weight [-]", "plan diameter [m]"]
     good = table[table["lacks"] == ""]
@@ -308,8 +315,8 @@ def test_sliders_under_low_pressure_are_told_and_not_preferred() -> None:
     assert not asked.chosen.warnings
 
 
-def test_candidates_are_drawn_by_what_limits_them() -> None:
-    found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=DesignTarget(least_pressure=1e5))
+def test_candidates_are_drawn_by_what_limits_them(twenty: Design) -> None:
+    found = twenty
     figure = design_candidates(found, target=DesignTarget(max_displacement=0.5))
     left, right = figure.axes
     points = [tuple(mark.get_offsets()[0]) for mark in left.collections]

@@ -95,7 +95,6 @@ print("chunks")
 
 
 def test_arrays_of_other_packages_are_imported_when_they_are_used() -> None:
-    assert told_by(ARRAYS).splitlines() == ["[]"]
     pytest.importorskip("dask.array")
     assert told_by(ARRAYS + LATER).splitlines() == ["[]", "chunks"]
 

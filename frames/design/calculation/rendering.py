@@ -72,6 +72,7 @@ def _known(node: ast.AST) -> bool:
     return isinstance(node, (ast.Name, ast.expr_context, ast.operator, ast.unaryop))
 
 
+@lru_cache(maxsize=1024)
 def names(tree: ast.expr) -> tuple[str, ...]:
     """Return the names that enter a formula, in the order in which they appear."""
     found = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, final
 
 import numpy as np
@@ -206,7 +207,7 @@ class IsolationSystem:
         """W, the seismic weight above the isolation interface [N]."""
         return sum(self.loads) if self.weight is None else self.weight
 
-    @property
+    @cached_property
     def pendulums(self) -> tuple[FrictionPendulum, ...]:
         """What the bearings are to design formulas, (n,)."""
         return tuple(map(FrictionPendulum.of, self.bearings))
