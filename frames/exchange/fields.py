@@ -6,10 +6,12 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
 
+from frames.exchange.tables import known
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.exchange.account import Account
+    from frames.exchange.building import Building
     from frames.exchange.tables import Row, Value
 
 
@@ -130,6 +132,7 @@ class Field(NamedTuple):
     default: Any = 0.0
     bound: Bound = ANY
     zero: float = 0.0
+    said: str = ""  # what messages call a reference
 
 
 Fields: TypeAlias = tuple[Field, ...]
@@ -141,10 +144,11 @@ def fields(
     default: Any = 0.0,
     bound: Bound = ANY,
     zero: float = 0.0,
+    said: str = "",
 ) -> Fields:
     """Return fields of one kind from pairs "ours=theirs|other"."""
     split = (pair.split("=") for pair in pairs.split())
-    return tuple(Field(ours, names, unit, default, bound, zero) for ours, names in split)
+    return tuple(Field(ours, names, unit, default, bound, zero, said) for ours, names in split)
 
 
 class Refusal(NamedTuple):
@@ -197,13 +201,18 @@ def refused(row: Row, name: str, account: Account, refusals: Iterable[Refusal]) 
 def values(
     row: Row,
     map_: Fields,
-    units: Units,
+    building: Building,
     of: str = "",
     *,
+    units: Units | None = None,
     prefix: str = "",
     only_given: bool = False,
 ) -> dict[str, Any]:
-    """Return the fields of a row by our names, in SI; a number out of its bound is refused."""
+    """Return the fields of a row by our names, in SI; what is out of its bound is refused.
+
+    Units are those of the building unless others are given.
+    """
+    scale = units or building.units
     found: dict[str, Any] = {}
     for field in map_:
         names = [f"{prefix}{name}" for name in field.names.split("|")]
@@ -211,16 +220,19 @@ def values(
         if only_given and not given:
             continue
         name = given[0] if given else names[0]
-        if field.unit == "text":
-            found[field.ours] = row.text(name, field.default)
-        elif field.unit == "yes":
+        factor = getattr(scale, field.unit, None)
+        if field.unit == "yes":
             found[field.ours] = row.yes(name, default=field.default)
-        else:
+        elif factor is not None:
             value = row.number(name, field.default)
             if not field.bound.holds(value):
                 message = f"{name} = {value:g}{of} {field.bound.words}"
                 raise row.error(message, name)
-            found[field.ours] = value * getattr(units, field.unit) or field.zero
+            found[field.ours] = value * factor or field.zero
+        else:
+            text = found[field.ours] = row.text(name, field.default)
+            if field.unit != "text":
+                known(row, field.said or name, text, getattr(building, field.unit), of)
     return found
 
 
@@ -236,6 +248,8 @@ def written(map_: Fields, given: object, units: Units) -> dict[str, Value]:
 
 
 def _written(field: Field, value: Any, units: Units) -> Value:
-    if field.unit in {"text", "yes"}:
-        return str(value) if field.unit == "text" else bool(value)
+    if field.unit == "yes":
+        return bool(value)
+    if not hasattr(units, field.unit):
+        return str(value)
     return 0.0 if value == field.zero else float(value) / getattr(units, field.unit)

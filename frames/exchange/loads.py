@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.exchange.building import AreaLoad, JointLoad, LineLoad
+from frames.exchange.fields import values
 from frames.exchange.geometry import area_normal, direction_of, frame_axes
 
 if TYPE_CHECKING:
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.exchange.building import Building, Vector
+    from frames.exchange.fields import Fields
     from frames.exchange.tables import Row
 
 
@@ -31,47 +33,55 @@ def add_line_load(
     building: Building,
     frame: str,
     pattern: str,
-    word: str,
-    sizes: Iterable[float],
-    ends: tuple[float, float],
+    way: str,
+    start: float,
+    end: float,
+    a: float = 0.0,
+    b: float = 1.0,
     *,
     point: bool = False,
+    absolute: bool = False,
 ) -> None:
-    """Add a load along a frame object, or a force on it, of sizes in the units of the file."""
+    """Add a load along a frame object, or a force on it, between two places.
+
+    These are shares of its length, or of `absolute` ones distances.
+    """
     given = building.frames[frame]
     first, last = (building.joints[name].position for name in (given.i, given.j))
     axes = frame_axes(first, last, given.angle)
-    found = direction_of(word, axes)
+    found = direction_of(way, axes)
     if found is None:
-        msg = f'"{word}" of frame "{frame}" is no direction: Gravity, X, Y, Z, 1, 2, 3'
+        msg = f'"{way}" of frame "{frame}" is no direction: Gravity, X, Y, Z, 1, 2, 3'
         raise row.error(msg)
     vector, projected = found
-    a, b = ends
+    if absolute:
+        length = float(np.linalg.norm(np.subtract(last, first)))
+        a, b = a / length, b / length
     if not -1e-9 <= a <= b <= 1.0 + 1e-6 or (a >= b and not point):
         msg = f'a load from {a:g} to {b:g} of the length of frame "{frame}" is not on it'
         raise row.error(msg)
-    factor = float(np.linalg.norm(np.cross(axes[0], vector))) if projected else 1.0
-    scale = building.units.force if point else factor * building.units.line
-    start, end = (vector_of(scale * size * vector) for size in sizes)
-    load = LineLoad(frame, pattern, max(a, 0.0), min(b, 1.0), start, end, point)
+    is_less = projected and not point
+    factor = float(np.linalg.norm(np.cross(axes[0], vector))) if is_less else 1.0
+    first, last = (vector_of(factor * size * vector) for size in (start, end))
+    load = LineLoad(frame, pattern, max(a, 0.0), min(b, 1.0), first, last, point)
     building.line_loads.append(load)
 
 
 def add_area_load(
-    row: Row, building: Building, area: str, pattern: str, word: str, size: float
+    row: Row, building: Building, area: str, pattern: str, size: float, way: str = "GRAV"
 ) -> None:
-    """Add a load on an area, of a size in the units of the file."""
+    """Add a load on an area."""
     points = np.array([building.joints[name].position for name in building.areas[area].joints])
     normal, _ = area_normal(points)
-    found = direction_of(word, None)
-    if word.strip().lower() in {"3", "local-3"}:
+    found = direction_of(way, None)
+    if way.strip().lower() in {"3", "local-3"}:
         found = normal, False
     if found is None:
-        message = f'"{word}" of area "{area}" is no direction that is read: Gravity, X, Y, Z or 3'
+        message = f'"{way}" of area "{area}" is no direction that is read: Gravity, X, Y, Z or 3'
         raise row.error(message)
     vector, projected = found
-    way = vector * (abs(float(normal @ vector)) if projected else 1.0)
-    load = vector_of(size * building.units.stress * way)
+    share = abs(float(normal @ vector)) if projected else 1.0
+    load = vector_of(size * (vector * share))
     building.area_loads.append(AreaLoad(area, pattern, load))
 
 
@@ -137,6 +147,12 @@ def _link_loads(building: Building, pattern: str, gravity: float) -> Iterator[Jo
         for joint in (link.i, link.j):
             if half and joint is not None:
                 yield JointLoad(joint, pattern, (0.0, 0.0, -half, 0.0, 0.0, 0.0))
+
+
+def mass_shares(rows: Iterable[Row], map_: Fields, building: Building) -> dict[str, float]:
+    """Return the shares of load patterns that are mass [-]."""
+    given = [values(row, map_, building) for row in rows]
+    return {each["pattern"]: each["share"] for each in given}
 
 
 def cases_of(

@@ -296,12 +296,13 @@ class EtabsWriter:
             points.append(f'POINTLOAD  "{point}"  "{story}"  TYPE "FORCE"  LC {lc}  {parts}')
         for line in building.line_loads:
             label, story, turned = self._lines[line.frame]
-            for way, *ends in along_axes(line):
-                start, end = (size / self.units.line for size in ends)
-                a, b = line.a, line.b
+            for given in along_axes(line):
+                ends = {"a": line.a, "b": line.b}
                 if turned:
-                    a, b, start, end = 1.0 - b, 1.0 - a, end, start
-                parts = _words({"FSTART": start, "FEND": end, "RDSTART": a, "RDEND": b})
+                    ends = {"a": 1.0 - line.b, "b": 1.0 - line.a}
+                    given["start"], given["end"] = given["end"], given["start"]
+                way = given.pop("way")
+                parts = _words(written(dialect.LINE_LOAD["TRAPF"], given | ends, self.units))
                 head = f'LINELOAD  "{label}"  "{story}"  TYPE "TRAPF"  DIR "{way}"'
                 lines.append(f"{head}  LC {_quoted(line.pattern)}  {parts}")
         patterns = {name: _quoted(name) for name in building.patterns}

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from frames._errors import ModelError
 from frames.exchange import sap2000_fields as dialect
 from frames.exchange.building import RELEASES, Modifiers
 from frames.exchange.fields import written
+from frames.model.components import DOFS
 
 if TYPE_CHECKING:
     from frames.exchange.building import Building, FrameObject, LineLoad, LinkDof
+    from frames.exchange.fields import Units
 
 Value: TypeAlias = str | float | int | bool
 """What a cell holds."""
@@ -72,7 +74,7 @@ def _joints(building: Building) -> dict[str, Rows]:
             for name, joint in building.joints.items()
         ],
         "JOINT RESTRAINT ASSIGNMENTS": [
-            {"Joint": name} | {theirs: ours in held for theirs, ours in dialect.DOFS}
+            {"Joint": name, **written(dialect.RESTRAINT, {d: d in held for d in DOFS}, units)}
             for name, held in building.restraints.items()
         ],
         "JOINT ADDED MASS ASSIGNMENTS": [
@@ -119,10 +121,10 @@ def _properties(building: Building) -> dict[str, Rows]:
 
 
 def _members(building: Building) -> dict[str, Rows]:
-    frames = building.frames.values()
+    frames, units = building.frames.values(), building.units
     return {
         dialect.FRAMES: [
-            {"Frame": one.name, "JointI": one.i, "JointJ": one.j, "IsCurved": False}
+            {"Frame": one.name, **written(dialect.ENDS, one, units), "IsCurved": False}
             for one in frames
         ],
         "FRAME SECTION ASSIGNMENTS": [
@@ -135,12 +137,12 @@ def _members(building: Building) -> dict[str, Rows]:
             for one in frames
         ],
         "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL": [
-            {"Frame": one.name, "Angle": one.angle, "AdvanceAxes": False}
+            {"Frame": one.name, **written(dialect.ANGLE, one, units), "AdvanceAxes": False}
             for one in frames
             if one.angle
         ],
         "FRAME RELEASE ASSIGNMENTS 1 - GENERAL": [
-            {"Frame": one.name, **_released(one), "PartialFix": False}
+            {"Frame": one.name, **_released(one, units), "PartialFix": False}
             for one in frames
             if any(one.releases)
         ],
@@ -149,14 +151,14 @@ def _members(building: Building) -> dict[str, Rows]:
                 "Frame": one.name,
                 "CardinalPt": "10 (centroid)",
                 "CoordSys": "GLOBAL",
-                **written(dialect.OFFSETS, (*one.offset_i, *one.offset_j), building.units),
+                **written(dialect.OFFSETS, (*one.offset_i, *one.offset_j), units),
                 "Transform": True,
             }
             for one in frames
             if any(one.offset_i) or any(one.offset_j)
         ],
         "FRAME PROPERTY MODIFIERS": [
-            {"Frame": one.name, **written(dialect.MODIFIERS, one.modifiers, building.units)}
+            {"Frame": one.name, **written(dialect.MODIFIERS, one.modifiers, units)}
             for one in frames
             if one.modifiers != Modifiers()
         ],
@@ -164,9 +166,10 @@ def _members(building: Building) -> dict[str, Rows]:
     }
 
 
-def _released(one: FrameObject) -> dict[str, Value]:
+def _released(one: FrameObject, units: Units) -> dict[str, Value]:
     ends = zip("IJ", one.releases, strict=True)
-    return {f"{word}{end}": word in free for end, free in ends for word in RELEASES}
+    free = {f"{word}{end}": word in words for end, words in ends for word in RELEASES}
+    return written(dialect.RELEASES, free, units)
 
 
 def _areas(building: Building) -> dict[str, Rows]:
@@ -187,50 +190,46 @@ def _areas(building: Building) -> dict[str, Rows]:
 
 
 def _loads(building: Building) -> dict[str, Rows]:
-    source = building.mass_source
+    source, units = building.mass_source, building.units
     shares = {} if source is None else source.patterns
     return {
         dialect.PATTERNS: [
-            {"LoadPat": name, **written(dialect.PATTERN, pattern, building.units)}
+            {"LoadPat": name, **written(dialect.PATTERN, pattern, units)}
             for name, pattern in building.patterns.items()
         ],
         "MASS SOURCE": [
-            _MASS_SOURCE | {"Loads": True, "LoadPat": name, "Multiplier": share}
-            for name, share in shares.items()
+            _MASS_SOURCE | {"Loads": True} | written(dialect.MASS_SHARE, share, units)
+            for share in shares.items()
         ]
         or [_MASS_SOURCE | {"Loads": False}],
         "JOINT LOADS - FORCE": [
             {
-                "Joint": load.joint,
-                "LoadPat": load.pattern,
+                **written(dialect.LOADED, load, units),
                 "CoordSys": "GLOBAL",
-                **written(dialect.FORCES, load.forces, building.units),
+                **written(dialect.FORCES, load.forces, units),
             }
             for load in building.joint_loads
         ],
         "FRAME LOADS - DISTRIBUTED": [
             {
-                "Frame": load.frame,
-                "LoadPat": load.pattern,
+                **written(dialect.LINE_LOAD[:2], load, units),
                 "CoordSys": "GLOBAL",
                 "Type": "Force",
-                "Dir": way,
+                **written(dialect.LINE_LOAD[2:], given, units),
                 "DistType": "RelDist",
-                "RelDistA": load.a,
-                "RelDistB": load.b,
-                "FOverLA": start / building.units.line,
-                "FOverLB": end / building.units.line,
+                **written(dialect.RELATIVE[False], load, units),
+                **written(dialect.SPREAD, given, units),
             }
             for load in building.line_loads
-            for way, start, end in along_axes(load)
+            for given in along_axes(load)
         ],
     }
 
 
-def along_axes(load: LineLoad) -> list[tuple[str, float, float]]:
+def along_axes(load: LineLoad) -> list[dict[str, Any]]:
     """Return a load along a frame object by the global axes along which it acts."""
     parts = zip("XYZ", load.start, load.end, strict=True)
-    return [(way, start, end) for way, start, end in parts if start or end]
+    return [{"way": w, "start": start, "end": end} for w, start, end in parts if start or end]
 
 
 def _links(building: Building) -> dict[str, Rows]:
