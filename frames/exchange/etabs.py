@@ -21,7 +21,7 @@ from frames.exchange.building import (
 )
 from frames.exchange.etabs_links import EtabsLinks, read_groups
 from frames.exchange.etabs_objects import Objects
-from frames.exchange.fields import Units, refused, units_of, values
+from frames.exchange.fields import refused, values
 from frames.exchange.loads import (
     add_area_load,
     add_combinations,
@@ -42,7 +42,7 @@ from frames.exchange.properties import (
     with_constants,
 )
 from frames.exchange.reading import TEXT, read_e2k
-from frames.exchange.tables import Row, Tables, known, merged, require_space
+from frames.exchange.tables import Row, Tables, Units, known, merged, require_space, units_of
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

@@ -1,107 +1,16 @@
-"""Units and fields of a file: a map of fields is applied to read, and inverted to write."""
+"""Fields of a file: a map of them is applied to read, and inverted to write."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from frames.exchange.tables import known
-from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from frames.exchange.account import Account
     from frames.exchange.building import Building
-    from frames.exchange.tables import Row, Value
-
-
-_POUND = 0.45359237 * STANDARD_GRAVITY
-
-FORCES = {
-    "N": 1.0,
-    "KN": 1e3,
-    "MN": 1e6,
-    "KGF": STANDARD_GRAVITY,
-    "TONF": 1e3 * STANDARD_GRAVITY,
-    "LB": _POUND,
-    "KIP": 1e3 * _POUND,
-}
-"""Forces [N] by word."""
-
-LENGTHS = {"MM": 1e-3, "CM": 1e-2, "M": 1.0, "IN": 0.0254, "FT": 0.3048}
-"""Lengths [m] by word."""
-
-
-@dataclass(frozen=True)
-class Units:
-    """Units of a file: force [N] and length [m]; time is in seconds, angles are in degrees."""
-
-    force: float
-    length: float
-
-    one: ClassVar[float] = 1.0  # of what has no unit
-
-    @property
-    def per_length(self) -> float:
-        """Reciprocal of a length [1/m]."""
-        return 1.0 / self.length
-
-    @property
-    def area(self) -> float:
-        """Area [m2]."""
-        return self.length**2
-
-    @property
-    def inertia(self) -> float:
-        """Second moment of an area [m4]."""
-        return self.length**4
-
-    @property
-    def rotary(self) -> float:
-        """Mass times length squared [kg m2]."""
-        return self.mass * self.length**2
-
-    @property
-    def moment(self) -> float:
-        """Moment [N m]."""
-        return self.force * self.length
-
-    @property
-    def line(self) -> float:
-        """Force per length, and stiffness [N/m]."""
-        return self.force / self.length
-
-    @property
-    def stress(self) -> float:
-        """Force per area [Pa]."""
-        return self.force / self.length**2
-
-    @property
-    def weight(self) -> float:
-        """Force per volume [N/m3]."""
-        return self.force / self.length**3
-
-    @property
-    def mass(self) -> float:
-        """Mass: force over acceleration [kg]."""
-        return self.force / self.length
-
-    @property
-    def density(self) -> float:
-        """Mass per volume [kg/m3]."""
-        return self.mass / self.length**3
-
-
-def units_of(words: str, name: str, error: Callable[[str], ValueError]) -> Units:
-    """Return the units that a force and a length stand for, "KN, m", or raise an error."""
-    force, length, *_ = [*(word.strip().upper() for word in words.split(",")), ""]
-    if force not in FORCES or length not in LENGTHS:
-        message = (
-            f'{name} = "{words}" must be a force of {", ".join(FORCES)} and a length of '
-            f'{", ".join(LENGTHS)}, such as "KN, m, C"'
-        )
-        raise error(message)
-    return Units(FORCES[force], LENGTHS[length])
+    from frames.exchange.tables import Row, Units, Value
 
 
 class Bound(NamedTuple):

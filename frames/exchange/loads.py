@@ -191,32 +191,57 @@ def add_combinations(
     building.account.left_out(table, "combinations of other cases, or envelopes", sorted(other))
 
 
-class Shares:
-    """Own weight, and modulus times volume, of all elements."""
+class Sizes:
+    """Lengths [m] of frame objects, areas [m2], volumes of materials [m3], and what they share."""
 
     def __init__(self, building: Building) -> None:
+        self.building = building
+        place = {name: np.array(joint.position) for name, joint in building.joints.items()}
+        self.length = {
+            name: float(np.linalg.norm(place[f.j] - place[f.i]))
+            for name, f in building.frames.items()
+        }
+        self.area = {
+            name: area_normal(np.array([place[j] for j in area.joints]))[1]
+            for name, area in building.areas.items()
+        }
+        self.volumes: dict[str, float] = {}
         self._weight: dict[str, float] = {}
         self._stiffness: dict[str, float] = {}
         for name, frame in building.frames.items():
-            first, last = (np.array(building.joints[j].position) for j in (frame.i, frame.j))
-            length = float(np.linalg.norm(last - first))
             section = building.sections[frame.section]
-            matter = building.materials.get(frame.material or section.material)
-            modulus = 0.0 if matter is None else matter.elastic_modulus
-            self._weight[name] = length * frame_weight(building, name)
-            self._stiffness[name] = length * modulus * section.area
+            volume = self.length[name] * section.area
+            self._add(name, frame.material or section.material, volume)
+            self._weight[name] = self.length[name] * frame_weight(building, name)
         for name, area in building.areas.items():
-            points = np.array([building.joints[j].position for j in area.joints])
-            _, size = area_normal(points)
-            found = building.area_sections.get(area.section)
-            matter = building.materials.get(found.material) if found else None
-            self._weight[name] = size * area_weight(building, name)
-            if found is not None and matter is not None:
-                self._stiffness[name] = size * matter.elastic_modulus * found.thickness
+            if found := building.area_sections.get(area.section):
+                self._add(name, found.material, self.area[name] * found.thickness)
+            self._weight[name] = self.area[name] * area_weight(building, name)
 
-    def of(self, names: Collection[str]) -> tuple[float | None, float | None]:
+    def _add(self, name: str, material: str, volume: float) -> None:
+        self.volumes[material] = self.volumes.get(material, 0.0) + volume
+        matter = self.building.materials.get(material)
+        self._stiffness[name] = 0.0 if matter is None else volume * matter.elastic_modulus
+
+    def shares(self, names: Collection[str]) -> tuple[float | None, float | None]:
         """Return the shares of weight and of stiffness of some elements [-], None of nothing."""
         return _share(self._weight, names), _share(self._stiffness, names)
+
+    def down(self, loads: Iterable[LineLoad | AreaLoad | JointLoad]) -> dict[str, float]:
+        """Return what loads come to downwards, by pattern [N]."""
+        found: dict[str, float] = {}
+        for load in loads:
+            if isinstance(load, JointLoad):
+                force = load.forces[2]
+            elif isinstance(load, AreaLoad):
+                force = load.load[2] * self.area[load.area]
+            elif load.point:
+                force = load.start[2]
+            else:
+                span = (load.b - load.a) * self.length[load.frame]
+                force = 0.5 * (load.start[2] + load.end[2]) * span
+            found[load.pattern] = found.get(load.pattern, 0.0) - force
+        return found
 
 
 def _share(values: dict[str, float], names: Collection[str]) -> float | None:

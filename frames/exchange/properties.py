@@ -12,9 +12,9 @@ from xml.parsers import expat
 from frames._errors import ModelError
 from frames._remedies import argument
 from frames.exchange.building import Building, FrameSection, Material, Modifiers
-from frames.exchange.fields import LENGTHS, values
+from frames.exchange.fields import values
 from frames.exchange.members import MOMENTS
-from frames.exchange.tables import Row
+from frames.exchange.tables import LENGTHS, Row
 from frames.model.sections import Section
 from frames.model.shapes import catalogue_dimensions
 
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from frames.exchange.building import Vector
-    from frames.exchange.fields import Fields, Units
+    from frames.exchange.fields import Fields
+    from frames.exchange.tables import Units
 
 
 def in_use(rows: dict[str, Row], names: Iterable[str]) -> tuple[dict[str, Row], list[str]]:

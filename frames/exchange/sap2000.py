@@ -24,7 +24,7 @@ from frames.exchange.building import (
     Modifiers,
     Pattern,
 )
-from frames.exchange.fields import refused, units_of, values
+from frames.exchange.fields import refused, values
 from frames.exchange.loads import (
     add_area_load,
     add_combinations,
@@ -45,7 +45,7 @@ from frames.exchange.properties import (
 )
 from frames.exchange.reading import read_excel, read_s2k
 from frames.exchange.sap2000_objects import read_objects, section_of
-from frames.exchange.tables import ACTIVE, Row, Tables, by_name, known, require_space
+from frames.exchange.tables import ACTIVE, Row, Tables, by_name, known, require_space, units_of
 
 _BOOKS = {".xlsx", ".xlsm"}
 

@@ -12,7 +12,7 @@ from frames.model.components import DOFS
 
 if TYPE_CHECKING:
     from frames.exchange.building import Building, FrameObject, LineLoad, LinkDof
-    from frames.exchange.fields import Units
+    from frames.exchange.tables import Units
 
 Value: TypeAlias = str | float | int | bool
 """What a cell holds."""

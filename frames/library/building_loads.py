@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames._errors import ModelError
-from frames.library.building_plan import fields_of, level_name
+from frames.library.building_plan import level_name
 from frames.model.load_combinations import applied_loads, load_masses
+from frames.model.plane_faces import fields_of
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
