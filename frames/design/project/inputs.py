@@ -33,7 +33,7 @@ from frames.design.project.schema import (
 from frames.design.project.schema_bearing import FactorSources
 from frames.design.project.source_files import RunningScript, SourceFiles, tell
 from frames.design.project.structure_loads import BuildingLoads, loads_of
-from frames.design.project.structure_plan import irregular_frame, regular_frame
+from frames.design.project.structure_plan import building_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
 from frames.frame import Frame
 from frames.library.models import shear_building
@@ -232,10 +232,8 @@ def frame_of(
     loads: BuildingLoads | None = None,
 ) -> Frame:
     """Return the structure of a section on its bearings; scripts are found from the folder."""
-    if isinstance(given, MomentFrame):
-        return regular_frame(given, bearing, name, loads)
-    if isinstance(given, IrregularFrame):
-        return irregular_frame(given, bearing, name, folder, loads)
+    if isinstance(given, (MomentFrame, IrregularFrame)):
+        return building_frame(given, bearing, name, folder, loads)
     if loads is not None:
         msg = (
             f'[loads] is for a moment frame or an irregular one: kind = "{given.kind}" has its own '

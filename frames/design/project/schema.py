@@ -13,12 +13,12 @@ from pydantic import Field, create_model, field_validator, model_validator
 
 from frames._csv import csv_lines
 from frames.design._errors import ProjectError
-from frames.design.codes.history_rules import MOST_ECCENTRIC
+from frames.design.codes.history_rules import MOST_ECCENTRIC, HistoryRules
 from frames.design.codes.registry import DesignCode, code_named, known_codes
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.code_rules import canonical
-from frames.design.project.derived import Table, WholeFile, table_of
-from frames.design.project.quantities import Acceleration, Length, Positive, Ratio, Time, quantity
+from frames.design.project.derived import Table, WholeFile, key_of, table_of
+from frames.design.project.quantities import Acceleration, Positive, Ratio, Time, quantity
 from frames.design.project.schema_bearing import Bearing as Bearing
 from frames.design.project.schema_bearing import BearingType as BearingType
 from frames.design.project.schema_bearing import Bounds as Bounds
@@ -184,7 +184,7 @@ class Analysis(Table):
         default=("lower", "nominal", "upper"), min_length=1
     )
     uplift_allowed: bool | None = None
-    least_gap: Length | None = None
+    least_gap: key_of(HistoryRules, "least_gap") | None = None  # type: ignore[valid-type]  # made
     nonstructural: str | None = None
     histories: Literal["governing", "all"] = "governing"
     accidental_eccentricity: Ratio | Literal["none"] | None = None

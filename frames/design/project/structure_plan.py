@@ -1,4 +1,4 @@
-"""From ``[structure]`` of kind "moment frame" to the frame on its bearings."""
+"""From ``[structure]`` of columns and beams to the frame on its bearings."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from frames.design.project.member_sections import (
     storeys_of,
 )
 from frames.design.project.schema_sections import BeamsTable, ColumnsTable
+from frames.design.project.schema_structure import MomentFrame
 from frames.design.project.structure_loads import BuildingLoads, LoadsTable, apply_loads
-from frames.frame import Frame
 from frames.library.building import build
 from frames.library.building_plan import BracePart, BuildingPlan, WallPart, regular_plan
 from frames.library.moment_frames import (
@@ -39,7 +39,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from frames.design.project.schema_sections import BraceTable, WallTable
-    from frames.design.project.schema_structure import BuildingTable, IrregularFrame, MomentFrame
+    from frames.design.project.schema_structure import BuildingTable, IrregularFrame
+    from frames.frame import Frame
     from lir_element import LIRBearing
 
 T = TypeVar("T")
@@ -177,41 +178,23 @@ def _sections(
     return [made[id(one)] for one in chosen]
 
 
-def regular_frame(
-    given: MomentFrame, bearing: LIRBearing, name: str, loads: BuildingLoads | None = None
-) -> Frame:
-    """Return a regular frame on its bearings."""
-    _require_one_load(given, loads)
-    own = sections_of(given)
-    plan = regular_plan(
-        given.bays,
-        given.bay_width,
-        given.heights,
-        [(column.section, column.up) for column in own.columns],
-        {d: [each.section for each in (own.base_beams[d], *own.beams[d])] for d in DIRECTIONS},
-    )
-    plan = with_walls_and_braces(plan, given)
-    frame = build(plan, bearing, name=name, damping=_damping(given))
-    if given.floor_load is None:
-        if loads is not None:
-            apply_loads(frame, plan, loads, given.eccentricity)
-        return frame
-    masses = tributary_masses(given.bays, given.bay_width, given.floor_load, given.eccentricity)
-    add_floor_masses(frame, given.storeys, masses, DEFAULT_BASE_DEPTH)
-    return frame
-
-
-def irregular_frame(
-    given: IrregularFrame,
+def building_frame(
+    given: MomentFrame | IrregularFrame,
     bearing: LIRBearing,
     name: str,
     folder: Path,
     loads: BuildingLoads | None = None,
 ) -> Frame:
-    """Return an irregular frame on its bearings."""
+    """Return a frame of columns and beams on its bearings, loaded; tables are in the folder."""
     _require_one_load(given, loads)
-    plan = with_walls_and_braces(irregular_plan(given, folder), given)
-    frame = build(plan, bearing, name=name, damping=_damping(given))
+    plan = _regular_plan(given) if isinstance(given, MomentFrame) else irregular_plan(given, folder)
+    plan = with_walls_and_braces(plan, given)
+    damping = ModalDamping(given.damping) if given.damping > 0.0 else None
+    frame = build(plan, bearing, name=name, damping=damping)
+    if given.floor_load is not None and isinstance(given, MomentFrame):
+        masses = tributary_masses(given.bays, given.bay_width, given.floor_load, given.eccentricity)
+        add_floor_masses(frame, given.storeys, masses, DEFAULT_BASE_DEPTH)
+        return frame
     if given.floor_load is not None:
         dead = LoadsTable.model_construct(dead=given.floor_load * frame.gravity)
         loads = BuildingLoads(dead, {"D": 1.0})
@@ -220,8 +203,15 @@ def irregular_frame(
     return frame
 
 
-def _damping(given: MomentFrame | IrregularFrame) -> ModalDamping | None:
-    return ModalDamping(given.damping) if given.damping > 0.0 else None
+def _regular_plan(given: MomentFrame) -> BuildingPlan:
+    own = sections_of(given)
+    return regular_plan(
+        given.bays,
+        given.bay_width,
+        given.heights,
+        [(column.section, column.up) for column in own.columns],
+        {d: [each.section for each in (own.base_beams[d], *own.beams[d])] for d in DIRECTIONS},
+    )
 
 
 def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads | None) -> None:
