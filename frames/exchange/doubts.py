@@ -14,10 +14,10 @@ from lir_element.elevations import SAME_PLACE
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from frames.exchange.account import Options
     from frames.exchange.building import Building, LineLoad, MassSource
     from frames.exchange.members import Sections
     from frames.exchange.mesh import Mesh
-    from frames.exchange.options import Options
     from frames.exchange.slabs import Slabs
     from frames.exchange.stations import Divided
     from frames.exchange.supports import Places

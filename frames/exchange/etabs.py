@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from frames._errors import ModelError
 from frames.exchange import etabs_fields as dialect
-from frames.exchange.account import Account, judge_rest
+from frames.exchange.account import Account, Options, judge_rest
 from frames.exchange.building import (
     AreaSection,
     Building,
@@ -29,7 +29,6 @@ from frames.exchange.loads import (
     cases_of,
     mass_shares,
 )
-from frames.exchange.options import Options
 from frames.exchange.properties import (
     FILLED,
     Shape,

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from frames.exchange import sap2000_fields as dialect
-from frames.exchange.account import Account, judge_rest
+from frames.exchange.account import Account, Options, judge_rest
 from frames.exchange.building import (
     LINK_DOFS,
     AreaLoad,
@@ -35,7 +35,6 @@ from frames.exchange.loads import (
     mass_shares,
     vector_of,
 )
-from frames.exchange.options import Options
 from frames.exchange.properties import (
     by_constants,
     in_use,
