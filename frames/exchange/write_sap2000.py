@@ -11,7 +11,10 @@ from frames.exchange.fields import written
 from frames.model.components import DOFS
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from frames.exchange.building import Building, FrameObject, LineLoad, LinkDof
+    from frames.exchange.fields import Fields
     from frames.exchange.tables import Units
 
 Value: TypeAlias = str | float | int | bool
@@ -64,6 +67,11 @@ def tables_of(building: Building) -> dict[str, Rows]:
     return {name: rows for name, rows in found.items() if rows}
 
 
+def _rows(key: str, given: Mapping[str, object], map_: Fields, units: Units, **more: Value) -> Rows:
+    # A row for each thing by its name, its fields by a map.
+    return [{key: name, **written(map_, thing, units), **more} for name, thing in given.items()]
+
+
 def _joints(building: Building) -> dict[str, Rows]:
     units = building.units
     own: dict[str, Value] = {"CoordSys": "GLOBAL", "CoordType": "Cartesian"}
@@ -93,18 +101,8 @@ def _joints(building: Building) -> dict[str, Rows]:
 def _properties(building: Building) -> dict[str, Rows]:
     units = building.units
     return {
-        dialect.MATERIALS: [
-            {"Material": name, **written(dialect.MATERIAL, matter, units)}
-            for name, matter in building.materials.items()
-        ],
-        dialect.SECTIONS: [
-            {
-                "SectionName": name,
-                **written(dialect.SECTION, section, units),
-                "I23": 0,
-            }
-            for name, section in building.sections.items()
-        ],
+        dialect.MATERIALS: _rows("Material", building.materials, dialect.MATERIAL, units),
+        dialect.SECTIONS: _rows("SectionName", building.sections, dialect.SECTION, units, I23=0),
         dialect.AREA_SECTIONS: [
             {
                 "Section": name,
@@ -122,25 +120,17 @@ def _properties(building: Building) -> dict[str, Rows]:
 
 def _members(building: Building) -> dict[str, Rows]:
     frames, units = building.frames.values(), building.units
+    turned = {one.name: one for one in frames if one.angle}
+    factors = {one.name: one.modifiers for one in frames if one.modifiers != Modifiers()}
+    section: dict[str, Value] = {"AutoSelect": "N.A.", "AnalSect": "", "MatProp": "Default"}
     return {
-        dialect.FRAMES: [
-            {"Frame": one.name, **written(dialect.ENDS, one, units), "IsCurved": False}
-            for one in frames
-        ],
+        dialect.FRAMES: _rows("Frame", building.frames, dialect.ENDS, units, IsCurved=False),
         "FRAME SECTION ASSIGNMENTS": [
-            {
-                "Frame": one.name,
-                "AutoSelect": "N.A.",
-                "AnalSect": one.section,
-                "MatProp": "Default",
-            }
-            for one in frames
+            {"Frame": one.name} | section | {"AnalSect": one.section} for one in frames
         ],
-        "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL": [
-            {"Frame": one.name, **written(dialect.ANGLE, one, units), "AdvanceAxes": False}
-            for one in frames
-            if one.angle
-        ],
+        "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL": _rows(
+            "Frame", turned, dialect.ANGLE, units, AdvanceAxes=False
+        ),
         "FRAME RELEASE ASSIGNMENTS 1 - GENERAL": [
             {"Frame": one.name, **_released(one, units), "PartialFix": False}
             for one in frames
@@ -157,11 +147,7 @@ def _members(building: Building) -> dict[str, Rows]:
             for one in frames
             if any(one.offset_i) or any(one.offset_j)
         ],
-        "FRAME PROPERTY MODIFIERS": [
-            {"Frame": one.name, **written(dialect.MODIFIERS, one.modifiers, units)}
-            for one in frames
-            if one.modifiers != Modifiers()
-        ],
+        "FRAME PROPERTY MODIFIERS": _rows("Frame", factors, dialect.MODIFIERS, units),
         "FRAME AUTO MESH ASSIGNMENTS": [{"Frame": one.name, "AutoMesh": False} for one in frames],
     }
 
@@ -193,10 +179,7 @@ def _loads(building: Building) -> dict[str, Rows]:
     source, units = building.mass_source, building.units
     shares = {} if source is None else source.patterns
     return {
-        dialect.PATTERNS: [
-            {"LoadPat": name, **written(dialect.PATTERN, pattern, units)}
-            for name, pattern in building.patterns.items()
-        ],
+        dialect.PATTERNS: _rows("LoadPat", building.patterns, dialect.PATTERN, units),
         "MASS SOURCE": [
             _MASS_SOURCE | {"Loads": True} | written(dialect.MASS_SHARE, share, units)
             for share in shares.items()
@@ -241,14 +224,14 @@ def _links(building: Building) -> dict[str, Rows]:
         dialect.LINK_PLACES: [],
         "LINK PROPERTY ASSIGNMENTS": [],
     }
+    general = _rows("Link", building.link_properties, dialect.LINK, building.units)
+    found[f"{head}01 - GENERAL"] = general
     for name, prop in building.link_properties.items():
-        row = {"Link": name, **written(dialect.LINK, prop, building.units)}
-        found[f"{head}01 - GENERAL"].append(row)
         for dof, given in prop.dofs.items():
             table = "08 - SLIDING ISOLATOR" if given.nonlinear else "02 - LINEAR"
             found[head + table].append({"Link": name, "DOF": dof, **_dof(building, dof, given)})
     for name, link in building.links.items():
-        row = {"Link": name, "JointI": link.i, "JointJ": link.j or ""}
+        row: dict[str, Value] = {"Link": name, "JointI": link.i, "JointJ": link.j or ""}
         found[dialect.LINK_PLACES].append(row)
         row = {"Link": name, "LinkType": building.link_properties[link.property].kind}
         row |= {"LinkJoints": "TwoJoint", "LinkProp": link.property}
