@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from typing import Any
 
 from frames._errors import ModelError
 from frames.exchange import sap2000_fields as dialect
@@ -20,7 +21,7 @@ from frames.exchange.fields import refused, values
 from frames.exchange.geometry import frame_axes
 from frames.exchange.loads import vector_of
 from frames.exchange.properties import offsets_of, released, shell_factors
-from frames.exchange.tables import Row, Tables, by_name, known
+from frames.exchange.tables import Row, Tables, by_name, known, of_objects
 from frames.model.components import DOFS
 
 _GROUND = {"", "ground", "gnd", "none"}
@@ -112,31 +113,30 @@ def _assign_frames(tables: Tables, building: Building) -> None:
         ("FRAME INSERTION POINT ASSIGNMENTS", _inserted),
         ("FRAME AUTO MESH ASSIGNMENTS", _meshed),
     ):
-        for name, row in by_name(tables.rows(table), "Frame").items():
-            known(row, "Frame", name, building.frames)
+        for name, row in of_objects(tables.rows(table), "Frame", building.frames):
             refused(row, name, building.account, dialect.FRAME_WORDS)
-            building.frames[name] = change(building.frames[name], row, building)
+            frame = building.frames[name]
+            building.frames[name] = replace(frame, **change(frame, row, building))
 
 
-def _turned(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    return replace(frame, **values(row, dialect.ANGLE, building))
+def _turned(_: FrameObject, row: Row, building: Building) -> dict[str, Any]:
+    return values(row, dialect.ANGLE, building)
 
 
-def _modified(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    return replace(frame, modifiers=Modifiers(**values(row, dialect.MODIFIERS, building)))
+def _modified(_: FrameObject, row: Row, building: Building) -> dict[str, Any]:
+    return {"modifiers": Modifiers(**values(row, dialect.MODIFIERS, building))}
 
 
-def _released(frame: FrameObject, row: Row, building: Building) -> FrameObject:
+def _released(frame: FrameObject, row: Row, building: Building) -> dict[str, Any]:
     free = [word for word, is_free in values(row, dialect.RELEASES, building).items() if is_free]
-    return replace(frame, releases=released(row, frame.name, free, building))
+    return {"releases": released(row, frame.name, free, building)}
 
 
-def _with_end_zones(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    of = f' of frame "{frame.name}"'
-    return replace(frame, **values(row, dialect.END_ZONES, building, of))
+def _with_end_zones(frame: FrameObject, row: Row, building: Building) -> dict[str, Any]:
+    return values(row, dialect.END_ZONES, building, f' of frame "{frame.name}"')
 
 
-def _inserted(frame: FrameObject, row: Row, building: Building) -> FrameObject:
+def _inserted(frame: FrameObject, row: Row, building: Building) -> dict[str, Any]:
     number = re.match(r"\s*(\d+)", row.text("CardinalPt", "10"))
     cardinal = int(number[1]) if number else 0
     if not 1 <= cardinal <= 11:
@@ -147,17 +147,13 @@ def _inserted(frame: FrameObject, row: Row, building: Building) -> FrameObject:
         first, last = (building.joints[name].position for name in (frame.i, frame.j))
         axes = frame_axes(first, last, frame.angle)
         offset_i, offset_j = (vector_of(axes.T @ offset) for offset in (offset_i, offset_j))
-    return replace(
-        frame,
-        cardinal=cardinal,
-        offset_i=offset_i,
-        offset_j=offset_j,
-        transforms=all(values(row, dialect.TRANSFORMS, building).values()),
-    )
+    transforms = all(values(row, dialect.TRANSFORMS, building).values())
+    offsets = {"offset_i": offset_i, "offset_j": offset_j}
+    return {"cardinal": cardinal, "transforms": transforms, **offsets}
 
 
-def _meshed(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    return replace(frame, meshed=all(values(row, dialect.MESHED, building).values()))
+def _meshed(_: FrameObject, row: Row, building: Building) -> dict[str, Any]:
+    return {"meshed": all(values(row, dialect.MESHED, building).values())}
 
 
 def _read_areas(tables: Tables, building: Building) -> None:
@@ -181,8 +177,7 @@ def _read_areas(tables: Tables, building: Building) -> None:
             raise ModelError(message)
     for row in sections.values():
         known(row, "Area", row.text("Area"), building.areas)
-    for name, row in by_name(tables.rows("AREA STIFFNESS MODIFIERS"), "Area").items():
-        known(row, "Area", name, building.areas)
+    for name, row in of_objects(tables.rows("AREA STIFFNESS MODIFIERS"), "Area", building.areas):
         factors = shell_factors(row, dialect.SHELL, building)
         building.areas[name] = replace(building.areas[name], **factors)
     building.account.read(dialect.AREAS, "areas", len(building.areas))
@@ -212,16 +207,14 @@ def _read_links(tables: Tables, building: Building) -> None:
 
 def _read_supports(tables: Tables, building: Building) -> None:
     table = "JOINT RESTRAINT ASSIGNMENTS"
-    for name, row in by_name(tables.rows(table), "Joint").items():
-        known(row, "Joint", name, building.joints)
+    for name, row in of_objects(tables.rows(table), "Joint", building.joints):
         given = values(row, dialect.RESTRAINT, building)
         held = tuple(dof for dof, is_held in given.items() if is_held)
         if held:
             building.restraints[name] = held
     building.account.read(table, "supports", len(building.restraints))
     table = "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED"
-    for name, row in by_name(tables.rows(table), "Joint").items():
-        known(row, "Joint", name, building.joints)
+    for name, row in of_objects(tables.rows(table), "Joint", building.joints):
         if row.text("CoordSys", "GLOBAL").upper() not in {"GLOBAL", "LOCAL"}:
             msg = f'spring of joint "{name}" must be given in GLOBAL axes'
             raise row.error(msg)
@@ -231,8 +224,7 @@ def _read_supports(tables: Tables, building: Building) -> None:
             building.springs[name] = stiffness
     building.account.read(table, "joint springs", len(building.springs))
     table = "JOINT ADDED MASS ASSIGNMENTS"
-    for name, row in by_name(tables.rows(table), "Joint").items():
-        known(row, "Joint", name, building.joints)
+    for name, row in of_objects(tables.rows(table), "Joint", building.joints):
         of = f' of joint "{name}"'
         building.masses[name] = tuple(values(row, dialect.MASS, building, of).values())
     building.account.read(table, "masses added to joints", len(building.masses))

@@ -196,6 +196,14 @@ def by_name(rows: Sequence[Row], field: str) -> dict[str, Row]:
     return found
 
 
+def of_objects(
+    rows: Sequence[Row], field: str, names: Collection[str]
+) -> Iterator[tuple[str, Row]]:
+    """Yield rows and the objects that they are of; one that is not there is refused."""
+    for name, row in by_name(rows, field).items():
+        yield known(row, field, name, names), row
+
+
 def merged(
     rows: Sequence[Row], *fields: str, adding: Collection[str] = ()
 ) -> dict[tuple[str, ...], Row]:
