@@ -126,7 +126,8 @@ def key_of(kind: type, name: str) -> Any:
         bounds.append(Field(gt=within.low) if within.open_below else Field(ge=within.low))
     if math.isfinite(within.high):
         bounds.append(Field(lt=within.high) if within.open_above else Field(le=within.high))
-    return Annotated[quantity(unit_of(kind, name)), *bounds]
+    unit = unit_of(kind, name)
+    return Annotated[quantity(unit, "1.0" if not unit and within.holds(1.0) else ""), *bounds]
 
 
 def _fits_a_file(law: type[FrictionLaw]) -> bool:
