@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from frames.exchange.tables import known
@@ -124,7 +125,7 @@ def values(
     scale = units or building.units
     found: dict[str, Any] = {}
     for field in map_:
-        names = [f"{prefix}{name}" for name in field.names.split("|")]
+        names = _names(field.names, prefix)
         given = [name for name in names if row.has(name)]
         if only_given and not given:
             continue
@@ -143,6 +144,11 @@ def values(
             if field.unit != "text":
                 known(row, field.said or name, text, getattr(building, field.unit), of)
     return found
+
+
+@cache
+def _names(names: str, prefix: str) -> tuple[str, ...]:
+    return tuple(f"{prefix}{name}" for name in names.split("|"))
 
 
 def written(map_: Fields, given: object, units: Units) -> dict[str, Value]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar, Literal, TypeAlias
 
 from frames._errors import ModelError
@@ -271,52 +272,52 @@ class Units:
 
     one: ClassVar[float] = 1.0  # of what has no unit
 
-    @property
+    @cached_property
     def per_length(self) -> float:
         """Reciprocal of a length [1/m]."""
         return 1.0 / self.length
 
-    @property
+    @cached_property
     def area(self) -> float:
         """Area [m2]."""
         return self.length**2
 
-    @property
+    @cached_property
     def inertia(self) -> float:
         """Second moment of an area [m4]."""
         return self.length**4
 
-    @property
+    @cached_property
     def rotary(self) -> float:
         """Mass times length squared [kg m2]."""
         return self.mass * self.length**2
 
-    @property
+    @cached_property
     def moment(self) -> float:
         """Moment [N m]."""
         return self.force * self.length
 
-    @property
+    @cached_property
     def line(self) -> float:
         """Force per length, and stiffness [N/m]."""
         return self.force / self.length
 
-    @property
+    @cached_property
     def stress(self) -> float:
         """Force per area [Pa]."""
         return self.force / self.length**2
 
-    @property
+    @cached_property
     def weight(self) -> float:
         """Force per volume [N/m3]."""
         return self.force / self.length**3
 
-    @property
+    @cached_property
     def mass(self) -> float:
         """Mass: force over acceleration [kg]."""
         return self.force / self.length
 
-    @property
+    @cached_property
     def density(self) -> float:
         """Mass per volume [kg/m3]."""
         return self.mass / self.length**3
