@@ -13,12 +13,10 @@ from frames.design.project.irregular_plan import irregular_plan
 from frames.design.project.member_sections import (
     NamedSection,
     by_storey,
-    cracked_said,
-    material_of,
     named_section,
     storeys_of,
 )
-from frames.design.project.schema_sections import BeamsTable, ColumnsTable
+from frames.design.project.schema_sections import BeamsTable, ColumnsTable, SectionTable
 from frames.design.project.schema_structure import MomentFrame
 from frames.design.project.structure_loads import BuildingLoads, LoadsTable, apply_loads
 from frames.library.building import build
@@ -93,12 +91,6 @@ def _rods(plan: BuildingPlan, given: BraceTable) -> list[BracePart]:
     ]
 
 
-def wall_length(plan: BuildingPlan, given: WallTable) -> float:
-    """Return the length of a wall [m]: its own, else the distance between its columns."""
-    apart = math.dist(*(plan.lines[line] for line in given.between))
-    return apart if given.length is None else given.length
-
-
 def _wall(plan: BuildingPlan, given: WallTable) -> WallPart:
     _require_lines(plan, given.between)
     storeys = storeys_of(given.storeys, len(plan.heights))
@@ -108,22 +100,18 @@ def _wall(plan: BuildingPlan, given: WallTable) -> WallPart:
             f"bearings: [1, {storeys[-1]}]; one on beams needs shells or a frame of your own"
         )
         raise ProjectError(msg)
-    length, material = wall_length(plan, given), material_of(given.material)
+    apart = math.dist(*(plan.lines[line] for line in given.between))
+    length = apart if given.length is None else given.length
     if given.thickness > 0.5 * length:
         msg = (
             f"thickness = {given.thickness:g} m is more than half of the length {length:g} m: "
             "that is a column, or look at the unit"
         )
         raise ProjectError(msg)
-    section = Section.rectangle(
-        given.thickness,
-        length,
-        elastic_modulus=material.elastic_modulus,
-        poisson_ratio=material.poisson_ratio,
-        density=material.density,
+    own = SectionTable.model_construct(
+        rectangle=(given.thickness, length), material=given.material, cracked=given.cracked
     )
-    section, _ = cracked_said(section, given.cracked)
-    return WallPart(*given.between, storeys[-1], section)
+    return WallPart(*given.between, storeys[-1], named_section(own, column=False).section)
 
 
 Kind = TypeVar("Kind", bound=ColumnsTable | BeamsTable)
