@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from frames._remedies import argument
 from frames.exchange.building import AreaLoad, JointLoad
-from frames.exchange.loads import Sizes, own_masses, own_weights
+from frames.exchange.loads import OWN_MASS, Sizes, own_loads
 from frames.exchange.members import LEAST_FACTOR
 from frames.exchange.stations import is_offset
 from lir_element.elevations import SAME_PLACE
@@ -56,12 +56,12 @@ def doubt_weights(
     ]
     down = size.down(loads)
     for name in heavy:
-        own = size.down(own_weights(building, name)).get(name, 0.0)
+        own = size.down(own_loads(building, name)).get(name, 0.0)
         down[name] = down.get(name, 0.0) + building.patterns[name].self_weight * own
     weight = sum(share * down.get(name, 0.0) for name, share in shares.items())
     parts = {
         "of load patterns": sum(s * down.get(name, 0.0) for name, s in source.patterns.items()),
-        "of elements": sum(size.down(own_masses(building, gravity)).values())
+        "of elements": sum(size.down(own_loads(building, OWN_MASS, gravity)).values())
         if source.elements
         else 0.0,
         "added to joints": gravity * sum(0.5 * (v[0] + v[1]) for v in building.masses.values())

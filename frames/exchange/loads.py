@@ -85,24 +85,30 @@ def add_area_load(
     building.area_loads.append(AreaLoad(area, pattern, load))
 
 
-def frame_weight(building: Building, frame: str) -> float:
-    """Return the own weight of a frame object per length [N/m]."""
+def frame_weight(building: Building, frame: str, gravity: float = 0.0) -> float:
+    """Return the own weight of a frame object per length [N/m], or its own mass times gravity."""
     given = building.frames[frame]
     section = building.sections[given.section]
-    name = given.material or section.material
+    matter = building.materials.get(given.material or section.material)
+    if matter is None:
+        return 0.0
     factors = section.modifiers.times(given.modifiers)
-    weight = building.materials[name].weight if name in building.materials else 0.0
-    return weight * section.area * factors.weight
+    if gravity:
+        return gravity * matter.density * section.area * factors.mass
+    return matter.weight * section.area * factors.weight
 
 
-def area_weight(building: Building, area: str) -> float:
-    """Return the own weight of an area per its own area [N/m2]."""
+def area_weight(building: Building, area: str, gravity: float = 0.0) -> float:
+    """Return the own weight of an area per its own area [N/m2], or its own mass times gravity."""
     given = building.areas[area]
     section = building.area_sections.get(given.section)
     if section is None:
         return 0.0
-    material = building.materials.get(section.material)
-    own = 0.0 if material is None else material.weight * section.thickness
+    matter = building.materials.get(section.material)
+    if gravity:
+        own = 0.0 if matter is None else gravity * matter.density * section.thickness
+        return (own + section.extra_weight) * section.mass * given.mass
+    own = 0.0 if matter is None else matter.weight * section.thickness
     return (own + section.extra_weight) * section.weight * given.weight
 
 
@@ -110,32 +116,16 @@ OWN_MASS = "own mass"
 """Name of the case that stands for the mass of elements."""
 
 
-def own_weights(building: Building, pattern: str) -> Iterator[LineLoad | AreaLoad | JointLoad]:
-    """Yield the own weight of all elements as a load of a pattern."""
-    yield from _link_loads(building, pattern, 0.0)
+def own_loads(
+    building: Building, pattern: str, gravity: float = 0.0
+) -> Iterator[LineLoad | AreaLoad | JointLoad]:
+    """Yield the own weight of all elements, or their mass times gravity, as loads of a pattern."""
+    yield from _link_loads(building, pattern, gravity)
     for name in building.frames:
-        down = (0.0, 0.0, -frame_weight(building, name))
+        down = (0.0, 0.0, -frame_weight(building, name, gravity))
         yield LineLoad(name, pattern, 0.0, 1.0, down, down)
     for name in building.areas:
-        yield AreaLoad(name, pattern, (0.0, 0.0, -area_weight(building, name)))
-
-
-def own_masses(building: Building, gravity: float) -> Iterator[LineLoad | AreaLoad | JointLoad]:
-    """Yield the own mass of all elements times gravity, as loads of the case `OWN_MASS`."""
-    yield from _link_loads(building, OWN_MASS, gravity)
-    for name, given in building.frames.items():
-        section = building.sections[given.section]
-        matter = building.materials[given.material or section.material]
-        factor = section.modifiers.times(given.modifiers).mass
-        down = (0.0, 0.0, -gravity * matter.density * section.area * factor)
-        yield LineLoad(name, OWN_MASS, 0.0, 1.0, down, down)
-    for name, area in building.areas.items():
-        found = building.area_sections.get(area.section)
-        if found is None or found.kind == "none":
-            continue
-        matter = building.materials[found.material]
-        own = gravity * matter.density * found.thickness + found.extra_weight
-        yield AreaLoad(name, OWN_MASS, (0.0, 0.0, -own * found.mass * area.mass))
+        yield AreaLoad(name, pattern, (0.0, 0.0, -area_weight(building, name, gravity)))
 
 
 def _link_loads(building: Building, pattern: str, gravity: float) -> Iterator[JointLoad]:

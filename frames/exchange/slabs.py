@@ -11,7 +11,7 @@ import numpy as np
 from frames._errors import ModelError
 from frames.exchange.building import AreaLoad, JointLoad, LineLoad
 from frames.exchange.geometry import Levels, area_normal
-from frames.exchange.loads import OWN_MASS, own_masses, own_weights
+from frames.exchange.loads import OWN_MASS, own_loads
 from frames.exchange.members import add_line_load
 from frames.model.components import FloorLoad
 from frames.model.floors import floor_panel, members_at, panel_loads
@@ -154,10 +154,7 @@ class Loading:
 
     def __init__(self, building: Building, divided: Mapping[str, Divided], mesh: Mesh) -> None:
         self.building, self.divided, self.mesh = building, divided, mesh
-        self._shells = {area for area, _ in mesh.elements}
-        self._elements: dict[str, list[tuple[str, ...]]] = {}
-        for area, nodes in mesh.elements:
-            self._elements.setdefault(area, []).append(nodes)
+        self._elements = mesh.by_area()
 
     def put(
         self, frame: FrameEditor, slabs: Slabs, factors: Mapping[str, tuple[float, str]], own: bool
@@ -173,9 +170,9 @@ class Loading:
         for name, pattern in building.patterns.items():
             factor = pattern.self_weight
             if name in chosen and factor:
-                loads += [_times(load, factor) for load in own_weights(building, name)]
+                loads += [_times(load, factor) for load in own_loads(building, name)]
         if own:
-            loads += list(own_masses(building, frame.gravity))
+            loads += own_loads(building, OWN_MASS, frame.gravity)
             chosen[OWN_MASS] = (1.0, OWN_MASS)
         for load in loads:
             factor, case = chosen.get(load.pattern, (0.0, ""))
@@ -194,7 +191,7 @@ class Loading:
         self, frame: FrameEditor, slabs: Slabs, load: AreaLoad, factor: float, case: str
     ) -> None:
         vector = factor * np.array(load.load)
-        if load.area not in self._shells:
+        if load.area not in self._elements:
             slabs.add(self.building.areas[load.area], vector, case)
             return
         for nodes in self._elements[load.area]:

@@ -27,7 +27,7 @@ from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.quantities import si
 from frames.design.project.reading import read_project, schema
-from frames.design.project.schema import SuperstructureTable
+from frames.design.project.schema_structure import SuperstructureTable
 from frames.design.project.speed import Way
 from frames.design.report import files, writing
 from frames.design.sizing.target import INTERFACE_PRESSURE

@@ -21,16 +21,15 @@ from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
 from frames.design.project.devices_beside import STANDARD, on_types, types_by_column, with_devices
 from frames.design.project.member_sections import named_section
-from frames.design.project.schema import (
+from frames.design.project.schema import PointsTable, read_points
+from frames.design.project.schema_bearing import Bearing, FactorSources
+from frames.design.project.schema_structure import (
     ImportedModel,
     IrregularFrame,
     MomentFrame,
     OpenSeesModel,
-    PointsTable,
     ShearBuilding,
-    read_points,
 )
-from frames.design.project.schema_bearing import FactorSources
 from frames.design.project.source_files import RunningScript, SourceFiles, tell
 from frames.design.project.structure_loads import BuildingLoads, loads_of
 from frames.design.project.structure_plan import building_frame
@@ -45,8 +44,8 @@ if TYPE_CHECKING:
 
     from frames.design.codes.registry import AnalysisMethod
     from frames.design.hazard.spectrum import Spectrum
-    from frames.design.project import schema
-    from frames.design.project.schema import MotionSource, ProjectFile, Structure
+    from frames.design.project.schema import MotionSource, ProjectFile
+    from frames.design.project.schema_structure import Structure
 
 T = TypeVar("T")
 
@@ -218,7 +217,7 @@ class ProjectInputs:
         return motions_of(self.file.motions, self.folder)
 
 
-def bearing_of(given: schema.Bearing, section: str = "bearing") -> LIRBearing:
+def bearing_of(given: Bearing, section: str = "bearing") -> LIRBearing:
     """Return the bearing of a section, or raise a ProjectError."""
     made: Callable[[], LIRBearing] = given.made
     return in_section(section, made)

@@ -19,21 +19,21 @@ from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.code_rules import canonical
 from frames.design.project.derived import Table, WholeFile, key_of, table_of
 from frames.design.project.quantities import Acceleration, Positive, Ratio, Time, quantity
-from frames.design.project.schema_bearing import Bearing as Bearing
-from frames.design.project.schema_bearing import BearingType as BearingType
-from frames.design.project.schema_bearing import Bounds as Bounds
-from frames.design.project.schema_bearing import DamperTable as DamperTable
-from frames.design.project.schema_bearing import MoatTable as MoatTable
-from frames.design.project.schema_bearing import bearing_table as bearing_table
-from frames.design.project.schema_bearing import bearing_type_table, completed
-from frames.design.project.schema_structure import ImportedModel as ImportedModel
-from frames.design.project.schema_structure import IrregularFrame as IrregularFrame
-from frames.design.project.schema_structure import MomentFrame as MomentFrame
-from frames.design.project.schema_structure import OpenSeesModel as OpenSeesModel
-from frames.design.project.schema_structure import ShearBuilding as ShearBuilding
-from frames.design.project.schema_structure import Structure as Structure
-from frames.design.project.schema_structure import SuperstructureTable as SuperstructureTable
-from frames.design.project.structure_loads import LoadsTable as LoadsTable
+from frames.design.project.schema_bearing import (
+    Bearing,
+    BearingType,
+    Bounds,
+    DamperTable,
+    MoatTable,
+    bearing_table,
+    bearing_type_table,
+    completed,
+)
+from frames.design.project.schema_structure import (
+    Structure,
+    SuperstructureTable,
+)
+from frames.design.project.structure_loads import LoadsTable
 from frames.design.sizing.target import DesignTarget
 from lir_element.units import STANDARD_GRAVITY
 

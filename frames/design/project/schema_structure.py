@@ -33,43 +33,17 @@ from frames.design.project.schema_sections import (
     one_or_more,
 )
 
+_RESULT_TABLES = """
+bearings bench checks compare compare-motions demands demands-by-motion eccentricity
+equivalent-linear friction links member-groups members members-without-forces modes motions
+programme provisions reactions storeys
+"""
+_RESULT_OTHERS = """
+checks.txt compare.html governing.nc interrupted.nc project.toml report.html report.pdf run.json
+view.html
+"""
 RESULT_FILES = frozenset(
-    {
-        *(
-            f"{name}.csv"
-            for name in (
-                "bearings",
-                "bench",
-                "checks",
-                "compare",
-                "compare-motions",
-                "demands",
-                "demands-by-motion",
-                "eccentricity",
-                "equivalent-linear",
-                "friction",
-                "links",
-                "member-groups",
-                "members",
-                "members-without-forces",
-                "modes",
-                "motions",
-                "programme",
-                "provisions",
-                "reactions",
-                "storeys",
-            )
-        ),
-        "checks.txt",
-        "compare.html",
-        "governing.nc",
-        "interrupted.nc",
-        "project.toml",
-        "report.html",
-        "report.pdf",
-        "run.json",
-        "view.html",
-    }
+    [*(f"{name}.csv" for name in _RESULT_TABLES.split()), *_RESULT_OTHERS.split()]
 )
 """Files of fixed names; time histories are ``runs-<bound>.nc`` and ``moved-<bound>.nc`` besides."""
 
