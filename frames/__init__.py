@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from frames.results.storage import load as load
     from frames.results.storage import save as save
     from frames.solve.step_sensitivity import step_sensitivity as step_sensitivity
+    from frames.solve.time_history import Analysis as Analysis
     from frames.solve.time_history import time_history as time_history
     from frames.statics.gravity import GravityState as GravityState
     from frames.statics.gravity import gravity as gravity
@@ -57,6 +58,7 @@ if not TYPE_CHECKING:  # noqa: RUF067  # a checker of types would take any name 
 
 
 __all__ = [
+    "Analysis",
     "AnalysisInterrupted",
     "AuditWarning",
     "BatchProgress",

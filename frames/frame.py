@@ -12,8 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from frames.exchange.account import Account
-    from frames.exchange.options import BaseRotations
+    from frames.exchange.account import Account, BaseRotations
     from frames.model.sections import Section
     from frames.motion.ground_motion import GroundMotion
     from frames.statics.model_check import ModelCheck
@@ -216,7 +215,7 @@ class Frame(FrameEditor):
             On what was probably not meant: words that are not known, mass without weight, supports
             that do not let each bearing carry its column, a level on the bearings without mass.
         """
-        from frames.exchange.options import Options
+        from frames.exchange.account import Options
         from frames.exchange.to_frame import imported
 
         options = Options(
@@ -277,7 +276,7 @@ class Frame(FrameEditor):
         ModelWarning
             As `from_sap2000` does.
         """
-        from frames.exchange.options import Options
+        from frames.exchange.account import Options
         from frames.exchange.to_frame import imported
 
         options = Options(

@@ -16,7 +16,7 @@ from frames.recording.reduction import reduced
 from frames.results.findings import Findings
 from frames.results.peaks import peaks_of
 from frames.results.recorded import REACHED
-from frames.solve.analysis import Analysis
+from frames.solve.analysis import PreparedFrame
 from frames.solve.recorder import PeakRecorder, Recorder
 from frames.solve.run import run_one
 from lir_element.errors import AnalysisError, RunStatus
@@ -45,7 +45,7 @@ _COPIES = 2.0
 class Structure(NamedTuple):
     """An analysis that many runs share, and where its numbers stand in their rows."""
 
-    analysis: Analysis
+    analysis: PreparedFrame
     layout: Layout
 
 
@@ -97,7 +97,7 @@ class Runner:
     def _set_up(self, name: str) -> Structure | AnalysisError:
         recording = self.recording
         try:
-            found = Analysis(self._models[name], self.features, self._level)
+            found = PreparedFrame(self._models[name], self.features, self._level)
         except AnalysisError as failure:
             return failure
         layout = _layout_of(found, recording)
@@ -113,7 +113,7 @@ class Runner:
         return Structure(found, layout)
 
 
-def _layout_of(analysis: Analysis, recording: Recording | None) -> Layout:
+def _layout_of(analysis: PreparedFrame, recording: Recording | None) -> Layout:
     # Of what is reached by each run; refuses what a recording names and its results lack.
     template = analysis.template
     if recording is not None:

@@ -11,7 +11,7 @@ from dataclasses import astuple, dataclass, field
 from typing import TypeAlias
 
 from frames.exchange.account import Account
-from frames.exchange.fields import Units
+from frames.exchange.tables import Units
 
 Vector: TypeAlias = tuple[float, float, float]
 """Components along global x, y, z."""

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from frames._remedies import argument
 from frames.exchange.building import AreaLoad, JointLoad
-from frames.exchange.geometry import area_normal
-from frames.exchange.loads import Shares, own_masses, own_weights
+from frames.exchange.loads import OWN_MASS, Sizes, own_loads
 from frames.exchange.members import LEAST_FACTOR
 from frames.exchange.stations import is_offset
 from lir_element.elevations import SAME_PLACE
@@ -17,10 +14,10 @@ from lir_element.elevations import SAME_PLACE
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from frames.exchange.account import Options
     from frames.exchange.building import Building, LineLoad, MassSource
     from frames.exchange.members import Sections
     from frames.exchange.mesh import Mesh
-    from frames.exchange.options import Options
     from frames.exchange.slabs import Slabs
     from frames.exchange.stations import Divided
     from frames.exchange.supports import Places
@@ -41,11 +38,12 @@ def doubt_weights(
     building: Building, shares: Mapping[str, float], source: MassSource, gravity: float
 ) -> None:
     """Doubt materials without weight, and a mass that does not fit the permanent loads."""
-    account, size = building.account, _Sizes(building)
+    account, size = building.account, Sizes(building)
     heavy = [name for name, pattern in building.patterns.items() if pattern.self_weight]
-    without = size.without_weight()
-    if heavy and sum(without.values()) > WEIGHTLESS * size.volume:
-        part = 100.0 * sum(without.values()) / size.volume
+    known, volume = building.materials, sum(size.volumes.values())
+    without = {k: v for k, v in size.volumes.items() if k in known and not known[k].weight}
+    if heavy and sum(without.values()) > WEIGHTLESS * volume:
+        part = 100.0 * sum(without.values()) / volume
         account.doubts.append(
             f'{account.file}: material {_quoted(without)} has no weight, and pattern "{heavy[0]}" '
             f"has own weight: {part:.3g} % of the volume of all elements do not weigh; give the "
@@ -58,12 +56,12 @@ def doubt_weights(
     ]
     down = size.down(loads)
     for name in heavy:
-        own = size.down(own_weights(building, name)).get(name, 0.0)
+        own = size.down(own_loads(building, name)).get(name, 0.0)
         down[name] = down.get(name, 0.0) + building.patterns[name].self_weight * own
     weight = sum(share * down.get(name, 0.0) for name, share in shares.items())
     parts = {
         "of load patterns": sum(s * down.get(name, 0.0) for name, s in source.patterns.items()),
-        "of elements": sum(size.down(own_masses(building, gravity)).values())
+        "of elements": sum(size.down(own_loads(building, OWN_MASS, gravity)).values())
         if source.elements
         else 0.0,
         "added to joints": gravity * sum(0.5 * (v[0] + v[1]) for v in building.masses.values())
@@ -131,54 +129,6 @@ def doubt_base(
         )
 
 
-class _Sizes:
-    # Lengths, areas and volumes of objects, and what loads on them come to.
-
-    def __init__(self, building: Building) -> None:
-        self._building = building
-        place = {name: np.array(joint.position) for name, joint in building.joints.items()}
-        self._size = {
-            name: float(np.linalg.norm(place[f.j] - place[f.i]))
-            for name, f in building.frames.items()
-        }
-        self._area = {
-            name: area_normal(np.array([place[j] for j in area.joints]))[1]
-            for name, area in building.areas.items()
-        }
-        self._volumes: dict[str, float] = {}
-        for name, frame in building.frames.items():
-            section = building.sections[frame.section]
-            self._add(frame.material or section.material, self._size[name] * section.area)
-        for name, area in building.areas.items():
-            if found := building.area_sections.get(area.section):
-                self._add(found.material, self._area[name] * found.thickness)
-        self.volume = sum(self._volumes.values())
-
-    def _add(self, material: str, volume: float) -> None:
-        self._volumes[material] = self._volumes.get(material, 0.0) + volume
-
-    def without_weight(self) -> dict[str, float]:
-        """Return the volumes of materials that have no weight [m3]."""
-        known = self._building.materials
-        return {k: v for k, v in self._volumes.items() if k in known and not known[k].weight}
-
-    def down(self, loads: Iterable[LineLoad | AreaLoad | JointLoad]) -> dict[str, float]:
-        """Return what loads come to downwards, by pattern [N]."""
-        found: dict[str, float] = {}
-        for load in loads:
-            if isinstance(load, JointLoad):
-                force = load.forces[2]
-            elif isinstance(load, AreaLoad):
-                force = load.load[2] * self._area[load.area]
-            elif load.point:
-                force = load.start[2]
-            else:
-                span = (load.b - load.a) * self._size[load.frame]
-                force = 0.5 * (load.start[2] + load.end[2]) * span
-            found[load.pattern] = found.get(load.pattern, 0.0) - force
-        return found
-
-
 def _quoted(names: Iterable[str]) -> str:
     return ", ".join(f'"{name}"' for name in names)
 
@@ -191,7 +141,7 @@ def note_members(building: Building, sections: Sections, divided: list[Divided])
         f"with a stiffness of none, taken as {LEAST_FACTOR:g} of it",
         sorted(sections.softened),
     )
-    shares = Shares(building)
+    sizes = Sizes(building)
     cases = {
         "divided at joints on their line or under point loads": [
             one for one in divided if len(one.nodes) > 2
@@ -208,7 +158,7 @@ def note_members(building: Building, sections: Sections, divided: list[Divided])
     }
     for what, found in cases.items():
         names = [one.frame.name for one in found]
-        account.read_as("frames", what, names, *shares.of(names))
+        account.read_as("frames", what, names, *sizes.shares(names))
 
 
 def note_areas(building: Building, slabs: Slabs, mesh: Mesh) -> None:

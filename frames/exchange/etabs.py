@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from frames._errors import ModelError
 from frames.exchange import etabs_fields as dialect
-from frames.exchange.account import Account, judge_rest
+from frames.exchange.account import Account, Options, judge_rest
 from frames.exchange.building import (
     AreaSection,
     Building,
@@ -21,9 +21,14 @@ from frames.exchange.building import (
 )
 from frames.exchange.etabs_links import EtabsLinks, read_groups
 from frames.exchange.etabs_objects import Objects
-from frames.exchange.fields import Units, refused, units_of, values
-from frames.exchange.loads import add_area_load, add_combinations, add_line_load, cases_of
-from frames.exchange.options import Options
+from frames.exchange.fields import refused, values
+from frames.exchange.loads import (
+    add_area_load,
+    add_combinations,
+    add_line_load,
+    cases_of,
+    mass_shares,
+)
 from frames.exchange.properties import (
     FILLED,
     Shape,
@@ -36,7 +41,7 @@ from frames.exchange.properties import (
     with_constants,
 )
 from frames.exchange.reading import TEXT, read_e2k
-from frames.exchange.tables import Row, Tables, known, merged, require_space
+from frames.exchange.tables import Row, Tables, Units, known, merged, require_space, units_of
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -84,7 +89,7 @@ def read_loads(tables: Tables, building: Building) -> None:
     rows = merged(tables.rows("LOADPATTERN"), "Pattern")
     old = merged([r for r in tables.rows("LOADCASE") if r.has("SELFWEIGHT")], "Case")
     for (name,), row in (rows or old).items():
-        building.patterns[name] = Pattern(name, **values(row, dialect.PATTERN, building.units))
+        building.patterns[name] = Pattern(name, **values(row, dialect.PATTERN, building))
     account.read("LOAD PATTERNS", "load patterns", len(building.patterns))
     for row in tables.rows("POINTLOAD"):
         _add_point_load(row, building)
@@ -100,27 +105,23 @@ def read_loads(tables: Tables, building: Building) -> None:
     cases = cases_of(
         building,
         (
-            (row.text("Case"), row.text("LOADPAT"), row.number("SF", 1.0))
+            tuple(values(row, dialect.CASE, building).values())
             for row in tables.rows("LOADCASE")
             if row.has("LOADPAT")
         ),
     )
-    add_combinations(building, "LOAD COMBINATIONS", cases, _combined(tables))
+    add_combinations(building, "LOAD COMBINATIONS", cases, _combined(tables, building))
 
 
-def _combined(tables: Tables) -> Iterator[tuple[str, str | None, float]]:
+def _combined(tables: Tables, building: Building) -> Iterator[tuple[str, str | None, float]]:
     for row in tables.rows("COMBO"):
         name = row.text("Combo")
         if row.has("TYPE") and row.text("TYPE").lower() not in {"linear add", "add"}:
             yield name, None, 0.0
         if row.has("LOADCASE"):
-            yield name, row.text("LOADCASE"), row.number("SF", 1.0)
+            yield tuple(values(row, dialect.COMBINATION, building).values())
         elif row.has("LOADCOMBO"):
             yield name, None, 0.0
-
-
-def _pattern(row: Row, building: Building, field: str = "LC") -> str:
-    return known(row, "load pattern", row.text(field), building.patterns)
 
 
 def _add_point_load(row: Row, building: Building) -> None:
@@ -128,10 +129,9 @@ def _add_point_load(row: Row, building: Building) -> None:
     if joint not in building.joints:
         message = f'a load on point "{row.text("Point")}" of story "{row.text("Story")}", at which '
         raise row.error(message + "no object ends")
-    if refused(row, joint, building.account, dialect.POINT_LOAD):
-        return
-    forces = tuple(values(row, dialect.FORCES, building.units).values())
-    building.joint_loads.append(JointLoad(joint, _pattern(row, building), forces))
+    if not refused(row, joint, building.account, dialect.POINT_LOAD_WORDS):
+        *forces, pattern = values(row, dialect.POINT_LOAD, building).values()
+        building.joint_loads.append(JointLoad(joint, pattern, tuple(forces)))
 
 
 def _add_line(row: Row, building: Building) -> None:
@@ -140,59 +140,45 @@ def _add_line(row: Row, building: Building) -> None:
     if name not in building.frames:
         what = "loads on lines without a section"
         building.account.refuse("loads on nothing", row.table, what, [name], row.place)
-        return
-    if refused(row, name, building.account, dialect.LINE_LOAD):
-        return
-    point = kind == "POINTF"
-    a, b = 0.0, 1.0
-    if kind == "TRAPF":
-        sizes = [row.number("FSTART"), row.number("FEND")]
-        a, b = row.number("RDSTART", 0.0), row.number("RDEND", 1.0)
-    else:
-        sizes = [row.number("FVAL")] * 2
-        a, b = (row.number("RDIST"),) * 2 if point else (a, b)
-    pattern, word = _pattern(row, building), row.text("DIR", "GRAV")
-    add_line_load(row, building, name, pattern, word, sizes, (a, b), point=point)
+    elif not refused(row, name, building.account, dialect.LINE_LOAD_WORDS):
+        given = values(row, dialect.LINE_LOAD[kind], building)
+        add_line_load(row, building, name, **given, point=kind == "POINTF")
 
 
-def _load_sets(tables: Tables, building: Building) -> dict[str, list[tuple[str, float]]]:
+def _load_sets(tables: Tables, building: Building) -> dict[str, list[dict[str, Any]]]:
     # Patterns of uniform load sets, and their pressures down.
-    found: dict[str, list[tuple[str, float]]] = {}
+    found: dict[str, list[dict[str, Any]]] = {}
     used = {row.text(TEXT, "") for row in tables.rows("AREALOAD")}
     for row in tables.rows("SHELLUNIFORMLOADSET"):
         if row.text("Set") not in used:
             row.looked_at.clear()
         elif row.has("LOADPAT"):
-            part = (_pattern(row, building, "LOADPAT"), row.number("VALUE"))
+            part = values(row, dialect.LOAD_SET, building)
             found.setdefault(row.text("Set"), []).append(part)
     return found
 
 
-def _add_area(row: Row, building: Building, sets: dict[str, list[tuple[str, float]]]) -> None:
+def _add_area(row: Row, building: Building, sets: dict[str, list[dict[str, Any]]]) -> None:
     name = f"{row.text('Area')}-{row.text('Story')}"
     kind = row.text("TYPE", "").upper()
     if name not in building.areas or kind not in {"UNIFF", "UNIFLOADSET"}:
         what = f'loads of type "{kind}" on areas, or on areas that are not there'
         building.account.refuse("loads on nothing", row.table, what, [name], row.place)
     elif kind == "UNIFLOADSET":
-        for pattern, size in sets[known(row, "uniform load set", row.text(TEXT), sets)]:
-            add_area_load(row, building, name, pattern, "GRAV", size)
+        for part in sets[known(row, "uniform load set", row.text(TEXT), sets)]:
+            add_area_load(row, building, name, **part)
     else:
-        pattern, word = _pattern(row, building), row.text("DIR", "GRAV")
-        add_area_load(row, building, name, pattern, word, row.number("FVAL"))
+        add_area_load(row, building, name, **values(row, dialect.AREA_LOAD, building))
 
 
 def _read_source(tables: Tables, building: Building) -> None:
     sources = {
-        key[0]: values(row, dialect.MASS_SOURCE, building.units)
+        key[0]: values(row, dialect.MASS_SOURCE, building)
         for key, row in merged(tables.rows("MASSSOURCE"), "Source").items()
     }
     name = next((k for k, given in sources.items() if given["default"]), next(iter(sources), ""))
-    loads = {
-        _pattern(row, building, "Pattern"): row.number("Factor")
-        for row in tables.rows("MASSSOURCELOAD")
-        if row.text("Source") == name
-    }
+    own = [row for row in tables.rows("MASSSOURCELOAD") if row.text("Source") == name]
+    loads = mass_shares(own, dialect.MASS_SHARE, building)
     if not sources:
         return
     given = sources[name]
@@ -250,7 +236,7 @@ def read_properties(
         used |= {row.text(f"{word}MATERIAL", "") for row in rows for word in ("", "FILL", "CONC")}
     for (name,), row in merged(tables.rows("MATERIAL"), "Material").items():
         if name in used and (row.has("E") or row.has("E1")):
-            found = material_of(row, name, dialect.MATERIAL, building.units)
+            found = material_of(row, name, dialect.MATERIAL, building)
             density = found.density or found.weight / STANDARD_GRAVITY
             building.materials[name] = replace(found, density=density)
     account.read("MATERIAL PROPERTIES", "materials in use", len(building.materials))
@@ -291,18 +277,18 @@ def _named(
 
 
 def _section(row: Row, name: str, building: Building, kept: Section | Shape | None) -> FrameSection:
-    units, of = building.units, f' of section "{name}"'
-    material, shape = values(row, dialect.SECTION[:2], units).values()
+    of = f' of section "{name}"'
+    material, shape = values(row, dialect.SECTION[:2], building).values()
     known(row, "MATERIAL", material, building.materials, of)
-    sizes = tuple(values(row, dialect.SIZES, units).values())
-    modifiers = Modifiers(**values(row, dialect.MODIFIERS, units))
+    sizes = tuple(values(row, dialect.SIZES, building).values())
+    modifiers = Modifiers(**values(row, dialect.MODIFIERS, building))
     if isinstance(kept, Shape):
-        found = by_constants(kept.row, name, dialect.SECTION, Units(1.0, kept.length))
+        found = by_constants(kept.row, name, dialect.SECTION, building, Units(1.0, kept.length))
         found = replace(found, material=material, shape=shape)
     elif kept is not None:
         found = with_constants(name, material, shape, kept)
     elif row.has("AREA", "I33", "I22"):
-        found = by_constants(row, name, dialect.SECTION, units)
+        found = by_constants(row, name, dialect.SECTION, building)
     elif shape.strip().lower() in FILLED:
         fill = known(row, "FILLMATERIAL", row.text("FILLMATERIAL", ""), building.materials, of)
         steel, inside = building.materials[material], building.materials[fill]
@@ -314,7 +300,7 @@ def _section(row: Row, name: str, building: Building, kept: Section | Shape | No
 
 
 def _shell(row: Row, name: str, building: Building) -> AreaSection:
-    units, of = building.units, f' of section "{name}"'
+    of = f' of section "{name}"'
     refused(row, name, building.account, dialect.SHELL_WORDS)
     kind = row.text("MODELINGTYPE", row.text("TYPE", "ShellThin")).lower()
     deck = row.text("PROPTYPE", "").lower() == "deck"
@@ -322,15 +308,17 @@ def _shell(row: Row, name: str, building: Building) -> AreaSection:
     material = known(row, word, row.text(word, ""), building.materials, of)
     bending = extra_weight = 0.0
     if deck:
-        slab, depth, top, spacing, bottom, extra_weight = values(row, dialect.DECK, units).values()
+        slab, depth, top, spacing, bottom, extra_weight = values(
+            row, dialect.DECK, building
+        ).values()
         thickness = slab + (depth * 0.5 * (top + bottom) / spacing if spacing else 0.0)
     else:
-        given = values(row, dialect.THICKNESS, units, only_given=True)
+        given = values(row, dialect.THICKNESS, building, only_given=True)
         if not given:
             words = ", ".join(dialect.THICKNESS[0].names.split("|"))
             msg = f'section "{name}" has no thickness: {words}'
             raise row.error(msg)
-        thickness, bending = given["thickness"], row.number("TB", 0.0) * units.length
+        thickness, bending = given["thickness"], row.number("TB", 0.0) * building.units.length
     if thickness <= 0.0:
         msg = f'the thickness of section "{name}" must be positive'
         raise row.error(msg)

@@ -113,6 +113,33 @@ NONLINEAR = {
 """Nonlinear numbers of a link's deformation by whether it is a rotation: words after U2."""
 
 FORCES = fields("fx=FX fy=FY fz=FZ", "force") + fields("mx=MX my=MY mz=MZ", "moment")
+_LC = fields("pattern=LC", "patterns", None, said="load pattern")
+POINT_LOAD = FORCES + _LC
+_WAY = (*_LC, *fields("way=DIR", "text", "GRAV"))
+_UNIFORM = "start=FVAL end=FVAL"
+LINE_LOAD = {
+    "UNIFF": fields(_UNIFORM, "line", None) + _WAY,
+    "POINTF": fields(_UNIFORM, "force", None) + fields("a=RDIST b=RDIST", default=None) + _WAY,
+    "TRAPF": (
+        *fields("start=FSTART end=FEND", "line", None),
+        *fields("a=RDSTART"),
+        *fields("b=RDEND", default=1.0),
+        *_WAY,
+    ),
+}
+"""Loads along lines by their kind."""
+
+AREA_LOAD = _WAY + fields("size=FVAL", "stress", None)
+LOAD_SET = (
+    *fields("pattern=LOADPAT", "patterns", None, said="load pattern"),
+    *fields("size=VALUE", "stress", None),
+)
+MASS_SHARE = (
+    *fields("pattern=Pattern", "patterns", None, said="load pattern"),
+    *fields("share=Factor", default=None),
+)
+CASE = fields("case=Case pattern=LOADPAT", "text", None) + fields("factor=SF", default=1.0)
+COMBINATION = fields("name=Combo case=LOADCASE", "text", None) + fields("factor=SF", default=1.0)
 
 _LIMITS = "limits of axial force, without"
 FRAME_WORDS = (
@@ -127,11 +154,11 @@ SHELL_WORDS = (
 )
 _OPENING = "openings in slabs, whose loads are not taken away"
 AREA_WORDS = (Refusal("OPENING", "openings", _OPENING, is_none_of("no", "none")),)
-POINT_LOAD = (
+POINT_LOAD_WORDS = (
     Refusal("TYPE", "imposed strains", 'loads of type "{}" on points', is_none_of("force")),
 )
 _KINDS = is_none_of("uniff", "trapf", "pointf")
-LINE_LOAD = (Refusal("TYPE", "imposed strains", 'loads of type "{}" on lines', _KINDS),)
+LINE_LOAD_WORDS = (Refusal("TYPE", "imposed strains", 'loads of type "{}" on lines', _KINDS),)
 SPRING_WORDS = (Refusal("AXIALDIR", "links", "springs of points by links along {}", lacks("z")),)
 
 NAMES = {

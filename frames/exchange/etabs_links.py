@@ -12,7 +12,6 @@ from frames.exchange.tables import known, merged
 
 if TYPE_CHECKING:
     from frames.exchange.etabs_objects import Objects
-    from frames.exchange.fields import Units
     from frames.exchange.tables import Row, Tables
 
 PROPERTIES, PLACES = "LINK PROPERTIES", "LINK CONNECTIVITIES"
@@ -43,7 +42,7 @@ class EtabsLinks:
         used = {link.property for link in building.links.values()}
         for name, row in self._properties.items():
             if name in used:
-                building.link_properties[name] = _property(row, name, building.units)
+                building.link_properties[name] = _property(row, name, building)
         building.account.read(PROPERTIES, "link properties in use", len(used))
         idle = [name for name in self._properties if name not in used]
         building.account.left_out(PROPERTIES, "which nothing has", idle)
@@ -100,7 +99,7 @@ class EtabsLinks:
             self.building.links[label] = link
 
 
-def _property(row: Row, name: str, units: Units) -> LinkProperty:
+def _property(row: Row, name: str, building: Building) -> LinkProperty:
     active = {word: row.text(word, "").upper().replace(",", " ").split() for word in _LISTS}
     wrong = [dof for given in active.values() for dof in given if dof not in LINK_DOFS]
     if wrong:
@@ -110,14 +109,14 @@ def _property(row: Row, name: str, units: Units) -> LinkProperty:
     parts = [word for word in words if word.startswith(tuple(active["DOF"])) and row.text(word)]
     unknown = [w for w in words if w not in parts and not w.startswith(_HARMLESS)]
     unknown += [word for word in parts if word[2:] not in _OF_DOF]
-    dofs = {dof: _dof(row, dof, active, units) for dof in active["DOF"]}
-    given = values(row, dialect.LINK, units)
+    dofs = {dof: _dof(row, dof, active, building) for dof in active["DOF"]}
+    given = values(row, dialect.LINK, building)
     return LinkProperty(name, dofs=dofs, unknown=tuple(unknown), **given)
 
 
-def _dof(row: Row, dof: str, active: dict[str, list[str]], units: Units) -> LinkDof:
+def _dof(row: Row, dof: str, active: dict[str, list[str]], building: Building) -> LinkDof:
     turns = dof.startswith("R")
-    linear = values(row, dialect.LINEAR[turns], units, prefix=dof)
+    linear = values(row, dialect.LINEAR[turns], building, prefix=dof)
 
     def says(word: str) -> bool:
         return dof in active[word] or row.yes(dof + word, default=False)
@@ -127,7 +126,7 @@ def _dof(row: Row, dof: str, active: dict[str, list[str]], units: Units) -> Link
         stiffness=linear["own"] or linear["stiffness"],
         damping=linear["damping"],
         nonlinear=says("NONLIN"),
-        values=values(row, dialect.NONLINEAR[turns], units, prefix=dof, only_given=True),
+        values=values(row, dialect.NONLINEAR[turns], building, prefix=dof, only_given=True),
     )
 
 

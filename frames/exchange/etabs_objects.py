@@ -53,7 +53,7 @@ class Objects:
             if name in self._points:
                 msg = f'point "{name}" is there already: keep one of the two'
                 raise row.error(msg)
-            x, y, below = values(row, dialect.POINT, self.building.units).values()
+            x, y, below = values(row, dialect.POINT, self.building).values()
             self._points[name] = (x, y, below)
         self._read_lines()
         self._read_areas()
@@ -112,13 +112,13 @@ class Objects:
         self.building.account.left_out("LINE ASSIGNS", "lines without a section", bare)
 
     def _assigned(self, frame: FrameObject, row: Row) -> FrameObject:
-        building, units = self.building, self.building.units
+        building = self.building
         refused(row, frame.name, building.account, dialect.FRAME_WORDS)
         of = f' of line "{frame.name}"'
         material = row.text("MATERIALOVERWRITE", "")
         if material:
             known(row, "MATERIALOVERWRITE", material, building.materials, of)
-        zones = values(row, dialect.END_ZONES, units, of)
+        zones = values(row, dialect.END_ZONES, building, of)
         is_clear = row.text("SELFWEIGHTOPTION", "").upper() == "CLEAR LENGTH"
         if is_clear and (zones["end_i"] or zones["end_j"]):
             self._clear.append(frame.name)
@@ -132,7 +132,7 @@ class Objects:
         if wrong:
             msg = f'RELEASE "{wrong[0]}" must be PINNED, or of {", ".join(sorted(_ENDS))}'
             raise row.error(msg, "RELEASE")
-        first, last = offsets_of(row, dialect.OFFSETS, units)
+        first, last = offsets_of(row, dialect.OFFSETS, building)
         return replace(
             frame,
             material=material,
@@ -142,7 +142,7 @@ class Objects:
             offset_i=first,
             offset_j=last,
             transforms=row.yes("TRANSFORMSTIFF", default=False),
-            modifiers=Modifiers(**values(row, dialect.FRAME_MODIFIERS, units)),
+            modifiers=Modifiers(**values(row, dialect.FRAME_MODIFIERS, building)),
             meshed=row.text("AUTOMESH", "YES").upper() != "NO",
             **zones,
         )
@@ -181,7 +181,7 @@ class Objects:
             )
 
     def _read_points(self) -> None:
-        units, building = self.building.units, self.building
+        building = self.building
         springs = {k[0]: r for k, r in merged(self.tables.rows("POINTSPRING"), "Spring").items()}
         rows = merged(self.tables.rows("POINTASSIGN"), "Point", "Story")
         for (point, story), row in rows.items():
@@ -199,10 +199,10 @@ class Objects:
                 given = springs[known(row, "SPRINGPROP", name, springs)]
                 if given.has("LINKPROP"):
                     self.on_links[joint] = given
-                stiffness = tuple(values(given, dialect.SUPPORT, units).values())
+                stiffness = tuple(values(given, dialect.SUPPORT, building).values())
                 if any(stiffness):
                     building.springs[joint] = stiffness
-            plan, *others = values(row, dialect.MASS, units, f' of point "{joint}"').values()
+            plan, *others = values(row, dialect.MASS, building, f' of point "{joint}"').values()
             if plan or any(others):
                 building.masses[joint] = (plan, plan, *others)
 

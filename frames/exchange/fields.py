@@ -1,105 +1,17 @@
-"""Units and fields of a file: a map of fields is applied to read, and inverted to write."""
+"""Fields of a file: a map of them is applied to read, and inverted to write."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeAlias
+from functools import cache
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from lir_element.units import STANDARD_GRAVITY
+from frames.exchange.tables import known
 
 if TYPE_CHECKING:
     from frames.exchange.account import Account
-    from frames.exchange.tables import Row, Value
-
-
-_POUND = 0.45359237 * STANDARD_GRAVITY
-
-FORCES = {
-    "N": 1.0,
-    "KN": 1e3,
-    "MN": 1e6,
-    "KGF": STANDARD_GRAVITY,
-    "TONF": 1e3 * STANDARD_GRAVITY,
-    "LB": _POUND,
-    "KIP": 1e3 * _POUND,
-}
-"""Forces [N] by word."""
-
-LENGTHS = {"MM": 1e-3, "CM": 1e-2, "M": 1.0, "IN": 0.0254, "FT": 0.3048}
-"""Lengths [m] by word."""
-
-
-@dataclass(frozen=True)
-class Units:
-    """Units of a file: force [N] and length [m]; time is in seconds, angles are in degrees."""
-
-    force: float
-    length: float
-
-    one: ClassVar[float] = 1.0  # of what has no unit
-
-    @property
-    def per_length(self) -> float:
-        """Reciprocal of a length [1/m]."""
-        return 1.0 / self.length
-
-    @property
-    def area(self) -> float:
-        """Area [m2]."""
-        return self.length**2
-
-    @property
-    def inertia(self) -> float:
-        """Second moment of an area [m4]."""
-        return self.length**4
-
-    @property
-    def rotary(self) -> float:
-        """Mass times length squared [kg m2]."""
-        return self.mass * self.length**2
-
-    @property
-    def moment(self) -> float:
-        """Moment [N m]."""
-        return self.force * self.length
-
-    @property
-    def line(self) -> float:
-        """Force per length, and stiffness [N/m]."""
-        return self.force / self.length
-
-    @property
-    def stress(self) -> float:
-        """Force per area [Pa]."""
-        return self.force / self.length**2
-
-    @property
-    def weight(self) -> float:
-        """Force per volume [N/m3]."""
-        return self.force / self.length**3
-
-    @property
-    def mass(self) -> float:
-        """Mass: force over acceleration [kg]."""
-        return self.force / self.length
-
-    @property
-    def density(self) -> float:
-        """Mass per volume [kg/m3]."""
-        return self.mass / self.length**3
-
-
-def units_of(words: str, name: str, error: Callable[[str], ValueError]) -> Units:
-    """Return the units that a force and a length stand for, "KN, m", or raise an error."""
-    force, length, *_ = [*(word.strip().upper() for word in words.split(",")), ""]
-    if force not in FORCES or length not in LENGTHS:
-        message = (
-            f'{name} = "{words}" must be a force of {", ".join(FORCES)} and a length of '
-            f'{", ".join(LENGTHS)}, such as "KN, m, C"'
-        )
-        raise error(message)
-    return Units(FORCES[force], LENGTHS[length])
+    from frames.exchange.building import Building
+    from frames.exchange.tables import Row, Units, Value
 
 
 class Bound(NamedTuple):
@@ -130,6 +42,7 @@ class Field(NamedTuple):
     default: Any = 0.0
     bound: Bound = ANY
     zero: float = 0.0
+    said: str = ""  # what messages call a reference
 
 
 Fields: TypeAlias = tuple[Field, ...]
@@ -141,10 +54,11 @@ def fields(
     default: Any = 0.0,
     bound: Bound = ANY,
     zero: float = 0.0,
+    said: str = "",
 ) -> Fields:
     """Return fields of one kind from pairs "ours=theirs|other"."""
     split = (pair.split("=") for pair in pairs.split())
-    return tuple(Field(ours, names, unit, default, bound, zero) for ours, names in split)
+    return tuple(Field(ours, names, unit, default, bound, zero, said) for ours, names in split)
 
 
 class Refusal(NamedTuple):
@@ -197,31 +111,44 @@ def refused(row: Row, name: str, account: Account, refusals: Iterable[Refusal]) 
 def values(
     row: Row,
     map_: Fields,
-    units: Units,
+    building: Building,
     of: str = "",
     *,
+    units: Units | None = None,
     prefix: str = "",
     only_given: bool = False,
 ) -> dict[str, Any]:
-    """Return the fields of a row by our names, in SI; a number out of its bound is refused."""
+    """Return the fields of a row by our names, in SI; what is out of its bound is refused.
+
+    Units are those of the building unless others are given.
+    """
+    scale = units or building.units
     found: dict[str, Any] = {}
     for field in map_:
-        names = [f"{prefix}{name}" for name in field.names.split("|")]
+        names = _names(field.names, prefix)
         given = [name for name in names if row.has(name)]
         if only_given and not given:
             continue
         name = given[0] if given else names[0]
-        if field.unit == "text":
-            found[field.ours] = row.text(name, field.default)
-        elif field.unit == "yes":
+        factor = getattr(scale, field.unit, None)
+        if field.unit == "yes":
             found[field.ours] = row.yes(name, default=field.default)
-        else:
+        elif factor is not None:
             value = row.number(name, field.default)
             if not field.bound.holds(value):
                 message = f"{name} = {value:g}{of} {field.bound.words}"
                 raise row.error(message, name)
-            found[field.ours] = value * getattr(units, field.unit) or field.zero
+            found[field.ours] = value * factor or field.zero
+        else:
+            text = found[field.ours] = row.text(name, field.default)
+            if field.unit != "text":
+                known(row, field.said or name, text, getattr(building, field.unit), of)
     return found
+
+
+@cache
+def _names(names: str, prefix: str) -> tuple[str, ...]:
+    return tuple(f"{prefix}{name}" for name in names.split("|"))
 
 
 def written(map_: Fields, given: object, units: Units) -> dict[str, Value]:
@@ -236,6 +163,8 @@ def written(map_: Fields, given: object, units: Units) -> dict[str, Value]:
 
 
 def _written(field: Field, value: Any, units: Units) -> Value:
-    if field.unit in {"text", "yes"}:
-        return str(value) if field.unit == "text" else bool(value)
+    if field.unit == "yes":
+        return bool(value)
+    if not hasattr(units, field.unit):
+        return str(value)
     return 0.0 if value == field.zero else float(value) / getattr(units, field.unit)

@@ -27,13 +27,13 @@ from frames.exchange.building import (
     Modifiers,
     Pattern,
 )
-from frames.exchange.fields import units_of
 from frames.exchange.geometry import frame_axes
 from frames.exchange.links import COINCIDENT, UPRIGHT
 from frames.exchange.members import MOMENTS
 from frames.exchange.pendulum_link import pendulum_link
 from frames.exchange.properties import with_constants
 from frames.exchange.shells import shell_parts, shells_of
+from frames.exchange.tables import units_of
 from frames.model.axes import default_up
 from frames.model.components import DOFS
 from frames.model.floors import members_at, panel_loads

@@ -13,6 +13,7 @@ from frames._remedies import argument, bearing_for
 from frames.assembly.assemble import assemble
 from frames.exchange.building import LINK_DOFS
 from frames.exchange.geometry import frame_axes
+from frames.model.editing import stand
 from frames.model.laws import Bilinear, Gap, ViscousDamper
 from frames.statics.springs import first_displacement, spring_forces
 from lir_element import CoulombFriction, FrictionLaw, LIRBearing, VelocityFriction
@@ -173,10 +174,7 @@ class Links:
     def _bearing(self, link: LinkObject, device: LIRBearing) -> None:
         frame, joint = self.frame, link.i
         if link.j is None:
-            x, y, z = frame.nodes[joint].position
-            frame.add_node(f"ground-{link.name}", x, y, z - device.height)
-            frame.fix(f"ground-{link.name}", "all")
-            frame.add_bearing(link.name, f"ground-{link.name}", joint, device)
+            stand(frame, joint, link.name, device, link.name)
             return
         low, high = sorted((link.i, link.j), key=lambda name: frame.nodes[name].z)
         try:
@@ -185,10 +183,7 @@ class Links:
             if not self._only_carries(low):
                 message = f'{link.place}, link "{link.name}": {cause}{self._plates(link, device)}'
                 raise ModelError(message) from cause
-            x, y, z = frame.nodes[high].position
-            frame.add_node(f"ground-{link.name}", x, y, z - device.height)
-            frame.fix(f"ground-{link.name}", "all")
-            frame.add_bearing(link.name, f"ground-{link.name}", high, device)
+            stand(frame, high, link.name, device, link.name)
 
     def _plates(self, link: LinkObject, device: LIRBearing) -> str:
         rise = self._rise(link) - device.slider_height

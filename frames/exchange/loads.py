@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.exchange.building import AreaLoad, JointLoad, LineLoad
+from frames.exchange.fields import values
 from frames.exchange.geometry import area_normal, direction_of, frame_axes
 
 if TYPE_CHECKING:
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.exchange.building import Building, Vector
+    from frames.exchange.fields import Fields
     from frames.exchange.tables import Row
 
 
@@ -31,68 +33,82 @@ def add_line_load(
     building: Building,
     frame: str,
     pattern: str,
-    word: str,
-    sizes: Iterable[float],
-    ends: tuple[float, float],
+    way: str,
+    start: float,
+    end: float,
+    a: float = 0.0,
+    b: float = 1.0,
     *,
     point: bool = False,
+    absolute: bool = False,
 ) -> None:
-    """Add a load along a frame object, or a force on it, of sizes in the units of the file."""
+    """Add a load along a frame object, or a force on it, between two places.
+
+    These are shares of its length, or of `absolute` ones distances.
+    """
     given = building.frames[frame]
     first, last = (building.joints[name].position for name in (given.i, given.j))
     axes = frame_axes(first, last, given.angle)
-    found = direction_of(word, axes)
+    found = direction_of(way, axes)
     if found is None:
-        msg = f'"{word}" of frame "{frame}" is no direction: Gravity, X, Y, Z, 1, 2, 3'
+        msg = f'"{way}" of frame "{frame}" is no direction: Gravity, X, Y, Z, 1, 2, 3'
         raise row.error(msg)
     vector, projected = found
-    a, b = ends
+    if absolute:
+        length = float(np.linalg.norm(np.subtract(last, first)))
+        a, b = a / length, b / length
     if not -1e-9 <= a <= b <= 1.0 + 1e-6 or (a >= b and not point):
         msg = f'a load from {a:g} to {b:g} of the length of frame "{frame}" is not on it'
         raise row.error(msg)
-    factor = float(np.linalg.norm(np.cross(axes[0], vector))) if projected else 1.0
-    scale = building.units.force if point else factor * building.units.line
-    start, end = (vector_of(scale * size * vector) for size in sizes)
-    load = LineLoad(frame, pattern, max(a, 0.0), min(b, 1.0), start, end, point)
+    is_less = projected and not point
+    factor = float(np.linalg.norm(np.cross(axes[0], vector))) if is_less else 1.0
+    first, last = (vector_of(factor * size * vector) for size in (start, end))
+    load = LineLoad(frame, pattern, max(a, 0.0), min(b, 1.0), first, last, point)
     building.line_loads.append(load)
 
 
 def add_area_load(
-    row: Row, building: Building, area: str, pattern: str, word: str, size: float
+    row: Row, building: Building, area: str, pattern: str, size: float, way: str = "GRAV"
 ) -> None:
-    """Add a load on an area, of a size in the units of the file."""
+    """Add a load on an area."""
     points = np.array([building.joints[name].position for name in building.areas[area].joints])
     normal, _ = area_normal(points)
-    found = direction_of(word, None)
-    if word.strip().lower() in {"3", "local-3"}:
+    found = direction_of(way, None)
+    if way.strip().lower() in {"3", "local-3"}:
         found = normal, False
     if found is None:
-        message = f'"{word}" of area "{area}" is no direction that is read: Gravity, X, Y, Z or 3'
+        message = f'"{way}" of area "{area}" is no direction that is read: Gravity, X, Y, Z or 3'
         raise row.error(message)
     vector, projected = found
-    way = vector * (abs(float(normal @ vector)) if projected else 1.0)
-    load = vector_of(size * building.units.stress * way)
+    share = abs(float(normal @ vector)) if projected else 1.0
+    load = vector_of(size * (vector * share))
     building.area_loads.append(AreaLoad(area, pattern, load))
 
 
-def frame_weight(building: Building, frame: str) -> float:
-    """Return the own weight of a frame object per length [N/m]."""
+def frame_weight(building: Building, frame: str, gravity: float = 0.0) -> float:
+    """Return the own weight of a frame object per length [N/m], or its own mass times gravity."""
     given = building.frames[frame]
     section = building.sections[given.section]
-    name = given.material or section.material
+    matter = building.materials.get(given.material or section.material)
+    if matter is None:
+        return 0.0
     factors = section.modifiers.times(given.modifiers)
-    weight = building.materials[name].weight if name in building.materials else 0.0
-    return weight * section.area * factors.weight
+    if gravity:
+        return gravity * matter.density * section.area * factors.mass
+    return matter.weight * section.area * factors.weight
 
 
-def area_weight(building: Building, area: str) -> float:
-    """Return the own weight of an area per its own area [N/m2]."""
+def area_weight(building: Building, area: str, gravity: float = 0.0) -> float:
+    """Return the own weight of an area per its own area [N/m2], or its own mass times gravity."""
     given = building.areas[area]
     section = building.area_sections.get(given.section)
     if section is None:
         return 0.0
-    material = building.materials.get(section.material)
-    own = 0.0 if material is None else material.weight * section.thickness
+    matter = building.materials.get(section.material)
+    if gravity:
+        own = 0.0 if matter is None else gravity * matter.density * section.thickness
+        return (own + section.extra_weight) * section.mass * given.mass
+    own = 0.0 if matter is None else matter.weight * section.thickness
     return (own + section.extra_weight) * section.weight * given.weight
 
 
@@ -100,32 +116,16 @@ OWN_MASS = "own mass"
 """Name of the case that stands for the mass of elements."""
 
 
-def own_weights(building: Building, pattern: str) -> Iterator[LineLoad | AreaLoad | JointLoad]:
-    """Yield the own weight of all elements as a load of a pattern."""
-    yield from _link_loads(building, pattern, 0.0)
+def own_loads(
+    building: Building, pattern: str, gravity: float = 0.0
+) -> Iterator[LineLoad | AreaLoad | JointLoad]:
+    """Yield the own weight of all elements, or their mass times gravity, as loads of a pattern."""
+    yield from _link_loads(building, pattern, gravity)
     for name in building.frames:
-        down = (0.0, 0.0, -frame_weight(building, name))
+        down = (0.0, 0.0, -frame_weight(building, name, gravity))
         yield LineLoad(name, pattern, 0.0, 1.0, down, down)
     for name in building.areas:
-        yield AreaLoad(name, pattern, (0.0, 0.0, -area_weight(building, name)))
-
-
-def own_masses(building: Building, gravity: float) -> Iterator[LineLoad | AreaLoad | JointLoad]:
-    """Yield the own mass of all elements times gravity, as loads of the case `OWN_MASS`."""
-    yield from _link_loads(building, OWN_MASS, gravity)
-    for name, given in building.frames.items():
-        section = building.sections[given.section]
-        matter = building.materials[given.material or section.material]
-        factor = section.modifiers.times(given.modifiers).mass
-        down = (0.0, 0.0, -gravity * matter.density * section.area * factor)
-        yield LineLoad(name, OWN_MASS, 0.0, 1.0, down, down)
-    for name, area in building.areas.items():
-        found = building.area_sections.get(area.section)
-        if found is None or found.kind == "none":
-            continue
-        matter = building.materials[found.material]
-        own = gravity * matter.density * found.thickness + found.extra_weight
-        yield AreaLoad(name, OWN_MASS, (0.0, 0.0, -own * found.mass * area.mass))
+        yield AreaLoad(name, pattern, (0.0, 0.0, -area_weight(building, name, gravity)))
 
 
 def _link_loads(building: Building, pattern: str, gravity: float) -> Iterator[JointLoad]:
@@ -137,6 +137,12 @@ def _link_loads(building: Building, pattern: str, gravity: float) -> Iterator[Jo
         for joint in (link.i, link.j):
             if half and joint is not None:
                 yield JointLoad(joint, pattern, (0.0, 0.0, -half, 0.0, 0.0, 0.0))
+
+
+def mass_shares(rows: Iterable[Row], map_: Fields, building: Building) -> dict[str, float]:
+    """Return the shares of load patterns that are mass [-]."""
+    given = [values(row, map_, building) for row in rows]
+    return {each["pattern"]: each["share"] for each in given}
 
 
 def cases_of(
@@ -175,32 +181,57 @@ def add_combinations(
     building.account.left_out(table, "combinations of other cases, or envelopes", sorted(other))
 
 
-class Shares:
-    """Own weight, and modulus times volume, of all elements."""
+class Sizes:
+    """Lengths [m] of frame objects, areas [m2], volumes of materials [m3], and what they share."""
 
     def __init__(self, building: Building) -> None:
+        self.building = building
+        place = {name: np.array(joint.position) for name, joint in building.joints.items()}
+        self.length = {
+            name: float(np.linalg.norm(place[f.j] - place[f.i]))
+            for name, f in building.frames.items()
+        }
+        self.area = {
+            name: area_normal(np.array([place[j] for j in area.joints]))[1]
+            for name, area in building.areas.items()
+        }
+        self.volumes: dict[str, float] = {}
         self._weight: dict[str, float] = {}
         self._stiffness: dict[str, float] = {}
         for name, frame in building.frames.items():
-            first, last = (np.array(building.joints[j].position) for j in (frame.i, frame.j))
-            length = float(np.linalg.norm(last - first))
             section = building.sections[frame.section]
-            matter = building.materials.get(frame.material or section.material)
-            modulus = 0.0 if matter is None else matter.elastic_modulus
-            self._weight[name] = length * frame_weight(building, name)
-            self._stiffness[name] = length * modulus * section.area
+            volume = self.length[name] * section.area
+            self._add(name, frame.material or section.material, volume)
+            self._weight[name] = self.length[name] * frame_weight(building, name)
         for name, area in building.areas.items():
-            points = np.array([building.joints[j].position for j in area.joints])
-            _, size = area_normal(points)
-            found = building.area_sections.get(area.section)
-            matter = building.materials.get(found.material) if found else None
-            self._weight[name] = size * area_weight(building, name)
-            if found is not None and matter is not None:
-                self._stiffness[name] = size * matter.elastic_modulus * found.thickness
+            if found := building.area_sections.get(area.section):
+                self._add(name, found.material, self.area[name] * found.thickness)
+            self._weight[name] = self.area[name] * area_weight(building, name)
 
-    def of(self, names: Collection[str]) -> tuple[float | None, float | None]:
+    def _add(self, name: str, material: str, volume: float) -> None:
+        self.volumes[material] = self.volumes.get(material, 0.0) + volume
+        matter = self.building.materials.get(material)
+        self._stiffness[name] = 0.0 if matter is None else volume * matter.elastic_modulus
+
+    def shares(self, names: Collection[str]) -> tuple[float | None, float | None]:
         """Return the shares of weight and of stiffness of some elements [-], None of nothing."""
         return _share(self._weight, names), _share(self._stiffness, names)
+
+    def down(self, loads: Iterable[LineLoad | AreaLoad | JointLoad]) -> dict[str, float]:
+        """Return what loads come to downwards, by pattern [N]."""
+        found: dict[str, float] = {}
+        for load in loads:
+            if isinstance(load, JointLoad):
+                force = load.forces[2]
+            elif isinstance(load, AreaLoad):
+                force = load.load[2] * self.area[load.area]
+            elif load.point:
+                force = load.start[2]
+            else:
+                span = (load.b - load.a) * self.length[load.frame]
+                force = 0.5 * (load.start[2] + load.end[2]) * span
+            found[load.pattern] = found.get(load.pattern, 0.0) - force
+        return found
 
 
 def _share(values: dict[str, float], names: Collection[str]) -> float | None:

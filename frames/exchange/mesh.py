@@ -33,11 +33,8 @@ class Mesh:
     elements: list[tuple[str, tuple[str, ...]]] = field(default_factory=list)
     between: dict[str, tuple[str, str]] = field(default_factory=dict)
 
-    def of(self, area: str) -> list[tuple[str, ...]]:
-        """Return the elements of an area."""
-        return self._by_area().get(area, [])
-
-    def _by_area(self) -> dict[str, list[tuple[str, ...]]]:
+    def by_area(self) -> dict[str, list[tuple[str, ...]]]:
+        """Return the elements of each area."""
         found: dict[str, list[tuple[str, ...]]] = {}
         for area, nodes in self.elements:
             found.setdefault(area, []).append(nodes)

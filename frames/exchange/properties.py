@@ -12,9 +12,9 @@ from xml.parsers import expat
 from frames._errors import ModelError
 from frames._remedies import argument
 from frames.exchange.building import Building, FrameSection, Material, Modifiers
-from frames.exchange.fields import LENGTHS, values
+from frames.exchange.fields import values
 from frames.exchange.members import MOMENTS
-from frames.exchange.tables import Row
+from frames.exchange.tables import LENGTHS, Row
 from frames.model.sections import Section
 from frames.model.shapes import catalogue_dimensions
 
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from frames.exchange.building import Vector
-    from frames.exchange.fields import Fields, Units
+    from frames.exchange.fields import Fields
+    from frames.exchange.tables import Units
 
 
 def in_use(rows: dict[str, Row], names: Iterable[str]) -> tuple[dict[str, Row], list[str]]:
@@ -31,16 +32,18 @@ def in_use(rows: dict[str, Row], names: Iterable[str]) -> tuple[dict[str, Row], 
     return {k: r for k, r in rows.items() if k in wanted}, [k for k in rows if k not in wanted]
 
 
-def material_of(row: Row, name: str, map_: Fields, units: Units) -> Material:
+def material_of(row: Row, name: str, map_: Fields, building: Building) -> Material:
     """Return a material; without a shear modulus it is isotropic."""
-    found = values(row, map_, units, f' of material "{name}"')
+    found = values(row, map_, building, f' of material "{name}"')
     isotropic = 0.5 * found["elastic_modulus"] / (1.0 + found["poisson_ratio"])
     return Material(name, **found | {"shear_modulus": found.get("shear_modulus") or isotropic})
 
 
-def by_constants(row: Row, name: str, map_: Fields, units: Units) -> FrameSection:
+def by_constants(
+    row: Row, name: str, map_: Fields, building: Building, units: Units | None = None
+) -> FrameSection:
     """Return a cross-section by its constants; without a width it is as wide as deep."""
-    found = values(row, map_, units)
+    found = values(row, map_, building, units=units)
     return FrameSection(name, **found | {"width": found["width"] or found["depth"]})
 
 
@@ -55,15 +58,15 @@ def released(
     return first.intersection(MOMENTS), last.intersection(MOMENTS)
 
 
-def offsets_of(row: Row, map_: Fields, units: Units) -> tuple[Vector, Vector]:
+def offsets_of(row: Row, map_: Fields, building: Building) -> tuple[Vector, Vector]:
     """Return the offsets of both ends of a frame object."""
-    a, b, c, d, e, f = values(row, map_, units).values()
+    a, b, c, d, e, f = values(row, map_, building).values()
     return (a, b, c), (d, e, f)
 
 
 def shell_factors(row: Row, map_: Fields, building: Building) -> dict[str, Any]:
     """Return the factors of a shell [-]: in plane, of bending, on mass and on weight."""
-    given = values(row, map_, building.units)
+    given = values(row, map_, building)
     found = {word: given[word] for word in ("mass", "weight")}
     for letter, word in (("F", "in_plane"), ("M", "bending")):
         factors = [given[f"{letter}{d}"] for d in ("11", "22", "12")]

@@ -2,6 +2,7 @@
 
 import math
 
+from frames.exchange.building import RELEASES as RELEASED
 from frames.exchange.fields import (
     NOT_NEGATIVE,
     POISSON,
@@ -22,8 +23,11 @@ PATTERNS = "LOAD PATTERN DEFINITIONS"
 JOINTS, FRAMES, AREAS = "JOINT COORDINATES", "CONNECTIVITY - FRAME", "CONNECTIVITY - AREA"
 LINK_PLACES = "CONNECTIVITY - LINK"
 
-DOFS = (("U1", "ux"), ("U2", "uy"), ("U3", "uz"), ("R1", "rx"), ("R2", "ry"), ("R3", "rz"))
-"""Displacements of a joint: the file's names and ours."""
+RESTRAINT = fields("ux=U1 uy=U2 uz=U3 rx=R1 ry=R2 rz=R3", "yes", default=False)
+"""Displacements of a joint that are held."""
+
+TIED = fields("ux=UX uy=UY uz=UZ rx=RX ry=RY rz=RZ", "yes", default=True)
+"""Displacements that a constraint ties."""
 
 GLOBAL = fields("x=GlobalX y=GlobalY z=GlobalZ", "length", None)
 OWN = fields("x=XorR y=Y z=Z", "length", None)
@@ -71,6 +75,11 @@ END_ZONES = (
     ),
     Field("rigid", "RigidFactor|RigidFact", bound=SHARE),
 )
+ENDS = fields("i=JointI j=JointJ", "joints", None)
+ANGLE = fields("angle=Angle")
+RELEASES = fields(" ".join(f"{w}{e}={w}{e}" for e in "IJ" for w in RELEASED), "yes", default=False)
+TRANSFORMS = fields("a=StiffTransform b=StiffTrans c=Transform", "yes", default=True)
+MESHED = fields("auto=AutoMesh at_joints=AtJoints", "yes", default=True)
 OFFSETS = fields(" ".join(f"{a}{e}=JtOffset{a}{e}" for e in "IJ" for a in "XYZ"), "length")
 SUPPORT = (
     *fields("ux=U1 uy=U2 uz=U3", "line", bound=NOT_NEGATIVE),
@@ -114,7 +123,48 @@ NONLINEAR = {
 }
 """Nonlinear numbers of a link's deformation, by whether it is a rotation."""
 
+_FRAME, _AREA = fields("frame=Frame", "frames", None), fields("area=Area", "areas", None)
+_PATTERN = fields("pattern=LoadPat|LoadCase", "patterns", None)
 FORCES = fields("fx=F1 fy=F2 fz=F3", "force") + fields("mx=M1 my=M2 mz=M3", "moment")
+_JOINT = fields("joint=Joint", "joints", None)
+LOADED, JOINT_LOAD = _JOINT + _PATTERN, _JOINT + FORCES + _PATTERN
+LINE_LOAD = (*_FRAME, *_PATTERN, *fields("way=Dir", "text", None))
+SPREAD = fields("start=FOverLA end=FOverLB", "line", None)
+POINT = fields("start=Force end=Force", "force", None)
+RELATIVE = {
+    False: fields("a=RelDistA b=RelDistB", default=None),
+    True: fields("a=RelDist b=RelDist", default=None),
+}
+ABSOLUTE = {
+    False: fields("a=AbsDistA b=AbsDistB", "length", None),
+    True: fields("a=AbsDist b=AbsDist", "length", None),
+}
+"""Where a load along a frame object begins and ends, by whether it is a force at a point."""
+
+_MULTIPLE = (*_PATTERN, *fields("x=MultiplierX y=MultiplierY z=MultiplierZ"))
+FRAME_GRAVITY, AREA_GRAVITY = _FRAME + _MULTIPLE, _AREA + _MULTIPLE
+AREA_LOAD = (
+    *_AREA,
+    *fields("size=UnifLoad", "stress", None),
+    *_PATTERN,
+    *fields("way=Dir", "text", None),
+)
+MASS_SOURCE = (
+    *fields("name=MassSource", "text", ""),
+    *fields("elements=Elements added=Masses default=IsDefault", "yes", default=False),
+    *fields("loads=Loads", "yes", default=True),
+)
+MASS_SHARE = (*_PATTERN, *fields("share=Multiplier", default=None))
+CASE = (
+    *fields("case=Case", "text", None),
+    *fields("pattern=LoadName", "text", ""),
+    *fields("factor=LoadSF", default=1.0),
+)
+COMBINATION = (
+    *fields("name=ComboName", "text", None),
+    *fields("case=CaseName", "text", ""),
+    *fields("factor=ScaleFactor", default=1.0),
+)
 
 SECTION_WORDS = (
     Refusal("Shape", "nonprismatic sections", "a nonprismatic section", has("nonprismatic")),

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from typing import Any
 
 from frames._errors import ModelError
 from frames.exchange import sap2000_fields as dialect
 from frames.exchange.building import (
-    RELEASES,
     AreaObject,
     Building,
     Constraint,
@@ -21,7 +21,8 @@ from frames.exchange.fields import refused, values
 from frames.exchange.geometry import frame_axes
 from frames.exchange.loads import vector_of
 from frames.exchange.properties import offsets_of, released, shell_factors
-from frames.exchange.tables import Row, Tables, by_name, known
+from frames.exchange.tables import Row, Tables, by_name, known, of_objects
+from frames.model.components import DOFS
 
 _GROUND = {"", "ground", "gnd", "none"}
 
@@ -58,7 +59,7 @@ def _joint(row: Row, name: str, building: Building) -> Joint:
                 "GlobalY and GlobalZ: export it in global Cartesian ones"
             )
             raise row.error(message)
-    return Joint(name, **values(row, map_, building.units), place=row.place)
+    return Joint(name, **values(row, map_, building), place=row.place)
 
 
 def _refuse_turned_joints(tables: Tables, building: Building) -> None:
@@ -74,7 +75,7 @@ def _refuse_turned_joints(tables: Tables, building: Building) -> None:
 def _read_frames(tables: Tables, building: Building) -> None:
     sections = by_name(tables.rows("FRAME SECTION ASSIGNMENTS"), "Frame")
     for name, row in by_name(tables.rows(dialect.FRAMES), "Frame").items():
-        i, j = (known(row, f, row.text(f), building.joints) for f in ("JointI", "JointJ"))
+        i, j = values(row, dialect.ENDS, building).values()
         if i == j:
             msg = f'frame "{name}" begins and ends at joint "{i}"'
             raise row.error(msg)
@@ -112,57 +113,47 @@ def _assign_frames(tables: Tables, building: Building) -> None:
         ("FRAME INSERTION POINT ASSIGNMENTS", _inserted),
         ("FRAME AUTO MESH ASSIGNMENTS", _meshed),
     ):
-        for name, row in by_name(tables.rows(table), "Frame").items():
-            known(row, "Frame", name, building.frames)
+        for name, row in of_objects(tables.rows(table), "Frame", building.frames):
             refused(row, name, building.account, dialect.FRAME_WORDS)
-            building.frames[name] = change(building.frames[name], row, building)
+            frame = building.frames[name]
+            building.frames[name] = replace(frame, **change(frame, row, building))
 
 
-def _turned(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    del building
-    return replace(frame, angle=row.number("Angle", 0.0))
+def _turned(_: FrameObject, row: Row, building: Building) -> dict[str, Any]:
+    return values(row, dialect.ANGLE, building)
 
 
-def _modified(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    return replace(frame, modifiers=Modifiers(**values(row, dialect.MODIFIERS, building.units)))
+def _modified(_: FrameObject, row: Row, building: Building) -> dict[str, Any]:
+    return {"modifiers": Modifiers(**values(row, dialect.MODIFIERS, building))}
 
 
-def _released(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    words = {f"{word}{end}" for word in RELEASES for end in "IJ"}
-    free = [word for word in words if row.yes(word, default=False)]
-    return replace(frame, releases=released(row, frame.name, free, building))
+def _released(frame: FrameObject, row: Row, building: Building) -> dict[str, Any]:
+    free = [word for word, is_free in values(row, dialect.RELEASES, building).items() if is_free]
+    return {"releases": released(row, frame.name, free, building)}
 
 
-def _with_end_zones(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    of = f' of frame "{frame.name}"'
-    return replace(frame, **values(row, dialect.END_ZONES, building.units, of))
+def _with_end_zones(frame: FrameObject, row: Row, building: Building) -> dict[str, Any]:
+    return values(row, dialect.END_ZONES, building, f' of frame "{frame.name}"')
 
 
-def _inserted(frame: FrameObject, row: Row, building: Building) -> FrameObject:
+def _inserted(frame: FrameObject, row: Row, building: Building) -> dict[str, Any]:
     number = re.match(r"\s*(\d+)", row.text("CardinalPt", "10"))
     cardinal = int(number[1]) if number else 0
     if not 1 <= cardinal <= 11:
         msg = f'CardinalPt = "{row.text("CardinalPt")}" must begin with 1 to 11'
         raise row.error(msg)
-    offset_i, offset_j = offsets_of(row, dialect.OFFSETS, building.units)
+    offset_i, offset_j = offsets_of(row, dialect.OFFSETS, building)
     if row.text("CoordSys", "GLOBAL").lower() == "local":
         first, last = (building.joints[name].position for name in (frame.i, frame.j))
         axes = frame_axes(first, last, frame.angle)
         offset_i, offset_j = (vector_of(axes.T @ offset) for offset in (offset_i, offset_j))
-    fields = ("StiffTransform", "StiffTrans", "Transform")
-    return replace(
-        frame,
-        cardinal=cardinal,
-        offset_i=offset_i,
-        offset_j=offset_j,
-        transforms=all(row.yes(field, default=True) for field in fields),
-    )
+    transforms = all(values(row, dialect.TRANSFORMS, building).values())
+    offsets = {"offset_i": offset_i, "offset_j": offset_j}
+    return {"cardinal": cardinal, "transforms": transforms, **offsets}
 
 
-def _meshed(frame: FrameObject, row: Row, building: Building) -> FrameObject:
-    del building
-    at_joints = row.yes("AutoMesh", default=True) and row.yes("AtJoints", default=True)
-    return replace(frame, meshed=at_joints)
+def _meshed(_: FrameObject, row: Row, building: Building) -> dict[str, Any]:
+    return {"meshed": all(values(row, dialect.MESHED, building).values())}
 
 
 def _read_areas(tables: Tables, building: Building) -> None:
@@ -186,8 +177,7 @@ def _read_areas(tables: Tables, building: Building) -> None:
             raise ModelError(message)
     for row in sections.values():
         known(row, "Area", row.text("Area"), building.areas)
-    for name, row in by_name(tables.rows("AREA STIFFNESS MODIFIERS"), "Area").items():
-        known(row, "Area", name, building.areas)
+    for name, row in of_objects(tables.rows("AREA STIFFNESS MODIFIERS"), "Area", building.areas):
         factors = shell_factors(row, dialect.SHELL, building)
         building.areas[name] = replace(building.areas[name], **factors)
     building.account.read(dialect.AREAS, "areas", len(building.areas))
@@ -209,37 +199,34 @@ def _read_links(tables: Tables, building: Building) -> None:
             known(row, "JointJ", last, building.joints)
         prop = assigned[name].text("LinkProp")
         known(assigned[name], "LinkProp", prop, building.link_properties)
-        angle = angles[name].number("Angle", 0.0) if name in angles else 0.0
-        building.links[name] = LinkObject(
-            name, first, None if ground else last, prop, row.place, angle
-        )
+        turn = values(angles[name], dialect.ANGLE, building) if name in angles else {}
+        other = None if ground else last
+        building.links[name] = LinkObject(name, first, other, prop, row.place, **turn)
     building.account.read(table, "links", len(building.links))
 
 
 def _read_supports(tables: Tables, building: Building) -> None:
     table = "JOINT RESTRAINT ASSIGNMENTS"
-    for name, row in by_name(tables.rows(table), "Joint").items():
-        known(row, "Joint", name, building.joints)
-        held = tuple(ours for field, ours in dialect.DOFS if row.yes(field, default=False))
+    for name, row in of_objects(tables.rows(table), "Joint", building.joints):
+        given = values(row, dialect.RESTRAINT, building)
+        held = tuple(dof for dof, is_held in given.items() if is_held)
         if held:
             building.restraints[name] = held
     building.account.read(table, "supports", len(building.restraints))
     table = "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED"
-    for name, row in by_name(tables.rows(table), "Joint").items():
-        known(row, "Joint", name, building.joints)
+    for name, row in of_objects(tables.rows(table), "Joint", building.joints):
         if row.text("CoordSys", "GLOBAL").upper() not in {"GLOBAL", "LOCAL"}:
             msg = f'spring of joint "{name}" must be given in GLOBAL axes'
             raise row.error(msg)
         of = f' of the spring of joint "{name}"'
-        stiffness = tuple(values(row, dialect.SUPPORT, building.units, of).values())
+        stiffness = tuple(values(row, dialect.SUPPORT, building, of).values())
         if any(stiffness):
             building.springs[name] = stiffness
     building.account.read(table, "joint springs", len(building.springs))
     table = "JOINT ADDED MASS ASSIGNMENTS"
-    for name, row in by_name(tables.rows(table), "Joint").items():
-        known(row, "Joint", name, building.joints)
+    for name, row in of_objects(tables.rows(table), "Joint", building.joints):
         of = f' of joint "{name}"'
-        building.masses[name] = tuple(values(row, dialect.MASS, building.units, of).values())
+        building.masses[name] = tuple(values(row, dialect.MASS, building, of).values())
     building.account.read(table, "masses added to joints", len(building.masses))
 
 
@@ -250,8 +237,8 @@ def _read_constraints(tables: Tables, building: Building) -> None:
         for row in tables.rows(head + kind):
             if kind == "DIAPHRAGM":
                 refused(row, row.text("Name"), building.account, dialect.CONSTRAINT_WORDS)
-            flags = tuple(ours for _, ours in dialect.DOFS if row.yes(ours.upper(), default=True))
-            kinds[row.text("Name")] = (kind.lower(), flags)
+            tied = values(row, dialect.TIED, building)
+            kinds[row.text("Name")] = (kind.lower(), tuple(dof for dof in tied if tied[dof]))
     joints: dict[str, list[str]] = {}
     table = "JOINT CONSTRAINT ASSIGNMENTS"
     for row in tables.rows(table):
@@ -261,7 +248,7 @@ def _read_constraints(tables: Tables, building: Building) -> None:
             what = f'a constraint of type "{kind or "not defined"}"'
             building.account.refuse("other constraints", table, what, [name], row.place)
             continue
-        kinds.setdefault(name, (kind, tuple(ours for _, ours in dialect.DOFS)))
+        kinds.setdefault(name, (kind, DOFS))
         joints.setdefault(name, []).append(known(row, "Joint", row.text("Joint"), building.joints))
     for name, members in joints.items():
         kind, dofs = kinds[name]

@@ -11,7 +11,7 @@ from scipy import sparse
 from frames._errors import ModelError
 from frames.exchange.building import AreaObject, AreaSection, Constraint, Material
 from frames.exchange.geometry import Levels, area_normal
-from frames.exchange.loads import Shares
+from frames.exchange.loads import Sizes
 from frames.exchange.mesh import joints_within
 from frames.model.superelement import ShellElement, WithoutForces, no_elements
 from frames.opensees.model import read_model
@@ -49,8 +49,7 @@ def choose_shells(building: Building) -> list[AreaObject]:
         else:
             found.append(area)
     what = "slabs in rigid diaphragms, by their loads and masses alone: their bending is not stiff"
-    shares = Shares(building)
-    building.account.read_as("areas", what, flat, *shares.of(flat))
+    building.account.read_as("areas", what, flat, *Sizes(building).shares(flat))
     if loose:
         what = "one-way decks in no rigid diaphragm, taken as rigid in their plane"
         names = [area.name for area in loose]

@@ -11,10 +11,11 @@ import numpy as np
 from frames._errors import ModelError
 from frames.exchange.building import AreaLoad, JointLoad, LineLoad
 from frames.exchange.geometry import Levels, area_normal
-from frames.exchange.loads import OWN_MASS, own_masses, own_weights
+from frames.exchange.loads import OWN_MASS, own_loads
 from frames.exchange.members import add_line_load
 from frames.model.components import FloorLoad
 from frames.model.floors import floor_panel, members_at, panel_loads
+from frames.model.plane_faces import area_of, corners_of, faces_of
 from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
@@ -125,16 +126,16 @@ class Slabs:
                 return None
         return found
 
-    def _faces(self, area: AreaObject, points: FloatArray) -> list[list[str]]:
+    def _faces(self, area: AreaObject, points: FloatArray) -> list[tuple[str, ...]]:
         # Panels between the members within the area; the area itself where they do not fill it.
         plan = self._joined.within(points)
         links = {name: [o for o in self._beside[name] if o in plan] for name in plan}
-        faces = _faces_of(plan, links)
+        faces = faces_of(plan, links)
         whole = area_normal(points)[1]
-        size = sum(_signed(np.array([plan[n] for n in face])) for face in faces)
+        size = sum(area_of(plan, face) for face in faces)
         if len(faces) < 2 or abs(size - whole) > 1e-6 * whole:
-            return [list(area.joints)]
-        return [_corners(face, plan) for face in faces]
+            return [area.joints]
+        return [corners_of(plan, face) for face in faces]
 
 
 def _along_horizontal(frame: FrameEditor) -> dict[str, list[str]]:
@@ -148,59 +149,12 @@ def _along_horizontal(frame: FrameEditor) -> dict[str, list[str]]:
     return found
 
 
-def _faces_of(plan: dict[str, FloatArray], links: dict[str, list[str]]) -> list[list[str]]:
-    # Bounded faces of a plane graph, anticlockwise; ends that hang free are cut off first.
-    left = {name: set(others) for name, others in links.items()}
-    while loose := [name for name, others in left.items() if len(others) < 2]:
-        for name in loose:
-            for other in left.pop(name):
-                if other in left:
-                    left[other].discard(name)
-    turned = {
-        name: sorted(others, key=lambda o: math.atan2(*(plan[o] - plan[name])[::-1]))
-        for name, others in left.items()
-    }
-    seen: set[tuple[str, str]] = set()
-    faces = []
-    for name in left:
-        for other in turned[name]:
-            face, here, there = [], name, other
-            while (here, there) not in seen:
-                seen.add((here, there))
-                face.append(here)
-                around = turned[there]
-                here, there = there, around[around.index(here) - 1]
-            if len(face) > 2 and _signed(np.array([plan[n] for n in face])) > 0.0:
-                faces.append(face)
-    return faces
-
-
-def _signed(points: FloatArray) -> float:
-    x, y = points.T
-    return 0.5 * float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
-
-
-def _corners(face: list[str], plan: dict[str, FloatArray]) -> list[str]:
-    # Without nodes that lie on the line between their neighbours.
-    kept = []
-    for k, name in enumerate(face):
-        before, after = plan[face[k - 1]], plan[face[(k + 1) % len(face)]]
-        one, two = plan[name] - before, after - plan[name]
-        size = float(np.hypot(*one) * np.hypot(*two))
-        if abs(float(one[0] * two[1] - one[1] * two[0])) > 1e-6 * size:
-            kept.append(name)
-    return kept
-
-
 class Loading:
     """Puts loads of patterns on a frame; those of shells go to their nodes."""
 
     def __init__(self, building: Building, divided: Mapping[str, Divided], mesh: Mesh) -> None:
         self.building, self.divided, self.mesh = building, divided, mesh
-        self._shells = {area for area, _ in mesh.elements}
-        self._elements: dict[str, list[tuple[str, ...]]] = {}
-        for area, nodes in mesh.elements:
-            self._elements.setdefault(area, []).append(nodes)
+        self._elements = mesh.by_area()
 
     def put(
         self, frame: FrameEditor, slabs: Slabs, factors: Mapping[str, tuple[float, str]], own: bool
@@ -216,9 +170,9 @@ class Loading:
         for name, pattern in building.patterns.items():
             factor = pattern.self_weight
             if name in chosen and factor:
-                loads += [_times(load, factor) for load in own_weights(building, name)]
+                loads += [_times(load, factor) for load in own_loads(building, name)]
         if own:
-            loads += list(own_masses(building, frame.gravity))
+            loads += own_loads(building, OWN_MASS, frame.gravity)
             chosen[OWN_MASS] = (1.0, OWN_MASS)
         for load in loads:
             factor, case = chosen.get(load.pattern, (0.0, ""))
@@ -237,7 +191,7 @@ class Loading:
         self, frame: FrameEditor, slabs: Slabs, load: AreaLoad, factor: float, case: str
     ) -> None:
         vector = factor * np.array(load.load)
-        if load.area not in self._shells:
+        if load.area not in self._elements:
             slabs.add(self.building.areas[load.area], vector, case)
             return
         for nodes in self._elements[load.area]:

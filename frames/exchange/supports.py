@@ -10,11 +10,12 @@ import numpy as np
 from frames._errors import ModelError
 from frames._remedies import argument
 from frames.model.components import DOFS, bearing_height
+from frames.model.editing import stand
 from lir_element.elevations import SAME_PLACE, by_elevation
 
 if TYPE_CHECKING:
+    from frames.exchange.account import Options
     from frames.exchange.building import Building, Constraint
-    from frames.exchange.options import Options
     from frames.model.editing import FrameEditor
     from lir_element import LIRBearing
 
@@ -101,10 +102,7 @@ def add_supports(
         what = "supports that stay as they are, beside bearings"
         building.account.read_as("supports", what, stay)
     for joint, device in places.joints.items():
-        x, y, z = frame.nodes[joint].position
-        frame.add_node(f"ground-{joint}", x, y, z - device.height)
-        frame.fix(f"ground-{joint}", "all")
-        frame.add_bearing(f"bearing-{joint}", f"ground-{joint}", joint, device)
+        stand(frame, joint, f"bearing-{joint}", device, joint)
         held = building.restraints.get(joint, ())
         turns = [dof for dof in ("rx", "ry") if dof in held]
         if options.base_rotations != "kept":

@@ -1,13 +1,16 @@
-"""Tables of another program's file: rows of named values that know where they stand."""
+"""Tables of another program's file: rows of named values that know where they stand; units."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar, Literal, TypeAlias
 
 from frames._errors import ModelError
 from frames._remedies import argument
+from lir_element.units import STANDARD_GRAVITY
 
 Value: TypeAlias = str | float | bool
 """A cell: text of a text file, or what a workbook holds."""
@@ -194,6 +197,14 @@ def by_name(rows: Sequence[Row], field: str) -> dict[str, Row]:
     return found
 
 
+def of_objects(
+    rows: Sequence[Row], field: str, names: Collection[str]
+) -> Iterator[tuple[str, Row]]:
+    """Yield rows and the objects that they are of; one that is not there is refused."""
+    for name, row in by_name(rows, field).items():
+        yield known(row, field, name, names), row
+
+
 def merged(
     rows: Sequence[Row], *fields: str, adding: Collection[str] = ()
 ) -> dict[tuple[str, ...], Row]:
@@ -233,3 +244,92 @@ def require_space(row: Row, active: Collection[str]) -> None:
             "one in space (Analyze > Set Analysis Options)"
         )
         raise row.error(message)
+
+
+_POUND = 0.45359237 * STANDARD_GRAVITY
+
+FORCES = {
+    "N": 1.0,
+    "KN": 1e3,
+    "MN": 1e6,
+    "KGF": STANDARD_GRAVITY,
+    "TONF": 1e3 * STANDARD_GRAVITY,
+    "LB": _POUND,
+    "KIP": 1e3 * _POUND,
+}
+"""Forces [N] by word."""
+
+LENGTHS = {"MM": 1e-3, "CM": 1e-2, "M": 1.0, "IN": 0.0254, "FT": 0.3048}
+"""Lengths [m] by word."""
+
+
+@dataclass(frozen=True)
+class Units:
+    """Units of a file: force [N] and length [m]; time is in seconds, angles are in degrees."""
+
+    force: float
+    length: float
+
+    one: ClassVar[float] = 1.0  # of what has no unit
+
+    @cached_property
+    def per_length(self) -> float:
+        """Reciprocal of a length [1/m]."""
+        return 1.0 / self.length
+
+    @cached_property
+    def area(self) -> float:
+        """Area [m2]."""
+        return self.length**2
+
+    @cached_property
+    def inertia(self) -> float:
+        """Second moment of an area [m4]."""
+        return self.length**4
+
+    @cached_property
+    def rotary(self) -> float:
+        """Mass times length squared [kg m2]."""
+        return self.mass * self.length**2
+
+    @cached_property
+    def moment(self) -> float:
+        """Moment [N m]."""
+        return self.force * self.length
+
+    @cached_property
+    def line(self) -> float:
+        """Force per length, and stiffness [N/m]."""
+        return self.force / self.length
+
+    @cached_property
+    def stress(self) -> float:
+        """Force per area [Pa]."""
+        return self.force / self.length**2
+
+    @cached_property
+    def weight(self) -> float:
+        """Force per volume [N/m3]."""
+        return self.force / self.length**3
+
+    @cached_property
+    def mass(self) -> float:
+        """Mass: force over acceleration [kg]."""
+        return self.force / self.length
+
+    @cached_property
+    def density(self) -> float:
+        """Mass per volume [kg/m3]."""
+        return self.mass / self.length**3
+
+
+def units_of(words: str, name: str, error: Callable[[str], ValueError]) -> Units:
+    """Return the units that a force and a length stand for, "KN, m", or raise an error."""
+    force, length, *_ = [*(word.strip().upper() for word in words.split(",")), ""]
+    if force not in FORCES or length not in LENGTHS:
+        message = (
+            f'{name} = "{words}" must be a force of {", ".join(FORCES)} and a length of '
+            f'{", ".join(LENGTHS)}, such as "KN, m, C"'
+        )
+        raise error(message)
+    return Units(FORCES[force], LENGTHS[length])

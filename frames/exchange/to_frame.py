@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, TypeVar
 
 from frames._errors import ModelError, ModelWarning
 from frames._remedies import argument
+from frames.exchange.account import Options
 from frames.exchange.building import MassSource
 from frames.exchange.doubts import doubt_base, doubt_weights, note_areas, note_members
 from frames.exchange.etabs import read_etabs
 from frames.exchange.links import Links, yield_displacements
-from frames.exchange.loads import OWN_MASS, Shares
+from frames.exchange.loads import OWN_MASS, Sizes
 from frames.exchange.members import Sections, add_members
 from frames.exchange.mesh import Mesh, mesh_areas
-from frames.exchange.options import Options
 from frames.exchange.sap2000 import read_sap2000
 from frames.exchange.shells import add_shells, choose_shells, meet_joints
 from frames.exchange.slabs import Loading, Slabs
@@ -235,7 +235,7 @@ def _add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
         add_shells(frame, building, mesh)
         areas = list(dict.fromkeys(area for area, _ in mesh.elements))
         what = f"shells, in {len(mesh.elements)} elements of OpenSees"
-        building.account.read_as("areas", what, areas, *Shares(building).of(areas))
+        building.account.read_as("areas", what, areas, *Sizes(building).shares(areas))
 
 
 def _hold_edges(frame: FrameEditor, building: Building, places: Places, mesh: Mesh) -> None:

@@ -26,6 +26,7 @@ LEAST_STORY = 0.01
 """Least height of a story; a level that is closer to the one below has none of its own [m]."""
 
 
+_STATIC = 'TYPE  "Linear Static"  INITCOND  "PRESET"'
 _HALVES = (dialect.MATERIAL[:2], dialect.MATERIAL[2:])  # a line of the file each
 
 
@@ -151,11 +152,10 @@ class EtabsWriter:
         return lines
 
     def _sections(self) -> list[str]:
-        lines = []
-        for name, section in self.building.sections.items():
-            values = _words(written(dialect.SECTION, section, self.units))
-            lines.append(f"FRAMESECTION  {_quoted(name)}  {values}")
-        return lines
+        return [
+            f"FRAMESECTION  {_quoted(name)}  " + _words(written(dialect.SECTION, one, self.units))
+            for name, one in self.building.sections.items()
+        ]
 
     def _area_sections(self) -> list[str]:
         lines = []
@@ -296,31 +296,28 @@ class EtabsWriter:
             points.append(f'POINTLOAD  "{point}"  "{story}"  TYPE "FORCE"  LC {lc}  {parts}')
         for line in building.line_loads:
             label, story, turned = self._lines[line.frame]
-            for way, *ends in along_axes(line):
-                start, end = (size / self.units.line for size in ends)
-                a, b = line.a, line.b
+            for given in along_axes(line):
+                ends = {"a": line.a, "b": line.b}
                 if turned:
-                    a, b, start, end = 1.0 - b, 1.0 - a, end, start
-                parts = _words({"FSTART": start, "FEND": end, "RDSTART": a, "RDEND": b})
+                    ends = {"a": 1.0 - line.b, "b": 1.0 - line.a}
+                    given["start"], given["end"] = given["end"], given["start"]
+                way = given.pop("way")
+                parts = _words(written(dialect.LINE_LOAD["TRAPF"], given | ends, self.units))
                 head = f'LINELOAD  "{label}"  "{story}"  TYPE "TRAPF"  DIR "{way}"'
                 lines.append(f"{head}  LC {_quoted(line.pattern)}  {parts}")
-        patterns = {name: _quoted(name) for name in building.patterns}
+        patterns = {
+            _quoted(name): _words(written(dialect.PATTERN, pattern, self.units))
+            for name, pattern in building.patterns.items()
+        }
         return {
-            "LOAD PATTERNS": [
-                f"LOADPATTERN {patterns[name]}  "
-                + _words(written(dialect.PATTERN, pattern, self.units))
-                for name, pattern in building.patterns.items()
-            ],
+            "LOAD PATTERNS": [f"LOADPATTERN {name}  {words}" for name, words in patterns.items()],
             "POINT OBJECT LOADS": points,
             "FRAME OBJECT LOADS": lines,
             "MASS SOURCE": self._mass_source(),
             "LOAD CASES": [
                 f"LOADCASE {name}  {words}"
-                for name in patterns.values()
-                for words in (
-                    'TYPE  "Linear Static"  INITCOND  "PRESET"',
-                    f"LOADPAT  {name}  SF  1",
-                )
+                for name in patterns
+                for words in (_STATIC, f"LOADPAT  {name}  SF  1")
             ],
         }
 

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from frames._errors import ModelError
 from frames.exchange import sap2000_fields as dialect
 from frames.exchange.building import RELEASES, Modifiers
 from frames.exchange.fields import written
+from frames.model.components import DOFS
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from frames.exchange.building import Building, FrameObject, LineLoad, LinkDof
+    from frames.exchange.fields import Fields
+    from frames.exchange.tables import Units
 
 Value: TypeAlias = str | float | int | bool
 """What a cell holds."""
@@ -62,6 +67,11 @@ def tables_of(building: Building) -> dict[str, Rows]:
     return {name: rows for name, rows in found.items() if rows}
 
 
+def _rows(key: str, given: Mapping[str, object], map_: Fields, units: Units, **more: Value) -> Rows:
+    # A row for each thing by its name, its fields by a map.
+    return [{key: name, **written(map_, thing, units), **more} for name, thing in given.items()]
+
+
 def _joints(building: Building) -> dict[str, Rows]:
     units = building.units
     own: dict[str, Value] = {"CoordSys": "GLOBAL", "CoordType": "Cartesian"}
@@ -72,7 +82,7 @@ def _joints(building: Building) -> dict[str, Rows]:
             for name, joint in building.joints.items()
         ],
         "JOINT RESTRAINT ASSIGNMENTS": [
-            {"Joint": name} | {theirs: ours in held for theirs, ours in dialect.DOFS}
+            {"Joint": name, **written(dialect.RESTRAINT, {d: d in held for d in DOFS}, units)}
             for name, held in building.restraints.items()
         ],
         "JOINT ADDED MASS ASSIGNMENTS": [
@@ -91,18 +101,8 @@ def _joints(building: Building) -> dict[str, Rows]:
 def _properties(building: Building) -> dict[str, Rows]:
     units = building.units
     return {
-        dialect.MATERIALS: [
-            {"Material": name, **written(dialect.MATERIAL, matter, units)}
-            for name, matter in building.materials.items()
-        ],
-        dialect.SECTIONS: [
-            {
-                "SectionName": name,
-                **written(dialect.SECTION, section, units),
-                "I23": 0,
-            }
-            for name, section in building.sections.items()
-        ],
+        dialect.MATERIALS: _rows("Material", building.materials, dialect.MATERIAL, units),
+        dialect.SECTIONS: _rows("SectionName", building.sections, dialect.SECTION, units, I23=0),
         dialect.AREA_SECTIONS: [
             {
                 "Section": name,
@@ -119,28 +119,20 @@ def _properties(building: Building) -> dict[str, Rows]:
 
 
 def _members(building: Building) -> dict[str, Rows]:
-    frames = building.frames.values()
+    frames, units = building.frames.values(), building.units
+    turned = {one.name: one for one in frames if one.angle}
+    factors = {one.name: one.modifiers for one in frames if one.modifiers != Modifiers()}
+    section: dict[str, Value] = {"AutoSelect": "N.A.", "AnalSect": "", "MatProp": "Default"}
     return {
-        dialect.FRAMES: [
-            {"Frame": one.name, "JointI": one.i, "JointJ": one.j, "IsCurved": False}
-            for one in frames
-        ],
+        dialect.FRAMES: _rows("Frame", building.frames, dialect.ENDS, units, IsCurved=False),
         "FRAME SECTION ASSIGNMENTS": [
-            {
-                "Frame": one.name,
-                "AutoSelect": "N.A.",
-                "AnalSect": one.section,
-                "MatProp": "Default",
-            }
-            for one in frames
+            {"Frame": one.name} | section | {"AnalSect": one.section} for one in frames
         ],
-        "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL": [
-            {"Frame": one.name, "Angle": one.angle, "AdvanceAxes": False}
-            for one in frames
-            if one.angle
-        ],
+        "FRAME LOCAL AXES ASSIGNMENTS 1 - TYPICAL": _rows(
+            "Frame", turned, dialect.ANGLE, units, AdvanceAxes=False
+        ),
         "FRAME RELEASE ASSIGNMENTS 1 - GENERAL": [
-            {"Frame": one.name, **_released(one), "PartialFix": False}
+            {"Frame": one.name, **_released(one, units), "PartialFix": False}
             for one in frames
             if any(one.releases)
         ],
@@ -149,24 +141,21 @@ def _members(building: Building) -> dict[str, Rows]:
                 "Frame": one.name,
                 "CardinalPt": "10 (centroid)",
                 "CoordSys": "GLOBAL",
-                **written(dialect.OFFSETS, (*one.offset_i, *one.offset_j), building.units),
+                **written(dialect.OFFSETS, (*one.offset_i, *one.offset_j), units),
                 "Transform": True,
             }
             for one in frames
             if any(one.offset_i) or any(one.offset_j)
         ],
-        "FRAME PROPERTY MODIFIERS": [
-            {"Frame": one.name, **written(dialect.MODIFIERS, one.modifiers, building.units)}
-            for one in frames
-            if one.modifiers != Modifiers()
-        ],
+        "FRAME PROPERTY MODIFIERS": _rows("Frame", factors, dialect.MODIFIERS, units),
         "FRAME AUTO MESH ASSIGNMENTS": [{"Frame": one.name, "AutoMesh": False} for one in frames],
     }
 
 
-def _released(one: FrameObject) -> dict[str, Value]:
+def _released(one: FrameObject, units: Units) -> dict[str, Value]:
     ends = zip("IJ", one.releases, strict=True)
-    return {f"{word}{end}": word in free for end, free in ends for word in RELEASES}
+    free = {f"{word}{end}": word in words for end, words in ends for word in RELEASES}
+    return written(dialect.RELEASES, free, units)
 
 
 def _areas(building: Building) -> dict[str, Rows]:
@@ -187,50 +176,43 @@ def _areas(building: Building) -> dict[str, Rows]:
 
 
 def _loads(building: Building) -> dict[str, Rows]:
-    source = building.mass_source
+    source, units = building.mass_source, building.units
     shares = {} if source is None else source.patterns
     return {
-        dialect.PATTERNS: [
-            {"LoadPat": name, **written(dialect.PATTERN, pattern, building.units)}
-            for name, pattern in building.patterns.items()
-        ],
+        dialect.PATTERNS: _rows("LoadPat", building.patterns, dialect.PATTERN, units),
         "MASS SOURCE": [
-            _MASS_SOURCE | {"Loads": True, "LoadPat": name, "Multiplier": share}
-            for name, share in shares.items()
+            _MASS_SOURCE | {"Loads": True} | written(dialect.MASS_SHARE, share, units)
+            for share in shares.items()
         ]
         or [_MASS_SOURCE | {"Loads": False}],
         "JOINT LOADS - FORCE": [
             {
-                "Joint": load.joint,
-                "LoadPat": load.pattern,
+                **written(dialect.LOADED, load, units),
                 "CoordSys": "GLOBAL",
-                **written(dialect.FORCES, load.forces, building.units),
+                **written(dialect.FORCES, load.forces, units),
             }
             for load in building.joint_loads
         ],
         "FRAME LOADS - DISTRIBUTED": [
             {
-                "Frame": load.frame,
-                "LoadPat": load.pattern,
+                **written(dialect.LINE_LOAD[:2], load, units),
                 "CoordSys": "GLOBAL",
                 "Type": "Force",
-                "Dir": way,
+                **written(dialect.LINE_LOAD[2:], given, units),
                 "DistType": "RelDist",
-                "RelDistA": load.a,
-                "RelDistB": load.b,
-                "FOverLA": start / building.units.line,
-                "FOverLB": end / building.units.line,
+                **written(dialect.RELATIVE[False], load, units),
+                **written(dialect.SPREAD, given, units),
             }
             for load in building.line_loads
-            for way, start, end in along_axes(load)
+            for given in along_axes(load)
         ],
     }
 
 
-def along_axes(load: LineLoad) -> list[tuple[str, float, float]]:
+def along_axes(load: LineLoad) -> list[dict[str, Any]]:
     """Return a load along a frame object by the global axes along which it acts."""
     parts = zip("XYZ", load.start, load.end, strict=True)
-    return [(way, start, end) for way, start, end in parts if start or end]
+    return [{"way": w, "start": start, "end": end} for w, start, end in parts if start or end]
 
 
 def _links(building: Building) -> dict[str, Rows]:
@@ -242,14 +224,14 @@ def _links(building: Building) -> dict[str, Rows]:
         dialect.LINK_PLACES: [],
         "LINK PROPERTY ASSIGNMENTS": [],
     }
+    general = _rows("Link", building.link_properties, dialect.LINK, building.units)
+    found[f"{head}01 - GENERAL"] = general
     for name, prop in building.link_properties.items():
-        row = {"Link": name, **written(dialect.LINK, prop, building.units)}
-        found[f"{head}01 - GENERAL"].append(row)
         for dof, given in prop.dofs.items():
             table = "08 - SLIDING ISOLATOR" if given.nonlinear else "02 - LINEAR"
             found[head + table].append({"Link": name, "DOF": dof, **_dof(building, dof, given)})
     for name, link in building.links.items():
-        row = {"Link": name, "JointI": link.i, "JointJ": link.j or ""}
+        row: dict[str, Value] = {"Link": name, "JointI": link.i, "JointJ": link.j or ""}
         found[dialect.LINK_PLACES].append(row)
         row = {"Link": name, "LinkType": building.link_properties[link.property].kind}
         row |= {"LinkJoints": "TwoJoint", "LinkProp": link.property}

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from frames._errors import ModelError
 from frames.frame import Frame
-from frames.library.building_plan import BuildingPlan, fields_of, level_name, wall_node
+from frames.library.building_plan import BuildingPlan, level_name, wall_node
 from frames.model.damping import ModalDamping
 from frames.model.names import likely
+from frames.model.plane_faces import fields_of
 from lir_element.argument_checks import require_positive, shown
 from lir_element.units import STANDARD_GRAVITY
 

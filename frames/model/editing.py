@@ -330,3 +330,11 @@ class FrameEditor(NonlinearBuilder):
         ground = {"ux", "uy", "uz"} <= self._fixed.get(link.i, frozenset())
         if ground and not any(link.i in nodes for nodes in ends):
             self._nodes[link.i] = replace(low, z=high.z - height)
+
+
+def stand(frame: FrameEditor, node: str, name: str, bearing: LIRBearing, mark: str) -> None:
+    """Put a bearing under a node, on the fixed node "ground-<mark>"."""
+    x, y, z = frame.nodes[node].position
+    frame.add_node(f"ground-{mark}", x, y, z - bearing.height)
+    frame.fix(f"ground-{mark}", "all")
+    frame.add_bearing(name, f"ground-{mark}", node, bearing)

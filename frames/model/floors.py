@@ -188,7 +188,7 @@ def turning(corners: FloatArray, owner: str) -> float:
     """
     edges = np.roll(corners, -1, axis=0) - corners
     length = np.linalg.norm(edges, axis=1)
-    if (length < 1e-3).any():
+    if (length < SAME_PLACE).any():
         place = int(np.argmin(length)) + 1
         message = f"{owner}: its corners {place} and {place % len(corners) + 1} coincide in plan"
         raise ModelError(message)

@@ -187,7 +187,7 @@ def _values(
     known: dict[str, float],
 ) -> tuple[FloatArray, float]:
     """Return samples (count, columns) and the time step [s]."""
-    flat = _flat(name, form, body, 2 * count if form.order == "rows or pairs" else None, width)
+    flat = _flat(name, body, width)
     pairs = known["pairs"] > 0.0 or (form.order == "rows or pairs" and len(flat) >= 2 * count)
     size = count * (2 if pairs else columns)
     more = len(flat) - size if form.whole else 0
@@ -219,9 +219,7 @@ def _values(
     return flat[:size].reshape(count, columns), step
 
 
-def _flat(
-    name: str, form: Format, body: list[tuple[int, str]], needed: int | None, width: int | None
-) -> FloatArray:
+def _flat(name: str, body: list[tuple[int, str]], width: int | None) -> FloatArray:
     """Return the numbers that follow a header, up to the first line of text."""
     end = next((k for k, (_, line) in enumerate(body) if _TEXT.search(line)), None)
     lines = [(k, line.replace("\0", "")) for k, line in body[:end]]

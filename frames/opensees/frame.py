@@ -13,7 +13,7 @@ from scipy import sparse
 from frames._errors import ModelError, ModelWarning
 from frames.assembly.assemble import assemble
 from frames.model.components import DOFS, bearing_height
-from frames.model.editing import FrameEditor
+from frames.model.editing import FrameEditor, stand
 from frames.model.superelement import lumped
 from frames.opensees.checks import (
     judge_elements,
@@ -193,11 +193,7 @@ def _add_nodes(frame: FrameEditor, structure: Structure) -> None:
 
 def _add_bearings(frame: FrameEditor, options: Options) -> None:
     for tag, device in options.bearings.items():
-        x, y, z = frame.nodes[str(tag)].position
-        ground = f"ground-{tag}"
-        frame.add_node(ground, x, y, z - device.height)
-        frame.fix(ground, "all")
-        frame.add_bearing(f"bearing-{tag}", ground, str(tag), device)
+        stand(frame, str(tag), f"bearing-{tag}", device, str(tag))
     if not options.base_diaphragm:
         return
     at = {str(tag): frame.nodes[str(tag)].z for tag in options.bases}

@@ -56,7 +56,7 @@ _TAKEN = threading.Lock()
 _CODE = (type, types.ModuleType, types.FunctionType, types.BuiltinFunctionType, types.MethodType)
 
 
-class Analysis:
+class PreparedFrame:
     """A frame in equilibrium under gravity, and what its results form of it alone.
 
     No run changes it: runs work in arrays of their own (`fresh`, `restart`). The equilibrium is
@@ -183,12 +183,12 @@ class Analysis:
         return alike and all(a is b for a, b in zip(self.parts, parts, strict=True))
 
 
-_KEPT: list[Analysis] = []  # the one asked for last at the end
+_KEPT: list[PreparedFrame] = []  # the one asked for last at the end
 
 
 def analysis_of(
     frame: FrameData, features: Features, level: str | Mapping[str, str]
-) -> tuple[Analysis, GravityState]:
+) -> tuple[PreparedFrame, GravityState]:
     """Return the analysis of a frame, kept from before if nothing changed, and a fresh state."""
     began = perf_counter()
     parts = list(_parts(vars(frame)))
@@ -199,7 +199,7 @@ def analysis_of(
             _KEPT.remove(found)
             _KEPT.append(found)
     if found is None:
-        found = Analysis(frame, features, level if isinstance(level, str) else dict(level))
+        found = PreparedFrame(frame, features, level if isinstance(level, str) else dict(level))
         found.parts = parts
         state = found.fresh()
         _keep(found)
@@ -209,7 +209,7 @@ def analysis_of(
     return found, found.fresh(perf_counter() - began)
 
 
-def _keep(new: Analysis) -> None:
+def _keep(new: PreparedFrame) -> None:
     room = MOST_BYTES - _arrays(new.state)
     if room < 0.0:
         return

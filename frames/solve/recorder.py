@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
     from frames.recording.recording import Recording
     from frames.results.peak_response import Extreme
-    from frames.solve.analysis import Analysis
+    from frames.solve.analysis import PreparedFrame
     from frames.statics.gravity import GravityState
     from lir_element.layout import Records
 
@@ -60,7 +60,7 @@ class Gauges:
     Without `whole`, what stands on the bearings is left aside.
     """
 
-    def __init__(self, analysis: Analysis, *, whole: bool) -> None:
+    def __init__(self, analysis: PreparedFrame, *, whole: bool) -> None:
         state = analysis.state
         self._bearings = PeakTracker(analysis.devices, analysis.shape if whole else None)
         self._parts = PartGauge(state, analysis.model)
@@ -96,7 +96,7 @@ class _Buffer:
 
     def __init__(
         self,
-        analysis: Analysis,
+        analysis: PreparedFrame,
         state: GravityState,
         rows: int,
         is_stopped: Callable[[], bool] | None,
@@ -152,7 +152,7 @@ class Recorder(_Buffer):
 
     def __init__(
         self,
-        analysis: Analysis,
+        analysis: PreparedFrame,
         state: GravityState,
         steps: int,
         recording: Recording,
@@ -251,7 +251,7 @@ class PeakRecorder(_Buffer):
     """Takes up what runs reach one after the other, and keeps no step of them."""
 
     def __init__(
-        self, analysis: Analysis, state: GravityState, is_stopped: Callable[[], bool]
+        self, analysis: PreparedFrame, state: GravityState, is_stopped: Callable[[], bool]
     ) -> None:
         size = int(PEAK_BYTES / bytes_of_step(state))
         super().__init__(analysis, state, min(max(size, LEAST_ROWS), MOST_ROWS), is_stopped)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
     from frames.recording.force_tracking import StrainGauge
     from frames.results.findings import Findings
-    from frames.solve.analysis import Analysis
+    from frames.solve.analysis import PreparedFrame
     from frames.solve.options import Options
     from frames.statics.gravity import GravityState
     from lir_element.device.features import Features
@@ -88,7 +88,7 @@ class Run(NamedTuple):
 
 
 def run_one(
-    analysis: Analysis,
+    analysis: PreparedFrame,
     state: GravityState,
     motion: GroundMotion,
     options: Options,

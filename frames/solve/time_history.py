@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import warnings
-from time import perf_counter
 from typing import TYPE_CHECKING, Literal
 
 from frames._errors import AuditWarning
+from frames.model.frame_data import FrameData
 from frames.recording.recording import recording_of
-from frames.results.assumption_checks import asking_for_contact
-from frames.results.findings import Findings, doubts_of, findings_of, remark
-from frames.solve.analysis import Analysis, analysis_of
-from frames.solve.options import Options, check_options, check_reduction, options_of
+from frames.results.findings import Findings, doubts_of, remark
+from frames.solve.analysis import PreparedFrame, analysis_of
+from frames.solve.escalation import escalate_level, mark_other_end
+from frames.solve.options import METHODS, Options, check_options, check_reduction, options_of
 from frames.solve.progress_line import share_told
 from frames.solve.recorder import Recorder
 from frames.solve.rigid import rigid_time_history
@@ -20,106 +20,20 @@ from frames.statics.basis_refinement import refined
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.sanity_checks import check_analysis
 from frames.statics.springs import exact_features
+from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
 from lir_element.errors import RunStatus
 from lir_element.results.dataset import report
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Mapping
 
     import xarray as xr
 
-    from frames.results.findings import Finding
-    from lir_element import Features
-
-    Level = str | Mapping[str, str]
-    """One for all bearings, or "contact" by name: the others are at the level "pendulum"."""
-    from collections.abc import Mapping
-
-    from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.recording.recording import Recording
     from frames.results.peak_response import Extreme
     from frames.statics.gravity import GravityState
-
-MOST_RUNS = 5
-"""Features and level settle in two or three runs; this bounds what each run may reveal anew."""
-
-
-def escalate_level(
-    analyse: Callable[[Features, Level], xr.Dataset], features: Features
-) -> xr.Dataset:
-    """Run with `features`, and again with what was missing."""
-    level: Level = "pendulum"
-    lines: list[str] = []
-    for count in range(1, MOST_RUNS + 1):
-        began = perf_counter()
-        data = analyse(features, level)
-        seconds = perf_counter() - began
-        findings = findings_of(data)
-        names = tuple(str(name) for name in data.variables["bearing"].to_numpy())
-        wider, higher, reason = _next(findings, features, level, names)
-        is_last = count == MOST_RUNS or (wider, higher) == (features, level)
-        out = ", ".join(features.left_out) or "nothing"
-        at = (
-            level if isinstance(level, str) else f"{len(level)} of {len(names)} bearings at contact"
-        )
-        lines.append(f"run {count}: {at}, left out {out}, {seconds:.3f} s: {reason}")
-        if is_last:
-            break
-        features, level = wider, higher
-    data.attrs["auto_runs"] = "\n".join(lines)
-    return data
-
-
-def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) -> None:
-    """Say in the check of a result of `escalate_level` that an earlier run ended otherwise."""
-    last, time = ends[-1]
-    others = [
-        k for k, (status, _) in enumerate(ends[:-1]) if status.is_complete != last.is_complete
-    ]
-    if not others:
-        return
-    first, earlier = ends[others[-1]]
-    line = (
-        f"ends: run {others[-1] + 1} {_ended(first, earlier)}, run {len(ends)} "
-        f"{_ended(last, time)} (auto_runs): a little more or less decides whether a bearing fails"
-    )
-    noted = remark("ends", float(others[-1] + 1), line, doubtful=True)
-    data.attrs |= Findings((noted, *findings_of(data))).attrs()
-    data.attrs["auto_runs"] += f"\n{line}"
-
-
-def _ended(status: RunStatus, time: float) -> str:
-    how = "completed" if status.is_complete else f"stopped ({status.name.lower()})"
-    return f"{how} at t = {time:.4g} s"
-
-
-def _next(
-    findings: tuple[Finding, ...], features: Features, level: Level, names: tuple[str, ...]
-) -> tuple[Features, Level, str]:
-    # Features and level of the next run (the same: settled), and why.
-    out = features.left_out
-    missing = [f for f in findings if f.is_missing and f.feature in out]
-    if missing:
-        wider = features.including(*(f.feature for f in missing))
-        if wider.rims and not features.rims:  # a rigid slider would break the rims that are met
-            wider = wider.including("interface")
-        return wider, level, "again, for " + "; ".join(f.sentence for f in missing)
-    asking = asking_for_contact(findings)
-    if not asking:
-        return features, level, "sufficient"
-    raised = _raised(level, names, {name for found in asking for name in found.bearings})
-    who = "all bearings" if raised == "contact" else ", ".join(raised)
-    why = "; ".join(f.sentence for f in asking)
-    return features, raised, f"again with {who} at the level 'contact': {why}"
-
-
-def _raised(level: Level, names: tuple[str, ...], asked: set[str]) -> Level:
-    # The level with more bearings at "contact".
-    at_contact = asked if isinstance(level, str) else asked | set(level)
-    chosen = {name: "contact" for name in names if name in at_contact}
-    return "contact" if len(chosen) == len(names) else chosen
 
 
 def time_history(
@@ -277,9 +191,130 @@ def time_history(
         data = escalate_level(analyse, exact_features(model, motion))
         mark_other_end(data, ends)
     else:
-        data = analyse(Features.all() if features is None else features, level)
-    run, recorder = runs[0]
-    return _told(report(recorder.recorded(data), *run.outcome, on_failure=on_failure))
+        analyse(Features.all() if features is None else features, level)
+    return _reported(*runs[0], on_failure)
+
+
+class Analysis:
+    """A frame in equilibrium under its permanent loads, for many time histories.
+
+    `time_history` is a run of one. An analysis keeps the frame as it is when it is made: later
+    changes of the frame are not in it. Its runs do not change each other.
+
+    Parameters
+    ----------
+    frame : Frame
+        The structure and its bearings.
+    level : {"pendulum", "contact"} or mapping
+        Level of fidelity of the bearings, as in `time_history`.
+    features : Features, optional
+        What is modelled; everything if None.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If the level or the features are none that all runs can share.
+    frames.ModelError
+        If the model cannot work.
+    lir_element.AnalysisError
+        If there is no equilibrium under gravity.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from frames import Analysis, GroundMotion, lumped_mass
+    >>> from frames.demo import bearing_for
+    >>> analysis = Analysis(lumped_mass(bearing_for(2000e3), mass=204e3))
+    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> runs = [analysis.run(pulse.scaled(factor)) for factor in (0.5, 1.0)]
+    >>> [round(float(abs(data["bearing_displacement"]).max()), 2) for data in runs]
+    [0.07, 0.24]
+    """
+
+    def __init__(
+        self,
+        frame: FrameData,
+        level: str | Mapping[str, str] = "pendulum",
+        features: Features | None = None,
+    ) -> None:
+        require_type("frame", frame, FrameData, "a Frame")
+        check_options(level, _DIRECT, None, "warn", features)
+        if level in {"auto", "rigid_body"} if isinstance(level, str) else False:
+            msg = f'level = "{level}" has no equilibrium that runs share: use time_history'
+            raise ValueError(msg)
+        kept, chosen = features or Features.all(), level if isinstance(level, str) else dict(level)
+        with blas_threads_for(frame):
+            self._prepared = PreparedFrame(frame, kept, chosen)
+
+    def run(
+        self,
+        motion: GroundMotion,
+        duration: float | None = None,
+        dt: float | None = None,
+        *,
+        integrator: Literal["newmark", "generalised-alpha"] | None = None,
+        spectral_radius: float = 0.8,
+        tolerance: float | None = None,
+        recording: Recording | None = None,
+        on_failure: Literal["warn", "raise"] = "warn",
+        progress: Callable[[float], None] | bool | None = None,
+    ) -> xr.Dataset:
+        """Analyse the frame under a ground motion.
+
+        Parameters
+        ----------
+        motion : GroundMotion
+            Acceleration of the ground, up to three components.
+        duration, dt : float, optional
+            Length of the analysis and its step [s], as in `time_history`.
+        integrator, spectral_radius, tolerance, recording, on_failure, progress
+            As in `time_history`.
+
+        Returns
+        -------
+        xarray.Dataset
+            That of `time_history`, to the bit.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If an option is out of bounds.
+        lir_element.AnalysisError
+            If a run fails with ``on_failure="raise"``.
+        """
+        prepared = self._prepared
+        check_analysis(prepared.model, motion)
+        check_options(prepared.level, _DIRECT, integrator, on_failure, prepared.features)
+        options = options_of(
+            motion,
+            duration,
+            dt,
+            method=_DIRECT,
+            integrator=integrator,
+            spectral_radius=spectral_radius,
+            tolerance=tolerance,
+            recording=recording_of(recording, 1),
+            progress=share_told(progress),
+        )
+        with blas_threads_for(prepared.model):
+            run, recorder = _run_prepared(prepared, prepared.fresh(), motion, options)
+        run.data.attrs |= run.findings.attrs()
+        return _reported(run, recorder, on_failure)
+
+
+_DIRECT = METHODS[0]
+
+
+def _reported(run: Run, recorder: Recorder, on_failure: str) -> xr.Dataset:
+    return _told(report(recorder.recorded(run.data), *run.outcome, on_failure=on_failure))
+
+
+def _run_prepared(
+    prepared: PreparedFrame, state: GravityState, motion: GroundMotion, options: Options
+) -> tuple[Run, Recorder]:
+    # A run from a state at rest; what is recorded joins its result in the end.
+    recorder = Recorder(prepared, state, options.steps, options.recording)
+    return run_one(prepared, state, motion, options, recorder), recorder
 
 
 def _told(data: xr.Dataset) -> xr.Dataset:
@@ -298,19 +333,15 @@ def _run(
     level: str | Mapping[str, str],
     options: Options,
 ) -> tuple[Run, Recorder]:
-    # One run, or those of the method "reduced"; what is recorded joins its result in the end.
-    def run(analysis: Analysis, state: GravityState) -> tuple[Run, Recorder]:
-        recorder = Recorder(analysis, state, options.steps, options.recording)
-        return run_one(analysis, state, motion, options, recorder), recorder
-
-    if options.method == "direct":
-        return run(*analysis_of(model, features, level))
+    # One run, or those of the method "reduced".
+    if options.method == _DIRECT:
+        return _run_prepared(*analysis_of(model, features, level), motion, options)
     last: list[tuple[Run, Recorder]] = []
 
     def reached(state: GravityState) -> tuple[dict[str, Extreme], bool]:
         last.clear()  # its memory
-        analysis = Analysis(model, features, level, state)
-        last.append(run(analysis, analysis.fresh()))
+        prepared = PreparedFrame(model, features, level, state)
+        last.append(_run_prepared(prepared, prepared.fresh(), motion, options))
         found, recorder = last[0]
         return recorder.reached(found.data), found.outcome.status is RunStatus.INTERRUPTED
 

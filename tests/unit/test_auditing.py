@@ -28,7 +28,7 @@ from frames.results.findings import doubts_of, findings_of
 from frames.results.level_doubts import DOUBTED, level_doubts, travels
 from frames.results.measures import centre_shift
 from frames.results.peak_response import largest, total
-from frames.solve.time_history import escalate_level, mark_other_end
+from frames.solve.escalation import escalate_level, mark_other_end
 from lir_element import (
     CoulombFriction,
     Element,

@@ -194,6 +194,7 @@ class TestAT2:
 DT = 0.01
 CURED = {
     "touch.*width=10": (10.64359, 15.35039),
+    r"touch.*their width, width=\.\.\.": (-1.0, -1.2),
     "'head' is text.*skip=2": (0.0, 0.0),
     'decimal comma.*decimal=","': (2.0, 2.0),
     'separated by commas.*delimiter=","': (2.0, 2.0),
@@ -308,6 +309,7 @@ class TestColumns:
         ("text", "message", "cure"),
         [
             (" -9.643590-13.350390\n  1.000000  2.000000", "touch.*width=10", {"width": 10}),
+            ("-1.500-2.5\n-2.500-3.7", r"touch.*their width, width=\.\.\.", {"width": 6}),
             ("head\nmore\n1.0 2.0\n1.0 2.0\n", "'head' is text.*skip=2", {"skip": 2}),
             ("1,0 2,0\n3,0 4,0\n", 'decimal comma.*decimal=","', {"decimal": ","}),
             ("1.0,2.0\n3.0,4.0\n", 'separated by commas.*delimiter=","', {"delimiter": ","}),
@@ -331,6 +333,9 @@ class TestColumns:
         path = write("semi.csv", "\ufeff0,0;1,5\n0,1;2,5D+00\n")
         read = GroundMotion.from_columns(x=path, time=0, unit="mm/s2")
         assert_allclose(read.x, [0.0015, 0.0025], rtol=1e-15)
+        path.write_text("0,5;1,5\n2,5\n", encoding="utf-8")  # the first line has the separator
+        read = GroundMotion.from_columns(x=path, dt=0.1, order="rows", unit="m/s2")
+        assert read.x.tolist() == [0.5, 1.5, 2.5]
         path.write_text("0.0\t1.5\n0.1\t2.5\n", encoding="utf-16")
         assert GroundMotion.from_columns(x=path, time=0, unit="m/s2").x.tolist() == [1.5, 2.5]
         path.write_bytes(b"\x00\x01" * 300)

@@ -13,6 +13,7 @@ import pytest
 import xarray as xr
 
 from frames import (
+    Analysis,
     Frame,
     GroundMotion,
     ModalDamping,
@@ -24,6 +25,7 @@ from frames import (
 from frames.demo import bearing_for
 from frames.solve import analysis
 from lir_element import Features
+from tests.refusals import refused
 
 MOTION = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.0, 41)), y=np.ones(41), dt=0.01)
 STRUCTURE = ("node_displacement", "bearing_force", "storey_shear", "energy", "static_axial_force")
@@ -69,6 +71,33 @@ def test_a_second_run_is_the_first_to_the_bit(level: str, nothing_kept: list[int
     assert same(first, run(building(), level=level))
     assert again.attrs["audit"] == first.attrs["audit"]
     assert again.attrs["seconds_gravity"] < first.attrs["seconds_gravity"]
+
+
+@pytest.mark.parametrize("level", ["pendulum", {"bearing-0-0": "contact"}])
+def test_runs_of_an_analysis_are_time_histories(level: Any, nothing_kept: list[int]) -> None:
+    frame, features = building(), Features(rims=False)
+    kept = Analysis(frame, level, features)
+    first = kept.run(MOTION, dt=0.01)
+    frame.add_mass("floor-1-0-0", 1e3)
+    assert same(first, kept.run(MOTION, dt=0.01))
+    assert len(nothing_kept) == 1
+    alone = run(building(), level=level, features=features, dt=0.01)
+    assert same(first, alone)
+    timed = {"seconds_gravity", "seconds_loop", "date"}
+    left = {name for name in alone.attrs if str(alone.attrs[name]) != str(first.attrs[name])}
+    assert left <= timed
+
+
+@pytest.mark.parametrize("level", ["auto", "rigid_body"])
+def test_an_analysis_has_one_equilibrium(level: str) -> None:
+    refused(
+        ValueError,
+        "has no equilibrium that runs share: use time_history",
+        Analysis,
+        building(),
+        level,
+    )
+    refused(TypeError, "frame = None must be a Frame", Analysis, None)
 
 
 def test_a_case_of_its_own_has_its_own(nothing_kept: list[int]) -> None:

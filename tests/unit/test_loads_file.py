@@ -14,7 +14,7 @@ from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.structure_statement import structure_rows
-from frames.library.building_plan import fields_of
+from frames.model.plane_faces import fields_of
 from tests.scenes import STICK
 from tests.unit.test_structure_file import GRID, MEMBERS, REST
 

@@ -21,15 +21,17 @@ from typer.testing import CliRunner
 from frames import AnalysisInterrupted, load, time_history
 from frames.batch.runs import Runs
 from frames.command.app import app
-from frames.design import ProjectError, with_property_bounds
+from frames.design import CheckError, ProjectError, Superstructure, with_property_bounds
 from frames.design.project import example, level_runs
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.quantities import si
 from frames.design.project.reading import read_project, schema
+from frames.design.project.schema_structure import SuperstructureTable
 from frames.design.project.speed import Way
 from frames.design.report import files, writing
 from frames.design.sizing.target import INTERFACE_PRESSURE
+from tests.refusals import refused
 from tests.viewed import payload
 
 SMALL = """
@@ -172,6 +174,14 @@ def test_what_is_no_quantity_is_refused(text: object, unit: str, words: str) -> 
         si(text, unit, "175 mm")
 
 
+def test_bounds_of_a_file_are_those_of_python() -> None:
+    above = {"fixed_base_period": 1.0, "storey_weights": (1.0,), "storey_heights": (3.0,), "R": 2.0}
+    for name, value in {"R": 0.5, "importance": 4.0, "wind_shear": -1.0}.items():
+        refused(CheckError, f"{name} = ", Superstructure, **above | {name: value})
+        text = f"{value} N" if name == "wind_shear" else value
+        refused(ValueError, name, SuperstructureTable, **{name: text})
+
+
 def changed(folder: Path, old: str, new: str) -> Path:
     assert old in SMALL
     path = folder / "changed.toml"
@@ -214,6 +224,16 @@ def changed(folder: Path, old: str, new: str) -> Path:
             "[limits]",
             "[superstructure]\nR = 6.0\nimportance = 5.0\n[limits]",
             "importance = 5.0 must be at most 3",
+        ),
+        (
+            "[limits]",
+            "[superstructure]\nR = 13.0\n[limits]",
+            "superstructure.R = 13.0 must be at most 12",
+        ),
+        (
+            "[limits]",
+            '[superstructure]\nR = "eight"\n[limits]',
+            r'R = "eight" is no number.*as "1.0"',
         ),
         ("scale = 0.8", "scale = 0", 'scale = 0 must be "spectrum", or a factor'),
         ("scale = 0.8", "scale = inf", 'must be "spectrum", or a factor'),

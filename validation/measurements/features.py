@@ -19,7 +19,7 @@ import numpy as np
 
 from frames import GroundMotion, audit, gravity, lumped_mass, moment_frame, time_history
 from frames.demo import design, pacoima
-from frames.solve.time_history import escalate_level
+from frames.solve.escalation import escalate_level
 from lir_element import AnalysisWarning, Features
 from validation.page import FOLDER, render
 from validation.scenes import example_bearing

@@ -61,8 +61,8 @@ class Superstructure:
     fixed_base_period: float = field(metadata=number("s", "(0, inf)"))
     storey_weights: tuple[float, ...] = field(metadata=number("N", "(0, inf)"))
     storey_heights: tuple[float, ...] = field(metadata=number("m", "(0, inf)"))
-    R: float = field(metadata=number("-", "(0, inf)"))
-    importance: float = field(default=1.0, metadata=number("-", "(0, inf)"))
+    R: float = field(metadata=number("-", "[1, 12]"))
+    importance: float = field(default=1.0, metadata=number("-", "(0, 3]"))
     storey_stiffness: tuple[float, ...] | None = field(
         default=None, metadata=number("N/m", "(0, inf)")
     )

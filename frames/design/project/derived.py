@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import types
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -32,9 +33,15 @@ from pydantic import (
     model_validator,
 )
 
-from frames.design.project.quantities import number_or_infinity
+from frames.design.project.quantities import (
+    NotNegative,
+    Positive,
+    number_or_infinity,
+    quantity,
+)
+from lir_element.argument_checks import interval
 from lir_element.device.friction import CoulombFriction, FrictionLaw, VelocityFriction, known_laws
-from lir_element.fields import unit_of
+from lir_element.fields import said_of, unit_of
 
 _NUMBER, _PAIR = "[number]", "[pair]"
 
@@ -99,13 +106,28 @@ class DerivedTable(Table):
         return self.made_of(**others | {name: _made(getattr(self, name)) for name in names})
 
 
-def table_of(kind: type) -> type[DerivedTable]:
+def table_of(kind: type, *names: str) -> type[DerivedTable]:
     """Return the table of a dataclass: a key a field, numbers with the units of its fields.
 
-    A field whose default is made by a factory has no key. A friction law may be any that is known
+    Of some fields alone, by their names, the file checks the bounds: what is made of it has more. A
+    field whose default is made by a factory has no key. A friction law may be any that is known
     now (`known_laws`): ``law = "..."`` names its class.
     """
-    return _table_of(kind, tuple(law for law in known_laws() if _fits_a_file(law)))
+    return _table_of(kind, tuple(law for law in known_laws() if _fits_a_file(law)), names)
+
+
+def key_of(kind: type, name: str) -> Any:
+    """Return the type of a key that is a number of a dataclass: with its unit and its bounds."""
+    within = interval(said_of(kind, name)["within"])
+    bounds: list[Any] = []
+    if not within.low:
+        bounds.append(Positive if within.open_below else NotNegative)
+    elif math.isfinite(within.low):
+        bounds.append(Field(gt=within.low) if within.open_below else Field(ge=within.low))
+    if math.isfinite(within.high):
+        bounds.append(Field(lt=within.high) if within.open_above else Field(le=within.high))
+    unit = unit_of(kind, name)
+    return Annotated[quantity(unit, "1.0" if not unit and within.holds(1.0) else ""), *bounds]
 
 
 def _fits_a_file(law: type[FrictionLaw]) -> bool:
@@ -118,15 +140,17 @@ def _fits_a_file(law: type[FrictionLaw]) -> bool:
 
 
 @cache
-def _table_of(kind: type, laws: tuple[type[FrictionLaw], ...]) -> type[DerivedTable]:
+def _table_of(
+    kind: type, laws: tuple[type[FrictionLaw], ...], names: tuple[str, ...] = ()
+) -> type[DerivedTable]:
     hints = get_type_hints(kind)
     keys: dict[str, Any] = {}
     for each in fields(kind):
-        if each.default_factory is not MISSING:
+        if each.default_factory is not MISSING or (names and each.name not in names):
             continue
         default = ... if each.default is MISSING else each.default
-        unit = unit_of(kind, each.name)
-        keys[each.name] = (_kind(hints[each.name], unit, laws), Field(default))
+        held = _kind(hints[each.name], unit_of(kind, each.name), laws)
+        keys[each.name] = (key_of(kind, each.name) if names else held, Field(default))
     if issubclass(kind, FrictionLaw):
         if LAW in keys:
             msg = f'{kind.__name__}: its field "{LAW}" is the key that names a law: rename it'

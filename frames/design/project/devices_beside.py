@@ -17,8 +17,7 @@ from lir_element.elevations import SAME_PLACE
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from frames.design.project.schema import BearingType
-    from frames.design.project.schema_bearing import DamperTable, MoatTable
+    from frames.design.project.schema_bearing import BearingType, DamperTable, MoatTable
     from frames.frame import Frame
     from lir_element import LIRBearing
 

@@ -21,19 +21,18 @@ from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
 from frames.design.project.devices_beside import STANDARD, on_types, types_by_column, with_devices
 from frames.design.project.member_sections import named_section
-from frames.design.project.schema import (
+from frames.design.project.schema import PointsTable, read_points
+from frames.design.project.schema_bearing import Bearing, FactorSources
+from frames.design.project.schema_structure import (
     ImportedModel,
     IrregularFrame,
     MomentFrame,
     OpenSeesModel,
-    PointsTable,
     ShearBuilding,
-    read_points,
 )
-from frames.design.project.schema_bearing import FactorSources
 from frames.design.project.source_files import RunningScript, SourceFiles, tell
 from frames.design.project.structure_loads import BuildingLoads, loads_of
-from frames.design.project.structure_plan import irregular_frame, regular_frame
+from frames.design.project.structure_plan import building_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
 from frames.frame import Frame
 from frames.library.models import shear_building
@@ -45,8 +44,8 @@ if TYPE_CHECKING:
 
     from frames.design.codes.registry import AnalysisMethod
     from frames.design.hazard.spectrum import Spectrum
-    from frames.design.project import schema
-    from frames.design.project.schema import MotionSource, ProjectFile, Structure
+    from frames.design.project.schema import MotionSource, ProjectFile
+    from frames.design.project.schema_structure import Structure
 
 T = TypeVar("T")
 
@@ -218,7 +217,7 @@ class ProjectInputs:
         return motions_of(self.file.motions, self.folder)
 
 
-def bearing_of(given: schema.Bearing, section: str = "bearing") -> LIRBearing:
+def bearing_of(given: Bearing, section: str = "bearing") -> LIRBearing:
     """Return the bearing of a section, or raise a ProjectError."""
     made: Callable[[], LIRBearing] = given.made
     return in_section(section, made)
@@ -232,10 +231,8 @@ def frame_of(
     loads: BuildingLoads | None = None,
 ) -> Frame:
     """Return the structure of a section on its bearings; scripts are found from the folder."""
-    if isinstance(given, MomentFrame):
-        return regular_frame(given, bearing, name, loads)
-    if isinstance(given, IrregularFrame):
-        return irregular_frame(given, bearing, name, folder, loads)
+    if isinstance(given, (MomentFrame, IrregularFrame)):
+        return building_frame(given, bearing, name, folder, loads)
     if loads is not None:
         msg = (
             f'[loads] is for a moment frame or an irregular one: kind = "{given.kind}" has its own '

@@ -21,7 +21,7 @@ from frames.design.histories.motions import period_range
 from frames.design.project.inputs import in_section
 from frames.design.project.moat_checks import clearance_checks
 from frames.design.project.sanity_checks import file_doubts, value_doubts, wind_doubts
-from frames.design.project.schema import ImportedModel, OpenSeesModel
+from frames.design.project.schema_structure import ImportedModel, OpenSeesModel
 from frames.library.moved_masses import with_moved_masses
 from frames.recording.recording import number_of_steps
 from lir_element._version import package_version

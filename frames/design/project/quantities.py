@@ -177,9 +177,10 @@ def number_or_infinity(unit: str) -> Any:
     return Annotated[float, BeforeValidator(read), WithJsonSchema(schema)]
 
 
-def quantity(unit: str) -> Any:
+def quantity(unit: str, example: str = "") -> Any:
     """Return the type of a number with an SI unit, "" of a pure number, for a field of a table."""
-    return Annotated[float, *_kind(unit, EXAMPLES.get(unit.replace("^", ""), f"1 {unit}"))]
+    said = example or EXAMPLES.get(unit.replace("^", ""), f"1 {unit}")
+    return Annotated[float, *_kind(unit, said)]
 
 
 def positive(number: float) -> float:

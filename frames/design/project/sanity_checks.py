@@ -9,9 +9,13 @@ from frames.design.codes.analysis import least_strength
 from frames.design.codes.registry import code_named
 from frames.design.project.devices_beside import STANDARD
 from frames.design.project.inputs import bearing_of
-from frames.design.project.schema import MomentFrame, ShearBuilding
 from frames.design.project.schema_bearing import SIDES
-from frames.design.project.schema_structure import BuildingTable, IrregularFrame
+from frames.design.project.schema_structure import (
+    BuildingTable,
+    IrregularFrame,
+    MomentFrame,
+    ShearBuilding,
+)
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

@@ -13,27 +13,27 @@ from pydantic import Field, create_model, field_validator, model_validator
 
 from frames._csv import csv_lines
 from frames.design._errors import ProjectError
-from frames.design.codes.history_rules import MOST_ECCENTRIC
+from frames.design.codes.history_rules import MOST_ECCENTRIC, HistoryRules
 from frames.design.codes.registry import DesignCode, code_named, known_codes
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.code_rules import canonical
-from frames.design.project.derived import Table, WholeFile, table_of
-from frames.design.project.quantities import Acceleration, Length, Positive, Ratio, Time, quantity
-from frames.design.project.schema_bearing import Bearing as Bearing
-from frames.design.project.schema_bearing import BearingType as BearingType
-from frames.design.project.schema_bearing import Bounds as Bounds
-from frames.design.project.schema_bearing import DamperTable as DamperTable
-from frames.design.project.schema_bearing import MoatTable as MoatTable
-from frames.design.project.schema_bearing import bearing_table as bearing_table
-from frames.design.project.schema_bearing import bearing_type_table, completed
-from frames.design.project.schema_structure import ImportedModel as ImportedModel
-from frames.design.project.schema_structure import IrregularFrame as IrregularFrame
-from frames.design.project.schema_structure import MomentFrame as MomentFrame
-from frames.design.project.schema_structure import OpenSeesModel as OpenSeesModel
-from frames.design.project.schema_structure import ShearBuilding as ShearBuilding
-from frames.design.project.schema_structure import Structure as Structure
-from frames.design.project.schema_structure import SuperstructureTable as SuperstructureTable
-from frames.design.project.structure_loads import LoadsTable as LoadsTable
+from frames.design.project.derived import Table, WholeFile, key_of, table_of
+from frames.design.project.quantities import Acceleration, Positive, Ratio, Time, quantity
+from frames.design.project.schema_bearing import (
+    Bearing,
+    BearingType,
+    Bounds,
+    DamperTable,
+    MoatTable,
+    bearing_table,
+    bearing_type_table,
+    completed,
+)
+from frames.design.project.schema_structure import (
+    Structure,
+    SuperstructureTable,
+)
+from frames.design.project.structure_loads import LoadsTable
 from frames.design.sizing.target import DesignTarget
 from lir_element.units import STANDARD_GRAVITY
 
@@ -184,7 +184,7 @@ class Analysis(Table):
         default=("lower", "nominal", "upper"), min_length=1
     )
     uplift_allowed: bool | None = None
-    least_gap: Length | None = None
+    least_gap: key_of(HistoryRules, "least_gap") | None = None  # type: ignore[valid-type]  # made
     nonstructural: str | None = None
     histories: Literal["governing", "all"] = "governing"
     accidental_eccentricity: Ratio | Literal["none"] | None = None

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 
@@ -25,9 +24,12 @@ SHAPES = ("section", "box", "rectangle", "circle", "i_shape", "properties")
 """Ways of giving a cross-section, of which a table has one."""
 
 
-def one_or_more(name: str) -> Callable[[object], str]:
-    """Return what tells a table from a list of them, by the tag of each."""
-    return lambda given: f"[[{name}]]" if isinstance(given, (list, tuple)) else f"[{name}]"
+def one_or_more(kind: Any, name: str) -> Any:
+    """Return the type of one value or a list of them, told apart by tags of this name."""
+    one, more = f"[{name}]", f"[[{name}]]"
+    ways = Annotated[kind, Tag(one)] | Annotated[tuple[kind, ...], Tag(more), Field(min_length=1)]
+    told = Discriminator(lambda given: more if isinstance(given, (list, tuple)) else one)
+    return Annotated[ways, told]
 
 
 def _listed(given: object) -> object:
@@ -178,28 +180,3 @@ class WallTable(Table):
     length: Size | None = None
     cracked: Cracked | None = None
     storeys: tuple[Count, Count] | None = None
-
-
-Columns = Annotated[
-    Annotated[ColumnsTable, Tag("[ColumnsTable]")]
-    | Annotated[tuple[ColumnsTable, ...], Tag("[[ColumnsTable]]"), Field(min_length=1)],
-    Discriminator(one_or_more("ColumnsTable")),
-]
-Beams = Annotated[
-    Annotated[BeamsTable, Tag("[BeamsTable]")]
-    | Annotated[tuple[BeamsTable, ...], Tag("[[BeamsTable]]"), Field(min_length=1)],
-    Discriminator(one_or_more("BeamsTable")),
-]
-BaseBeams = Annotated[
-    Annotated[BaseBeamsTable, Tag("[BaseBeamsTable]")]
-    | Annotated[tuple[BaseBeamsTable, ...], Tag("[[BaseBeamsTable]]"), Field(min_length=1)],
-    Discriminator(one_or_more("BaseBeamsTable")),
-]
-"""One table, or a list of them."""
-
-Heights = Annotated[
-    Annotated[Size, Tag("[number]")]
-    | Annotated[tuple[Size, ...], Tag("[list]"), Field(min_length=1)],
-    Discriminator(lambda v: "[list]" if isinstance(v, (list, tuple)) else "[number]"),
-]
-"""Height of all storeys, or one for each."""

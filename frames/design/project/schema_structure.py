@@ -8,14 +8,13 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from frames.design.codes.registry import MOST_IMPORTANT
-from frames.design.project.derived import Table
+from frames.design.codes.superstructure import Superstructure
+from frames.design.project.derived import Table, key_of, table_of
 from frames.design.project.quantities import (
     Acceleration,
     AreaMass,
     Eccentricity,
     Force,
-    Length,
     Mass,
     NotNegative,
     Positive,
@@ -23,54 +22,28 @@ from frames.design.project.quantities import (
     Stiffness,
 )
 from frames.design.project.schema_sections import (
-    BaseBeams,
-    Beams,
+    BaseBeamsTable,
+    BeamsTable,
     BraceTable,
-    Columns,
+    ColumnsTable,
     Count,
-    Heights,
     SectionTable,
     Size,
     WallTable,
+    one_or_more,
 )
 
+_RESULT_TABLES = """
+bearings bench checks compare compare-motions demands demands-by-motion eccentricity
+equivalent-linear friction links member-groups members members-without-forces modes motions
+programme provisions reactions storeys
+"""
+_RESULT_OTHERS = """
+checks.txt compare.html governing.nc interrupted.nc project.toml report.html report.pdf run.json
+view.html
+"""
 RESULT_FILES = frozenset(
-    {
-        *(
-            f"{name}.csv"
-            for name in (
-                "bearings",
-                "bench",
-                "checks",
-                "compare",
-                "compare-motions",
-                "demands",
-                "demands-by-motion",
-                "eccentricity",
-                "equivalent-linear",
-                "friction",
-                "links",
-                "member-groups",
-                "members",
-                "members-without-forces",
-                "modes",
-                "motions",
-                "programme",
-                "provisions",
-                "reactions",
-                "storeys",
-            )
-        ),
-        "checks.txt",
-        "compare.html",
-        "governing.nc",
-        "interrupted.nc",
-        "project.toml",
-        "report.html",
-        "report.pdf",
-        "run.json",
-        "view.html",
-    }
+    [*(f"{name}.csv" for name in _RESULT_TABLES.split()), *_RESULT_OTHERS.split()]
 )
 """Files of fixed names; time histories are ``runs-<bound>.nc`` and ``moved-<bound>.nc`` besides."""
 
@@ -79,9 +52,6 @@ def is_result(name: str) -> bool:
     """Return whether a file of a name would be written over, on any system."""
     return name.lower() in RESULT_FILES
 
-
-MOST_REDUCING = 12.0
-"""Largest response modification factor [-]; codes have 1 to 11."""
 
 _PRESSURE = re.compile(r"N\s*/\s*m|Pa|lbf|psf|kip")
 
@@ -116,10 +86,10 @@ class MomentFrame(BuildingTable):
     bays: tuple[Count, Count]
     bay_width: tuple[Size, Size]
     storeys: int = Field(ge=1)
-    storey_height: Heights
-    columns: Columns | None = None
-    beams: Beams | None = None
-    base_beams: BaseBeams | None = None
+    storey_height: one_or_more(Size, "number")  # type: ignore[valid-type]  # made, as below
+    columns: one_or_more(ColumnsTable, "ColumnsTable") | None = None  # type: ignore[valid-type]
+    beams: one_or_more(BeamsTable, "BeamsTable") | None = None  # type: ignore[valid-type]
+    base_beams: one_or_more(BaseBeamsTable, "BaseBeamsTable") | None = None  # type: ignore[valid-type]
 
     @property
     def heights(self) -> tuple[float, ...]:
@@ -252,10 +222,10 @@ Structure = Annotated[
 ]
 
 
-class SuperstructureTable(Table):
+_OF_FILE = ("importance", "wind_shear", "service_displacement")
+
+
+class SuperstructureTable(table_of(Superstructure, *_OF_FILE)):  # type: ignore[misc]  # its keys
     """``[superstructure]``: what design formulas need of it besides the model."""
 
-    R: float | None = Field(default=None, ge=1.0, le=MOST_REDUCING)
-    importance: float = Field(default=1.0, gt=0.0, le=MOST_IMPORTANT)
-    wind_shear: Annotated[Force, NotNegative] = 0.0
-    service_displacement: Annotated[Length, NotNegative] = 0.0
+    R: key_of(Superstructure, "R") | None = None  # type: ignore[valid-type]  # made

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from frames._errors import ModelWarning, MotionError
 from frames.design._errors import ProjectError
 from frames.design.hazard.motion_folder import files_of, table_rows
-from frames.design.project.schema import ImportedModel, IrregularFrame, OpenSeesModel
+from frames.design.project.schema_structure import ImportedModel, IrregularFrame, OpenSeesModel
 from lir_element.argument_checks import shown
 
 if TYPE_CHECKING:

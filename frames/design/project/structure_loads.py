@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple, Self
 
+import numpy as np
 from pydantic import Field, model_validator
 
+from frames._errors import ModelError
 from frames.design.project.derived import Table
 from frames.design.project.quantities import AreaLoad, LineLoad, NotNegative, Ratio
-from frames.library.building_loads import Pressures, add_base_inertia, load_floors, move_loads
+from frames.library.building_plan import level_name
 from frames.library.moment_frames import DEFAULT_BASE_DEPTH
+from frames.model.load_combinations import applied_loads, load_masses
+from frames.model.plane_faces import fields_of
 
 if TYPE_CHECKING:
+    from frames._types import FloatArray
     from frames.design.codes.history_rules import LoadRule
     from frames.frame import Frame
     from frames.library.building_plan import BuildingPlan
@@ -88,16 +93,106 @@ def apply_loads(
     frame: Frame, plan: BuildingPlan, loads: BuildingLoads, eccentricity: tuple[float, float]
 ) -> None:
     """Put the loads of a project on its building, and make masses of them."""
-    table = loads.table
-    pressures = Pressures(
-        floors=table.of_field(base=False, roof=False),
-        roof=table.of_field(base=False, roof=True),
-        base=table.of_field(base=True, roof=False),
-        open_base=table.of_field(base=True, roof=True),
-        facade=table.facade,
-    )
     frame.set_mass_source(loads.mass)
     edges = [plan.edges(level) for level in range(len(plan.heights) + 1)]
-    load_floors(frame, edges, pressures, table.span)
+    load_floors(frame, edges, loads.table)
     move_loads(frame, eccentricity)
     add_base_inertia(frame, DEFAULT_BASE_DEPTH)
+
+
+FACADE = "D"
+"""Load case of facades."""
+
+
+def load_floors(
+    frame: Frame,
+    edges: Sequence[list[tuple[str, str]]],
+    loads: LoadsTable,
+) -> None:
+    """Put loads on the floors of a building: on each field that beams enclose."""
+    points = {name: (node.x, node.y) for name, node in frame.nodes.items()}
+    levels = [fields_of(points, own, level_name(k)) for k, own in enumerate(edges)]
+    members = {frozenset((m.i, m.j)): key for key, m in frame.members.items()}
+    for level, found in enumerate(levels):
+        name = level_name(level)
+        if not found.corners:
+            msg = f"{name}: its beams enclose no field that a load could lie on: add some around it"
+            raise ModelError(msg)
+        above = [_outline(points, each) for other in levels[level + 1 :] for each in other.corners]
+        for k, corners in enumerate(found.corners):
+            middle = _outline(points, corners).mean(axis=0)
+            covered = any(_inside(middle, outline) for outline in above)
+            for case, pressure in loads.of_field(base=level == 0, roof=not covered).items():
+                if pressure > 0.0:
+                    panel = f"{case}-{name}-{k + 1}"
+                    frame.add_floor_load(panel, corners, pressure, span=loads.span, case=case)
+        if loads.facade > 0.0 and level > 0:
+            load = (0.0, 0.0, -loads.facade)
+            for edge in found.outer:
+                frame.add_uniform_load(members[frozenset(edge)], load, case=FACADE)
+
+
+def _outline(points: Mapping[str, tuple[float, float]], corners: Sequence[str]) -> FloatArray:
+    return np.array([points[node] for node in corners])
+
+
+def _inside(place: FloatArray, outline: FloatArray) -> bool:
+    # Whether a place is inside of a convex outline that runs anticlockwise.
+    along, to = np.roll(outline, -1, axis=0) - outline, place - outline
+    return bool((along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0] > 0.0).all())
+
+
+def move_loads(frame: Frame, eccentricity: tuple[float, float]) -> None:
+    """Move the centre of the loads of each level, case by case, by forces on its nodes.
+
+    The loads of the nodes rise linearly towards where the centre goes; their sum stays.
+    """
+    if not any(eccentricity):
+        return
+    added: list[tuple[str, float, str]] = []
+    for case in frame.load_cases:
+        weights = _node_loads(frame, case)
+        for level in frame.levels:
+            own = {node: weights[node] for node in level.nodes if weights.get(node, 0.0) > 0.0}
+            if own:
+                added += [
+                    (node, more, case) for node, more in _tilted(frame, own, eccentricity).items()
+                ]
+    for node, more, case in added:
+        frame.add_load(node, (0.0, 0.0, -more, 0.0, 0.0, 0.0), case=case)
+
+
+def _node_loads(frame: Frame, case: str) -> dict[str, float]:
+    # What the loads of a case weigh at each node, by the rule of the lever [N].
+    alone = frame.copy()
+    alone.set_mass_source({case: 1.0})
+    masses = load_masses(alone, applied_loads(alone))
+    return {node: mass * frame.gravity for node, mass in masses.items()}
+
+
+def _tilted(
+    frame: Frame, own: Mapping[str, float], eccentricity: tuple[float, float]
+) -> dict[str, float]:
+    places = np.array([frame.nodes[node].position[:2] for node in own])
+    weights = np.array(list(own.values()))
+    sides = np.ptp(places, axis=0)
+    apart = places - weights @ places / weights.sum()
+    spread: FloatArray = (apart * weights[:, None]).T @ apart
+    wanted = weights.sum() * np.array(eccentricity) * sides
+    slope, *_ = np.linalg.lstsq(spread, wanted, rcond=1e-12)
+    tilt = apart @ slope
+    if tilt.min() < -1.0:
+        msg = (
+            f"eccentricity = {list(eccentricity)} would leave columns at one edge without load: "
+            "give smaller ones (codes ask for 0.05)"
+        )
+        raise ModelError(msg)
+    return dict(zip(own, (weights * tilt).tolist(), strict=True))
+
+
+def add_base_inertia(frame: Frame, depth: float) -> None:
+    """Give the nodes above the bearings the rotary inertia of their mass over a depth."""
+    masses = load_masses(frame, applied_loads(frame))
+    for link in frame.bearings.values():
+        inertia = masses.get(link.j, 0.0) * depth**2 / 12.0
+        frame.add_mass(link.j, 0.0, (inertia, inertia, 0.0))

@@ -1,4 +1,4 @@
-"""From ``[structure]`` of kind "moment frame" to the frame on its bearings."""
+"""From ``[structure]`` of columns and beams to the frame on its bearings."""
 
 from __future__ import annotations
 
@@ -13,14 +13,12 @@ from frames.design.project.irregular_plan import irregular_plan
 from frames.design.project.member_sections import (
     NamedSection,
     by_storey,
-    cracked_said,
-    material_of,
     named_section,
     storeys_of,
 )
-from frames.design.project.schema_sections import BeamsTable, ColumnsTable
+from frames.design.project.schema_sections import BeamsTable, ColumnsTable, SectionTable
+from frames.design.project.schema_structure import MomentFrame
 from frames.design.project.structure_loads import BuildingLoads, LoadsTable, apply_loads
-from frames.frame import Frame
 from frames.library.building import build
 from frames.library.building_plan import BracePart, BuildingPlan, WallPart, regular_plan
 from frames.library.moment_frames import (
@@ -39,7 +37,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from frames.design.project.schema_sections import BraceTable, WallTable
-    from frames.design.project.schema_structure import BuildingTable, IrregularFrame, MomentFrame
+    from frames.design.project.schema_structure import BuildingTable, IrregularFrame
+    from frames.frame import Frame
     from lir_element import LIRBearing
 
 T = TypeVar("T")
@@ -92,12 +91,6 @@ def _rods(plan: BuildingPlan, given: BraceTable) -> list[BracePart]:
     ]
 
 
-def wall_length(plan: BuildingPlan, given: WallTable) -> float:
-    """Return the length of a wall [m]: its own, else the distance between its columns."""
-    apart = math.dist(*(plan.lines[line] for line in given.between))
-    return apart if given.length is None else given.length
-
-
 def _wall(plan: BuildingPlan, given: WallTable) -> WallPart:
     _require_lines(plan, given.between)
     storeys = storeys_of(given.storeys, len(plan.heights))
@@ -107,22 +100,18 @@ def _wall(plan: BuildingPlan, given: WallTable) -> WallPart:
             f"bearings: [1, {storeys[-1]}]; one on beams needs shells or a frame of your own"
         )
         raise ProjectError(msg)
-    length, material = wall_length(plan, given), material_of(given.material)
+    apart = math.dist(*(plan.lines[line] for line in given.between))
+    length = apart if given.length is None else given.length
     if given.thickness > 0.5 * length:
         msg = (
             f"thickness = {given.thickness:g} m is more than half of the length {length:g} m: "
             "that is a column, or look at the unit"
         )
         raise ProjectError(msg)
-    section = Section.rectangle(
-        given.thickness,
-        length,
-        elastic_modulus=material.elastic_modulus,
-        poisson_ratio=material.poisson_ratio,
-        density=material.density,
+    own = SectionTable.model_construct(
+        rectangle=(given.thickness, length), material=given.material, cracked=given.cracked
     )
-    section, _ = cracked_said(section, given.cracked)
-    return WallPart(*given.between, storeys[-1], section)
+    return WallPart(*given.between, storeys[-1], named_section(own, column=False).section)
 
 
 Kind = TypeVar("Kind", bound=ColumnsTable | BeamsTable)
@@ -177,41 +166,23 @@ def _sections(
     return [made[id(one)] for one in chosen]
 
 
-def regular_frame(
-    given: MomentFrame, bearing: LIRBearing, name: str, loads: BuildingLoads | None = None
-) -> Frame:
-    """Return a regular frame on its bearings."""
-    _require_one_load(given, loads)
-    own = sections_of(given)
-    plan = regular_plan(
-        given.bays,
-        given.bay_width,
-        given.heights,
-        [(column.section, column.up) for column in own.columns],
-        {d: [each.section for each in (own.base_beams[d], *own.beams[d])] for d in DIRECTIONS},
-    )
-    plan = with_walls_and_braces(plan, given)
-    frame = build(plan, bearing, name=name, damping=_damping(given))
-    if given.floor_load is None:
-        if loads is not None:
-            apply_loads(frame, plan, loads, given.eccentricity)
-        return frame
-    masses = tributary_masses(given.bays, given.bay_width, given.floor_load, given.eccentricity)
-    add_floor_masses(frame, given.storeys, masses, DEFAULT_BASE_DEPTH)
-    return frame
-
-
-def irregular_frame(
-    given: IrregularFrame,
+def building_frame(
+    given: MomentFrame | IrregularFrame,
     bearing: LIRBearing,
     name: str,
     folder: Path,
     loads: BuildingLoads | None = None,
 ) -> Frame:
-    """Return an irregular frame on its bearings."""
+    """Return a frame of columns and beams on its bearings, loaded; tables are in the folder."""
     _require_one_load(given, loads)
-    plan = with_walls_and_braces(irregular_plan(given, folder), given)
-    frame = build(plan, bearing, name=name, damping=_damping(given))
+    plan = _regular_plan(given) if isinstance(given, MomentFrame) else irregular_plan(given, folder)
+    plan = with_walls_and_braces(plan, given)
+    damping = ModalDamping(given.damping) if given.damping > 0.0 else None
+    frame = build(plan, bearing, name=name, damping=damping)
+    if given.floor_load is not None and isinstance(given, MomentFrame):
+        masses = tributary_masses(given.bays, given.bay_width, given.floor_load, given.eccentricity)
+        add_floor_masses(frame, given.storeys, masses, DEFAULT_BASE_DEPTH)
+        return frame
     if given.floor_load is not None:
         dead = LoadsTable.model_construct(dead=given.floor_load * frame.gravity)
         loads = BuildingLoads(dead, {"D": 1.0})
@@ -220,8 +191,15 @@ def irregular_frame(
     return frame
 
 
-def _damping(given: MomentFrame | IrregularFrame) -> ModalDamping | None:
-    return ModalDamping(given.damping) if given.damping > 0.0 else None
+def _regular_plan(given: MomentFrame) -> BuildingPlan:
+    own = sections_of(given)
+    return regular_plan(
+        given.bays,
+        given.bay_width,
+        given.heights,
+        [(column.section, column.up) for column in own.columns],
+        {d: [each.section for each in (own.base_beams[d], *own.beams[d])] for d in DIRECTIONS},
+    )
 
 
 def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads | None) -> None:

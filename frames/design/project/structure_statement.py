@@ -21,6 +21,7 @@ from frames.design.project.schema_structure import (
 from frames.design.project.structure_loads import loads_of
 from frames.design.project.structure_plan import DIRECTIONS, sections_of
 from frames.model.components import DEFAULT_CASE
+from frames.model.plane_faces import area_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -92,12 +93,11 @@ def _named_sections(given: IrregularFrame, frame: Frame) -> Rows:
 def _areas(frame: Frame) -> Rows:
     # Areas that loads lie on, floors of one area together.
     found = {level.name: 0.0 for level in frame.levels}
+    places = {name: (node.x, node.y) for name, node in frame.nodes.items()}
     for load in frame.floor_loads.values():
-        corners = [frame.nodes[node] for node in load.nodes]
-        pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
-        level = next(each.name for each in frame.levels if corners[0].name in each.nodes)
+        level = next(each.name for each in frame.levels if load.nodes[0] in each.nodes)
         if load.case == DEFAULT_CASE:
-            found[level] += 0.5 * sum(a.x * b.y - b.x * a.y for a, b in pairs)
+            found[level] += area_of(places, load.nodes)
     if not any(found.values()):
         return []
     said = []

@@ -12,7 +12,7 @@ from frames._errors import ModelError, MotionError
 from frames.design._errors import CheckError, ProjectError
 from frames.design.project.design_run import run_project
 from frames.design.project.inputs import ProjectInputs
-from frames.design.project.schema import bearing_table
+from frames.design.project.schema_bearing import bearing_table
 from frames.results.quantities import DEMANDS
 from lir_element.errors import AnalysisError
 

@@ -12,7 +12,7 @@ from frames.design.codes.history_rules import LOADS_OF_ASCE
 from frames.design.project.derived import DerivedTable
 from frames.design.project.inputs import bearing_of, frame_of, in_section, motions_of
 from frames.design.project.reading import read_file
-from frames.design.project.schema import Bearing, bearing_table
+from frames.design.project.schema_bearing import Bearing, bearing_table
 from frames.design.project.source_files import load_extensions
 from frames.design.project.structure_loads import loads_of
 from frames.risk._errors import CampaignError

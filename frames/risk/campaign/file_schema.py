@@ -8,7 +8,10 @@ from pydantic import Field, create_model, model_validator
 
 from frames.design.project.derived import Table, WholeFile
 from frames.design.project.quantities import Acceleration, Length, Ratio, SpeedRate, Time, quantity
-from frames.design.project.schema import Bearing, LoadsTable, MotionSource, Structure
+from frames.design.project.schema import MotionSource
+from frames.design.project.schema_bearing import Bearing
+from frames.design.project.schema_structure import Structure
+from frames.design.project.structure_loads import LoadsTable
 from frames.risk.campaign.comparison import LARGER, SAME_PLAN, ComparedDevices, collapse_limit
 from frames.risk.campaign.designs import names_of
 from frames.risk.fragility.intensity import Intensity, Kind

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lir_element.argument_checks import require_choice
+from lir_element.elevations import SAME_PLACE
 from lir_element.opensees.compare.builtin_mapping import builtin_values
 from lir_element.opensees.compare.builtin_writing import (
     BUILTIN_KINDS,
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
 
 _TAGS = 10  # kept free for each element: materials and friction models
 _FIRST_TAG = 1_000_000
-_POSITION = 1e-3  # m, how far nodes may be from where the bearing needs them
 
 
 def builtin_commands(
@@ -252,11 +252,11 @@ def _check_nodes(ops: Any, tag: int, i: int, j: int, bearing: LIRBearing) -> boo
     below, above = ops.nodeCoord(i), ops.nodeCoord(j)
     rise = above[2] - below[2]
     aside = math.hypot(above[0] - below[0], above[1] - below[1])
-    if aside > _POSITION or min(abs(rise), abs(rise - bearing.height)) > _POSITION:
+    if aside > SAME_PLACE or min(abs(rise), abs(rise - bearing.height)) > SAME_PLACE:
         msg = (
             f"node {j} is {rise:g} m above node {i} and {aside:g} m beside it: it must stand on "
             f"one vertical, 0 or the bearing's height {bearing.height:g} m above; the model must "
             "be in m, N and s: in other units take bearing_element, with length_unit and force_unit"
         )
         raise ValueError(msg)
-    return bool(abs(rise) > _POSITION)
+    return bool(abs(rise) > SAME_PLACE)
