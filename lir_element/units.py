@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from lir_element.texts import joined, worded
+
 STANDARD_GRAVITY = 9.80665
 """Standard acceleration of gravity [m/s2]."""
 
@@ -24,11 +26,19 @@ OTHER_UNITS: dict[str, tuple[tuple[str, float], ...]] = {
 def meant(value: float, unit: str, low: float, high: float) -> str:
     """Return which unit makes a number of the wrong size a usual one, as the end of a sentence."""
     fitting = [
-        f"{value:.5g} {name} are {value * factor:.4g} {unit}"
+        worded(
+            "{value:.5g} {name} are {same:.4g} {unit}",
+            value=value,
+            name=name,
+            same=value * factor,
+            unit=unit,
+        )
         for name, factor in OTHER_UNITS[unit]
         if low <= value * factor <= high
     ]
-    return f"give {unit} ({', '.join(fitting)})" if fitting else f"give {unit}"
+    if not fitting:
+        return worded("give {unit}", unit=unit)
+    return worded("give {unit} ({units})", unit=unit, units=joined(*fitting, by=", "))
 
 
 def per_cent(value: object) -> str:

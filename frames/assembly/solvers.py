@@ -13,6 +13,7 @@ from scipy import linalg, sparse
 from scipy.sparse import linalg as sparse_linalg
 
 from frames._errors import ModelWarning
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,9 +41,13 @@ def solve_positive(
     if told:
         weak = np.abs(linalg.eigh(scaled, subset_by_index=[0, 0])[1][:, 0])
         warnings.warn(
-            f'the {what} near "{labels[int(weak.argmax())]}" is lost in the round-off of its '
-            "neighbours, which are 1e16 times as large: give what is meant to be rigid 1,000 times "
-            "theirs, or join it by a diaphragm or offsets",
+            worded(
+                'the {what} near "{label}" is lost in the round-off of its neighbours, which are '
+                "1e16 times as large: give what is meant to be rigid 1,000 times theirs, or join "
+                "it by a diaphragm or offsets",
+                what=what,
+                label=labels[int(weak.argmax())],
+            ),
             ModelWarning,
             stacklevel=2,
         )

@@ -9,6 +9,7 @@ from scipy import sparse
 from scipy.sparse import csgraph
 
 from lir_element.argument_checks import listed
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, SparseMatrix
@@ -40,11 +41,14 @@ class LoadPath(NamedTuple):
         if not taken:
             return ""
         names = listed((f'"{node}" ({1e-3 * force:.4g} kN)' for node, force in taken), NAMED)
-        return (
-            f"the bearings carry {1e-3 * self.bearings:.4g} kN of the {1e-3 * self.weight:.4g} kN "
-            f"above them: vertical supports take the rest past them, at {names}. Free their "
-            '"uz" and put the masses where columns or bearings carry them (a diaphragm ties '
-            "nothing vertically), unless these supports are meant"
+        return worded(
+            "the bearings carry {bearings:.4g} kN of the {weight:.4g} kN above them: vertical "
+            'supports take the rest past them, at {names}. Free their "uz" and put the masses '
+            "where columns or bearings carry them (a diaphragm ties nothing vertically), unless "
+            "these supports are meant",
+            bearings=1e-3 * self.bearings,
+            weight=1e-3 * self.weight,
+            names=names,
         )
 
 

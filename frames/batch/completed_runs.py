@@ -13,6 +13,7 @@ from frames.batch.batch_dataset import Layout, RunResult, row_of, stack
 from frames.results.chunks import ENDING, load_chunk, write_chunk
 from frames.results.storage import make_folder
 from lir_element._version import package_version
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -56,9 +57,11 @@ class KeptRuns:
                 found.append(row._replace(layout=layout))  # runs of one structure share theirs
         others = len({*self._folder.glob(f"*{ENDING}")} - {*paths})
         if others and not found:
-            msg = (
-                f"the {others} runs that {self._folder} holds are of another model, motion, option "
-                "or version: they are left aside"
+            msg = worded(
+                "the {count} runs that {folder} holds are of another model, motion, option or "
+                "version: they are left aside",
+                count=others,
+                folder=self._folder,
             )
             warnings.warn(msg, ModelWarning, stacklevel=4)
         return found

@@ -10,6 +10,7 @@ from frames._errors import ModelError
 from frames._remedies import argument
 from lir_element.argument_checks import require_choice, require_positive, require_type
 from lir_element.tables import text_table
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -116,16 +117,21 @@ class Account:
     def unknown(self, fields: Collection[tuple[str, str, Row, int]]) -> None:
         """Doubt fields of known tables that are not known here, once for each table."""
         for table in dict.fromkeys(table for table, *_ in fields):
-            said = {
-                f'{field} = "{row.values[field]}" (line {row.line}{_more(count)})': row
+            found = {
+                _of_line(f'{field} = "{row.values[field]}"', row.line, count): row
                 for name, field, row, count in fields
                 if name == table
             }
-            self.left_out(table, "words that are not known here", list(said))
+            self.left_out(table, "words that are not known here", list(found))
             self.doubts.append(
-                f"{self.file}, {table}: words that are not known here were not read: "
-                f"{self.some(said)}; look up in that program whether they change the model, and "
-                "model it without them if they do"
+                worded(
+                    "{file}, {table}: words that are not known here were not read: {words}; look "
+                    "up in that program whether they change the model, and model it without them "
+                    "if they do",
+                    file=self.file,
+                    table=table,
+                    words=self.some(found),
+                )
             )
 
     def refuse(
@@ -142,7 +148,12 @@ class Account:
             )
             raise ModelError(message)
         self._used.add(key)
-        self._add(LEFT_OUT, table, f'{what}; accepted by allow = "{key}"', names)
+        self._add(
+            LEFT_OUT,
+            table,
+            worded('{what}; accepted by allow = "{key}"', what=what, key=key),
+            names,
+        )
 
     def finish(self) -> None:
         """Raise where `allow` names something that the file does not have."""
@@ -158,7 +169,8 @@ class Account:
         """Return the first names of many, and how many more there are."""
         shown = [str(name) for name in list(names)[: self.SHOWN]]
         more = (len(names) if count is None else count) - len(shown)
-        return ", ".join(shown) + (f" and {more} more" if more else "")
+        first = joined(*shown, by=", ")
+        return worded("{names} and {count} more", names=first, count=more) if more else first
 
     def rows(self) -> list[tuple[str, str, str, str, str, str]]:
         """Return rows of text: fate, table, what, count, share of weight, share of stiffness."""
@@ -167,7 +179,11 @@ class Account:
             (
                 entry.fate,
                 entry.table,
-                entry.what + (f": {self.some(entry.names, entry.count)}" if entry.names else ""),
+                worded(
+                    "{what}: {names}", what=entry.what, names=self.some(entry.names, entry.count)
+                )
+                if entry.names
+                else entry.what,
                 str(entry.count),
                 _share(entry.weight),
                 _share(entry.stiffness),
@@ -207,16 +223,22 @@ def judge_rest(
         if found is not None:
             row, (_, key, what) = tables.rows(name)[0], found
             first = str(next(iter(row.values.values()), ""))
-            account.refuse(key, row.table, f"{what}, {count} {row_word}", [first], row.place)
+            account.refuse(
+                key, row.table, joined(what, f"{count} {row_word}", by=", "), [first], row.place
+            )
     account.unknown(tables.unknown(known))
     rest = [f"{name} ({count})" for name, count in tables.unread().items()]
     table = "other lines" if row_word == "lines" else "other tables"
-    what = f"what the linear model does not need, with their {row_word}"
+    what = worded("what the linear model does not need, with their {rows}", rows=row_word)
     account.left_out(table, what, rest)
 
 
-def _more(count: int) -> str:
-    return f" and {count - 1} more" if count > 1 else ""
+def _of_line(word: str, line: int, count: int) -> str:
+    if count > 1:
+        return worded(
+            "{word} (line {line} and {count} more)", word=word, line=line, count=count - 1
+        )
+    return worded("{word} (line {line})", word=word, line=line)
 
 
 def _share(value: float | None) -> str:

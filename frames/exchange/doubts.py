@@ -10,6 +10,7 @@ from frames.exchange.loads import OWN_MASS, Sizes, own_loads
 from frames.exchange.members import LEAST_FACTOR
 from frames.exchange.stations import is_offset
 from lir_element.elevations import SAME_PLACE
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -45,9 +46,15 @@ def doubt_weights(
     if heavy and sum(without.values()) > WEIGHTLESS * volume:
         part = 100.0 * sum(without.values()) / volume
         account.doubts.append(
-            f'{account.file}: material {_quoted(without)} has no weight, and pattern "{heavy[0]}" '
-            f"has own weight: {part:.3g} % of the volume of all elements do not weigh; give the "
-            "material its weight in that program, and export it again"
+            worded(
+                '{file}: material {names} has no weight, and pattern "{pattern}" has own weight: '
+                "{part:.3g} % of the volume of all elements do not weigh; give the material its "
+                "weight in that program, and export it again",
+                file=account.file,
+                names=_quoted(without),
+                pattern=heavy[0],
+                part=part,
+            )
         )
     loads: list[LineLoad | AreaLoad | JointLoad] = [
         *building.line_loads,
@@ -74,18 +81,33 @@ def doubt_weights(
     low, high = MASS_OVER_WEIGHT
     if low <= mass / weight <= high:
         return
-    said = ", ".join(f"{1e-3 * v / gravity:.4g} t {word}" for word, v in parts.items() if v)
+    masses = (
+        worded("{mass:.4g} t {where}", mass=1e-3 * v / gravity, where=word)
+        for word, v in parts.items()
+        if v
+    )
     what = (
-        f"{100.0 * (1.0 - weight / mass):.3g} % of the mass has no weight, so that the bearings "
-        "carry too little"
+        worded(
+            "{part:.3g} % of the mass has no weight, so that the bearings carry too little",
+            part=100.0 * (1.0 - weight / mass),
+        )
         if mass > weight
-        else f"{100.0 * (1.0 - mass / weight):.3g} % of the permanent loads are no mass"
+        else worded(
+            "{part:.3g} % of the permanent loads are no mass", part=100.0 * (1.0 - mass / weight)
+        )
     )
     same = {name: share for name, share in shares.items() if share and down.get(name, 0.0) > 0.0}
     account.doubts.append(
-        f"{account.file}: the mass ({said}) would weigh {1e-3 * mass:.4g} kN, and the permanent "
-        f"loads are {1e-3 * weight:.4g} kN: {what}; mend the file, or let what weighs be the mass, "
-        f"{argument('mass', same)}"
+        worded(
+            "{file}: the mass ({said}) would weigh {mass:.4g} kN, and the permanent loads are "
+            "{weight:.4g} kN: {what}; mend the file, or let what weighs be the mass, {remedy}",
+            file=account.file,
+            said=joined(*masses, by=", "),
+            mass=1e-3 * mass,
+            weight=1e-3 * weight,
+            what=what,
+            remedy=argument("mass", same),
+        )
     )
 
 
@@ -102,18 +124,30 @@ def doubt_base(
         if part.kind in {"equal", "body"} and "uz" in part.dofs and len(tied) > 1:
             how = "settle by the same" if part.kind == "equal" else "settle as one rigid block"
             account.doubts.append(
-                f'{account.file}: constraint "{part.name}" ties uz of {len(tied)} joints on '
-                f"bearings, which {how}: a bearing does not carry the column above it; take UZ out "
-                "of the constraint, and RX and RY with it, unless the base is that stiff"
+                worded(
+                    '{file}: constraint "{name}" ties uz of {count} joints on bearings, which '
+                    "{how}: a bearing does not carry the column above it; take UZ out of the "
+                    "constraint, and RX and RY with it, unless the base is that stiff",
+                    file=account.file,
+                    name=part.name,
+                    count=len(tied),
+                    how=how,
+                )
             )
     beams = [m.name for m in frame.members.values() if {m.i, m.j} <= tops]
     held = sorted(set(turned) & tops)
     if options.base_rotations == "kept" and held and beams:
         account.doubts.append(
-            f"{account.file}: the supports hold the rotations of {len(held)} joints on bearings "
-            f'({account.some(held)}), and beams join them ("{beams[0]}"): moments of the columns '
-            "go to the ground in place of the beams and the bearings; let the beams hold them, "
-            f"{argument('base_rotations', 'free')}"
+            worded(
+                "{file}: the supports hold the rotations of {count} joints on bearings ({some}), "
+                'and beams join them ("{beam}"): moments of the columns go to the ground in place '
+                "of the beams and the bearings; let the beams hold them, {remedy}",
+                file=account.file,
+                count=len(held),
+                some=account.some(held),
+                beam=beams[0],
+                remedy=argument("base_rotations", "free"),
+            )
         )
     level = {frame.nodes[node].z for node in tops}
     every = {node: float(values[0]) for node, values in frame.masses.items()}
@@ -122,10 +156,14 @@ def doubt_base(
     whole = sum(every.values())
     if base < LIGHT_BASE * whole:
         account.doubts.append(
-            f"{account.file}: the level on the bearings has {1e-3 * base:.3g} t, "
-            f"{100.0 * base / whole:.2g} % of the mass: friction shakes it as no floor is shaken, "
-            "and its accelerations mean nothing; model the slab or the beams there, or add their "
-            "mass to these joints"
+            worded(
+                "{file}: the level on the bearings has {mass:.3g} t, {part:.2g} % of the mass: "
+                "friction shakes it as no floor is shaken, and its accelerations mean nothing; "
+                "model the slab or the beams there, or add their mass to these joints",
+                file=account.file,
+                mass=1e-3 * base,
+                part=100.0 * base / whole,
+            )
         )
 
 
@@ -138,7 +176,7 @@ def note_members(building: Building, sections: Sections, divided: list[Divided])
     account = building.account
     account.read_as(
         "sections",
-        f"with a stiffness of none, taken as {LEAST_FACTOR:g} of it",
+        worded("with a stiffness of none, taken as {factor:g} of it", factor=LEAST_FACTOR),
         sorted(sections.softened),
     )
     sizes = Sizes(building)

@@ -42,6 +42,7 @@ from frames.exchange.properties import (
 )
 from frames.exchange.reading import TEXT, read_e2k
 from frames.exchange.tables import Row, Tables, Units, known, merged, require_space, units_of
+from lir_element.texts import worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -162,7 +163,7 @@ def _add_area(row: Row, building: Building, sets: dict[str, list[dict[str, Any]]
     name = f"{row.text('Area')}-{row.text('Story')}"
     kind = row.text("TYPE", "").upper()
     if name not in building.areas or kind not in {"UNIFF", "UNIFLOADSET"}:
-        what = f'loads of type "{kind}" on areas, or on areas that are not there'
+        what = worded('loads of type "{kind}" on areas, or on areas that are not there', kind=kind)
         building.account.refuse("loads on nothing", row.table, what, [name], row.place)
     elif kind == "UNIFLOADSET":
         for part in sets[known(row, "uniform load set", row.text(TEXT), sets)]:

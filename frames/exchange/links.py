@@ -18,6 +18,7 @@ from frames.model.laws import Bilinear, Gap, ViscousDamper
 from frames.statics.springs import first_displacement, spring_forces
 from lir_element import CoulombFriction, FrictionLaw, LIRBearing, VelocityFriction
 from lir_element.elevations import SAME_PLACE
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
@@ -139,7 +140,7 @@ class Links:
 
     def _refuse_unknown(self, link: LinkObject, prop: LinkProperty) -> None:
         if prop.unknown:
-            what = f'words of link property "{prop.name}" that are not known here'
+            what = worded('words of link property "{name}" that are not known here', name=prop.name)
             account = self.building.account
             account.refuse("link properties", "links", what, prop.unknown, link.place)
 
@@ -151,11 +152,12 @@ class Links:
         return abs(w - z) if math.hypot(u - x, v - y) < SAME_PLACE else 0.0
 
     def _note_pendulum(self, link: LinkObject, prop: LinkProperty) -> None:
-        what = (
+        as_dcfp = worded(
             "friction isolators, as DCFP of the same radius, friction and stiffness before "
-            f"sliding, two equal surfaces and a rigid slider of radius {SLIDER_RADIUS:g} m"
+            "sliding, two equal surfaces and a rigid slider of radius {radius:g} m without rims",
+            radius=SLIDER_RADIUS,
         )
-        self._note(f"{what} without rims", link.name)
+        self._note(as_dcfp, link.name)
         values = [dof.values for name, dof in prop.dofs.items() if name in {"U2", "U3"}]
         first, last = (value.get("stiffness", 0.0) for value in values)
         if first > 0.0 and math.isclose(first, last, rel_tol=1e-6):
@@ -287,7 +289,7 @@ class Links:
             self.frame.add_link(part, *ends, law_b, direction)
             self._note("yielding links, by each of their directions for itself", link.name)
         elif nonlinear:
-            what = f'links of kind "{prop.kind}", by their linear stiffness'
+            what = worded('links of kind "{kind}", by their linear stiffness', kind=prop.kind)
             account = self.building.account
             account.refuse("nonlinear links", "links", what, [link.name], link.place)
             self._spring(part, ends, axis, dof.stiffness, turns=turns)

@@ -23,6 +23,7 @@ from frames.exchange.loads import vector_of
 from frames.exchange.properties import offsets_of, released, shell_factors
 from frames.exchange.tables import Row, Tables, by_name, known, of_objects
 from frames.model.components import DOFS
+from lir_element.texts import worded
 
 _GROUND = {"", "ground", "gnd", "none"}
 
@@ -245,7 +246,7 @@ def _read_constraints(tables: Tables, building: Building) -> None:
         name = row.text("Constraint")
         kind = row.text("Type", kinds.get(name, ("",))[0]).lower()
         if name not in kinds and kind not in {"diaphragm", "body", "equal"}:
-            what = f'a constraint of type "{kind or "not defined"}"'
+            what = worded('a constraint of type "{kind}"', kind=kind or "not defined")
             building.account.refuse("other constraints", table, what, [name], row.place)
             continue
         kinds.setdefault(name, (kind, DOFS))

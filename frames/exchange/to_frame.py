@@ -25,6 +25,7 @@ from frames.model.editing import FrameEditor
 from frames.model.load_combinations import applied_loads, load_masses
 from lir_element._compile.front_end import without_collection
 from lir_element.elevations import SAME_PLACE
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -120,7 +121,11 @@ def permanent(building: Building, options: Options) -> dict[str, tuple[float, st
         "which are no permanent loads here",
         [name for name in building.patterns if not shares.get(name)],
     )
-    part = [f"{name} by {share:g}" for name, share in shares.items() if share not in {0.0, 1.0}]
+    part = [
+        worded("{name} by {share:g}", name=name, share=share)
+        for name, share in shares.items()
+        if share not in {0.0, 1.0}
+    ]
     account.read_as("load patterns", "permanent loads by a factor", part)
     return {
         name: (share, case_of(building.patterns[name].kind) or "D")
@@ -234,7 +239,7 @@ def _add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
     if mesh.elements:
         add_shells(frame, building, mesh)
         areas = list(dict.fromkeys(area for area, _ in mesh.elements))
-        what = f"shells, in {len(mesh.elements)} elements of OpenSees"
+        what = worded("shells, in {count} elements of OpenSees", count=len(mesh.elements))
         building.account.read_as("areas", what, areas, *Sizes(building).shares(areas))
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
+from lir_element.texts import worded
 from lir_element.units import meant
 
 if TYPE_CHECKING:
@@ -71,7 +72,11 @@ def _of_gravity(frame: FrameData) -> list[str]:
     if g <= 0.0 or USUAL_GRAVITY[0] <= g <= USUAL_GRAVITY[1]:
         return []
     hint = meant(g, "m/s2", *USUAL_GRAVITY)
-    return [f"gravity = {g:g} m/s2 is not the Earth's: {hint} if that is not meant"]
+    return [
+        worded(
+            "gravity = {g:g} m/s2 is not the Earth's: {hint} if that is not meant", g=g, hint=hint
+        )
+    ]
 
 
 def _of_members(frame: FrameData) -> list[str]:
@@ -88,15 +93,25 @@ def _of_members(frame: FrameData) -> list[str]:
     first = next(iter(frame.members))
     if middle > SLENDEREST:
         return [
-            f"half of the members are more than {middle:.3g} radii of gyration long, as thin as a "
-            f'wire (member "{first}": {ratios[0]:.3g}): give coordinates and sections in m, m2 '
-            "and m4 (are the coordinates in mm or cm?)"
+            worded(
+                "half of the members are more than {middle:.3g} radii of gyration long, as thin as "
+                'a wire (member "{first}": {ratios:.3g}): give coordinates and sections in m, m2 '
+                "and m4 (are the coordinates in mm or cm?)",
+                middle=middle,
+                first=first,
+                ratios=ratios[0],
+            )
         ]
     if middle < 1.0 / STOUTEST:
         return [
-            f"half of the members are shorter than {middle:.2g} of their radius of gyration "
-            f'(member "{first}": {ratios[0]:.2g}): give coordinates and sections in m, m2 and m4 '
-            "(are the sections in mm or cm?)"
+            worded(
+                "half of the members are shorter than {middle:.2g} of their radius of gyration "
+                '(member "{first}": {ratios:.2g}): give coordinates and sections in m, m2 and m4 '
+                "(are the sections in mm or cm?)",
+                middle=middle,
+                first=first,
+                ratios=ratios[0],
+            )
         ]
     return []
 
@@ -108,11 +123,21 @@ def _of_sections(frame: FrameData) -> list[str]:
         if modulus < SOFTEST and section.area < LARGEST_AREA:
             hint = meant(modulus, "Pa", 1e9, 5e11)
             found.append(
-                f"a section's elastic_modulus = {modulus:g} Pa is softer than plastic: {hint}"
+                worded(
+                    "a section's elastic_modulus = {modulus:g} Pa is softer than plastic: {hint}",
+                    modulus=modulus,
+                    hint=hint,
+                )
             )
         if 0.0 < density < LIGHTEST:
             hint = meant(density, "kg/m3", 100.0, 2e4)
-            found.append(f"a section's density = {density:g} kg/m3 is lighter than cork: {hint}")
+            found.append(
+                worded(
+                    "a section's density = {density:g} kg/m3 is lighter than cork: {hint}",
+                    density=density,
+                    hint=hint,
+                )
+            )
     return found
 
 
@@ -122,8 +147,12 @@ def _of_floors(frame: FrameData) -> list[str]:
         return []
     load = light[0]
     return [
-        f'floor load "{load.name}" has {load.q:g} N/m2, less than snow or sheeting: '
-        f"{meant(load.q, 'N/m2', 300.0, 5e4)}"
+        worded(
+            'floor load "{name}" has {load:g} N/m2, less than snow or sheeting: {hint}',
+            name=load.name,
+            load=load.q,
+            hint=meant(load.q, "N/m2", 300.0, 5e4),
+        )
     ]
 
 
@@ -133,6 +162,10 @@ def _of_mass_source(frame: FrameData) -> list[str]:
     if not empty:
         return []
     return [
-        f'set_mass_source takes mass from load case "{empty[0]}", of which there is no load: '
-        f"there are {', '.join(cases) or 'no load cases'}"
+        worded(
+            'set_mass_source takes mass from load case "{name}", of which there is no load: there '
+            "are {cases}",
+            name=empty[0],
+            cases=", ".join(cases) or "no load cases",
+        )
     ]

@@ -22,6 +22,7 @@ from frames.motion.number_text import (
 )
 from frames.motion.records import AXES, AccelerationTrace, PathLike
 from lir_element.argument_checks import require_choice
+from lir_element.texts import worded
 
 Source: TypeAlias = int | PathLike | tuple[PathLike, int]
 """Where a component is: a column of the common file, a file, or a column of a file."""
@@ -205,9 +206,12 @@ def _doubt_columns(name: str, table: FloatArray, layout: ColumnLayout) -> None:
     if likely_order(others) != "rows":
         return
     remedy = 'order="rows"' if layout.time is None else 'order="rows" and a file without its times'
-    msg = (
-        f"{name}: each row seems to go on where its columns end: one history row by row, of which "
-        f"a column is every {others.shape[1]}th sample; read it with {remedy}"
+    msg = worded(
+        "{name}: each row seems to go on where its columns end: one history row by row, of which a "
+        "column is every {count}th sample; read it with {remedy}",
+        name=name,
+        count=others.shape[1],
+        remedy=remedy,
     )
     warnings.warn(msg, MotionWarning, stacklevel=5)
 
@@ -226,9 +230,11 @@ def _doubt_rows(name: str, rows: list[list[float]]) -> None:
         )
         raise MotionError(msg)
     if likely_order(table) == "columns":
-        msg = (
-            f"{name}: the {size} numbers of its rows seem to be {size} components: read a column "
-            'of them with order="columns"'
+        msg = worded(
+            "{name}: the {size} numbers of its rows seem to be {size} components: read a column of "
+            'them with order="columns"',
+            name=name,
+            size=size,
         )
         warnings.warn(msg, MotionWarning, stacklevel=6)
 

@@ -15,6 +15,7 @@ from frames._types import FloatArray
 from frames.motion.records import AXES, checked_component, checked_step, equal_lengths
 from frames.motion.transforms import Drift, drift_of, left_at_end
 from lir_element.tables import html_table
+from lir_element.texts import worded
 from lir_element.units import STANDARD_GRAVITY
 
 
@@ -47,9 +48,11 @@ class MotionData:
     def _warn_of_drift(self, *, recorded: bool) -> None:
         left = left_at_end(self._given(), self.dt, recorded=recorded)
         if left:
-            msg = (
-                f"{self.name or 'ground motion'}: the ground is not at rest at its end, {left}. "
-                "corrected() takes that out, unless the motion was cut or shall end so"
+            msg = worded(
+                "{motion}: the ground is not at rest at its end, {left}. corrected() takes that "
+                "out, unless the motion was cut or shall end so",
+                motion=self.name or "ground motion",
+                left=left,
             )
             warnings.warn(msg, MotionWarning, stacklevel=4)
 

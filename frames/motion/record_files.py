@@ -25,6 +25,7 @@ from frames.motion.records import (
     is_at2,
     read_at2,
 )
+from lir_element.texts import worded
 
 _LOOKED_AT = 60
 """Lines at the beginning of a file by which its format is recognised."""
@@ -244,9 +245,12 @@ def _compare_peak(name: str, form: Format, text: str, values: FloatArray) -> Non
     said, peak = abs(float(match[1])) * factor, float(np.abs(values).max())
     digits = 0.5 * 10.0 ** -len(match[1].partition(".")[2]) * factor
     if said > 0.0 and abs(peak - said) > _PEAK_TOLERANCE * said + digits:
-        msg = (
-            f"{name}: its header names a peak of {said:.4g} m/s2, the samples reach {peak:.4g}: "
-            "look into the file, the unit or an offset may not be what the format says"
+        msg = worded(
+            "{name}: its header names a peak of {said:.4g} m/s2, the samples reach {peak:.4g}: "
+            "look into the file, the unit or an offset may not be what the format says",
+            name=name,
+            said=said,
+            peak=peak,
         )
         warnings.warn(msg, MotionWarning, stacklevel=6)
 

@@ -17,6 +17,7 @@ from frames.motion.motion_data import MotionData
 from frames.motion.record_files import record_traces
 from frames.motion.records import AXES, AccelerationTrace, PathLike, at2_traces, common_step
 from frames.motion.transforms import LEAST_RECORD, corrected, drift_of
+from lir_element.texts import worded
 from lir_element.units import STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
@@ -245,7 +246,9 @@ class RecordedMotion(MotionData):
         motion = cls._made(x, y, z, common_step(traces), name)
         motion._warn_of_drift(recorded=True)
         for doubt in record_doubts(motion._given(), motion.dt):
-            warnings.warn(f"{name}: {doubt}", MotionWarning, stacklevel=3)
+            warnings.warn(
+                worded("{motion}: {doubt}", motion=name, doubt=doubt), MotionWarning, stacklevel=3
+            )
         return motion._with(transforms.scaled(motion._given(), scale))
 
 

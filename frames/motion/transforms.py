@@ -11,6 +11,7 @@ import numpy as np
 from frames._errors import MotionError
 from frames.motion.records import AXES, checked_step
 from lir_element.argument_checks import require_finite
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -187,10 +188,16 @@ def left_at_end(given: Mapping[str, FloatArray], dt: float, *, recorded: bool) -
         left = drift_of(values, dt)
         if left.share > LARGEST_DRIFT:
             found.append(
-                f"{axis}: velocity {left.velocity:.3g} m/s ({left.share:.0%} of its peak), "
-                f"displacement {left.displacement:.3g} m"
+                worded(
+                    "{axis}: velocity {velocity:.3g} m/s ({share:.0%} of its peak), displacement "
+                    "{displacement:.3g} m",
+                    axis=axis,
+                    velocity=left.velocity,
+                    share=left.share,
+                    displacement=left.displacement,
+                )
             )
-    return "; ".join(found)
+    return joined(*found)
 
 
 def corrected(acceleration: FloatArray, dt: float, *, displacement: bool) -> FloatArray:

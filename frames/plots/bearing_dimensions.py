@@ -10,6 +10,7 @@ import numpy as np
 from frames.plots import plot_style as ps
 from frames.plots.bearing_drawing import draw_section
 from frames.plots.bearing_geometry import Posture, outlines, rim_face
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,11 +54,23 @@ def bearing_dimensions(bearing: LIRBearing) -> Figure:
     ax = figure.subplots()
     draw_section(ax, bearing, rest)
     a, height = bearing.slider_radius, bearing.slider_height
-    _across(ax, a, height, high + 0.4 * aside, f"slider ø {2e3 * a:.0f}")
+    _across(ax, a, height, high + 0.4 * aside, worded("slider ø {size:.0f}", size=2e3 * a))
     faces = [rim_face(bearing, k) for k in (0, 1)]
     if all(map(math.isfinite, faces)):
-        _across(ax, faces[1], height, high + 1.2 * aside, f"top rim, inside ø {2e3 * faces[1]:.0f}")
-        _across(ax, faces[0], 0.0, low - 0.6 * aside, f"bottom rim, inside ø {2e3 * faces[0]:.0f}")
+        _across(
+            ax,
+            faces[1],
+            height,
+            high + 1.2 * aside,
+            worded("top rim, inside ø {size:.0f}", size=2e3 * faces[1]),
+        )
+        _across(
+            ax,
+            faces[0],
+            0.0,
+            low - 0.6 * aside,
+            worded("bottom rim, inside ø {size:.0f}", size=2e3 * faces[0]),
+        )
     for radius, at in zip(bearing.radii, (0.5 * low, 0.5 * (high + height)), strict=True):
         ax.text(0.0, at, f"R = {1e3 * radius:.0f}", ha="center", va="center", fontsize=ps.SMALL)
     _upright(ax, right + 0.35 * aside, 0.0, height, f"h = {1e3 * height:.0f}")
@@ -69,13 +82,16 @@ def bearing_dimensions(bearing: LIRBearing) -> Figure:
 
 
 def _words(bearing: LIRBearing) -> str:
-    parts = [f"effective radius {1e3 * bearing.effective_radius:.0f}"]
+    parts = [worded("effective radius {radius:.0f}", radius=1e3 * bearing.effective_radius)]
     if math.isfinite(bearing.lateral_capacity):
         bottom, top = (f"{1e3 * reach:.0f}" for reach in bearing.rim_displacement)
-        both = bottom if bottom == top else f"{bottom} (bottom) and {top} (top)"
-        parts.append(f"rims met after {both} of sliding")
-        parts.append(f"displacement at the rims {1e3 * bearing.lateral_capacity:.0f}")
-    return "; ".join(parts)
+        both = bottom
+        if bottom != top:
+            both = worded("{bottom} (bottom) and {top} (top)", bottom=bottom, top=top)
+        parts.append(worded("rims met after {sliding} of sliding", sliding=both))
+        reach = 1e3 * bearing.lateral_capacity
+        parts.append(worded("displacement at the rims {u:.0f}", u=reach))
+    return joined(*parts)
 
 
 def _across(ax: Axes, half: float, begin: float, at: float, text: str) -> None:

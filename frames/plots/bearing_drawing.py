@@ -20,6 +20,7 @@ from frames.plots.bearing_geometry import (
     surface_reach,
 )
 from frames.plots.drawn_device import device_of, require_own
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -159,7 +160,11 @@ def bearing_sections(
         for body, label in zip(BODIES, names, strict=False)
     ]
     angle = math.degrees(math.atan2(plane[1], plane[0])) % 360.0
-    heading = f"{name}, to scale: vertical section at {round(angle) % 360}° from x"
+    heading = worded(
+        "{name}, to scale: vertical section at {angle}° from x",
+        name=name,
+        angle=round(angle) % 360,
+    )
     ps.add_legend(figure, handles, title=heading)
     return figure
 
@@ -184,9 +189,7 @@ def _draw_panels(
         ax.set_ylim(frame[2], frame[3])
         state = data.sel(time=time, method="nearest")
         _annotate(ax, state, plane, now)
-        text = ", ".join(
-            part for part in (title.strip(), f"t = {float(state['time']):.2f} s") if part
-        )
+        text = joined(title.strip(), f"t = {float(state['time']):.2f} s", by=", ")
         ps.caption(ax, title=ps.wrapped(text, 0.9 * ps.PAGE_WIDTH / columns))
     for ax in panels[len(chosen) :]:
         ax.remove()
@@ -226,18 +229,20 @@ def _annotate(ax: Axes, state: xr.Dataset, plane: FloatArray, now: Posture) -> N
     # Displacement in the section, across it and in plan; slip, rim force, lift.
     u = state["bearing_displacement"].sel(axis=list(ps.PLANE)).to_numpy()
     aside = abs(float(u @ np.array([-plane[1], plane[0]])))
-    text = f"displacement {round(1e3 * float(u @ plane)):d} mm".replace("-", "−")
+    along = f"{round(1e3 * float(u @ plane)):d}".replace("-", "−")
+    moved = worded("displacement {u} mm", u=along)
     if aside > 1e-3:
-        text += f", across {1e3 * aside:.0f} mm, in plan {1e3 * np.linalg.norm(u):.0f} mm"
+        size = 1e3 * np.linalg.norm(u)
+        across = worded("across {v:.0f} mm, in plan {w:.0f} mm", v=1e3 * aside, w=size)
+        moved = joined(moved, across, by=", ")
     slip = float(state["interface_slip_size"])
-    text += f"\nslip {1e3 * abs(now.slip):.1f} mm"
+    slipped = worded("slip {s:.1f} mm", s=1e3 * abs(now.slip))
     if slip - abs(now.slip) > 1e-3:
-        text += f" ({1e3 * slip:.1f} mm in plan)"
+        slipped = joined(slipped, worded("({p:.1f} mm in plan)", p=1e3 * slip), by=" ")
     rim = float(state["rim_force"].max())
-    if rim > 0.0:
-        text += f", rim force {1e-3 * rim:.0f} kN"
-    if now.lift > _LIFTED:
-        text += f", lifted {1e3 * now.lift:.1f} mm"
+    pressed = worded("rim force {force:.0f} kN", force=1e-3 * rim) if rim > 0.0 else ""
+    lifted = worded("lifted {gap:.1f} mm", gap=1e3 * now.lift) if now.lift > _LIFTED else ""
+    text = joined(moved, joined(slipped, pressed, lifted, by=", "), by="\n")
     ax.text(0.0, -0.01, text, transform=ax.transAxes, ha="left", va="top", fontsize=ps.SMALL)
 
 

@@ -15,6 +15,7 @@ from frames.plots.plot_style import PALETTE, line_of
 from frames.results.findings import doubts_of
 from frames.results.recorded import largest_kept, require_steps
 from lir_element.errors import RunStatus
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -188,10 +189,12 @@ def label_of(name: str, data: xr.Dataset, space: str = " ") -> str:
     status = data.attrs.get("status", "ok")
     if not RunStatus[status.upper()].is_complete:
         end = data.attrs.get("failed_at", float(data["time"][-1]))
-        return f"{name}{space}(stopped at {end:.2f} s)"
-    if status != "ok":
-        return f"{name}{space}({status})"
-    return f"{name}{space}(see its assumption check)" if doubts_of(data) else name
+        said = worded("(stopped at {t:.2f} s)", t=end)
+    elif status != "ok":
+        said = f"({status})"
+    else:
+        said = "(see its assumption check)" if doubts_of(data) else ""
+    return joined(name, said, by=space)
 
 
 def system_handles(systems: Mapping[str, xr.Dataset]) -> list[Artist]:

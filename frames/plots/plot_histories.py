@@ -18,6 +18,7 @@ from frames.results.measures import lateral_capacity
 from frames.results.peak_response import largest
 from frames.results.quantities import QUANTITIES as TABLE
 from frames.results.quantities import Quantity
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -253,7 +254,7 @@ def bearing_plan(data: xr.Dataset) -> Figure:
     bar.set_label("largest displacement over displacement capacity", fontsize=ps.LABEL)
     bar.ax.tick_params(labelsize=ps.SMALL)
     label = pick.label_of(str(data.attrs.get("title", "bearings")), data, " ")
-    ps.add_legend(figure, [], title=f"Bearings in plan: {label}")
+    ps.add_legend(figure, [], title=worded("Bearings in plan: {what}", what=label))
     return figure
 
 

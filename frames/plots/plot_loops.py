@@ -12,6 +12,7 @@ from matplotlib.patches import Circle
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
 from frames.plots.drawn_device import device_of, has_device
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -97,7 +98,7 @@ def hysteresis(
         u, force = factor * loops[name][0][:, axis], loops[name][1][:, axis]
         panel.plot(u, force, color=ps.PALETTE[k], linewidth=0.8)
         cut |= _mark_peaks(panel, u, force, limit)
-        title = f"{pick.label_of(name, data)}, {ps.PLANE[axis]}"
+        title = joined(pick.label_of(name, data), ps.PLANE[axis], by=", ")
         ps.caption(panel, title=ps.wrapped(title, 0.82 * ps.PAGE_WIDTH / columns))
         if place % columns == 0:
             ps.caption(panel, y="force / weight [-]")
@@ -105,7 +106,11 @@ def hysteresis(
         ps.close_column(panel, text, is_last=place + columns >= len(entries))
     panels[0].set_ylim(-(limit or 1.0), limit or 1.0)
     where = "isolation level" if bearing is None else bearing
-    ps.add_legend(figure, _cut_legend() if cut else [], title=f"Force over displacement, {where}")
+    ps.add_legend(
+        figure,
+        _cut_legend() if cut else [],
+        title=worded("Force over displacement, {bearing}", bearing=where),
+    )
     return figure
 
 
@@ -175,7 +180,7 @@ def orbits(
         ps.close_column(panel, ps.text_of("x", unit), is_last=place + columns >= len(found))
     panels[0].set_xlim(-1.08 * factor * largest, 1.08 * factor * largest)
     panels[0].set_ylim(-1.08 * factor * largest, 1.08 * factor * largest)
-    heading = f"Path of {bearing}: top plate relative to bottom plate"
+    heading = worded("Path of {bearing}: top plate relative to bottom plate", bearing=bearing)
     ps.add_legend(figure, _orbit_legend(rims.values(), factor, unit), title=heading)
     return figure
 
@@ -281,6 +286,12 @@ def _orbit_legend(rims: Iterable[float], factor: float, unit: str) -> list[Artis
     if sizes:
         text = ", ".join(f"{size:.4g}" for size in sizes)
         entries.append(
-            Line2D([], [], color=ps.GREY, linestyle="--", label=f"rim contact at {text} {unit}")
+            Line2D(
+                [],
+                [],
+                color=ps.GREY,
+                linestyle="--",
+                label=worded("rim contact at {where}", where=f"{text} {unit}"),
+            )
         )
     return entries

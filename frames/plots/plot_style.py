@@ -11,6 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
+from lir_element.texts import Text
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -161,9 +163,10 @@ def line_of(place: int, widen: float = 0.0) -> dict[str, Any]:
 def wrapped(text: str, width: float, size: float = TITLE) -> str:
     """Return `text` in lines that fit `width` [in] at a font of `size` [pt]."""
     letters = max(12, int(width / (LETTER * size / 72.0)))
-    return "\n".join(
+    lines = "\n".join(
         part for line in text.split("\n") for part in textwrap.wrap(line, letters) or [""]
     )
+    return text.laid_out(lines) if isinstance(text, Text) else lines
 
 
 def engineering(units: str, peak: float) -> tuple[float, str]:

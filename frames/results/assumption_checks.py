@@ -28,6 +28,7 @@ from frames.results.level_doubts import levels_of_bearings
 from frames.results.peak_response import largest, total
 from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -164,10 +165,10 @@ def _rims(data: xr.Dataset, out: bool) -> Finding:
     if np.isinf(limit).all():
         return finding("rims", out, False, 0.0, "the bearings have none")
     if out or not met.values.any():
-        text = f"reached {percent(share)} of the displacement capacity"
+        text = worded("reached {share} of the displacement capacity", share=percent(share))
         return finding("rims", out, out and mattered, share, text)
     bent = total(data, "rim_plastic")
-    text = f"met by {by_whom(met)}{_bent_rims(data, bent)}"
+    text = joined(worded("met by {whom}", whom=by_whom(met)), _bent_rims(data, bent))
     return finding("rims", out, True, share, text, doubtful=np.isinf(bent).any())
 
 
@@ -176,18 +177,24 @@ def _bent_rims(data: xr.Dataset, bent: FloatArray) -> str:
     broken = names[np.isinf(bent)]
     if broken.size:
         who = ", ".join(str(name) for name in broken[:_NAMED])
-        more = f" and {broken.size - _NAMED} more" if broken.size > _NAMED else ""
-        return (
-            f"; a rim broke of {who}{more}: the slider went on over the flange, on the same "
-            "sphere, and nothing holds it there"
+        if broken.size > _NAMED:
+            who = worded("{names} and {count} more", names=who, count=broken.size - _NAMED)
+        return worded(
+            "a rim broke of {names}: the slider went on over the flange, on the same sphere, and "
+            "nothing holds it there",
+            names=who,
         )
     k = int(np.argmax(bent))
     if not bent[k] > 0.0:
         return ""
     share = bent[k] / float(data["rim_overrun"][k])
-    return (
-        f"; {int((bent > 0.0).sum())} of them yielded, by up to {1e3 * bent[k]:.3g} mm "
-        f"({names[k]}, {percent(share)} of the deformation at which it breaks)"
+    return worded(
+        "{count} of them yielded, by up to {bent:.3g} mm ({bearing}, {share} of the deformation at "
+        "which it breaks)",
+        count=(bent > 0.0).sum(),
+        bent=1e3 * bent[k],
+        bearing=names[k],
+        share=percent(share),
     )
 
 
@@ -198,11 +205,12 @@ def _interface(data: xr.Dataset, out: bool) -> Finding:
     loose = "" if out else _loose_slip(data)
     if out or (share < FULL_SLIP and not loose):
         mattered = out and share >= _reached(data, "interface")
-        text = f"carried {percent(share)} of what its friction holds"
+        text = worded("carried {share} of what its friction holds", share=percent(share))
         return finding("interface", out, mattered, share, text)
     slips, slipped = largest(data, "slip").values, largest(data, "slipped")
-    who = f", {by_whom(slipped)}" if slipped.values.any() else ""
-    text = f"slipped up to {1e3 * float(slips.max()):.3g} mm{who}{loose}"
+    text = worded("slipped up to {slip:.3g} mm", slip=1e3 * slips.max())
+    text = joined(text, by_whom(slipped) if slipped.values.any() else "", by=", ")
+    text = joined(text, loose)
     return finding("interface", out, True, share, text, doubtful=bool(loose))
 
 
@@ -221,10 +229,15 @@ def _loose_slip(data: xr.Dataset) -> str:
     by, least = float(free[k]), BARE * float(data["slider_radius"][k])
     if not by > max(LOOSE_SLIP * float(slips.max()), least):
         return ""
-    return (
-        f"; {data['bearing'].to_numpy()[k]} slipped {1e3 * by:.3g} of its {1e3 * slips[k]:.3g} mm "
-        f"under less than {percent(LOOSE)} of its load at rest: its sliders fly and bounce, which "
-        f"no step settles; count on {percent(1.0 + LOOSE_ERROR)} of those {1e3 * by:.3g} mm"
+    return worded(
+        "{bearing} slipped {slip:.3g} of its {total:.3g} mm under less than {share} of its load at "
+        "rest: its sliders fly and bounce, which no step settles; count on {factor} of those "
+        "{slip:.3g} mm",
+        bearing=data["bearing"].to_numpy()[k],
+        slip=1e3 * by,
+        total=1e3 * slips[k],
+        share=percent(LOOSE),
+        factor=percent(1.0 + LOOSE_ERROR),
     )
 
 
@@ -232,16 +245,26 @@ def _uplift(data: xr.Dataset, out: bool) -> Finding:
     least = 0.0 - float(largest(data, "vertical_tension").values.max())
     happened = largest(data, "lifted")
     if out or not (happened.values > 0.0).any():  # the stop of one that failed may carry nothing
-        return finding("uplift", out, out and least <= 0.0, least, f"smallest N {least:.2f} W")
-    return finding("uplift", out, True, least, f"lifted off: {by_whom(happened)}")
+        return finding(
+            "uplift",
+            out,
+            out and least <= 0.0,
+            least,
+            worded("smallest N {least:.2f} W", least=least),
+        )
+    return finding("uplift", out, True, least, worded("lifted off: {whom}", whom=by_whom(happened)))
 
 
 def _plate_rotation(data: xr.Dataset, out: bool) -> Finding:
     shift = float(largest(data, "centre_shift").values.max())
     moved = float(largest(data, "displacement").values.max())
     share = shift / moved if moved > 0.0 else 0.0
-    text = f"tilt moves the spheres' centres by up to {1e3 * shift:.2g} mm, {percent(share, 1)} of "
-    text += "the largest displacement"
+    text = worded(
+        "tilt moves the spheres' centres by up to {shift:.2g} mm, {share} of the largest "
+        "displacement",
+        shift=1e3 * shift,
+        share=percent(share, 1),
+    )
     return finding("plate_rotation", out, share > SMALL["plate_rotation"], share, text)
 
 
@@ -251,7 +274,9 @@ def _velocity_dependence(data: xr.Dataset, out: bool) -> Finding:
         return finding("velocity_dependence", out, False, 0.0, text)
     work = float(total(data, "sliding_work"))
     share = float(total(data, "sliding_work_lower")) / work if work > 0.0 else 0.0
-    text = f"over the paths slid, friction is {percent(share, 1)} below that at high speed"
+    text = worded(
+        "over the paths slid, friction is {share} below that at high speed", share=percent(share, 1)
+    )
     return finding("velocity_dependence", out, share > SMALL["velocity_dependence"], share, text)
 
 
@@ -260,22 +285,26 @@ def _second_direction(data: xr.Dataset, out: bool) -> Finding:
         moves = largest(data, "displacement_along").values
         x, y = float(moves[0]), float(moves[1])
         share = _ratio(y, x)
-        text = f"displacement along y reached {1e3 * y:.3g} mm, along x {1e3 * x:.3g} mm"
+        text = worded(
+            "displacement along y reached {y:.3g} mm, along x {x:.3g} mm", y=1e3 * y, x=1e3 * x
+        )
     else:
         peak = data["peak_ground_velocity"]
         x, y = float(peak.sel(axis="x")), float(peak.sel(axis="y"))
         coupled = float(data.attrs["plane_coupling"])
         share = max(_ratio(y, x), coupled)
-        text = (
-            f"peak ground velocity along y {percent(_ratio(y, x))} of that along x, pushed along "
+        text = worded(
+            "peak ground velocity along y {share} of that along x, pushed along x the bearings "
+            "move along y by {coupled} of it",
+            share=percent(_ratio(y, x)),
+            coupled=percent(coupled, 1),
         )
-        text += f"x the bearings move along y by {percent(coupled, 1)} of it"
     return finding("second_direction", out, share > SMALL["second_direction"], share, text)
 
 
 def _vertical_coupling(data: xr.Dataset, out: bool) -> Finding:
     share = float(largest(data, "vertical_change").values.max())
-    text = f"axial forces differ from those at rest by up to {percent(share)}"
+    text = worded("axial forces differ from those at rest by up to {share}", share=percent(share))
     return finding("vertical_coupling", out, share > SMALL["vertical_coupling"], share, text)
 
 
@@ -284,7 +313,7 @@ def _pressure_dependence(data: xr.Dataset, out: bool) -> Finding:
         text = "no friction depends on pressure"
         return finding("pressure_dependence", out, False, 0.0, text)
     share = _ratio(float(total(data, "sliding_work_pressed")), float(total(data, "sliding_work")))
-    text = f"over the paths slid, it changes friction by {percent(share, 1)}"
+    text = worded("over the paths slid, it changes friction by {share}", share=percent(share, 1))
     return finding("pressure_dependence", out, share > SMALL["pressure_dependence"], share, text)
 
 
@@ -294,8 +323,12 @@ def _friction_heating(data: xr.Dataset, out: bool) -> Finding:
         return finding("friction_heating", out, False, 0.0, text)
     share = _ratio(float(total(data, "sliding_work_heated")), float(total(data, "sliding_work")))
     hottest = float(np.nanmax(largest(data, "temperature").values[:, :2]))
-    text = f"the surfaces reached {hottest:.0f} C, over the paths slid that changes friction by "
-    text += percent(share, 1)
+    text = worded(
+        "the surfaces reached {hottest:.0f} C, over the paths slid that changes friction by "
+        "{share}",
+        hottest=hottest,
+        share=percent(share, 1),
+    )
     return finding("friction_heating", out, share > SMALL["friction_heating"], share, text)
 
 

@@ -11,6 +11,7 @@ from frames.results.formulas import VIOLENT
 from frames.results.level_doubts import level_doubts, levels_of_bearings
 from frames.results.peak_response import largest, left
 from lir_element.device.specification import STACK_RANGE, stack_stiffness
+from lir_element.texts import joined, worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -60,15 +61,23 @@ def full_contact(data: xr.Dataset) -> Finding:
         verdict = "partial contact, no tipping"
     else:
         verdict = "edge contact" if share < 1.0 else "the slider tips"
-    text = f"full contact: e/a = {share:.2f} in {names[int(np.argmax(offsets))]}: {verdict}"
+    text = worded(
+        "full contact: e/a = {value:.2f} in {bearing}: {verdict}",
+        value=share,
+        bearing=names[int(np.argmax(offsets))],
+        verdict=verdict,
+    )
     doubts = level_doubts(data)
     if doubts.bearings:
-        text += f"; {doubts.sentence}"
+        text = joined(text, doubts.sentence)
     has_spin = "slider_spin" in data or "reached_spin" in data
     spins = largest(data, "spin").values if has_spin else np.zeros(len(names))
     spun = (spins > SPUN) & (np.array(levels_of_bearings(data)) == "pendulum")
     if spun.any():
-        text += f"; the sliders spun by {float(spins.max()):.2g} rad, on which the slip depends"
+        spin = worded(
+            "the sliders spun by {angle:.2g} rad, on which the slip depends", angle=spins.max()
+        )
+        text = joined(text, spin)
     asking = {*doubts.bearings, *(str(name) for name in names[spun])}
     is_marked = doubts.marked or bool(spun.any())
     return Finding(
@@ -76,7 +85,7 @@ def full_contact(data: xr.Dataset) -> Finding:
         left_out=is_marked,
         mattered=bool(asking),
         number=share,
-        sentence=f'{text}; rerun with level="contact"' if is_marked else text,
+        sentence=joined(text, 'rerun with level="contact"' if is_marked else ""),
         bearings=tuple(str(name) for name in names if str(name) in asking),
     )
 
@@ -99,18 +108,28 @@ def slip_stability(data: xr.Dataset) -> Finding:
     if share > HOLDS:
         limit = 1e3 * max(float(held[worst]), 0.0)
         parts.append(
-            f"{names[worst]} slipped {1e3 * slip[worst]:.3g} mm, without rims the interface "
-            f"holds {limit:.3g} mm: where the motion turns again in that direction, the sliders "
-            "slip on; raise mu_h"
+            worded(
+                "{bearing} slipped {slip:.3g} mm, without rims the interface holds {limit:.3g} mm: "
+                "where the motion turns again in that direction, the sliders slip on; raise mu_h",
+                bearing=names[worst],
+                slip=1e3 * slip[worst],
+                limit=limit,
+            )
         )
     if overlaps[last] > OVERLAPS:
         limit = 1e3 * float(data["slip_capacity"][last])
         parts.append(
-            f"{names[last]} slipped {1e3 * slip[last]:.4g} mm of the {limit:.4g} mm at which "
-            "the sliders' overlap ends: a few per cent decide whether it fails; raise mu_h or "
-            "the capacity"
+            worded(
+                "{bearing} slipped {slip:.4g} mm of the {total:.4g} mm at which the sliders' "
+                "overlap ends: a few per cent decide whether it fails; raise mu_h or the capacity",
+                bearing=names[last],
+                slip=1e3 * slip[last],
+                total=limit,
+            )
         )
-    text = "; ".join(parts) or f"the slip reached {percent(share)} of what holds without rims"
+    text = joined(*parts)
+    if not parts:
+        text = worded("the slip reached {share} of what holds without rims", share=percent(share))
     if np.isinf(friction).all():
         text = "the slider is rigid"
     at_pendulum = np.array(levels_of_bearings(data)) == "pendulum"
@@ -136,17 +155,24 @@ def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     area = np.pi * data.variables["slider_radius"].to_numpy() ** 2
     assumed = bool(np.isclose(stiffness[k], stack_stiffness(area[k], height[k]), rtol=1e-6))
     low, high = STACK_RANGE
-    text = (
-        f"{data['bearing'].to_numpy()[k]} met a rim with a slip at {closing.at[k]:.2f} s: the "
-        f"axial stiffness stops {1e3 * closing.values[k]:.3g} mm/s along the slider, by which the "
-        f"axial force rises by up to {percent(float(rises[k]))} of that at rest, and the bearing's "
-        "force with it"
+    text = worded(
+        "{bearing} met a rim with a slip at {time:.2f} s: the axial stiffness stops {speed:.3g} "
+        "mm/s along the slider, by which the axial force rises by up to {share} of that at rest, "
+        "and the bearing's force with it",
+        bearing=data["bearing"].to_numpy()[k],
+        time=closing.at[k],
+        speed=1e3 * closing.values[k],
+        share=percent(float(rises[k])),
     )
     if assumed:
-        text += (
-            f"; this stiffness of {stiffness[k]:.3g} N/m is the default, an estimate: run with "
-            f"{low:g} and {high:g} times that, or give the maker's"
+        estimate = worded(
+            "this stiffness of {k:.3g} N/m is the default, an estimate: run with {low:g} and "
+            "{high:g} times that, or give the maker's",
+            k=stiffness[k],
+            low=low,
+            high=high,
         )
+        text = joined(text, estimate)
     return (finding("impacts", False, True, float(rises[k]), text, doubtful=assumed),)
 
 
@@ -168,19 +194,29 @@ def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
     names, parts = data.variables["bearing"].to_numpy(), []
     if shares[least] < STUCK:
         parts.append(
-            f"{names[least]} moved {percent(float(shares[least]))} of what its friction holds "
-            f"(L Q/W = {1e3 * held[least]:.3g} mm): a yield_displacement of "
-            f"{1e3 * yields[least]:.2g} mm moves such a peak by some 10 %, far smaller ones by more"
+            worded(
+                "{bearing} moved {share} of what its friction holds (L Q/W = {held:.3g} mm): a "
+                "yield_displacement of {yield_displacement:.2g} mm moves such a peak by some 10 %, "
+                "far smaller ones by more",
+                bearing=names[least],
+                share=percent(float(shares[least])),
+                held=1e3 * held[least],
+                yield_displacement=1e3 * yields[least],
+            )
         )
     if LEFT_OVER * held[most] < rest[most] <= held[most]:  # beyond it it still swings
         parts.append(
-            f"{names[most]} is left {1e3 * rest[most]:.3g} mm aside, friction holds up to "
-            f"{1e3 * held[most]:.3g} mm: the residual displacement of one run means little, take "
-            "the median of many"
+            worded(
+                "{bearing} is left {rest:.3g} mm aside, friction holds up to {held:.3g} mm: the "
+                "residual displacement of one run means little, take the median of many",
+                bearing=names[most],
+                rest=1e3 * rest[most],
+                held=1e3 * held[most],
+            )
         )
     if not parts:
         return ()
-    least_share, text = float(shares[least]), "; ".join(parts)
+    least_share, text = float(shares[least]), joined(*parts)
     return (finding("yield_displacement", False, True, least_share, text),)
 
 
@@ -210,12 +246,18 @@ def equilibrium(data: xr.Dataset) -> tuple[Finding, ...]:
         most, name = float(gaps.values[k]), str(data["resultant"].to_numpy()[k])
         doubtful = most > BALANCED
         over = "the weight" if name.startswith("F") else "weight times half the extent"
-        text = f"equilibrium: forces and inertia agree within {most:.1g} of the weight"
+        text = worded(
+            "equilibrium: forces and inertia agree within {most:.1g} of the weight", most=most
+        )
         if doubtful:
-            text = (
-                f"equilibrium: {name} of bearing forces, weight and inertia differ by "
-                f"{100.0 * most:.3g} % of {over} at t = {float(gaps.at[k]):.4g} s: forces and "
-                "accelerations of one instant do not belong together; take neither for a design"
+            text = worded(
+                "equilibrium: {name} of bearing forces, weight and inertia differ by "
+                "{difference:.3g} % of {over} at t = {time:.4g} s: forces and accelerations of one "
+                "instant do not belong together; take neither for a design",
+                name=name,
+                difference=100.0 * most,
+                over=over,
+                time=float(gaps.at[k]),
             )
     return (remark("equilibrium", most, text, doubtful=doubtful), *_violence(data))
 
@@ -231,16 +273,22 @@ def _violence(data: xr.Dataset) -> tuple[Finding, ...]:
     struck = bool(largest(data, "rims_met").values.any() or largest(data, "lifted").values.any())
     cause = "look at the stiffness of what holds its mass"
     if own < _LIGHT * mean:
-        cause = (
-            f"its mass of {own:.3g} kg is next to nothing beside {mean:.3g} kg at a node: give it "
-            "what stands there, or none"
+        cause = worded(
+            "its mass of {mass:.3g} kg is next to nothing beside {mean:.3g} kg at a node: give it "
+            "what stands there, or none",
+            mass=own,
+            mean=mean,
         )
     elif struck:
         cause = "an impact, at a rim or in landing: compare smaller steps, and softer rims"
-    text = (
-        f"accelerations: node {data['node'].to_numpy()[k]} reached {most:.3g} g at t = "
-        f"{float(found.at[k]):.4g} s (more than {VIOLENT / STANDARD_GRAVITY:.0f} g is beyond what "
-        f"structures do): {cause}"
+    text = worded(
+        "accelerations: node {node} reached {most:.3g} g at t = {time:.4g} s (more than "
+        "{limit:.0f} g is beyond what structures do): {cause}",
+        node=data["node"].to_numpy()[k],
+        most=most,
+        time=float(found.at[k]),
+        limit=VIOLENT / STANDARD_GRAVITY,
+        cause=cause,
     )
     return (remark("accelerations", most, text, doubtful=True),)
 
@@ -251,12 +299,15 @@ def time_step(data: xr.Dataset) -> tuple[Finding, ...]:
     if data.attrs.get("step_control") != "fixed" or not np.isfinite(error):
         return ()
     doubtful = error > ROUGH
-    text = f"time step: as given, estimated error {100.0 * error:.1g} % of the displacement reached"
+    text = worded(
+        "time step: as given, estimated error {error:.1g} % of the displacement reached",
+        error=100.0 * error,
+    )
     if doubtful:
-        text = (
-            f"time step: steps as given make displacements wrong by up to some "
-            f"{100.0 * error:.2g} % of the largest one: leave dt out, or compare a smaller one "
-            "(step_sensitivity)"
+        text = worded(
+            "time step: steps as given make displacements wrong by up to some {error:.2g} % of the "
+            "largest one: leave dt out, or compare a smaller one (step_sensitivity)",
+            error=100.0 * error,
         )
     return (remark("time_step", error, text, doubtful=doubtful),)
 
@@ -269,12 +320,16 @@ def yielding(data: xr.Dataset) -> tuple[Finding, ...]:
     turned = largest(data, "hinge_rotation")
     k = int(np.argmax(turned.values))
     most = float(turned.values[k])
-    text = f"plastic rotation of hinges up to {1e3 * most:.3g} mrad"
+    text = worded("plastic rotation of hinges up to {turned:.3g} mrad", turned=1e3 * most)
     if most > TURNED:
-        text = (
-            f"plastic rotation of hinge {data['hinge'].to_numpy()[k]}: {1e3 * most:.3g} mrad at "
-            f"t = {float(turned.at[k]):.4g} s: members lose strength from about {1e3 * TURNED:.0f} "
-            "mrad on, which is not modelled; take it as the beginning of a failure"
+        text = worded(
+            "plastic rotation of hinge {hinge}: {turned:.3g} mrad at t = {time:.4g} s: members "
+            "lose strength from about {limit:.0f} mrad on, which is not modelled; take it as the "
+            "beginning of a failure",
+            hinge=data["hinge"].to_numpy()[k],
+            turned=1e3 * most,
+            time=float(turned.at[k]),
+            limit=1e3 * TURNED,
         )
     return (finding("yielding", False, most > 0.0, most, text, doubtful=most > TURNED),)
 
@@ -285,10 +340,14 @@ def strained(data: xr.Dataset) -> tuple[Finding, ...]:
     if most <= 1.0:
         return ()
     count = int(data.attrs["strain_over_limit_count"])
-    text = (
-        f"{data.attrs['strain_over_limit_in']} strains {most:.3g} times as far as its material "
-        f"keeps its stiffness, at t = {float(data.attrs['strain_over_limit_at']):.4g} s ({count} "
-        "imported members are beyond that): here they stay elastic, in OpenSees they yield, and "
-        "displacements differ; put the bearings under the model there by isolate, and compare"
+    text = worded(
+        "{member} strains {strain:.3g} times as far as its material keeps its stiffness, at t = "
+        "{time:.4g} s ({count} imported members are beyond that): here they stay elastic, in "
+        "OpenSees they yield, and displacements differ; put the bearings under the model there by "
+        "isolate, and compare",
+        member=data.attrs["strain_over_limit_in"],
+        strain=most,
+        time=float(data.attrs["strain_over_limit_at"]),
+        count=count,
     )
     return (finding("yielding", False, True, most, text, doubtful=True),)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from lir_element.device.features import Features
 from lir_element.tables import html_table
+from lir_element.texts import Text, text_from, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -76,7 +77,9 @@ class Finding:
     @property
     def line(self) -> str:
         """It as text; "!" begins what is marked."""
-        return f"{'! ' if self.is_marked else '  '}{self.sentence}"
+        return worded(
+            "{mark} {sentence}", mark="!" if self.is_marked else " ", sentence=self.sentence
+        )
 
 
 class Findings(tuple[Finding, ...]):
@@ -86,11 +89,14 @@ class Findings(tuple[Finding, ...]):
 
     def lines(self) -> list[str]:
         """Return a line a finding: what was left out first, then what was modelled."""
-        return [found.line for found in sorted(self, key=lambda found: not found.left_out)]
+        return [found.line for found in self._in_order()]
 
     def doubts(self) -> tuple[str, ...]:
         """Return the sentences of those that are marked, in the same order."""
-        return tuple(line[2:] for line in self.lines() if line.startswith("! "))
+        return tuple(found.sentence for found in self._in_order() if found.is_marked)
+
+    def _in_order(self) -> list[Finding]:
+        return sorted(self, key=lambda found: not found.left_out)
 
     def missing(self) -> tuple[str, ...]:
         """Return the features whose omission spoils the run."""
@@ -106,7 +112,10 @@ class Findings(tuple[Finding, ...]):
 
     def plain(self) -> list[dict[str, Any]]:
         """Return them as JSON takes them, without what is not so: `findings_from` reads it."""
-        return [{name: value for name, value in asdict(one).items() if value} for one in self]
+        return [
+            {k: v.plain() if isinstance(v, Text) else v for k, v in asdict(one).items() if v}
+            for one in self
+        ]
 
     def __repr__(self) -> str:
         """Return a line a finding; "!" begins warnings."""
@@ -144,7 +153,12 @@ def findings_from(found: Iterable[dict[str, Any]]) -> Findings:
     """Return findings from what `Findings.plain` gave, through JSON or not."""
     nothing = {"left_out": False, "mattered": False, "number": 0.0, "bearings": ()}
     whole = ({**nothing, **one} for one in found)
-    return Findings(Finding(**one | {"bearings": tuple(one["bearings"])}) for one in whole)
+    return Findings(
+        Finding(
+            **one | {"sentence": text_from(one["sentence"]), "bearings": tuple(one["bearings"])}
+        )
+        for one in whole
+    )
 
 
 def doubts_of(data: xr.Dataset) -> tuple[str, ...]:
@@ -179,9 +193,11 @@ def finding(
     """Return what was found on a feature that was left out or not, in a sentence with its name."""
     label = feature.replace("_", " ")
     if out:
-        sentence = f"{label} left out: {text}"
+        sentence = worded("{feature} left out: {what}", feature=label, what=text)
+    elif mattered:
+        sentence = worded("{feature}: {what}", feature=label, what=text)
     else:
-        sentence = f"{label}: {text}" if mattered else f"{label}: not needed, {text}"
+        sentence = worded("{feature}: not needed, {what}", feature=label, what=text)
     return Finding(
         feature=feature,
         left_out=out,
@@ -209,9 +225,16 @@ def by_whom(happened: Extreme) -> str:
     """Say of a quantity (bearing,), 1 once it happens: "3 of 9 bearings, first at 4.17 s"."""
     those = happened.values > 0.0
     first = float(happened.at[those].min())
-    return f"{int(those.sum())} of {len(those)} bearings, first at {first:.2f} s"
+    return worded(
+        "{count} of {all} bearings, first at {time:.2f} s",
+        count=those.sum(),
+        all=len(those),
+        time=first,
+    )
 
 
 def percent(value: float, digits: int = 0) -> str:
     """Return a share in words."""
-    return f"{100.0 * value:.{digits}f} %" if value < 10.0 else "more than 1000 %"
+    if value >= 10.0:
+        return worded("more than 1000 %")
+    return worded("{share:.{digits}f} %", share=100.0 * value, digits=digits)

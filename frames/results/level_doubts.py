@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames.results.peak_response import largest
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -86,14 +87,22 @@ class LevelDoubts(NamedTuple):
         """What may be wrong, by how much."""
         worst = self.errors.max(axis=0)
         parts = [
-            f"{name} up to {100.0 * error:.0f} %"
+            worded("{quantity} up to {error:.0f} %", quantity=name, error=100.0 * error)
             for name, error in zip(DOUBTED.values(), worst, strict=True)
             if error > LEAST
         ]
-        who = f"{len(self.bearings)} of {len(self.names)} bearings"
+        who = worded("{count} of {all} bearings", count=len(self.bearings), all=len(self.names))
         if not parts:
-            return f'forces of {who} within {100.0 * LEAST:.0f} % at the level "pendulum"'
-        return f'off at the level "pendulum", of {who}: {", ".join(parts)}'
+            return worded(
+                'forces of {whom} within {error:.0f} % at the level "pendulum"',
+                whom=who,
+                error=100.0 * LEAST,
+            )
+        return worded(
+            'off at the level "pendulum", of {whom}: {errors}',
+            whom=who,
+            errors=joined(*parts, by=", "),
+        )
 
 
 def levels_of_bearings(data: xr.Dataset) -> tuple[str, ...]:

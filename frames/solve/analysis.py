@@ -32,6 +32,7 @@ from frames.recording.reduction import judgeable_of, with_peak_state
 from frames.statics.gravity import gravity
 from frames.statics.springs import plane_coupling
 from lir_element.bundles.contact_data import detached
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -108,7 +109,7 @@ class PreparedFrame:
         """Attributes of all results."""
         level, features = self.level, self.features
         return {
-            "title": f"time history of {self.model.name}",
+            "title": worded("time history of {name}", name=self.model.name),
             "level": level if isinstance(level, str) else str(dict(level)),
             "features_left_out": ", ".join(features.left_out) or "none",
             "plane_coupling": 0.0 if features.second_direction else plane_coupling(self.model),

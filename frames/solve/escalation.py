@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from frames.results.assumption_checks import asking_for_contact
 from frames.results.findings import Findings, findings_of, remark
 from lir_element.errors import RunStatus
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -60,9 +61,13 @@ def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) ->
     if not others:
         return
     first, earlier = ends[others[-1]]
-    line = (
-        f"ends: run {others[-1] + 1} {_ended(first, earlier)}, run {len(ends)} "
-        f"{_ended(last, time)} (auto_runs): a little more or less decides whether a bearing fails"
+    line = worded(
+        "ends: run {first} {how_first}, run {last} {how_last} (auto_runs): a little more or less "
+        "decides whether a bearing fails",
+        first=others[-1] + 1,
+        how_first=_ended(first, earlier),
+        last=len(ends),
+        how_last=_ended(last, time),
     )
     noted = remark("ends", float(others[-1] + 1), line, doubtful=True)
     data.attrs |= Findings((noted, *findings_of(data))).attrs()
@@ -71,7 +76,7 @@ def mark_other_end(data: xr.Dataset, ends: Sequence[tuple[RunStatus, float]]) ->
 
 def _ended(status: RunStatus, time: float) -> str:
     how = "completed" if status.is_complete else f"stopped ({status.name.lower()})"
-    return f"{how} at t = {time:.4g} s"
+    return worded("{how} at t = {time:.4g} s", how=how, time=time)
 
 
 def _next(

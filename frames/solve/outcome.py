@@ -12,6 +12,7 @@ from frames.results.peak_response import largest
 from lir_element.argument_checks import listed
 from lir_element.element import about_to_snap, limit_detail, opening_of
 from lir_element.errors import RunStatus
+from lir_element.texts import worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -64,23 +65,34 @@ def evaluated(data: xr.Dataset) -> tuple[RunStatus, str, tuple[Finding, ...]]:
     if gap <= PROMISE and numerical <= allowed:
         if numerical <= PROMISE:
             return RunStatus.OK, "", ()
-        doubt = (
-            f"the generalised-alpha method took out {100.0 * numerical:.3g} % of the energy put in "
-            f"(more than {100.0 * PROMISE:g} %): take a spectral_radius nearer to 1 or a smaller "
-            "dt where that matters"
+        doubt = worded(
+            "the generalised-alpha method took out {share:.3g} % of the energy put in (more than "
+            "{limit:g} %): take a spectral_radius nearer to 1 or a smaller dt where that matters",
+            share=100.0 * numerical,
+            limit=100.0 * PROMISE,
         )
         return RunStatus.OK, doubt, _noted("numerical damping", numerical, doubt)
-    detail = (
-        f"the terms of the energy differ from the input by {100.0 * gap:.3g} % of it (at most "
-        f"{100.0 * PROMISE:g} % is sound), and {100.0 * numerical:.3g} % are the time "
-        f"integration's own (at most {100.0 * allowed:g} %)"
+    detail = worded(
+        "the terms of the energy differ from the input by {gap:.3g} % of it (at most {sound:g} % "
+        "is sound), and {share:.3g} % are the time integration's own (at most {limit:g} %)",
+        gap=100.0 * gap,
+        sound=100.0 * PROMISE,
+        share=100.0 * numerical,
+        limit=100.0 * allowed,
     )
     return RunStatus.INACCURATE, detail, _noted("inaccurate", gap, detail)
 
 
 def _noted(name: str, number: float, text: str) -> tuple[Finding, ...]:
     # Not marked: the status says so, or a warning.
-    return (remark(name.replace(" ", "_"), number, f"{name}: {text}", doubtful=False),)
+    return (
+        remark(
+            name.replace(" ", "_"),
+            number,
+            worded("{name}: {text}", name=name, text=text),
+            doubtful=False,
+        ),
+    )
 
 
 def _tumbled(data: xr.Dataset) -> str:
@@ -95,10 +107,13 @@ def _tumbled(data: xr.Dataset) -> str:
     if beyond[k] <= TUMBLED:
         return ""
     worst, degrees, rim = data["bearing"].to_numpy()[k], np.degrees(tilt[k]), np.degrees(lying[k])
-    return (
-        f"the slider of bearing {worst} tilted by {degrees:.0f} degrees (at its rim it lies at "
-        f"{rim:.0f}): it tumbled, and what followed depends on the step and on how it landed; "
-        "compare smaller steps, and take it as a failure of the bearing"
+    return worded(
+        "the slider of bearing {bearing} tilted by {tilt:.0f} degrees (at its rim it lies at "
+        "{rim:.0f}): it tumbled, and what followed depends on the step and on how it landed; "
+        "compare smaller steps, and take it as a failure of the bearing",
+        bearing=worst,
+        tilt=degrees,
+        rim=rim,
     )
 
 

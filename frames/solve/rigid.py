@@ -36,6 +36,7 @@ from lir_element.element import limit_detail
 from lir_element.errors import RunStatus
 from lir_element.interruptible import interruptible, ready
 from lir_element.kernels.rigid_body.integrate import integrate_bodies, start
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -107,7 +108,7 @@ def rigid_time_history(
     count = int(counts["outputs"])
     data = _dataset(model, motion, state, given, recorded, count)
     data.attrs |= {
-        "title": f"time history of {model.name}",
+        "title": worded("time history of {name}", name=model.name),
         "motion": motion.name,
         "level": "rigid_body",
         "method": "direct",

@@ -11,6 +11,7 @@ import pandas as pd
 from frames._errors import AuditWarning
 from frames.results.peaks import peaks
 from frames.solve.time_history import time_history
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -119,15 +120,17 @@ def _tell(table: pd.DataFrame) -> None:
     by_noise, by_step = (float(table.loc[_HISTORY, name]) for name in ("noise", "halved"))
     text = ""
     if by_noise > SENSITIVE:
-        text = (
-            f"a billionth of the ground motion changes displacements by {100.0 * by_noise:.2g} % "
-            "of the largest: the run is chaotic, and its peak one of many; judge several disturbed "
-            "motions, not a smaller step"
+        text = worded(
+            "a billionth of the ground motion changes displacements by {change:.2g} % of the "
+            "largest: the run is chaotic, and its peak one of many; judge several disturbed "
+            "motions, not a smaller step",
+            change=100.0 * by_noise,
         )
     elif by_step > SENSITIVE:
-        text = (
-            f"half the step changes displacements by {100.0 * by_step:.2g} % of the largest: take "
-            "a smaller dt, or leave it out"
+        text = worded(
+            "half the step changes displacements by {change:.2g} % of the largest: take a smaller "
+            "dt, or leave it out",
+            change=100.0 * by_step,
         )
     if text:
         warnings.warn(text, AuditWarning, stacklevel=3)

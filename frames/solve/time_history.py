@@ -24,6 +24,7 @@ from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
 from lir_element.errors import RunStatus
 from lir_element.results.dataset import report
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -349,7 +350,10 @@ def _run(
     last_run, recorder = last[0]
     last_run.data.attrs |= found.attrs
     if found.doubt:
-        text = f"reduced: two runs differ by more than asked for: {found.doubt}"
+        text = worded(
+            "reduced: two runs differ by more than asked for: {differences}",
+            differences=found.doubt,
+        )
         noted = remark("reduced", found.attrs["reduction_tolerance"], text, doubtful=True)
         last_run = last_run._replace(findings=Findings((*last_run.findings, noted)))
     return last_run, recorder

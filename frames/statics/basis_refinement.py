@@ -11,6 +11,7 @@ import numpy as np
 from frames.assembly.basis import build_basis
 from frames.assembly.ritz import RitzSpace
 from frames.statics.gravity import at_rest, prepare
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -104,11 +105,16 @@ def differences(coarse: Reached, fine: Reached) -> dict[str, float]:
 def exceeding(errors: dict[str, float], tolerance: float) -> str:
     """Return which errors exceed the tolerance asked for, in words; an empty string if none."""
     too_large = [
-        f"{name.replace('_', ' ')} {100.0 * error:.2g} % (asked for: {100.0 * allowed:g} %)"
+        worded(
+            "{quantity} {error:.2g} % (asked for: {allowed:g} %)",
+            quantity=name.replace("_", " "),
+            error=100.0 * error,
+            allowed=100.0 * allowed,
+        )
         for name, error in errors.items()
         if not error <= (allowed := PARTS[name][2] * tolerance)
     ]
-    return ", ".join(too_large)
+    return joined(*too_large, by=", ")
 
 
 def _most(values: FloatArray) -> float:

@@ -14,6 +14,7 @@ from frames.assembly.solvers import Factors
 from frames.assembly.supports import above_bearings
 from frames.model.components import bearing_axial_stiffness, bearing_rocking_stiffness
 from frames.statics.springs import spring_matrix
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -43,16 +44,20 @@ class Overturning(NamedTuple):
         if self.follows:
             return ""
         if self.bearings == 1:
-            return (
+            return joined(
                 "one bearing carries the whole model, whose tilt is held: its axial force knows no "
-                "overturning; model the bearings where they stand, shear_building(..., plan=...)"
+                "overturning",
+                "model the bearings where they stand, shear_building(..., plan=...)",
             )
         least, axis = min((self.x, "x"), (self.y, "y"))
-        return (
-            f"the bearings' axial forces carry {100.0 * least:.3g} % of an overturning moment of "
-            f"motion along {axis}: supports of the model hold its tilt; free rx and ry of base and "
-            "floors, or shear_building(..., overturning=True)"
+        held = worded(
+            "the bearings' axial forces carry {share:.3g} % of an overturning moment of motion "
+            "along {axis}: supports of the model hold its tilt",
+            share=100.0 * least,
+            axis=axis,
         )
+        remedy = "free rx and ry of base and floors, or shear_building(..., overturning=True)"
+        return joined(held, remedy)
 
 
 def overturning_share(system: System) -> Overturning:

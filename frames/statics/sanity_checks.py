@@ -22,6 +22,7 @@ from lir_element.device.sanity_checks import (
     USUAL_PRESSURE,
     pressure_remedy,
 )
+from lir_element.texts import worded
 from lir_element.units import STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
@@ -119,8 +120,14 @@ def _of_pressure(loads: tuple[BearingLoad, ...]) -> list[str]:
     if USUAL_PRESSURE[0] <= middle <= USUAL_PRESSURE[1]:
         return []
     return [
-        f"the sliders carry {1e-6 * middle:.3g} MPa under permanent loads (5 to 60 MPa is usual; "
-        f'"{most.name}": {most.axial_force:.4g} N): {pressure_remedy(middle)}'
+        worded(
+            "the sliders carry {middle:.3g} MPa under permanent loads (5 to 60 MPa is usual; "
+            '"{name}": {axial_force:.4g} N): {remedy}',
+            middle=1e-6 * middle,
+            name=most.name,
+            axial_force=most.axial_force,
+            remedy=pressure_remedy(middle),
+        )
     ]
 
 
@@ -133,9 +140,16 @@ def _of_settlement(loads: tuple[BearingLoad, ...], devices: dict[str, LIRBearing
         return []
     stiffness = devices[most.name].resolved()["axial_stiffness"]
     return [
-        f'bearing "{most.name}" settles by {1e3 * most.settlement:.3g} mm under '
-        f"{most.axial_force:.4g} N, {100.0 * part(most):.3g} % of its slider's height: look at "
-        f"the units of axial_stiffness = {stiffness:.4g} N/m (kN/mm?) and of the loads"
+        worded(
+            'bearing "{name}" settles by {settlement:.3g} mm under {axial_force:.4g} N, {part:.3g} '
+            "% of its slider's height: look at the units of axial_stiffness = {stiffness:.4g} N/m "
+            "(kN/mm?) and of the loads",
+            name=most.name,
+            settlement=1e3 * most.settlement,
+            axial_force=most.axial_force,
+            part=100.0 * part(most),
+            stiffness=stiffness,
+        )
     ]
 
 
@@ -148,8 +162,12 @@ def _of_design_loads(loads: tuple[BearingLoad, ...], devices: dict[str, LIRBeari
     if USUAL_LOAD_RATIO[0] <= ratio <= USUAL_LOAD_RATIO[1]:
         return []
     return [
-        f"the bearings carry {ratio:.3g} times their design_load ({design:.4g} N in all): look at "
-        "the units of loads and masses (t or N for kg, kN for N) and of design_load [N]"
+        worded(
+            "the bearings carry {ratio:.3g} times their design_load ({design:.4g} N in all): look "
+            "at the units of loads and masses (t or N for kg, kN for N) and of design_load [N]",
+            ratio=ratio,
+            design=design,
+        )
     ]
 
 
@@ -163,8 +181,16 @@ def _of_density(system: System, axial_forces: FloatArray) -> list[str]:
         return []
     what = "a weight in N for a mass in kg?" if density > DENSEST else "t for kg, kN for N?"
     return [
-        f"the bearings carry {mass:.4g} kg on {spans[0]:.3g} x {spans[1]:.3g} x {spans[2]:.3g} m, "
-        f"{density:.3g} kg/m3 (buildings have 100 to 600): look at the units of the masses ({what})"
+        worded(
+            "the bearings carry {mass:.4g} kg on {x:.3g} x {y:.3g} x {z:.3g} m, {density:.3g} "
+            "kg/m3 (buildings have 100 to 600): look at the units of the masses ({what})",
+            mass=mass,
+            x=spans[0],
+            y=spans[1],
+            z=spans[2],
+            density=density,
+            what=what,
+        )
     ]
 
 
@@ -172,9 +198,13 @@ def _of_periods(periods: tuple[float, ...], isolated: float) -> list[str]:
     if not periods or periods[0] <= max(isolated, 1.0):
         return []
     return [
-        f"the structure on a fixed base has a period of {periods[0]:.3g} s, the isolation "
-        f"{isolated:.3g} s: look at the units of stiffness (kN/m or kN/mm for N/m, MPa for Pa) and "
-        "mass (N for kg)"
+        worded(
+            "the structure on a fixed base has a period of {fixed:.3g} s, the isolation "
+            "{isolated:.3g} s: look at the units of stiffness (kN/m or kN/mm for N/m, MPa for Pa) "
+            "and mass (N for kg)",
+            fixed=periods[0],
+            isolated=isolated,
+        )
     ]
 
 
@@ -183,8 +213,13 @@ def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
     peak = float(np.hypot(*motion.components[:, :2].T).max())
     if peak > STRONG_GROUND:
         return (
-            f"the motion's horizontal peak is {peak:.4g} m/s2 = {peak / STANDARD_GRAVITY:.3g} g, "
-            f"above all that was recorded: {meant(peak, 'm/s2', 0.2, 20.0)}",
+            worded(
+                "the motion's horizontal peak is {peak:.4g} m/s2 = {in_g:.3g} g, above all that "
+                "was recorded: {hint}",
+                peak=peak,
+                in_g=peak / STANDARD_GRAVITY,
+                hint=meant(peak, "m/s2", 0.2, 20.0),
+            ),
         )
     least = min(
         (
@@ -196,10 +231,15 @@ def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
     )
     if FEEBLE < peak < 0.5 * least * frame.gravity:
         return (
-            f"the motion's horizontal peak is {peak:.3g} m/s2 = {peak / STANDARD_GRAVITY:.2g} g, "
-            f"less than half of what friction holds ({least:.3g} g): the bearings hardly slide; "
-            f"a motion is given in m/s2 ({peak:.3g} g would be "
-            f"{peak * STANDARD_GRAVITY:.3g} m/s2)",
+            worded(
+                "the motion's horizontal peak is {peak:.3g} m/s2 = {in_g:.2g} g, less than half of "
+                "what friction holds ({least:.3g} g): the bearings hardly slide; a motion is given "
+                "in m/s2 ({peak:.3g} g would be {in_si:.3g} m/s2)",
+                peak=peak,
+                in_g=peak / STANDARD_GRAVITY,
+                least=least,
+                in_si=peak * STANDARD_GRAVITY,
+            ),
         )
     return ()
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from lir_element.argument_checks import as_pair
 from lir_element.device.friction import VelocityFriction
+from lir_element.texts import worded
 from lir_element.units import meant
 
 if TYPE_CHECKING:
@@ -71,36 +72,47 @@ def sanity_warnings(bearing: Specification) -> tuple[str, ...]:
 def _of_geometry(bearing: Specification) -> Iterator[str]:
     length = bearing.effective_radius
     if length > LONG_PENDULUM and max(bearing.radii) < FLAT:
-        yield (
-            f"radius = {bearing.radius} m makes a pendulum of {bearing.period:.1f} s: "
-            f"{meant(max(bearing.radii), 'm', 0.02, 6.0)} if that is not meant"
+        yield worded(
+            "radius = {radius} m makes a pendulum of {period:.1f} s: {hint} if that is not meant",
+            radius=bearing.radius,
+            period=bearing.period,
+            hint=meant(max(bearing.radii), "m", 0.02, 6.0),
         )
     proportions = bearing.slider_height / (2.0 * bearing.slider_radius)
     if not USUAL_PROPORTIONS[0] <= proportions <= USUAL_PROPORTIONS[1]:
-        yield (
-            f"slider_height = {bearing.slider_height:g} m is {proportions:.2g} times the slider's "
-            "diameter: check that both are in m"
+        yield worded(
+            "slider_height = {slider_height:g} m is {proportions:.2g} times the slider's diameter: "
+            "check that both are in m",
+            slider_height=bearing.slider_height,
+            proportions=proportions,
         )
     for name, part in (("yield_displacement", 0.02), ("interface_yield_displacement", 0.005)):
         value = getattr(bearing, name)
         if value > part * length:
-            yield (
-                f"{name} = {value:g} m is {100.0 * value / length:.2g} % of the effective radius, "
-                f"too soft for friction: {meant(value, 'm', 0.0, 0.005 * length)}"
+            yield worded(
+                "{name} = {value:g} m is {share:.2g} % of the effective radius, too soft for "
+                "friction: {hint}",
+                name=name,
+                value=value,
+                share=100.0 * value / length,
+                hint=meant(value, "m", 0.0, 0.005 * length),
             )
     if not USUAL_DENSITY[0] <= bearing.slider_density <= USUAL_DENSITY[1]:
         density = bearing.slider_density
-        yield (
-            f"slider_density = {density:g} kg/m3 is no metal's: "
-            f"{meant(density, 'kg/m3', *USUAL_DENSITY)}"
+        yield worded(
+            "slider_density = {density:g} kg/m3 is no metal's: {hint}",
+            density=density,
+            hint=meant(density, "kg/m3", *USUAL_DENSITY),
         )
     mass = 0.5 * 7850.0 * slider_area(bearing) * bearing.slider_height
     for value in as_pair("slider_mass", bearing.slider_mass):
         if value is None or 0.005 <= value / mass <= 200.0:
             continue
-        yield (
-            f"slider_mass = {value:g} kg, where half a slider of steel has {mass:.3g} kg: "
-            f"{meant(value, 'kg', 0.1 * mass, 10.0 * mass)}"
+        yield worded(
+            "slider_mass = {value:g} kg, where half a slider of steel has {mass:.3g} kg: {hint}",
+            value=value,
+            mass=mass,
+            hint=meant(value, "kg", 0.1 * mass, 10.0 * mass),
         )
 
 
@@ -109,12 +121,18 @@ def _of_loads(bearing: Specification) -> Iterator[str]:
     pressure = load / slider_area(bearing)
     low, high = (limit * slider_area(bearing) for limit in USUAL_PRESSURE)
     if not low <= load <= high:
-        yield (
-            f"design_load = {load:g} N makes a pressure of {1e-6 * pressure:.2g} MPa on the "
-            f"slider: {meant(load, 'N', 10.0 * low, high)} if that is not meant"
+        yield worded(
+            "design_load = {load:g} N makes a pressure of {pressure:.2g} MPa on the slider: {hint} "
+            "if that is not meant",
+            load=load,
+            pressure=1e-6 * pressure,
+            hint=meant(load, "N", 10.0 * low, high),
         )
         return
-    yield from (f"{msg} if that is not meant" for msg in shortening(bearing, STRANGE_SHORTENING))
+    yield from (
+        worded("{doubt} if that is not meant", doubt=msg)
+        for msg in shortening(bearing, STRANGE_SHORTENING)
+    )
 
 
 def shortening(bearing: Specification, part: float, why: str = "") -> Iterator[str]:
@@ -123,30 +141,44 @@ def shortening(bearing: Specification, part: float, why: str = "") -> Iterator[s
     load, stiffness = options["design_load"], options["axial_stiffness"]
     if load > part * stiffness * bearing.slider_height:
         least = load / (0.02 * bearing.slider_height)
-        yield (
-            f"axial_stiffness = {stiffness:g} N/m settles by {1e3 * load / stiffness:.3g} mm under "
-            f"the design load of {load:.4g} N{why}: {meant(stiffness, 'N/m', least, 200.0 * least)}"
+        yield worded(
+            "axial_stiffness = {stiffness:g} N/m settles by {settled:.3g} mm under the design load "
+            "of {load:.4g} N{why}: {hint}",
+            stiffness=stiffness,
+            settled=1e3 * load / stiffness,
+            load=load,
+            why=why,
+            hint=meant(stiffness, "N/m", least, 200.0 * least),
         )
 
 
 def _of_friction(bearing: Specification) -> Iterator[str]:
     for law in dict.fromkeys(bearing.frictions):
         if law.f_max > LARGEST_FRICTION:
-            yield (
-                f"friction of {law.f_max:g} is far above that of sliding materials, 0.01 to 0.2: "
-                "give a pure number, 0.06 for six per cent"
+            yield worded(
+                "friction of {f_max:g} is far above that of sliding materials, 0.01 to 0.2: give a "
+                "pure number, 0.06 for six per cent",
+                f_max=law.f_max,
             )
         rate = law.kernel_values().rate
         if law.f_max > law.f_min and SLOWEST_RATES[0] < rate < SLOWEST_RATES[1]:
-            yield (
-                f"{_rate_of(law)} = {rate:g} s/m leaves friction at f_min = {law.f_min:g} at all "
-                f"speeds of an earthquake: {meant(rate, 's/m', 5.0, 500.0)}"
+            yield worded(
+                "{law} = {rate:g} s/m leaves friction at f_min = {f_min:g} at all speeds of an "
+                "earthquake: {hint}",
+                law=_rate_of(law),
+                rate=rate,
+                f_min=law.f_min,
+                hint=meant(rate, "s/m", 5.0, 500.0),
             )
 
 
 def _rate_of(law: FrictionLaw) -> str:
     own = isinstance(law, VelocityFriction)
-    return "rate" if own else f"steepest growth of {type(law).__name__} over its range"
+    return (
+        "rate"
+        if own
+        else worded("steepest growth of {name} over its range", name=type(law).__name__)
+    )
 
 
 def _of_rims(bearing: Specification) -> Iterator[str]:
@@ -154,19 +186,26 @@ def _of_rims(bearing: Specification) -> Iterator[str]:
     edge = bearing.slider_radius
     for name, bound in (("slip_capacity", 300.0 * edge), ("rim_overrun", 50.0 * edge)):
         if options[name] > bound:
-            yield (
-                f"{name} = {options[name]:g} m, for a slider of radius {edge:g} m: "
-                f"{meant(options[name], 'm', 0.0, 2.0 * edge)} if that is not meant"
+            yield worded(
+                "{name} = {value:g} m, for a slider of radius {edge:g} m: {hint} if that is not "
+                "meant",
+                name=name,
+                value=options[name],
+                edge=edge,
+                hint=meant(options[name], "m", 0.0, 2.0 * edge),
             )
     yield from _of_rim_yield(bearing)
     strength = options["rim_stiffness"] * options["rim_overrun"]
     if strength < 0.02 * options["design_load"] and math.isfinite(bearing.lateral_capacity):
         least = 0.1 * options["design_load"] / options["rim_overrun"]
-        yield (
-            f"rim_stiffness = {options['rim_stiffness']:g} N/m and rim_overrun = "
-            f"{options['rim_overrun']:g} m: the rim gives way at {strength:.3g} N, the design load "
-            f"is {options['design_load']:.3g} N: "
-            f"{meant(options['rim_stiffness'], 'N/m', least, 200.0 * least)}"
+        yield worded(
+            "rim_stiffness = {stiffness:g} N/m and rim_overrun = {overrun:g} m: the rim gives way "
+            "at {strength:.3g} N, the design load is {load:.3g} N: {hint}",
+            stiffness=options["rim_stiffness"],
+            overrun=options["rim_overrun"],
+            strength=strength,
+            load=options["design_load"],
+            hint=meant(options["rim_stiffness"], "N/m", least, 200.0 * least),
         )
 
 
@@ -176,15 +215,20 @@ def _of_rim_yield(bearing: Specification) -> Iterator[str]:
         return
     load, elastic = options["design_load"], force / options["rim_stiffness"]
     if not 0.02 * load <= force <= 100.0 * load:
-        yield (
-            f"rim_yield_force = {force:g} N, the design load is {load:.3g} N: "
-            f"{meant(force, 'N', 0.02 * load, 100.0 * load)}"
+        yield worded(
+            "rim_yield_force = {force:g} N, the design load is {load:.3g} N: {hint}",
+            force=force,
+            load=load,
+            hint=meant(force, "N", 0.02 * load, 100.0 * load),
         )
     if elastic >= options["rim_overrun"]:
-        yield (
-            f"rim_yield_force = {force:g} N is reached at {elastic:.3g} m, rim_overrun = "
-            f"{options['rim_overrun']:g} m: the rim fails before it yields; raise rim_overrun to "
-            "the deformation at which it breaks, or leave rim_yield_force out"
+        yield worded(
+            "rim_yield_force = {force:g} N is reached at {elastic:.3g} m, rim_overrun = "
+            "{overrun:g} m: the rim fails before it yields; raise rim_overrun to the deformation "
+            "at which it breaks, or leave rim_yield_force out",
+            force=force,
+            elastic=elastic,
+            overrun=options["rim_overrun"],
         )
 
 
@@ -194,11 +238,15 @@ def _of_slip(bearing: Specification) -> Iterator[str]:
     if without or not 0.0 < holds < HOLDS * overlap:
         return
     needed = (overlap / bearing.effective_radius) + bearing.effective_friction
-    yield (
-        f"interface_friction = {bearing.interface_friction:g} holds a slip of {1e3 * holds:.3g} mm "
-        f"without rims (slip_stability), the sliders overlap up to {1e3 * overlap:.3g} mm: after a "
-        "larger slip they slip off where the motion turns again in its direction; raise it, "
-        f"to {needed:.3g} for the whole overlap, or count on {1e3 * holds:.3g} mm"
+    yield worded(
+        "interface_friction = {mu:g} holds a slip of {holds:.3g} mm without rims (slip_stability), "
+        "the sliders overlap up to {overlap:.3g} mm: after a larger slip they slip off where the "
+        "motion turns again in its direction; raise it, to {needed:.3g} for the whole overlap, or "
+        "count on {holds:.3g} mm",
+        mu=bearing.interface_friction,
+        holds=1e3 * holds,
+        overlap=1e3 * overlap,
+        needed=needed,
     )
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from lir_element import RunStatus
+from tests.spanish import PLACES
 
 ROOT = Path(__file__).parents[2]
 ROW = re.compile(r"^\| `([^`]+)` \|", re.MULTILINE)
@@ -27,7 +28,7 @@ def said() -> list[str]:
                     parts = (getattr(part, "value", "…") for part in node.values)
                     found.append("".join(p if isinstance(p, str) else "…" for p in parts))
                 elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-                    found.append(node.value)
+                    found.append(PLACES.sub("…", node.value))
     return found
 
 

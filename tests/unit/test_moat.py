@@ -24,6 +24,7 @@ from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.schema_bearing import MoatTable
 from frames.design.report.words import Words
+from tests.spanish import untold
 from tests.unit.test_accidental_eccentricity import PROJECT
 
 BEARING = wide_bearing()
@@ -99,7 +100,7 @@ def test_walls_in_the_model_are_told_of_with_what_they_do() -> None:
     words = Words("es", ",")
     for check in (histories, single, *wide[1:4]):
         assert words.say(check.note) != check.note
-    assert words.missing == set()
+    assert untold(words) == set()
 
 
 def test_walls_are_found_in_a_structure() -> None:

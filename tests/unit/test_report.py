@@ -53,6 +53,7 @@ from frames.design.report.writing import SECTIONS, report_in
 from lir_element import LIRBearing, VelocityFriction
 from tests.patience import patience
 from tests.scenes import wide_bearing
+from tests.spanish import english_words, untold
 
 pytestmark = pytest.mark.filterwarnings("default")  # the command prints warnings
 
@@ -473,10 +474,12 @@ def test_a_failing_design_names_each_cause_once(failing: Path) -> None:
 def test_a_failing_design_is_in_spanish_throughout(failing: Path) -> None:
     pytest.importorskip("babel")
     run = evaluated_in(failing.parent)
-    names = {*run.frame.bearings, *run.frame.nodes, *run.motions}
-    words = Words("es", ",", {run.frame.name, *names})
+    names = names_of(run)
+    words = Words("es", ",", names)
     said = report_in(words, run, failing.read_text(), run_tables(run))
-    assert words.missing == set()
+    assert untold(words) == set()
+    assert english_words(said, names) == set()
+    assert english_words(report_in(Words(), run, "", run_tables(run), figures=False), names)
     assert not [t for t in texts_of(said) if re.search(r"(?<![\w.])\d+\.\d+(?![\w.])", t)]
 
 
@@ -755,14 +758,22 @@ def test_drifts_of_all_motions_over_the_height(storeys: int) -> None:
     assert [t.get_text() for t in figure.axes[0].get_yticklabels()] == list(data["storey"].values)
 
 
+def names_of(run: ProjectRun) -> set[str]:
+    """Return the names that the user gave, or that were made for them."""
+    frame = run.frame
+    levels = {level.name for level in frame.levels}
+    return {frame.name, *frame.bearings, *frame.nodes, *run.motions, *levels}
+
+
 def test_the_report_in_spanish(results: Path, evaluated: ProjectRun, page: str) -> None:
     """Every text that is ours is said, those of figures included; numbers and clauses are alike."""
     pytest.importorskip("babel")
-    names = {*evaluated.frame.bearings, *evaluated.frame.nodes, *evaluated.motions}
-    words = Words("es", ",", {evaluated.frame.name, *names})
+    names = names_of(evaluated)
+    words = Words("es", ",", names)
     tables = run_tables(evaluated)
     said = report_in(words, evaluated, PROJECT, tables)
-    assert words.missing == set()
+    assert untold(words) == set()
+    assert english_words(said, names) == set()
     assert '<html lang="es">' in said
     assert "Qué controla" in said
     own, ours = (texts_of(text) for text in (page, said))

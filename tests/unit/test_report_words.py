@@ -1,10 +1,14 @@
 """Texts of the report in other languages: each has its translation; numbers and clauses stay."""
 
 import ast
+import json
 import re
 import warnings
+from copy import deepcopy
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pytest
 
 pytest.importorskip("babel")
@@ -17,6 +21,7 @@ from typer.testing import CliRunner
 from frames.command.app import app
 from frames.design._errors import ProjectError
 from frames.design.codes.registry import code_named
+from frames.design.devices.bearing_numbers import by_equation
 from frames.design.hazard.plot_hazard import motion_spectra
 from frames.design.project import example
 from frames.design.project.inputs import ProjectInputs
@@ -27,9 +32,13 @@ from frames.design.report.tables import Table
 from frames.design.report.words import LANGUAGES, Words, catalogue
 from frames.design.report.writing import SECTIONS
 from frames.plots import plot_style as ps
+from frames.results.findings import Findings, finding, findings_from
+from lir_element.texts import Text, joined, text_from, worded
+from tests.spanish import PLACES, untold
 
-DESIGN = Path(__file__).parents[2] / "frames" / "design"
-PLACES = re.compile(r"\{(\w+)\}|%\((\w+)\)s")
+ROOT = Path(__file__).parents[2]
+DESIGN = ROOT / "frames" / "design"
+GETTEXT = re.compile(r"%\((\w+)\)s")
 OTHERS = [language for language in LANGUAGES if language != "en"]
 
 
@@ -43,39 +52,54 @@ def test_every_message_of_the_templates_is_translated(language: str) -> None:
     )
     messages = {" ".join(str(m[2] if isinstance(m[2], str) else m[2][0]).split()) for m in found}
     assert len(messages) > 40
-    texts, _ = catalogue(language)
+    texts = catalogue(language)
     assert messages - set(texts) == set()
     assert {title for _, title in SECTIONS} <= set(texts)
 
 
+ROOMS = [path for room in ("frames", "lir_element") for path in (ROOT / room).rglob("*.py")]
+
+
+def templates() -> set[str]:
+    """Return the templates of all calls of the function that makes texts, and notes of checks."""
+    found = set()
+    for path in ROOMS:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "worded":
+                template = node.args[0]
+                if path.name != "texts.py":
+                    assert isinstance(template, ast.Constant), (path, node.lineno)
+                    found.add(template.value)
+            is_note = (
+                isinstance(node, ast.keyword) and node.arg == "note" and "design" in path.parts
+            )
+            if is_note and isinstance(node.value, ast.Constant):
+                found.add(node.value.value)
+            assert not (is_note and isinstance(node.value, ast.JoinedStr)), (
+                path,
+                node.value.lineno,
+            )
+    return found - {""}
+
+
 @pytest.mark.parametrize("language", OTHERS)
-def test_every_note_of_a_calculation_is_translated(language: str) -> None:
-    """Texts that stand as they are in the sources of checks: ``note="..."``."""
-    words, notes = Words(language), set()
-    for room in ("codes", "devices", "histories"):
-        for path in (DESIGN / room).rglob("*.py"):
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.keyword) and node.arg == "note":
-                    value = getattr(node.value, "value", None)
-                    notes |= {value} if isinstance(value, str) and value else set()
-    assert len(notes) > 60
-    for note in notes:
-        words.say(note)
-    assert words.missing == set()
+def test_every_template_is_translated(language: str) -> None:
+    """Found in the sources by the calls that make texts; those of places and units alone aside."""
+    words, every = Words(language), templates()
+    assert len(every) > 400
+    for template in every:
+        words.gettext(template)
+    assert untold(words) == set()
 
 
 @pytest.mark.parametrize("language", OTHERS)
 def test_places_of_translations_are_those_of_the_messages(language: str) -> None:
-    from babel.messages.pofile import read_po
-
-    file = DESIGN / "report" / "locale" / f"{language}.po"
-    with file.open("rb") as opened:
-        messages = [m for m in read_po(opened) if m.id]
-    assert len(messages) > 400
-    for message in messages:
-        assert message.string, message.id
-        assert not message.fuzzy
-        assert sorted(PLACES.findall(message.id)) == sorted(PLACES.findall(message.string))
+    known = catalogue(language)
+    assert len(known) > 1000
+    for message, text in known.items():
+        assert text, message
+        assert sorted(PLACES.findall(message)) == sorted(PLACES.findall(text)), message
+        assert sorted(GETTEXT.findall(message)) == sorted(GETTEXT.findall(text)), message
 
 
 @pytest.mark.parametrize("name", ["office", "near-fault"])
@@ -89,7 +113,7 @@ def test_structures_of_whole_buildings_are_translated(
     frame = parts.frame()
     words = Words("es", ",", frame.bearings)
     said = {words.say(what): words.say(how) for what, how in structure_rows(parts.file, frame)}
-    assert words.missing == set()
+    assert untold(words) == set()
     code = {"office": "EN 1998-1:2004, 3.2.4 *: psi_2 = 0,3", "near-fault": "12.7.2 y 17.2.7.1 *"}
     assert code[name] in said["masa sísmica"]
     part = {
@@ -116,7 +140,7 @@ def test_checks_of_every_code_are_translated(code: str, tmp_path: Path, put_exam
     for row in structure_rows(parts.file, known.frame):
         list(map(words.say, row))
     words.figure(motion_spectra(known.motions, known.spectrum))
-    assert words.missing == set()
+    assert untold(words) == set()
 
 
 @pytest.mark.parametrize(
@@ -124,39 +148,58 @@ def test_checks_of_every_code_are_translated(code: str, tmp_path: Path, put_exam
     [
         ("264.2 mm", "264,2 mm"),
         ("storey drift ratio", "deriva de entrepiso"),
-        ("bearing-0-0, bottom rim, lower, MCE_R", "bearing-0-0, anillo inferior, inferior, MCE_R"),
-        ("0.45 before failure", "0,45 antes de la falla"),
-        ("largest of each of 7 runs", "máximo de cada uno de 7 análisis"),
+        (
+            joined("bearing-0-0", worded("{name} rim", name="bottom"), "lower", by=", "),
+            "bearing-0-0, anillo inferior, inferior",
+        ),
+        (worded("{value} before failure", value="0.45"), "0,45 antes de la falla"),
+        (worded("largest of each of {n} runs", n=7), "máximo de cada uno de 7 análisis"),
         ("displacement [mm]", "desplazamiento [mm]"),
-        ("margin; a proposal", "margen; una propuesta"),
+        (joined("margin", "a proposal"), "margen; una propuesta"),
         ("1.257e+07", "1,257e+07"),
         ("-0.5", "-0,5"),
         ("more than 1000 %", "más de 1000 %"),
+        (worded("smallest N {least:.2f} W", least=np.float64(-1.5)), "N mínima -1,50 W"),
         (
-            "centre of mass, of the model's masses; that of the bearings' loads: 9.822 m, "
-            "the model holds its tilt",
-            "centro de masa, de las masas del modelo; el de las cargas de los aisladores: 9,822 m, "
-            "el modelo impide su inclinación",
+            worded("The bearing, type {kind}, to scale", kind="wall"),
+            "El aislador, tipo wall, a escala",
         ),
-        ("3 increments, least load, 0.25 D_M", "3 incrementos, carga mínima, 0,25 D_M"),
+        (by_equation("2.7"), "sin norma: docs/theory.md (2.7)"),
     ],
 )
 def test_texts_in_spanish_with_decimal_commas(text: str, said: str) -> None:
-    words = Words("es", ",")
-    assert words.say(text) == said
-    assert words.missing == set()
-
-
-def test_captions_of_types_of_bearings_are_translated() -> None:
+    """Of the text itself, after a table, a file of findings, and another process."""
     words = Words("es", ",", ["wall"])
-    assert words.say("The bearing, type wall, to scale") == "El aislador, tipo wall, a escala"
+    say = words.cited if text.startswith("no code") else words.say
+    kept = pd.Series([text], dtype=object).to_numpy()[0]
+    stored = text_from(json.loads(json.dumps(text.plain() if isinstance(text, Text) else text)))
+    for one in (text, str(text), kept, stored, deepcopy(text)):
+        assert one == text
+        assert say(one) == said
+    assert untold(words) == set()
+
+
+def test_findings_keep_their_templates_through_a_file() -> None:
+    text = worded("met by {whom}", whom=worded("{count} of {all} bearings", count=2, all=9))
+    found = Findings((finding("rims", False, True, 1.0, text),))
+    again = findings_from(json.loads(found.json()))
+    assert again == found
+    assert again[0].sentence == "rims: met by 2 of 9 bearings"
+    assert Words("es").say(again.lines()[0]) == "  anillos: tocados por 2 de 9 aisladores"
+
+
+def test_names_of_the_user_stay() -> None:
+    words = Words("es", ",", ["wall 1.5"])
+    assert words.say(worded("{where} at {bound}", where="wall 1.5", bound="lower")) == (
+        "wall 1.5 en inferior"
+    )
 
 
 def test_what_is_not_known_stays_and_is_told() -> None:
     words = Words("es", ",")
     assert words.say("a sentence of another package") == "a sentence of another package"
-    assert words.say("a proposal; a word") == "una propuesta; a word"
-    assert words.missing == {"a sentence of another package", "a word"}
+    assert words.say(joined("a proposal", "a word")) == "una propuesta; a word"
+    assert untold(words) == {"a sentence of another package", "a word"}
 
 
 @pytest.mark.parametrize("text", ["ASCE 7-22 17.2.4.5", "numpy 2.4.6", "(17.5-1)", "a.b", "v0.2.0"])
@@ -196,4 +239,4 @@ def test_figures_have_words_and_commas() -> None:
     assert panel.get_title(loc="left") == "Deriva de entrepiso"
     assert [t.get_text() for t in panel.get_xticklabels()] == ["0,0", "0,5"]
     assert [t.get_text() for t in panel.get_yticklabels()] == ["inferior", "0,75"]
-    assert words.missing == set()
+    assert untold(words) == set()

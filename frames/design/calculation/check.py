@@ -8,11 +8,12 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Literal, get_args, overload
 
 from frames.design._errors import CheckError
-from frames.design.calculation.rendering import joined, quantity, scale, usual_unit
+from frames.design.calculation.rendering import quantity, scale, usual_unit
 from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.calculation.trace import Trace
 from lir_element.argument_checks import as_number, require_choice, require_type
 from lir_element.tables import html_table, text_table
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -189,7 +190,13 @@ class Check:
             demand = "no limit" if math.isinf(self.demand) else demand
             return demand, "no limit" if math.isinf(self.limit) else limit, "-"
         if self.void:
-            return (demand if math.isinf(self.demand) else f"{demand} before failure", limit, "-")
+            return (
+                demand
+                if math.isinf(self.demand)
+                else worded("{value} before failure", value=demand),
+                limit,
+                "-",
+            )
         return demand, limit, f"{self.ratio:.3f}" if math.isfinite(self.ratio) else "-"
 
     @property

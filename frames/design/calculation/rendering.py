@@ -171,11 +171,6 @@ _SCALE = {
 _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(1, 6)
 
 
-def joined(*parts: str, by: str = "; ") -> str:
-    """Return the parts that are not empty, one after the other."""
-    return by.join(part for part in parts if part)
-
-
 def usual_unit(unit: str) -> str:
     """Return the unit in which engineers read a quantity that is kept in `unit`."""
     return _USUAL.get(unit, unit)

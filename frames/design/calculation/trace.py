@@ -14,7 +14,6 @@ from frames.design.calculation.rendering import (
     Style,
     Value,
     evaluate,
-    joined,
     mathml,
     names,
     parse,
@@ -25,6 +24,7 @@ from frames.design.calculation.rendering import (
     text,
     usual_unit,
 )
+from lir_element.texts import joined
 
 
 class Trace:

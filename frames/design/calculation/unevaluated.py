@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from frames.design.calculation.check import Checks
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -38,7 +39,7 @@ def _without_demand(check: Check, why: str) -> Check:
     return replace(
         check,
         demand=worst,
-        title=f"{check.title}: {NOT_EVALUATED}",
+        title=worded("{check}: not evaluated", check=check.title),
         scope="any",
-        note=f"{why}; {check.note}" if check.note else why,
+        note=joined(why, check.note),
     )

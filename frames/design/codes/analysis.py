@@ -26,6 +26,7 @@ from frames.design.hazard.code_rules import canonical, known_names
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_type
 from lir_element.device.bearing import LIRBearing
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Check
@@ -109,7 +110,9 @@ def service_checks(
 def least_strength(system: IsolationSystem, bounds: PropertyBounds) -> Trace:
     """Return what wind must stay below: the force that starts sliding, at the lower bound."""
     t = Trace()
-    t.given_each("P", system.loads, "N", note=f"loads of the {len(system.loads)} bearings")
+    t.given_each(
+        "P", system.loads, "N", note=worded("loads of the {n} bearings", n=len(system.loads))
+    )
     slow = [slow_friction(b) for b in system.bearings]
     t.given_each("mu_s", slow, note="of low speed, both surfaces, over the load")
     t.given("lambda_min", bounds.friction.lower, note="lower bound of the surfaces")

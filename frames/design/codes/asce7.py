@@ -35,6 +35,7 @@ from frames.design.codes.registry import DesignCode
 from frames.design.codes.secant import CheckBuilder, enter_system, procedure_limit, secant
 from frames.design.codes.values_of_asce7 import NAME, PROVISIONS, RULES, VALUES
 from frames.design.hazard.spectrum import Spectrum
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -176,7 +177,7 @@ class ASCE7(LinearAnalysis):
                 "m",
                 source=source,
                 shown="mm",
-                note=f"of each bearing, motion along {along}",
+                note=worded("of each bearing, motion along {along}", along=along),
             )
         t.each("D_T", "max(D_Tx, D_Ty)", "m", shown="mm")
         t("D_TM", "max(D_T)", "m", source=source, shown="mm")
@@ -239,11 +240,12 @@ class ASCE7(LinearAnalysis):
         least, note = "0.044 * S_DS * I_e, 0.01", "fixed base, at T_M"
         s_1, said = spectrum.parameters.get("S_1"), "in g"
         if s_1 is None:
-            s_1, said = t.value("S_M1"), "in g; not given: S_M1, on the safe side on soil"
+            known = "not given: S_M1, on the safe side on soil"
+            s_1, said = t.value("S_M1"), joined("in g", known)
         t.given("S_1", s_1, note=said)
         if s_1 >= _NEAR_FAULT:
             least += ", 0.5 * S_1 * I_e / R"
-            note += "; the last one where S_1 >= 0.6"
+            note = joined(note, "the last one where S_1 >= 0.6")
         formula = f"max(min(S_DS, S_D1 / T_M) * I_e / R, {least})"
         t("C_s", formula, source="ASCE 7-22 12.8.1.1", note=note)
 

@@ -17,6 +17,7 @@ from lir_element.argument_checks import (
     require_type,
     require_within,
 )
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     Range = tuple[float, float]
@@ -271,7 +272,7 @@ def _with_factors(what: Bounded, factor: float, inner: float, bound: str) -> Bou
     require_type("what", what, Frame, "an LIRBearing, a Frame or an IsolationSystem")
     links = what.bearings.items()
     devices = {name: _bearing(link.bearing, factor, inner) for name, link in links}
-    return what.with_bearings(devices, f"{what.name}, {bound} bound")
+    return what.with_bearings(devices, worded("{name}, {bound} bound", name=what.name, bound=bound))
 
 
 def _bearing(bearing: Device, factor: float, inner: float) -> Device:

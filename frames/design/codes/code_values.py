@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 from frames.design._errors import CheckError
 from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.unevaluated import NOT_EVALUATED
+from lir_element.texts import first_of, joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping
@@ -207,15 +208,15 @@ def _state(
     clause = found[0].cited if found else standing.cited(one.clause)
     blind = next((check for check in found if not _is_made(check)), None)
     if blind is not None:
-        why = blind.note.partition("; ")[0] if NOT_EVALUATED in blind.title else "it has no limit"
-        return ProvisionState(clause, one.what, "not checked", f"since {why}")
+        why = first_of(blind.note) if NOT_EVALUATED in blind.title else "it has no limit"
+        return ProvisionState(clause, one.what, "not checked", worded("since {why}", why=why))
     whole = all(any(_begins(check, title) for check in found) for title in one.checks)
     if found and whole and not lacking:
         titles = dict.fromkeys(check.title for check in found)
-        return ProvisionState(clause, one.what, "checked", "; ".join(titles))
+        return ProvisionState(clause, one.what, "checked", joined(*titles))
     if one.checks and not lacking and not is_run:
         return ProvisionState(clause, one.what, "checked", RUN)
-    why = one.why or (f"since {lacking}" if lacking else NO_CHECK)
+    why = one.why or (worded("since {why}", why=lacking) if lacking else NO_CHECK)
     return ProvisionState(clause, one.what, "not checked", why)
 
 

@@ -15,6 +15,7 @@ from frames.design.codes.code_values import CodeValue
 from frames.design.codes.outcome import BoundResult, Iteration, Symbols
 from frames.design.codes.secant import CheckBuilder, held_by, iterate_displacement
 from lir_element.device.bearing import LIRBearing
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from frames.design.calculation.trace import Trace
@@ -198,8 +199,10 @@ def _of_masses(system: IsolationSystem, k: int) -> str:
     if abs(centre - given) <= _SAME_CENTRE * system.plan[k]:
         return "centre of mass, of the model's masses"
     why = "the model holds its tilt" if system.unknown_loads else "loads that are not masses"
-    own = f"{round(centre, 3) + 0.0:.3f} m"
-    return f"centre of mass, of the model's masses; that of the bearings' loads: {own}, {why}"
+    of_loads = worded(
+        "that of the bearings' loads: {place:.3f} m, {why}", place=round(centre, 3) + 0.0, why=why
+    )
+    return joined("centre of mass, of the model's masses", of_loads)
 
 
 def enter_storeys(t: Trace, above: Superstructure) -> None:
@@ -267,11 +270,16 @@ def vertical_checks(
         t.given("p_lim", pressure_limit, "Pa")
     for name, loads in system.combinations.items():
         word = name if name.isidentifier() else f"c{len(found)}"
-        t.given_each(f"N_{word}", loads, "N", note=f"combination {name}, without earthquake")
+        t.given_each(
+            f"N_{word}",
+            loads,
+            "N",
+            note=worded("combination {name}, without earthquake", name=name),
+        )
         found.append(
             judge.of("procedure").worst(
                 clause,
-                f"no uplift, {name}",
+                worded("no uplift, {name}", name=name),
                 "N_E",
                 "<=",
                 f"N_{word}",
@@ -283,7 +291,7 @@ def vertical_checks(
             found.append(
                 judge.of("demand").worst(
                     clause,
-                    f"pressure on the slider, {name}",
+                    worded("pressure on the slider, {name}", name=name),
                     f"p_{word}",
                     "<=",
                     "p_lim",
@@ -331,14 +339,15 @@ def capacity_check(
         shown="mm",
         note="displacement at the first rim contact",
     )
-    title = f"no restrainer contact at {words}"
+    title = worded("no restrainer contact at {symbol}", symbol=words)
     limit = judge.of("procedure")
     check = limit.worst(clause, title, demand, "<=", "d_rim", subjects=system.labels)
     if check.passed:
         return check
-    note = (
-        f"the rim is met at {100.0 / check.ratio:.0f} % of the displacement: equivalent-linear "
-        "analysis does not hold, do a time history with the rims modelled"
+    note = worded(
+        "the rim is met at {share:.0f} % of the displacement: equivalent-linear analysis does not "
+        "hold, do a time history with the rims modelled",
+        share=100.0 / check.ratio,
     )
     return replace(check, note=note)
 
@@ -355,6 +364,6 @@ def drift_checks(
     note = "above: sum over the storey and those above it"
     t.each("Delta", f"{factor} * above(F_x) / k_x", "m", shown="mm", note=note)
     t.each("Delta_a", "a_d * h_s", "m", shown="mm")
-    names = tuple(f"storey {k + 1}" for k in range(len(above.storey_weights)))
+    names = tuple(worded("storey {number}", number=k + 1) for k in range(len(above.storey_weights)))
     found = judge.of("demand")
     return Checks([found.worst(clause, "storey drift", "Delta", "<=", "Delta_a", subjects=names)])

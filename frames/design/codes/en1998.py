@@ -24,6 +24,7 @@ from frames.design.codes.registry import DesignCode
 from frames.design.codes.secant import CheckBuilder, enter_system, procedure_limit, secant
 from frames.design.codes.values_of_en1998 import NAME, PROVISIONS, RULES, VALUES
 from frames.design.hazard.spectrum import Spectrum
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -157,7 +158,12 @@ class EN1998(LinearAnalysis):
         for along, across in (("x", "y"), ("y", "x")):
             lever = f"e_{across} / r2" if t.value("r2") > 0.0 else "0"
             formula = f"1 + {lever} * abs({across}_i)"
-            t.each(f"delta_{along}", formula, source=source, note=f"motion along {along}")
+            t.each(
+                f"delta_{along}",
+                formula,
+                source=source,
+                note=worded("motion along {along}", along=along),
+            )
         t.each("d_bi", "d_dc * max(delta_x, delta_y)", "m", shown="mm")
         t.given("gamma_x", self.reliability)
         t.each("d_Ed", "gamma_x * d_bi", "m", source="EN 1998-1 10.3", shown="mm")

@@ -11,6 +11,7 @@ from frames.design.calculation.standing import MEMORY, Standing
 from frames.model.load_combinations import isolator_combinations
 from lir_element.argument_checks import require_choice
 from lir_element.fields import check_numbers, number
+from lir_element.texts import worded
 
 Judged = Literal["all", "superstructure", "isolation"]
 
@@ -287,7 +288,7 @@ class LoadRule(NamedTuple):
     def cited(self) -> str:
         """Clause, with a star where it is from memory, and note."""
         said = self.standing.cited(self.clause)
-        return f"{said}: {self.note}" if self.note else said
+        return worded("{clause}: {note}", clause=said, note=self.note) if self.note else said
 
 
 def fixed_combinations(combinations: Combinations) -> Callable[[float | None], Combinations]:

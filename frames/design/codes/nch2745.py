@@ -40,6 +40,7 @@ from frames.design.codes.secant import (
 from frames.design.codes.values_of_nch2745 import NAME, PROVISIONS, RULES, VALUES
 from frames.design.hazard.spectral_shapes import NCH433_SHEAR, NCH433_ZONE
 from frames.design.hazard.spectrum import Spectrum
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -233,9 +234,10 @@ def _enter_fixed_base(t: Trace, spectrum: Spectrum) -> None:
         t.given("V_fixed", 0.0, "N", source="NCh433 6.2.3", note=why)
         return
     soil, zone = str(site["soil"]), int(site["zone"])
-    t.given("A_0", NCH433_ZONE[zone], note=f"zone {zone}, in g")
+    t.given("A_0", NCH433_ZONE[zone], note=worded("zone {zone}, in g", zone=zone))
     for symbol, value in zip(("S_433", "T_433", "n_433"), NCH433_SHEAR[soil], strict=True):
-        t.given(symbol, value, note=f"soil {soil}; T in s" if symbol == "T_433" else f"soil {soil}")
+        of_soil = worded("soil {soil}", soil=soil)
+        t.given(symbol, value, note=joined(of_soil, "T in s" if symbol == "T_433" else ""))
     formula = "max(2.75 * S_433 * A_0 / R * (T_433 / T_D)**n_433, S_433 * A_0 / 6)"
     t("C_433", formula, source="NCh433 6.2.3", note="fixed base, at T_D, importance 1")
     t("V_fixed", "C_433 * sum(w_x)", "N", source="NCh433 6.2.3")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from frames.design._errors import CheckError
 from lir_element.argument_checks import require_positive
 from lir_element.fields import check_numbers, number
+from lir_element.texts import joined
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -164,10 +165,11 @@ def increments(
     d: DesignToTest, steps: Iterable[tuple[str, float, float]], clause: str
 ) -> Iterable[PlannedTest]:
     """Yield steps of displacement [m] by name with their speed [m/s], at each of three loads."""
-    for words, load in (("average", d.average), ("largest", d.largest), ("least", d.least)):
+    loads = {"average load": d.average, "largest load": d.largest, "least load": d.least}
+    for words, load in loads.items():
         for name, at, speed in steps:
             yield PlannedTest(
-                f"increments, {words} load, {name}",
+                joined("increments", words, name, by=", "),
                 at,
                 load,
                 3.0,
@@ -180,7 +182,7 @@ def increments(
 def stable_test(d: DesignToTest, name: str, displacement: float, clause: str) -> PlannedTest:
     """Return the test of stability at a displacement [m]."""
     return PlannedTest(
-        f"maximum displacement, {name}",
+        joined("maximum displacement", name, by=", "),
         displacement,
         d.average,
         3.0,
@@ -196,7 +198,7 @@ def many_cycles(
     """Return the test of many cycles at a displacement [m] by name with its speed [m/s]."""
     name, displacement, speed = at
     return PlannedTest(
-        f"many cycles, {name}",
+        joined("many cycles", name, by=", "),
         displacement,
         d.average,
         cycles,
@@ -208,9 +210,9 @@ def many_cycles(
 
 def static_tests(d: DesignToTest, clause: str) -> Iterable[PlannedTest]:
     """Yield slow tests at the total displacement under the largest and the least load."""
-    for words, load in (("largest", d.largest), ("least", d.least)):
+    for words, load in (("largest load", d.largest), ("least load", d.least)):
         yield PlannedTest(
-            f"static, {words} load, D_TM",
+            joined("static", words, "D_TM", by=", "),
             d.result.total_displacement,
             load,
             1.0,

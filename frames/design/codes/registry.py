@@ -20,6 +20,7 @@ from frames.design.hazard.code_rules import (
 )
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_type
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from frames.design.calculation.check import Bound
@@ -260,7 +261,9 @@ class DesignCode(HazardRules):
         """
         if self.spectrum_by_points is not None:
             return self.spectrum_by_points(periods, accelerations, **keys)
-        return Spectrum.given(periods, accelerations, code=self.name, name=f"{self.name}, as given")
+        return Spectrum.given(
+            periods, accelerations, code=self.name, name=worded("{code}, as given", code=self.name)
+        )
 
 
 def register_code(code: DesignCode, *, replace: bool = False) -> DesignCode:

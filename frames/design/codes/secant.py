@@ -13,6 +13,7 @@ from frames.design.calculation.standing import MEMORY, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.code_values import CodeValue, standing_by
 from frames.design.codes.outcome import Iteration, Symbols
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -31,7 +32,9 @@ def enter_system(system: IsolationSystem) -> Trace:
     t = Trace()
     t.given("g", system.gravity, "m/s2")
     t.given("W", system.seismic_weight, "N", note="seismic weight above the isolation interface")
-    t.given_each("P", system.loads, "N", note=f"loads of the {len(system.loads)} bearings")
+    t.given_each(
+        "P", system.loads, "N", note=worded("loads of the {n} bearings", n=len(system.loads))
+    )
     pendulums = system.pendulums
     t.given_each("L", [p.effective_radius for p in pendulums], "m", note="effective radii")
     t.given_each("mu", [p.effective_friction for p in pendulums], note="effective friction")

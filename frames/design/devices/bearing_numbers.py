@@ -9,6 +9,7 @@ from frames.design._errors import CheckError
 from frames.design.calculation.trace import Trace
 from lir_element.argument_checks import require_non_negative, require_positive
 from lir_element.device.sliders import interface_height
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
@@ -51,7 +52,12 @@ def pressure(t: Trace, symbol: str, load: str, offset: str) -> float:
     if math.isinf(s):
         return t.given(symbol, math.inf, "Pa", note=t[offset].note)
     if s >= 2.0 * t.value("a"):
-        return t.given(symbol, math.inf, "Pa", note=f"{offset} = {s:.4g} m: nothing overlaps")
+        return t.given(
+            symbol,
+            math.inf,
+            "Pa",
+            note=worded("{offset} = {s:.4g} m: nothing overlaps", offset=offset, s=s),
+        )
     t(
         area,
         f"2 * a**2 * acos({offset} / (2 * a)) - {offset} / 2 * sqrt(4 * a**2 - {offset}**2)",
@@ -71,8 +77,15 @@ def liner_pressure(t: Trace, k: int, load: str) -> float:
     return pressure(t, f"p_{k}", load, f"c_{k}")
 
 
-NO_CODE = "no code: docs/theory.md"
-"""Clause of checks that no code has."""
+def by_equation(number: str) -> str:
+    """Return the clause of a check that no code has, by an equation of docs/theory.md."""
+    return worded("no code: docs/theory.md ({equation})", equation=number)
+
+
+def by_section(number: str) -> str:
+    """Return the clause of a check that no code has, by a section of docs/theory.md."""
+    return worded("no code: docs/theory.md, section {section}", section=number)
+
 
 SURFACES = ("bottom", "top")
 

@@ -12,8 +12,8 @@ from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.codes.registry import code_named
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import (
-    NO_CODE,
     SURFACES,
+    by_section,
     enter_bearing,
     enter_geometry,
     enter_length,
@@ -21,6 +21,7 @@ from frames.design.devices.bearing_numbers import (
 )
 from frames.design.devices.limits import PROJECT_LIMIT
 from lir_element.argument_checks import require_positive
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
@@ -79,11 +80,19 @@ def capacity_checks(
     t("U_slide", "min(D, U_cap)", "m", shown="mm", note="both surfaces, as the slider tilts")
     t("s_D", "max(D - U_cap, 0) + s_left", "m", shown="mm")
     t("U_max", "U_cap + s_lim - s_left", "m", shown="mm")
-    judge, clause = CheckBuilder(t, bound, OWN), f"{NO_CODE}, section 2"
+    judge, clause = CheckBuilder(t, bound, OWN), by_section("2")
     found = []
     for k, name in enumerate(SURFACES, start=1):
         t(f"d_{k}", f"R_{k} * U_slide / L", "m", shown="mm")
-        found.append(judge(clause, f"sliding on the {name} surface", f"d_{k}", "<=", f"d_rim_{k}"))
+        found.append(
+            judge(
+                clause,
+                worded("sliding on the {name} surface", name=name),
+                f"d_{k}",
+                "<=",
+                f"d_rim_{k}",
+            )
+        )
     found.append(judge(clause, "slip of the interface", "s_D", "<=", "s_lim"))
     found.append(judge(clause, "displacement over the sum of the parts", "D", "<=", "U_max"))
     return Checks(found)
@@ -179,16 +188,22 @@ def _met(
     t.given("D_allowed", at[1], "m", shown="mm", note=symbol)
     t.given("eta_least", least)
     name = SURFACES[k]
-    t("U_rim", f"L * d_rim_{k + 1} / R_{k + 1}", "m", shown="mm", note=f"{name} rim is met")
+    t(
+        "U_rim",
+        f"L * d_rim_{k + 1} / R_{k + 1}",
+        "m",
+        shown="mm",
+        note=worded("{name} rim is met", name=name),
+    )
     share = t("eta", "U_rim / D_allowed")
     no_rule = standing != OWN and rule.least >= 1.0
     judge = CheckBuilder(t, at[0], standing, "agreement" if no_rule else "any")
     return judge.worst(
         clause,
-        f"displacement where a rim engages, over {symbol}",
+        worded("displacement where a rim engages, over {what}", what=symbol),
         "eta",
         ">=",
         "eta_least",
-        subjects=(f"{name} rim",),
-        note=f"not met below {symbol}" if share >= 1.0 else said,
+        subjects=(worded("{name} rim", name=name),),
+        note=worded("not met below {symbol}", symbol=symbol) if share >= 1.0 else said,
     )

@@ -9,14 +9,16 @@ from frames.design.calculation.standing import OWN
 from frames.design.codes.prototype_programme import ordered_loads
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import (
-    NO_CODE,
     SURFACES,
+    by_equation,
+    by_section,
     enter_bearing,
     enter_length,
     liner_pressure,
     pressure,
 )
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import PropertyBounds
@@ -107,7 +109,9 @@ def _holds(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
     # Below the rims L F_h = N s + mu_1 N R_1 + mu_2 N R_2.
     t, found = judge.t, []
     own = limits.clause_of("margin") == PROJECT_LIMIT
-    t.given("gamma", limits.margin, note=f"margin; {'of the project' if own else 'a proposal'}")
+    t.given(
+        "gamma", limits.margin, note=joined("margin", "of the project" if own else "a proposal")
+    )
     for name in ("min", "max"):
         t(
             f"F_{name}",
@@ -119,7 +123,7 @@ def _holds(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
         t(f"H_{name}", f"mu_h_L * N_{name} / gamma", "N")
         found.append(
             judge.worst(
-                f"{NO_CODE} (2.1)",
+                by_equation("2.1"),
                 "interface holds until a rim is met",
                 f"F_{name}",
                 "<=",
@@ -133,7 +137,7 @@ def _holds(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
 def _stable(judge: CheckBuilder) -> Check:
     note = "low friction at its upper bound, the interface's at its lower"
     return judge(
-        f"{NO_CODE} (2.7)", "stable limit of interface slip", "s", "<=", "s_star", note=note
+        by_equation("2.7"), "stable limit of interface slip", "s", "<=", "s_star", note=note
     )
 
 
@@ -155,12 +159,12 @@ def _rims(judge: CheckBuilder, bearing: LIRBearing, limits: DesignLimits) -> lis
         t(f"P_{k + 1}", formula, "N", note="both rims press" if shared else "this rim alone")
         found.append(
             judge.worst(
-                f"{NO_CODE} (2.1)",
+                by_equation("2.1"),
                 "interface slips before the rim breaks",
                 f"P_{k + 1}",
                 "<=",
                 "P_R",
-                subjects=(f"{SURFACES[k]} rim",),
+                subjects=(worded("{name} rim", name=SURFACES[k]),),
             )
         )
     return found
@@ -185,7 +189,7 @@ def _eccentricity(judge: CheckBuilder, limits: DesignLimits) -> Check:
     own = limits.clause_of("eccentricity") == PROJECT_LIMIT
     t.given("epsilon_lim", limits.eccentricity, note="of the project" if own else "a proposal")
     title, note = "normalised eccentricity e/a at the rims", "tips at 1"
-    return judge(f"{NO_CODE}, section 10", title, "epsilon", "<=", "epsilon_lim", note=note)
+    return judge(by_section("10"), title, "epsilon", "<=", "epsilon_lim", note=note)
 
 
 def _pressures(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
@@ -199,7 +203,7 @@ def _pressures(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
         for k, name in enumerate(SURFACES, start=1):
             liner_pressure(t, k, "N_max")
             title = "pressure on the liner around its resultant"
-            where = (f"{name} surface",)
+            where = (worded("{name} surface", name=name),)
             found.append(judge.worst(clause, title, f"p_{k}", "<=", "p_lim", subjects=where))
     return found
 
@@ -213,4 +217,4 @@ def _lateral(judge: CheckBuilder, limits: DesignLimits) -> list[Check]:
     source = "docs/theory.md (2.2), the interface slipping at the rim's tilt"
     t("H_slip", formula, "N", source=source)
     title = "lateral force that the bearing passes on"
-    return [judge(f"{NO_CODE}, section 2", title, "H_slip", "<=", "H_R")]
+    return [judge(by_section("2"), title, "H_slip", "<=", "H_R")]

@@ -17,6 +17,7 @@ from frames.design.hazard import spectral_shapes as sh
 from frames.design.hazard.code_rules import damping_factor, known_names
 from lir_element.argument_checks import require_between, require_positive
 from lir_element.tables import html_table
+from lir_element.texts import worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -173,10 +174,13 @@ class ElasticSpectrum:
         last = self.points[-1][0] if self.points else np.inf
         if self.shape != "asce7_multi_period" or last >= min(period, LAST_OF_ASCE):
             return ""
-        return (
-            f"{self.name}: T = {period:.3g} s lies beyond its last point, {last:g} s: it is "
-            "continued as 1/T, which ASCE/SEI 7-22 does after 10 s only; give points to "
-            f"{math.ceil(period)} s or more"
+        return worded(
+            "{name}: T = {period:.3g} s lies beyond its last point, {last:g} s: it is continued as "
+            "1/T, which ASCE/SEI 7-22 does after 10 s only; give points to {ceil} s or more",
+            name=self.name,
+            period=period,
+            last=last,
+            ceil=math.ceil(period),
         )
 
     def scaled(self, factor: float, *, name: str = "") -> Self:
@@ -203,7 +207,7 @@ class ElasticSpectrum:
         growing = sh.SHAPES[self.shape].amplitudes
         return replace(
             self,
-            name=name or f"{times:.4g} x {self.name}",
+            name=name or worded("{factor:.4g} x {spectrum}", factor=times, spectrum=self.name),
             constants=tuple(
                 (key, times * value if key in growing else value) for key, value in self.constants
             ),

@@ -17,6 +17,7 @@ from frames.design.hazard.scaling import Scaling
 from frames.motion.ground_motion import GroundMotion
 from lir_element.argument_checks import require_choice, require_type
 from lir_element.tables import html_table
+from lir_element.texts import joined, worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ def twins(motions: Mapping[str, GroundMotion]) -> tuple[str, ...]:
     size = next_fast_len(2 * longest, real=True)
     spectra = {name: [rfft(a, size) for a in each] for name, each in flat.items()}
     found = [
-        f"{one} and {other}"
+        worded("{one} and {other}", one=one, other=other)
         for one, other in combinations(spectra, 2)
         if motions[one].dt == motions[other].dt
         and any(_same(a, b, size) for a in spectra[one] for b in spectra[other])
@@ -61,9 +62,13 @@ def twins(motions: Mapping[str, GroundMotion]) -> tuple[str, ...]:
     if not found:
         return ()
     return (
-        f"{'; '.join(found)}: identical or proportional histories, probably one record under two "
-        f"names: {len(motions)} motions count as fewer, and their mean is not that of "
-        f"{len(motions)}; put another record in its place",
+        worded(
+            "{names}: identical or proportional histories, probably one record under two names: "
+            "{count} motions count as fewer, and their mean is not that of {count}; put another "
+            "record in its place",
+            names=joined(*found),
+            count=len(motions),
+        ),
     )
 
 
@@ -86,13 +91,27 @@ def factor_doubts(factor: float, motions: Mapping[str, GroundMotion]) -> tuple[s
     for words, value in CONVERSIONS.items():
         if abs(abs(factor) / value - 1.0) < 0.005:
             return (
-                f"scale = {factor:g} is the factor from {words} (PGA of {name} then "
-                f"{peaks[name]:.3g} g): {remedy}",
+                worded(
+                    "scale = {factor:g} is the factor from {one} to {other} (PGA of {motion} then "
+                    "{peak:.3g} g): {remedy}",
+                    factor=factor,
+                    **dict(zip(("one", "other"), words.split(" to "), strict=True)),
+                    motion=name,
+                    peak=peaks[name],
+                    remedy=remedy,
+                ),
             )
     if peaks[name] > STRONGEST:
         return (
-            f"scale = {factor:g} gives {name} a PGA of {peaks[name]:.3g} g, almost no record has "
-            f"more than {STRONGEST:g} g: {remedy}",
+            worded(
+                "scale = {factor:g} gives {motion} a PGA of {peak:.3g} g, almost no record has "
+                "more than {most:g} g: {remedy}",
+                factor=factor,
+                motion=name,
+                peak=peaks[name],
+                most=STRONGEST,
+                remedy=remedy,
+            ),
         )
     return ()
 

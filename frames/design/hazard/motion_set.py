@@ -14,6 +14,7 @@ from frames.design.hazard.motion_folder import fema_p695_records, read_at2_folde
 from frames.design.hazard.scaling import scaled_so
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import listed, require_choice
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
@@ -228,9 +229,10 @@ class MotionSet(MotionCollection):
             raise MotionError(msg)
         silent = [n for n in self if not known[n] and self.facts[n].get("near_fault") is None]
         if silent:
-            msg = (
-                f"{listed(silent)}: no strike is given, they stay as recorded: give strike, "
-                "azimuth_x and azimuth_y, or near_fault = no"
+            msg = worded(
+                "{names}: no strike is given, they stay as recorded: give strike, azimuth_x and "
+                "azimuth_y, or near_fault = no",
+                names=listed(silent),
             )
             warnings.warn(msg, MotionWarning, stacklevel=3)
 

@@ -14,6 +14,7 @@ from frames.design.hazard.motion_set import MotionSet
 from frames.design.hazard.spectrum import Spectrum
 from frames.plots import plot_style as ps
 from lir_element.argument_checks import require_positive, require_type
+from lir_element.texts import joined, worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -169,7 +170,9 @@ def motion_spectra(
         look: dict[str, Any] = {"color": ps.PALETTE[1], "linewidth": 1.4, "linestyle": "--"}
         for key, size in sizes.items():
             panels[key].plot(periods, size * level, **look)
-        handles.append(Line2D([], [], label=f"target: {goal.name}", **look))
+        handles.append(
+            Line2D([], [], label=worded("target: {spectrum}", spectrum=goal.name), **look)
+        )
         panels["r"].plot(periods, mean / level, color=ps.PALETTE[0], linewidth=1.7)
         panels["r"].axhline(done.part if done else 1.0, **look)
         panels["r"].set_ylim(bottom=0.0)
@@ -178,14 +181,22 @@ def motion_spectra(
         low, high = done.periods
         for panel in panels.values():
             panel.axvspan(low, high, color=ps.PALETTE[4], alpha=0.15, linewidth=0.0)
-        text = f"range {low:.3g} s to {high:.3g} s"
+        text = worded("range {a:.3g} s to {b:.3g} s", a=low, b=high)
         handles.append(Patch(color=ps.PALETTE[4], alpha=0.25, label=text))
     ps.caption(panels["a"], y="pseudo-acceleration [g]")
     ps.caption(panels["d"], y="displacement [m]")
     for key in sizes:
         panels[key].set_ylim(bottom=0.0)
-    rule = f", scaled by {done.rule}" if done else ""
-    title = f"{len(motions)} motions{rule}: {kind}, {100.0 * ratio:g} % damping"
+    title = worded(
+        "{motions}: {measure}, {share:g} % damping",
+        motions=joined(
+            worded("{n} motions", n=len(motions)),
+            worded("scaled by {code}", code=done.rule) if done else "",
+            by=", ",
+        ),
+        measure=kind,
+        share=100.0 * ratio,
+    )
     ps.add_legend(figure, handles, columns=2, title=title)
     return figure
 

@@ -14,6 +14,7 @@ from frames.design.hazard.code_rules import scaling_named
 from frames.design.hazard.motion_measures import pair_spectrum
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.argument_checks import require_choice, require_positive, require_type
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
@@ -139,13 +140,25 @@ def _warn_of(
 ) -> None:
     """Warn of factors that are out of the limits, and of too few motions."""
     low, high = limits
-    far = [f"{name} {value:.3g}" for name, value in factors.items() if not low <= value <= high]
+    far = [
+        worded("{name} {factor:.3g}", name=name, factor=value)
+        for name, value in factors.items()
+        if not low <= value <= high
+    ]
     if far:
-        msg = (
-            f"factors out of {low:g} to {high:g}: {', '.join(far)}; take records of a strength "
-            "like that of the target"
+        msg = worded(
+            "factors out of {low:g} to {high:g}: {factors}; take records of a strength like that "
+            "of the target",
+            low=low,
+            high=high,
+            factors=joined(*far, by=", "),
         )
         warnings.warn(msg, MotionWarning, stacklevel=4)
     if len(factors) < least:
-        msg = f"{len(factors)} motions: {rule} takes the mean response of {least} or more"
+        msg = worded(
+            "{count} motions: {code} takes the mean response of {least} or more",
+            count=len(factors),
+            code=rule,
+            least=least,
+        )
         warnings.warn(msg, MotionWarning, stacklevel=4)

@@ -13,6 +13,7 @@ from frames.design.hazard import spectral_shapes as sh
 from frames.design.hazard.code_rules import rules_named
 from frames.design.hazard.elastic_spectrum import ElasticSpectrum
 from lir_element.argument_checks import require_between, require_choice, require_positive, unreal
+from lir_element.texts import worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -108,15 +109,21 @@ class Spectrum(ElasticSpectrum):
             )
             raise MotionError(msg)
         if corner > LONGEST_CORNER:
-            msg = (
-                f"T_S = s_m1 / s_ms = {long:g} / {short:g} = {corner:.3g} s, usual are 0.3 to 1.2 "
+            msg = worded(
+                "T_S = s_m1 / s_ms = {long:g} / {short:g} = {period:.3g} s, usual are 0.3 to 1.2 "
                 "s: s_ms and s_m1 are probably exchanged, which changes the displacement at long "
-                f"periods by a factor of {corner:.3g}; give s_ms at short periods, s_m1 at 1 s"
+                "periods by a factor of {factor:.3g}; give s_ms at short periods, s_m1 at 1 s",
+                long=long,
+                short=short,
+                period=corner,
+                factor=corner,
             )
             warnings.warn(msg, MotionWarning, stacklevel=2)
         constants = {"S_MS": short, "S_M1": long, "T_0": 0.2 * corner, "T_S": corner, "T_L": late}
         constants |= _mapped(s_1)
-        label = name or f"ASCE 7 MCE_R, S_MS = {short:g} g, S_M1 = {long:g} g"
+        label = name or worded(
+            "ASCE 7 MCE_R, S_MS = {s_ms:g} g, S_M1 = {s_m1:g} g", s_ms=short, s_m1=long
+        )
         return cls("ASCE 7-22", label, "asce7", "ASCE 7-22", tuple(constants.items()))
 
     @classmethod
@@ -180,7 +187,11 @@ class Spectrum(ElasticSpectrum):
         late = require_positive("t_l", t_l, "s", error=MotionError)
         constants = {"S_MS": short, "S_M1": long, "T_S": long / short, "T_L": late}
         constants |= _mapped(s_1)
-        label = name or f"ASCE 7 multi-period MCE_R, S_MS = {short:.3g} g, S_M1 = {long:.3g} g"
+        label = name or worded(
+            "ASCE 7 multi-period MCE_R, S_MS = {s_ms:.3g} g, S_M1 = {s_m1:.3g} g",
+            s_ms=short,
+            s_m1=long,
+        )
         in_si = tuple((period, level * STANDARD_GRAVITY) for period, level in points)
         kept = tuple(constants.items())
         return cls("ASCE 7-22", label, "asce7_multi_period", "ASCE 7-22", kept, in_si)
@@ -234,7 +245,12 @@ class Spectrum(ElasticSpectrum):
         constants = {"a_gR": peak, "gamma_I": gamma, "a_g": gamma * peak}
         constants |= zip(("S", "T_B", "T_C", "T_D"), grounds[ground_type], strict=True)
         label = name or (
-            f"EN 1998-1 type {kind}, ground {ground_type}, a_g = {gamma * peak:.3g} m/s2"
+            worded(
+                "EN 1998-1 type {kind}, ground {ground}, a_g = {a:.3g} m/s2",
+                kind=kind,
+                ground=ground_type,
+                a=gamma * peak,
+            )
         )
         site = (("ground_type", ground_type), ("kind", kind))
         return cls("EN 1998", label, "en1998", "EN 1998", tuple(constants.items()), site=site)
@@ -268,7 +284,7 @@ class Spectrum(ElasticSpectrum):
         symbols = ("A", "T_a", "T_b", "T_c", "T_d", "alpha_A", "alpha_V", "alpha_D")
         constants = {"Z": sh.NCH2745_ZONE[zone]}
         constants |= zip(symbols, sh.NCH2745_SOIL[soil], strict=True)
-        label = name or f"NCh2745, soil {soil}, zone {zone}"
+        label = name or worded("NCh2745, soil {soil}, zone {zone}", soil=soil, zone=zone)
         site = (("soil", soil), ("zone", zone))
         return cls("NCh2745", label, "nch2745", "NCh2745", tuple(constants.items()), site=site)
 
@@ -306,7 +322,7 @@ class Spectrum(ElasticSpectrum):
         factor = require_positive("importance", importance, error=MotionError)
         constants = {"A_0": sh.NCH433_ZONE[zone], "I": factor}
         constants |= zip(("S", "T_0", "p"), sh.NCH433_SOIL[soil], strict=True)
-        label = name or f"NCh433, soil {soil}, zone {zone}"
+        label = name or worded("NCh433, soil {soil}, zone {zone}", soil=soil, zone=zone)
         site = (("soil", soil), ("zone", zone))
         return cls("NCh433", label, "nch433", "NCh2745", tuple(constants.items()), site=site)
 

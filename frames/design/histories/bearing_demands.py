@@ -12,15 +12,21 @@ import numpy as np
 from frames.bundles.peak_data import LOADED, PRESSED
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check
-from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
-from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing, liner_pressure, pressure
+from frames.design.devices.bearing_numbers import (
+    by_equation,
+    by_section,
+    enter_bearing,
+    liner_pressure,
+    pressure,
+)
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.design.histories.suite_notes import doubted, level_errors, note_of_impacts
 from frames.results.level_doubts import DOUBTED
 from frames.results.quantities import JUDGED
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -201,10 +207,10 @@ class BearingDemands:
             return fill
 
         after = "s_star" if self.limits.slip_left is None else "s_allowed"
-        holds = f"{NO_CODE} (2.7)"
+        holds = by_equation("2.7")
         overlap = of("s", most, "s_cap")
         found = [
-            *self._of(f"{NO_CODE}, section 2", "slip over the overlap", overlap, self._lir),
+            *self._of(by_section("2"), "slip over the overlap", overlap, self._lir),
             *self._of(holds, "slip over its stable limit s*", of("s", most, "s_star"), self._lir),
             *self._of(holds, "residual slip", of("s_left", left, after), self._lir),
         ]
@@ -253,7 +259,7 @@ class BearingDemands:
             t("g_lim", "g_u - P_y / k_r", "m", shown="mm", source="docs/theory.md (3.11)")
             return Calculation(t, "g_p", "g_lim")
 
-        return self._of(f"{NO_CODE} (3.11)", "plastic deformation of rims", fill, places)
+        return self._of(by_equation("3.11"), "plastic deformation of rims", fill, places)
 
     def _entered(self, k: int) -> Trace:
         # A bearing's numbers; where friction goes by the pressure, at the forces that runs reached.
@@ -281,7 +287,7 @@ class BearingDemands:
 
         impacts = note_of_impacts(self.data, self.bearings)
         taken = "largest load and largest slip taken together"
-        note = f"{taken}; {impacts}" if impacts else taken
+        note = joined(taken, impacts)
         return self._of("no code: liner's maker", title, fill, self._lir, note=note)
 
     @staticmethod
@@ -305,19 +311,23 @@ class BearingDemands:
     @property
     def _of_resultants(self) -> str:
         # What the offset of a resultant counts, and what its level can say of it.
-        counted = f"counts while N > {LOADED:g} of that at rest"
+        counted = worded("counts while N > {share:g} of that at rest", share=LOADED)
         pressed, lighter = (
             np.nan_to_num(peaks_of_runs(self.data, name)).max(axis=0)
             for name in ("eccentricity_loaded", "eccentricity")
         )
         if lighter.max() > max(self.limits.eccentricity, pressed.max()):
             where = self._names[int(lighter.argmax())]
-            counted += (
-                f"; under less, down to {PRESSED:g} of it, up to {lighter.max():.2f} ({where})"
+            less = worded(
+                "under less, down to {share:g} of it, up to {value:.2f} ({bearing})",
+                share=PRESSED,
+                value=lighter.max(),
+                bearing=where,
             )
+            counted = joined(counted, less)
         if "pendulum" not in str(self.data.attrs["level"]):
             return counted
-        return f"{counted}; {_ALONE}"
+        return joined(counted, _ALONE)
 
     def _of(
         self,

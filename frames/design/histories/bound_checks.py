@@ -11,7 +11,6 @@ import numpy as np
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check
-from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
@@ -37,6 +36,7 @@ from frames.design.histories.suite_notes import (
 from frames.design.histories.uplift import Uplift, suite_of_uplift
 from frames.results.quantities import JUDGED
 from frames.statics.overturning import unknown_axial_forces
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -100,12 +100,16 @@ class BoundChecks:
         # With each check: which runs failed if they may, or that there is more to read.
         marked = int((self.case.data["doubts"].to_numpy() != "").sum())
         more = (
-            f"assumption checks of {marked} runs mark something: see the check of runs"
+            worded("assumption checks of {n} runs mark something: see the check of runs", n=marked)
             if marked
             else ""
         )
         failed = sum(self.case.suite.failed)
-        allowed = "" if self.case.suite.void or not failed else f"{failed} runs failed: as many may"
+        allowed = (
+            ""
+            if self.case.suite.void or not failed
+            else worded("{n} runs failed: as many may", n=failed)
+        )
         return joined(allowed, more)
 
     @cached_property
@@ -122,7 +126,8 @@ class BoundChecks:
         t.given("n_least", float(self.case.rules.least))
         clause = self._clause(self.case.rules.statistic_clause)
         judge = CheckBuilder(t, self.case.bound, self._known("number of motions", "least"))
-        note = f"{self.case.suite.statistic} of the motions counts; {self._eccentricity}"
+        counts = worded("{statistic} of the motions counts", statistic=self.case.suite.statistic)
+        note = joined(counts, self._eccentricity)
         return judge(clause, "number of motions", "n", ">=", "n_least", note=note)
 
     @property
@@ -130,14 +135,20 @@ class BoundChecks:
         # How accidental eccentricity counts.
         if self.case.moved is not None:
             share = 100.0 * self.case.rules.accidental_eccentricity
-            return f"masses moved by {share:g} % of the plan each way raise the demands"
+            return worded(
+                "masses moved by {share:g} % of the plan each way raise the demands", share=share
+            )
         code = HISTORY_RULES.get(self.case.rules.code)
         asked = self.case.rules if code is None else code
         if not asked.accidental_eccentricity:
             return "without accidental eccentricity"
         share = 100.0 * asked.accidental_eccentricity
         clause = self._clause(asked.eccentricity_clause)
-        return f"without accidental eccentricity, of which {clause} asks {share:g} %"
+        return worded(
+            "without accidental eccentricity, of which {clause} asks {share:g} %",
+            clause=clause,
+            share=share,
+        )
 
     def _failed(self) -> Check:
         t = Trace()
@@ -156,7 +167,7 @@ class BoundChecks:
         t = Trace()
         beside = self.case.failures[self.case.data.sizes["run"] :]
         count = float(sum(one is not None for one in beside))
-        t.given("n_failed", count, note=f"of {self.case.moved.sizes['run']} runs")
+        t.given("n_failed", count, note=worded("of {n} runs", n=self.case.moved.sizes["run"]))
         t.given("n_allowed", 0.0)
         audit = audit_notes(named_by_way(self.case.moved))
         note = joined(self.case.suite.moved_failed, audit)
@@ -180,8 +191,8 @@ class BoundChecks:
             code=code,
             agreed=self.limits.rim_engagement,
         )
-        named = (replace(c, subject=f"{moved[0].subject}, {c.subject}") for c in found)
-        return [replace(c, title=f"{c.title} of histories") for c in named]
+        named = (replace(c, subject=joined(moved[0].subject, c.subject, by=", ")) for c in found)
+        return [replace(c, title=worded("{check} of histories", check=c.title)) for c in named]
 
     def _uplift(self) -> list[Check]:
         found = []
@@ -191,7 +202,12 @@ class BoundChecks:
             lasts = np.nan_to_num(peaks_of_runs(every, "time_lifted"), nan=math.inf)
             open_ = parted(every, self.case.rules.least_gap) | np.isinf(lasts)
             longest = float(np.where(open_, lasts, 0.0).max())
-            t.given("t_up", longest, "s", note=f"longest of a bearing in a run, gap above {gap}")
+            t.given(
+                "t_up",
+                longest,
+                "s",
+                note=worded("longest of a bearing in a run, gap above {gap}", gap=gap),
+            )
             t.given("t_allowed", 0.0, "s")
             stopped = stopped_runs(every)  # also where the code lets the others stand
             void = stopped and (self.case.suite.void or stopped)
@@ -199,7 +215,7 @@ class BoundChecks:
                 t, self.case.bound, self._known("uplift", "uplift_allowed"), void=void
             )
             clause = self._clause(self.case.rules.force_clause)
-            title = f"uplift duration above {gap}"
+            title = worded("uplift duration above {gap}", gap=gap)
             note = self._small_gaps
             found.append(judge(clause, title, "t_up", "<=", "t_allowed", note=note))
         rules = self.case.rules
@@ -216,7 +232,9 @@ class BoundChecks:
         code = HISTORY_RULES.get(self.case.rules.code)
         if code is None or code.uplift_allowed or not self.case.rules.uplift_allowed:
             return ""
-        return f"runs with uplift count by the project, not by {code.cited}: to be agreed"
+        return worded(
+            "runs with uplift count by the project, not by {code}: to be agreed", code=code.cited
+        )
 
     def _base_shear(self) -> list[Check]:
         least = self._least("V_b_dyn")
@@ -264,7 +282,12 @@ class BoundChecks:
             return ""
         clause = self._clause(self.case.rules.drift_clause)
         there = "the members have it" if self.frame.members else "springs do not have it"
-        return f"above {100.0 * least:.3g} % P-Delta must be in the analysis ({clause}): {there}"
+        return worded(
+            "above {least:.3g} % P-Delta must be in the analysis ({clause}): {there}",
+            least=100.0 * least,
+            clause=clause,
+            there=there,
+        )
 
     @property
     def _elements(self) -> str:
@@ -273,8 +296,16 @@ class BoundChecks:
         kinds = [kind for kind, limit in limits.items() if limit == self.case.rules.drift]
         if not kinds:
             return ""
-        others = (f"{kind} {100.0 * v:g} %" for kind, v in limits.items() if kind not in kinds)
-        return f"limit of {kinds[0]} non-structural elements, of others: {', '.join(others)}"
+        others = (
+            worded("{kind} {limit:g} %", kind=kind, limit=100.0 * limit)
+            for kind, limit in limits.items()
+            if kind not in kinds
+        )
+        return worded(
+            "limit of {kind} non-structural elements, of others: {others}",
+            kind=kinds[0],
+            others=joined(*others, by=", "),
+        )
 
     def _beside(self) -> str:
         # How the project's limit of drifts is to that of the code.
@@ -284,7 +315,12 @@ class BoundChecks:
         code /= self.case.rules.drift_factor
         word = "laxer" if own > code else "not laxer"
         clause = self._clause(self.case.rules.drift_clause)
-        return f"{word} than {100.0 * code:g} % of {clause}, which is checked beside it"
+        return worded(
+            "{word} than {limit:g} % of {clause}, which is checked beside it",
+            word=word,
+            limit=100.0 * code,
+            clause=clause,
+        )
 
     def _drift_within(self, limit: float | None) -> list[Check]:
         # Within the limit of the code, or that of the project.

@@ -8,17 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.batch.runs import WAY
-from frames.design.calculation.rendering import joined
 from frames.design.histories.eccentricity import levels_of, reached_by
-from frames.design.histories.suite import (
-    end_of,
-    motion_of,
-    names_of,
-    peaks_of_runs,
-    suite_of,
-)
+from frames.design.histories.suite import names_of, peaks_of_runs, run_named, suite_of
 from frames.results.quantities import DEMANDS, JUDGED, Quantity
 from lir_element.errors import RunStatus
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -60,7 +54,11 @@ def demand_table(cases: Sequence[Case]) -> pd.DataFrame:
 def void_of(cases: Sequence[Case]) -> str:
     """Return why a level has no values for design, by bound; empty if it has."""
     said = ((case.bound, case.suite.void) for case in cases)
-    return "; ".join(f"{bound}: {void}" if bound else void for bound, void in said if void)
+    each = (
+        worded("{where}: {why}", where=bound, why=void) if bound and void else void
+        for bound, void in said
+    )
+    return joined(*each)
 
 
 def _numbers(cases: Sequence[Case], name: str, sign: float) -> dict[str, Any]:
@@ -76,7 +74,7 @@ def _numbers(cases: Sequence[Case], name: str, sign: float) -> dict[str, Any]:
         largest = np.nanmax(reached_by(case.every, name), axis=1, initial=-math.inf)
         if largest.max() > worst:
             worst, one = float(largest.max()), int(largest.argmax())
-            named = f"{motion_of(case.every, one)}{end_of(case.every, one)}"
+            named = run_named(case.every, one)
             run = joined(named, case.bound, by=", ")
     found = {"envelope": envelope, "worst": worst}
     known = {key: sign * v + 0.0 if math.isfinite(v) else math.nan for key, v in found.items()}
@@ -103,21 +101,29 @@ def worst_place(each: FloatArray) -> int:
 
 def _note(quantity: Quantity, rules: HistoryRules) -> str:
     if quantity.demand in COUNTED and not rules.uplift_allowed:
-        return f"of any gap; a run fails above {1e3 * rules.least_gap:g} mm ({rules.cited})"
+        return worded(
+            "of any gap; a run fails above {gap:g} mm ({clause})",
+            gap=1e3 * rules.least_gap,
+            clause=rules.cited,
+        )
     return quantity.note
 
 
 def said(suite: Suite) -> str:
     """Return in words how the runs of a bound are taken together."""
     n, failed = len(suite.failed), sum(suite.failed)
-    what = f"{suite.statistic} of "
+    of_all = worded("{statistic} of {n} runs", statistic=suite.statistic, n=n)
     if suite.void:
-        return f"no valid value; {what}{n} runs, {failed} failed"
-    more = ", raised by moved masses" if suite.raised else ""
+        return joined("no valid value", joined(of_all, worded("{n} failed", n=failed), by=", "))
     if failed:
-        least = f"at least {suite.median_factor:g} medians of all"
-        return f"{what}{n - failed} of {n} runs, {least}{more}"
-    return f"{what}{n} runs{more}" if n > 1 else f"1 run{more}"
+        counted = worded(
+            "{statistic} of {n} of {all} runs", statistic=suite.statistic, n=n - failed, all=n
+        )
+        least = worded("at least {factor:g} medians of all", factor=suite.median_factor)
+        of_all = joined(counted, least, by=", ")
+    elif n == 1:
+        of_all = "1 run"
+    return joined(of_all, "raised by moved masses" if suite.raised else "", by=", ")
 
 
 def demands_at_levels(cases: Sequence[Case]) -> pd.DataFrame:
@@ -128,7 +134,9 @@ def demands_at_levels(cases: Sequence[Case]) -> pd.DataFrame:
     several = len(tables) > 1
     parts = []
     for name, table in tables.items():
-        void = table["void"].map(lambda why, at=name: f"level {at}, {why}" if why else "")
+        void = [
+            worded("level {level}, {why}", level=name, why=w) if w else "" for w in table["void"]
+        ]
         parts.append(table.assign(void=void if several else table["void"], level=name))
     found = pd.concat(parts)
     each_level = {name: table.attrs["statistics"] for name, table in tables.items()}
@@ -143,8 +151,8 @@ def demands_at_levels(cases: Sequence[Case]) -> pd.DataFrame:
 
 def _once(words: Mapping[str, str]) -> str:
     # What is said of several, once where it is the same.
-    each = (f"{name}: {text}" for name, text in words.items())
-    return next(iter(words.values())) if len({*words.values()}) == 1 else "; ".join(each)
+    each = (worded("{where}: {words}", where=name, words=text) for name, text in words.items())
+    return next(iter(words.values())) if len({*words.values()}) == 1 else joined(*each)
 
 
 def tables_of_levels(
@@ -165,13 +173,13 @@ def tables_of_levels(
 
 def void_said(table: pd.DataFrame) -> str:
     """Return why a table of demands has no values for design, of each level; empty if it has."""
-    return "; ".join(why for why in dict.fromkeys(map(str, table["void"])) if why)
+    return joined(*dict.fromkeys(map(str, table["void"])))
 
 
 def headed(table: pd.DataFrame) -> pd.DataFrame:
     """Return a table of demands with the statistic in the head of each column."""
     statistics: dict[str, str] = table.attrs["statistics"]
-    heads = {bound: f"{bound}, {words}" for bound, words in statistics.items()}
+    heads = {bound: joined(bound, words, by=", ") for bound, words in statistics.items()}
     heads |= {
         "envelope": "envelope of these",
         "where": "where",
@@ -290,7 +298,11 @@ class FailedRuns(NamedTuple):
     def __str__(self) -> str:
         """Return the runs and their cause on one line."""
         where = joined(self.level, self.bound, by=", ")
-        return f"{where}: {self.failed} of {self.of} runs failed: {self.cause}: {self.motions}"
+        return worded(
+            "{where}: {failed} of {of} runs failed: {cause}: {motions}",
+            where=where,
+            **self._asdict(),
+        )
 
 
 def failed_runs(cases: Sequence[Case]) -> list[FailedRuns]:
@@ -315,11 +327,11 @@ def _cause(one: Failure) -> str:
 
 
 def _named(ones: list[Failure]) -> str:
-    said = []
+    named = []
     for one in ones[:_NAMED]:
         at = f"{one.at:.2f} s" if math.isfinite(one.at) else ""
-        where = one.where.removeprefix("bearing ").strip('"')
-        there = joined(at, where, by=", ")
-        said.append(f"{one.motion} ({there})" if there else one.motion)
-    more = len(ones) - len(said)
-    return "; ".join(said) + (f"; {more} more" if more else "")
+        there = joined(at, one.where.removeprefix("bearing ").strip('"'), by=", ")
+        known = worded("{motion} ({there})", motion=one.motion, there=there)
+        named.append(known if there else one.motion)
+    more = len(ones) - len(named)
+    return joined(*named, worded("{n} more", n=more) if more else "")

@@ -25,6 +25,7 @@ from frames.design.histories.suite import (
 )
 from frames.results.quantities import QUANTITIES
 from frames.results.recorded import REACHED
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Sequence
@@ -104,17 +105,20 @@ class Case:
         raised = [name for name in _RAISED if all(REACHED + name in each for each in self.parts)]
         for way in self.ways:
             if any(way.there.failed):
-                failed.append(f"masses moved {way.name}: {way.there.reason}")
+                why = way.there.reason
+                failed.append(worded("masses moved {way}: {why}", way=way.name, why=why))
             elif way.here.void:  # what moved masses are compared with
-                failed.append(f"masses where they are: {way.here.void}")
-            motions = f"{way.there.statistic} of all {len(way.rows)} motions"
+                failed.append(worded("masses where they are: {why}", why=way.here.void))
+            motions = worded(
+                "{statistic} of all {n} motions", statistic=way.there.statistic, n=len(way.rows)
+            )
             if len(way.rows) != self.data.sizes["run"]:
-                motions = ", ".join(motion_of(self.data, k) for k in way.own)
+                motions = joined(*(motion_of(self.data, k) for k in way.own), by=", ")
             for name in raised:
                 centred, moved = map(_largest, way.both(*(_columns(p, name) for p in self.parts)))
                 if name != "rim_plastic" or centred or moved:
                     found[name, way.name] = _raise(way.name, centred, moved, motions, name)
-        return found, "; ".join(dict.fromkeys(failed))
+        return found, joined(*dict.fromkeys(failed))
 
     @cached_property
     def suite(self) -> Suite:
@@ -274,10 +278,10 @@ def _is_of_runs(data: xr.Dataset, name: Hashable) -> bool:
 def named_by_way(moved: xr.Dataset) -> xr.Dataset:
     """Return runs with moved masses whose motions name the way as well."""
     named = [
-        f"{motion}, masses {way}"
+        worded("{motion}, masses {way}", motion=motion, way=way)
         for motion, way in zip(moved["motion"].to_numpy(), moved[WAY].to_numpy(), strict=True)
     ]
-    return moved.assign_coords(motion=("run", named))
+    return moved.assign_coords(motion=("run", np.array(named, dtype=object)))
 
 
 def _place(data: xr.Dataset, moved: xr.Dataset, k: int) -> int:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.rendering import joined
 from frames.design.histories.demand_table import said
 from frames.design.histories.eccentricity import Case, levels_of
 from frames.design.histories.suite import Raise, peaks_of_runs
 from frames.results.recorded import REACHED
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -150,7 +150,8 @@ def _void(suite: Suite) -> str:
     # Which runs and why is in the table of demands.
     if not suite.void:
         return ""
-    own = f"{sum(suite.failed)} of {len(suite.failed)} runs failed" if suite.reason else ""
+    count = worded("{count} of {n} runs failed", count=sum(suite.failed), n=len(suite.failed))
+    own = count if suite.reason else ""
     moved = "runs with moved masses failed" if suite.moved_failed else ""
     return joined(own, moved)
 

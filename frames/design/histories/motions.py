@@ -18,6 +18,7 @@ from frames.design.hazard.motion_measures import pair_spectrum
 from frames.design.hazard.motion_set import angle_of
 from frames.design.hazard.scaling import POINTS
 from frames.motion.ground_motion import GroundMotion
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
@@ -148,7 +149,7 @@ def _number(motions: MotionSet, least: int, clause: str, known: Standing) -> Che
     t.given("n", float(pairs), note="with both horizontal components")
     t.given("n_least", float(least))
     up = sum(m.z is not None for m in motions.values())
-    note = f"{up} of {len(motions)} have a vertical component"
+    note = worded("{n} of {all} have a vertical component", n=up, all=len(motions))
     judge = CheckBuilder(t, "", known)
     return judge(clause, "pairs of motions", "n", ">=", "n_least", note=note)
 
@@ -161,14 +162,24 @@ def _mean(
     each = np.array([pair_spectrum(motion, grid, 0.05, asked.measure) for motion in motions])
     k = int(np.argmin(each.mean(axis=0) / target))
     t, at_zero = Trace(), not grid.any()
-    t.given_each("S_i", each[:, k].tolist(), "m/s2", note=f"{asked.measure} of each pair, 5 %")
+    t.given_each(
+        "S_i",
+        each[:, k].tolist(),
+        "m/s2",
+        note=worded("{measure} of each pair, 5 %", measure=asked.measure),
+    )
     t.given("n", float(len(motions)))
-    t("S_mean", "sum(S_i) / n", "m/s2", note=f"at T = {grid[k]:.4g} s")
-    t.given("S_target", float(target[k]), "m/s2", note=f"of {spectrum.name or spectrum.code}")
+    t("S_mean", "sum(S_i) / n", "m/s2", note=worded("at T = {period:.4g} s", period=grid[k]))
+    t.given(
+        "S_target",
+        float(target[k]),
+        "m/s2",
+        note=worded("of {spectrum}", spectrum=spectrum.name or spectrum.code),
+    )
     t.given("a_S", asked.at_zero if at_zero else asked.part)
     t("S_least", "a_S * S_target", "m/s2")
     title = "mean spectrum of the motions" + (" at the period 0" if at_zero else "")
-    note = "" if at_zero else f"least from {grid[0]:.4g} to {grid[-1]:.4g} s"
+    note = "" if at_zero else worded("least from {a:.4g} to {b:.4g} s", a=grid[0], b=grid[-1])
     judge = CheckBuilder(t, "", asked.standing)
     return judge(asked.clause, title, "S_mean", ">=", "S_least", note=note)
 
@@ -179,16 +190,15 @@ def _turned(motions: MotionSet, clause: str) -> list[Check]:
         return []
     odd = [name for name in near if not _is_turned(name, motions)]
     t = Trace()
-    t.given("n_odd", float(len(odd)), note=f"of {len(near)} near-fault pairs")
+    t.given("n_odd", float(len(odd)), note=worded("of {n} near-fault pairs", n=len(near)))
     t.given("n_allowed", 0.0)
-    note = (
-        f"MotionSet.fault_normal turns those whose strike and azimuths are known: {', '.join(odd)}"
-        if odd
-        else ""
+    note = worded(
+        "MotionSet.fault_normal turns those whose strike and azimuths are known: {names}",
+        names=", ".join(odd),
     )
     title = "near-fault pairs that are not turned to the fault"
     judge = CheckBuilder(t, "", MEMORY)
-    return [judge(clause, title, "n_odd", "<=", "n_allowed", note=note)]
+    return [judge(clause, title, "n_odd", "<=", "n_allowed", note=note if odd else "")]
 
 
 def _is_turned(name: str, motions: MotionSet) -> bool:

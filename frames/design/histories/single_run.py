@@ -12,7 +12,7 @@ from frames.design.calculation.trace import Trace
 from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
-from frames.design.devices.bearing_numbers import NO_CODE, enter_bearing
+from frames.design.devices.bearing_numbers import by_equation, by_section, enter_bearing
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
 from frames.design.histories.bearing_demands import BearingDemands, Calculation, devices_of
 from frames.design.histories.impacts import (
@@ -94,7 +94,7 @@ def impact_checks(
     bearings = BearingDemands(data, suite, devices, limits, bound, reason)
     found = [_complete(data, bound)]
     found += left_out_checks(data, bound)
-    found += bearings.displacement(f"{NO_CODE}, section 2", OWN)
+    found += bearings.displacement(by_section("2"), OWN)
     found += [*bearings.slips(), *bearings.forces()]
     found += [*_structure(bearings), *_uplift(bearings)]
     landing = suite_of_uplift(data, reason)
@@ -172,7 +172,7 @@ def event_checks(
                 if not devices[name].is_dcfp
             }
             title = f"{what}, event {event}"
-            found += demands.worst(OWN, f"{NO_CODE} (2.7)", title, each)
+            found += demands.worst(OWN, by_equation("2.7"), title, each)
     return Checks(replace(check, void=void) for check in found)
 
 

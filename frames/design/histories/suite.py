@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from frames.design._errors import CheckError
-from frames.design.calculation.rendering import joined
 from frames.design.calculation.trace import Trace
 from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.results.peak_response import places_of, reached
 from frames.results.recorded import REACHED
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -42,7 +42,11 @@ class Amplification(NamedTuple):
     @property
     def said(self) -> str:
         """What it is of, in words."""
-        return f"accidental eccentricity: masses moved {self.way}, {self.motions}"
+        return worded(
+            "accidental eccentricity: masses moved {way}, {motions}",
+            way=self.way,
+            motions=self.motions,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,8 +126,12 @@ class Suite:
             value = self.value(values)
             if math.isnan(value):
                 return t.given(symbol, math.inf, unit, shown=shown, note="not known: runs failed")
-            note = f"no valid value; {sum(self.failed)} of {len(self.failed)} runs failed"
-            note = note if any(self.failed) else "no valid value; runs with moved masses failed"
+            why = "runs with moved masses failed"
+            if any(self.failed):
+                why = worded(
+                    "{count} of {n} runs failed", count=sum(self.failed), n=len(self.failed)
+                )
+            note = joined("no valid value", why)
             return t.given(symbol, value, unit, shown=shown, note=note)
         more = self.raised.get(of)
         if more is None:
@@ -142,7 +150,7 @@ class Suite:
             return t.given(symbol, float(values[0]), unit, shown=shown, note="largest of the run")
         good = values[~np.array(self.failed)]
         runs = f"{symbol}_i"
-        note = f"largest of each of {len(good)} runs"
+        note = worded("largest of each of {n} runs", n=len(good))
         t.given_each(runs, good.tolist(), unit, shown=shown, note=note)
         if self.statistic == "largest":
             return t(symbol, f"max({runs})", unit, shown=shown, source=self.source)
@@ -155,7 +163,7 @@ class Suite:
                 self._median(values),
                 unit,
                 shown=shown,
-                note=f"median, {sum(self.failed)} failed above it",
+                note=worded("median, {n} failed above it", n=sum(self.failed)),
             )
             t.given(f"f_{symbol}", self.median_factor)
             formula = f"max({formula}, f_{symbol} * {symbol}_50)"
@@ -200,8 +208,10 @@ class Failure(NamedTuple):
     def __str__(self) -> str:
         """Return motion, cause, time and place."""
         cause = self.status if self.status != "ok" else "a bearing lifted off"
-        when = f" at {self.at:.4g} s" if math.isfinite(self.at) else ""
-        return f"{self.motion}: {cause}{when}{f', {self.where}' if self.where else ''}"
+        if math.isfinite(self.at):
+            cause = worded("{cause} at {time:.4g} s", cause=cause, time=self.at)
+        cause = worded("{motion}: {cause}", motion=self.motion, cause=cause)
+        return joined(cause, self.where, by=", ")
 
 
 def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
@@ -240,9 +250,11 @@ def stopped_in(data: xr.Dataset) -> BoolArray:
     return np.array([str(word) != "ok" for word in data["status"].to_numpy()])
 
 
-def end_of(data: xr.Dataset, k: int) -> str:
-    """Return how a run failed, with what it begins: " (slip_exceeded)"; empty where it did not."""
-    return f" ({data['status'].to_numpy()[k]})" if stopped_in(data)[k] else ""
+def run_named(data: xr.Dataset, k: int) -> str:
+    """Return the motion of a run, with how it failed: "one (slip_exceeded)"."""
+    name, status = motion_of(data, k), data["status"].to_numpy()[k]
+    is_stopped = stopped_in(data)[k]
+    return worded("{motion} ({status})", motion=name, status=status) if is_stopped else name
 
 
 def stopped_runs(data: xr.Dataset) -> str:
@@ -254,12 +266,14 @@ def stopped_runs(data: xr.Dataset) -> str:
 def _said_of(failures: Sequence[Failure | None]) -> str:
     # How many of runs failed, and each of them.
     stopped = [str(one) for one in failures if one is not None]
-    count = f"{len(stopped)} of {len(failures)} runs failed"
-    return "; ".join([count, *stopped]) if stopped else ""
+    count = worded("{count} of {n} runs failed", count=len(stopped), n=len(failures))
+    return joined(count, *stopped) if stopped else ""
 
 
 def _failure(data: xr.Dataset, k: int) -> Failure:
     at, where = float(data["failed_at"][k]), str(data["failed_where"].to_numpy()[k])
+    kind, _, name = where.partition(' "')
+    where = worded('{kind} "{name}"', kind=kind, name=name[:-1]) if name else where
     return Failure(motion_of(data, k), str(data["status"].to_numpy()[k]), at, where)
 
 
@@ -275,7 +289,8 @@ def parted(data: xr.Dataset, least: float) -> BoolArray:
 def motion_of(data: xr.Dataset, k: int) -> str:
     """Return the motion of a run, with its scale where that is not 1."""
     name, scale = str(data["motion"].to_numpy()[k]), float(data["scale"][k])
-    return name if abs(scale - 1.0) < 1e-12 else f"{name} x {scale:.4g}"
+    same = abs(scale - 1.0) < 1e-12
+    return name if same else worded("{motion} x {scale:.4g}", motion=name, scale=scale)
 
 
 BASE = "base shear of time histories"
@@ -306,11 +321,17 @@ def shear_checks(
     """
     clause = f"{rules.cited} {rules.force_clause}".strip()
 
-    def judged(t: Trace, title: str, symbol: str, subject: str, what: str) -> Check:
+    def judged(t: Trace, title: str, symbol: str, subject: str) -> Check:
         demand, least = t.value(symbol), t.value("V_least")
         more = ""
         if not suite.void and 0.0 < demand < least:
-            more = f"{what} are raised by {least / demand:.4g}"
+            factor = least / demand
+            more = worded("forces and drifts are raised by {factor:.4g}", factor=factor)
+            if title == STOREY:
+                more = worded(
+                    "forces and drifts above the isolation are raised by {factor:.4g}",
+                    factor=factor,
+                )
         said = joined(more, note)
         standing = standing_in(rules.code, "history minima")
         judge = CheckBuilder(t, known.bound, standing, void=suite.void).of("minimum")
@@ -319,7 +340,7 @@ def shear_checks(
     t = Trace()
     suite.enter(t, "V", peaks_of_runs(data, "base_shear"), "N")
     t.given("V_least", known.trace.value("V_b_dyn"), "N", note=LEAST)
-    found = [judged(t, BASE, "V", "", "forces and drifts")]
+    found = [judged(t, BASE, "V", "")]
     if not storey:
         return found
     if f"{REACHED}storey_shear" not in data.variables:
@@ -332,8 +353,7 @@ def shear_checks(
     t.given("V_s", known.trace.value("V_s"), "N", note="of the equivalent-linear analysis")
     t.given("a_dyn", known.trace.value("a_dyn"), source=known.trace["a_dyn"].source)
     t("V_least", "a_dyn * V_s", "N")
-    what = "forces and drifts above the isolation"
-    return [*found, judged(t, STOREY, "V_run", storey, what)]
+    return [*found, judged(t, STOREY, "V_run", storey)]
 
 
 def raise_of(checks: list[Check]) -> Raise:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import OWN
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
@@ -24,6 +23,7 @@ from frames.results.level_doubts import (
     travels,
 )
 from frames.results.recorded import REACHED
+from lir_element.texts import joined, worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -60,20 +60,30 @@ def contact_notes(data: xr.Dataset, least: float) -> str:
     time, gap = peaks_of_runs(data, "time_lifted"), peaks_of_runs(data, "gap")
     small = (time > 0.0) & ~parted(data, least)
     words = [
-        f"{motion_of(data, int(k))}: {1e3 * gap[k, small[k]].max():.2g} mm, "
-        f"{time[k, small[k]].max():.3g} s"
+        worded(
+            "{motion}: {gap:.2g} mm, {time:.3g} s",
+            motion=motion_of(data, int(k)),
+            gap=1e3 * gap[k, small[k]].max(),
+            time=time[k, small[k]].max(),
+        )
         for k in np.flatnonzero(small.any(axis=1))
     ]
     if not words:
         return ""
-    return f"gaps up to {1e3 * least:g} mm count as contact ({'; '.join(words)})"
+    return worded(
+        "gaps up to {gap:g} mm count as contact ({runs})", gap=1e3 * least, runs=joined(*words)
+    )
 
 
 def audit_notes(data: xr.Dataset) -> str:
     """Return what the assumption checks of runs mark, by motion."""
-    marked = ("; ".join(found.doubts()) for found in findings_by_run(data))
-    return "; ".join(
-        f"assumption check of {motion_of(data, k)}: {said}" for k, said in enumerate(marked) if said
+    marked = (joined(*found.doubts()) for found in findings_by_run(data))
+    return joined(
+        *(
+            worded("assumption check of {motion}: {doubt}", motion=motion_of(data, k), doubt=doubt)
+            for k, doubt in enumerate(marked)
+            if doubt
+        )
     )
 
 
@@ -103,11 +113,13 @@ def doubted(checks: list[Check], errors: Mapping[str, float], quantity: str) -> 
         error = errors[check.subject] if check.subject else 0.0
         most = check.demand / (1.0 - error) if error < 1.0 else math.inf
         if check.passed and error > 0.0 and most > check.limit:
-            said = (
-                f'at the level "pendulum" the {DOUBTED[quantity]} may be off by '
-                f'{100.0 * error:.0f} %, more than its margin: run at level = "contact"'
+            doubt = worded(
+                'at the level "pendulum" the {quantity} may be off by {error:.0f} %, more than its '
+                'margin: run at level = "contact"',
+                quantity=DOUBTED[quantity],
+                error=100.0 * error,
             )
-            check = replace(check, note=joined(check.note, said))
+            check = replace(check, note=joined(check.note, doubt))
         found.append(check)
     return found
 

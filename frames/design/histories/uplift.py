@@ -16,6 +16,7 @@ from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOS
 from frames.design.histories.bearing_demands import BearingDemands, Calculation
 from frames.design.histories.suite import Suite, motion_of, peaks_of_runs, stopped_in
 from lir_element.device.sliders import interface_height
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -98,7 +99,7 @@ class Uplift(BearingDemands):
         if self.limits.axial_force is not None:
             run = int(max(runs, key=lambda i: force[i]))
         t = Trace()
-        note = f"largest of the run, {self._run(run)}: the landing's at most"
+        note = worded("largest of the run, {motion}: the landing's at most", motion=self._run(run))
         t.given("N_land", float(force[run]), "N", note=note)
         symbol, limit = self._enter_resistance(t)
         if symbol == "p_land":
@@ -132,11 +133,18 @@ class Uplift(BearingDemands):
         lasts, count = peaks_of_runs(self.data, "time_lifted"), peaks_of_runs(self.data, "uplifts")
         wide = np.where(self._lifted, np.nan_to_num(gap, nan=math.inf), 0.0)
         run, k = np.unravel_index(int(np.argmax(wide)), wide.shape)
-        return (
-            f"bearings lift off in {len(runs)} of {len(wide)} runs, {count.sum():.0f} times in all"
-            f"; the widest gap, {1e3 * wide[run, k]:.3g} mm, {self._run(int(run))}, at "
-            f"{self._names[k]}: in the air for {lasts[run, k]:.3g} s of the run, axial force up to "
-            f"{1e-3 * force[run, k]:.4g} kN"
+        return worded(
+            "bearings lift off in {n} of {all} runs, {times:.0f} times in all; the widest gap, "
+            "{gap:.3g} mm, {motion}, at {where}: in the air for {time:.3g} s of the run, axial "
+            "force up to {force:.4g} kN",
+            n=len(runs),
+            all=len(wide),
+            times=count.sum(),
+            gap=1e3 * wide[run, k],
+            motion=self._run(int(run)),
+            where=self._names[k],
+            time=lasts[run, k],
+            force=1e-3 * force[run, k],
         )
 
     def _run(self, k: int) -> str:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
-from frames.design.calculation.rendering import joined
 from frames.design.calculation.unevaluated import not_evaluated
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.device import device_checks
@@ -17,6 +16,7 @@ from frames.design.histories.histories import case_checks
 from frames.design.histories.motions import motion_checks
 from frames.design.project.moat_checks import clearance_checks, wall_checks
 from lir_element.argument_checks import require_type
+from lir_element.texts import joined
 
 if TYPE_CHECKING:
     import pandas as pd

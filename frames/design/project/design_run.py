@@ -33,6 +33,7 @@ from frames.design.project.level_runs import (
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.structure_statement import structure_rows
 from frames.design.testing.programme import prototype_tests
+from lir_element.texts import joined, keeping_texts, worded
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -159,6 +160,7 @@ def run_project(
     return evaluate_run(parts, known, runs, governing)
 
 
+@keeping_texts
 def evaluate_run(
     parts: ProjectInputs, known: Preliminary, runs: Runs, governing: xr.Dataset
 ) -> ProjectRun:
@@ -270,6 +272,6 @@ def _programme(
         ("impact", "" if asked.void else speed),
     ):
         those = table["what"].str.contains(of_runs, regex=True) & bool(void)
-        why, notes = f"no values for design: {void}", table.loc[those, "note"]
-        table.loc[those, "note"] = [f"{note}; {why}" if note else why for note in notes]
+        why = worded("no values for design: {why}", why=void)
+        table.loc[those, "note"] = [joined(note, why) for note in table.loc[those, "note"]]
     return table

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from frames._errors import ModelError
 from frames.design._errors import ProjectError
-from frames.design.project.member_sections import storeys_of
+from frames.design.project.member_sections import storeys_of, storeys_said
 from frames.design.project.schema_bearing import SIDES
 from frames.laws import Gap, ViscousDamper
 from frames.statics.gravity import gravity
 from lir_element.argument_checks import listed
 from lir_element.elevations import SAME_PLACE
+from lir_element.texts import anded, joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -224,22 +225,33 @@ def device_rows(
     """Return what walls and dampers are, a row for each, in words."""
     rows = []
     if moat is not None:
-        said = f"gap {1e3 * moat.gap:.5g} mm, {1e-6 * moat.stiffness:.5g} kN/mm"
-        said += f", {1e-3 * moat.damping:.5g} kN s/m" if moat.damping else ""
-        rows.append(("moat wall along each side", f"{said}, at {', '.join(moat.sides)}"))
+        made = joined(
+            worded("gap {size:.5g} mm", size=1e3 * moat.gap),
+            f"{1e-6 * moat.stiffness:.5g} kN/mm",
+            f"{1e-3 * moat.damping:.5g} kN s/m" if moat.damping else "",
+            worded("at {sides}", sides=", ".join(moat.sides)),
+            by=", ",
+        )
+        rows.append(("moat wall along each side", made))
     for name, given in dampers.items():
-        said = f"{1e-3 * given.force:.5g} kN at {given.speed:.5g} m/s, exponent {given.exponent:g}"
+        made = worded(
+            "{force:.5g} kN at {speed:.5g} m/s, exponent {exponent:g}",
+            force=1e-3 * given.force,
+            speed=given.speed,
+            exponent=given.exponent,
+        )
         if given.stiffness is not None:
-            said += f", {1e-6 * given.stiffness:.5g} kN/mm in series"
+            series = worded("{stiffness:.5g} kN/mm in series", stiffness=1e-6 * given.stiffness)
+            made = joined(made, series, by=", ")
         if given.between is None:
-            where = f"{', '.join(map(str, given.columns))}, along {' and '.join(given.directions)}"
+            where = worded(
+                "{columns}, along {axes}",
+                columns=", ".join(map(str, given.columns)),
+                axes=anded(given.directions),
+            )
         else:
             one, other = given.between if given.pattern == "up" else given.between[::-1]
-            levels = (
-                ""
-                if given.storeys is None
-                else f", storeys {given.storeys[0]} to {given.storeys[1]}"
-            )
-            where = f"rising from {one} to {other}{levels}"
-        rows.append((f"dampers {name}", f"{said}; {where}"))
+            rising = worded("rising from {one} to {other}", one=one, other=other)
+            where = joined(rising, storeys_said(given.storeys), by=", ")
+        rows.append((worded("dampers {name}", name=name), joined(made, where)))
     return rows

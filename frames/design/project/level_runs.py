@@ -21,6 +21,7 @@ from frames.results.storage import as_packed
 from frames.solve.step_sensitivity import NOISE, SENSITIVE
 from frames.solve.time_history import time_history
 from lir_element.errors import AnalysisWarning
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -80,11 +81,17 @@ def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
     large = {name: share for name, share in found.items() if share > SENSITIVE}
     if not large:
         return ()
-    listed = ", ".join(f"{name} by {100.0 * share:.2g} %" for name, share in large.items())
+    each = (
+        worded("{quantity} by {share:.2g} %", quantity=name, share=100.0 * share)
+        for name, share in large.items()
+    )
     return (
-        f"a billionth of the ground motion changes peaks of the governing run ({listed}): they are "
-        "chance within that range, which no smaller step narrows; judge several disturbed motions "
-        "(frames.step_sensitivity compares)",
+        worded(
+            "a billionth of the ground motion changes peaks of the governing run ({peaks}): they "
+            "are chance within that range, which no smaller step narrows; judge several disturbed "
+            "motions (frames.step_sensitivity compares)",
+            peaks=joined(*each, by=", "),
+        ),
     )
 
 
@@ -99,8 +106,9 @@ def named_case(one: Runs) -> str:
     """Return a run in words: motion, bound and level, and the status of one that failed."""
     tags = ("motion", "status", BOUND, HAZARD)
     motion, status, bound, level = (str(one.of(tag)[0]) for tag in tags)
-    ended = f", failed ({status})" if stopped_in(one.data)[0] else ""
-    return f"{motion}, {bound} bound, {level} level{ended}"
+    named = worded("{run}, {bound} bound, {level} level", run=motion, bound=bound, level=level)
+    ended = worded("failed ({status})", status=status) if stopped_in(one.data)[0] else ""
+    return joined(named, ended, by=", ")
 
 
 def _apart(data: xr.Dataset, other: xr.Dataset, quantity: str) -> float:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 from frames.design._errors import ProjectError
 from frames.design.project.schema_sections import BeamsTable, ColumnsTable
 from frames.model.sections import Section
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from frames.design.project.schema_sections import (
@@ -99,31 +100,30 @@ def named_section(given: SectionTable, *, column: bool) -> NamedSection:
         "density": material.density,
     }
     if given.section is not None:
-        section, said = Section.catalogue(given.section, **keys), given.section
+        section, shape = Section.catalogue(given.section, **keys), given.section
     elif given.box is not None:
         *sides, wall = given.box
         first, second = sides if len(sides) == 2 else (sides[0], sides[0])
         width, depth = (second, first) if column else (first, second)
         section = Section.box(width, depth, wall, **keys)
-        said = f"box {_mm(first)} x {_mm(second)} x {_mm(wall)} mm"
+        shape = worded("box {size} mm", size=_mm(first, second, wall))
     elif given.rectangle is not None:
         first, second = given.rectangle
         width, depth = (second, first) if column else (first, second)
         section = Section.rectangle(width, depth, **keys)
-        said = f"rectangle {_mm(first)} x {_mm(second)} mm"
+        shape = worded("rectangle {size} mm", size=_mm(first, second))
     elif given.circle is not None:
         diameter, *walls = given.circle
         section = Section.circle(diameter, walls[0] if walls else None, **keys)
-        said = f"circle {_mm(diameter)}" + (f" x {_mm(walls[0])}" if walls else "") + " mm"
+        shape = worded("circle {size} mm", size=_mm(diameter, *walls))
     elif given.i_shape is not None:
         section = Section.i_shape(*given.i_shape, **keys)
-        said = "I " + " x ".join(map(_mm, given.i_shape)) + " mm"
+        shape = worded("I {size} mm", size=_mm(*given.i_shape))
     else:
-        section, said = _by_properties(given.properties, material), "given constants"
-    said = f"{said}, {material.name} (E {1e-9 * material.elastic_modulus:.4g} GPa)"
+        section, shape = _by_properties(given.properties, material), "given constants"
     section, cracked = cracked_said(section, given.cracked)
     up = (0.0, 1.0, 0.0) if given.depth_along == "y" else None
-    return NamedSection(section, up, said + cracked)
+    return NamedSection(section, up, joined(shape, of_material(material), cracked, by=", "))
 
 
 def cracked_said(section: Section, cracked: float | CrackedTable | None) -> tuple[Section, str]:
@@ -134,7 +134,25 @@ def cracked_said(section: Section, cracked: float | CrackedTable | None) -> tupl
         (cracked, None, None) if isinstance(cracked, float) else cracked.factors
     )
     found = section.cracked(bending, torsion=torsion, shear=shear)
-    return found, f", cracked: {bending:g} of the bending stiffness"
+    return found, bending_said(bending)
+
+
+def bending_said(bending: float) -> str:
+    """Return what is said of cracked concrete."""
+    return worded("cracked: {share:g} of the bending stiffness", share=bending)
+
+
+def of_material(material: Material) -> str:
+    """Return a material with its elastic modulus in words."""
+    modulus = 1e-9 * material.elastic_modulus
+    return worded("{material} (E {modulus:.4g} GPa)", material=material.name, modulus=modulus)
+
+
+def storeys_said(storeys: tuple[int, int] | None) -> str:
+    """Return a range of storeys in words; nothing of all."""
+    if storeys is None:
+        return ""
+    return worded("storeys {first} to {last}", first=storeys[0], last=storeys[1])
 
 
 def storeys_of(given: tuple[int, int] | None, count: int) -> range:
@@ -149,8 +167,8 @@ def storeys_of(given: tuple[int, int] | None, count: int) -> range:
     return range(first, last + 1)
 
 
-def _mm(length: float) -> str:
-    return f"{1e3 * length:.5g}"
+def _mm(*lengths: float) -> str:
+    return " x ".join(f"{1e3 * length:.5g}" for length in lengths)
 
 
 def _by_properties(given: PropertiesTable | None, material: Material) -> Section:

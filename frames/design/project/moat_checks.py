@@ -12,6 +12,7 @@ from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
 from frames.design.histories.suite import motion_of, peaks_of_runs, stopped_runs
 from frames.design.project.devices_beside import walls_of
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -64,7 +65,7 @@ def _of_histories(frame: Frame, case: Case, gap: float) -> list[Check]:
     title = "clearance to the moat wall"
     every = case.every
     told = _told_of_walls(frame, every)
-    note = f"{_AT_BEARINGS}{told.holds}"
+    note = joined(_AT_BEARINGS, told.holds)
     first = judge(PROJECT_LIMIT, title, "D_d", "<=", "g_moat", note=note)
     largest = peaks_of_runs(every, "displacement").max(axis=1)
     k = int(largest.argmax())
@@ -85,18 +86,33 @@ def _told_of_walls(frame: Frame, every: xr.Dataset) -> _Told:
     walls = walls_of(frame)
     if walls is None:
         return _Told("the wall is not modelled: where it is met, its force is in no result", "")
-    where = f"walls at {1e3 * walls.gap:.5g} mm along {', '.join(walls.sides)} are modelled"
+    gap, sides = 1e3 * walls.gap, ", ".join(walls.sides)
     which = [str(name) in walls.links for name in every["link"].to_numpy()]
     force = peaks_of_runs(every, "link_force")[:, which].max(axis=1)
     met = force[force > 0.0]
     if not len(met):
-        return _Told(f"{where}: none is met in the runs", "")
-    runs = f"{len(met)} of {len(force)} runs"
-    return _Told(
-        f"{where}: met in {runs}, by up to {1e-3 * met.max():.4g} kN at a node; their force is in "
-        "the results (links.csv)",
-        f"; the walls that are modelled hold back {runs}, which would go farther without them",
+        none = worded(
+            "walls at {gap:.5g} mm along {sides} are modelled: none is met in the runs",
+            gap=gap,
+            sides=sides,
+        )
+        return _Told(none, "")
+    model = worded(
+        "walls at {gap:.5g} mm along {sides} are modelled: met in {met} of {runs} runs, by up to "
+        "{force:.4g} kN at a node",
+        gap=gap,
+        sides=sides,
+        met=len(met),
+        runs=len(force),
+        force=1e-3 * met.max(),
     )
+    holds = worded(
+        "the walls that are modelled hold back {met} of {runs} runs, which would go farther "
+        "without them",
+        met=len(met),
+        runs=len(force),
+    )
+    return _Told(joined(model, "their force is in the results (links.csv)"), holds)
 
 
 def _with_gap(gap: float) -> Trace:

@@ -25,6 +25,7 @@ from frames.design.project.schema_structure import ImportedModel, OpenSeesModel
 from frames.library.moved_masses import with_moved_masses
 from frames.recording.recording import number_of_steps
 from lir_element._version import package_version
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from frames.design.codes.isolation import IsolationSystem
@@ -148,9 +149,11 @@ def moved_frames(parts: ProjectInputs, frame: Frame) -> dict[str, Frame]:
             for way, (x, y) in WAYS.items()
         }
     except ModelError as cause:
-        msg = (
-            f"[analysis] accidental_eccentricity = {share:g}: {cause}; the time histories leave it "
-            'out, write accidental_eccentricity = "none" if that is meant'
+        msg = worded(
+            "[analysis] accidental_eccentricity = {share:g}: {cause}; the time histories leave it "
+            'out, write accidental_eccentricity = "none" if that is meant',
+            share=share,
+            cause=cause,
         )
         if parts.file.analysis.accidental_eccentricity is not None:
             raise ProjectError(msg) from cause

@@ -16,6 +16,7 @@ from frames.design.project.schema_structure import (
     MomentFrame,
     ShearBuilding,
 )
+from lir_element.texts import anded, worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -65,10 +66,14 @@ def _said(row: _Row) -> str:
     value = row.value or 0.0
     unit, factor = _SHOWN.get(row.unit, (row.unit, 1.0))
     bound, word = (row.low, "less") if value < row.low else (row.high, "more")
-    return (
-        f"{row.key} = {factor * value:.4g} {unit}".rstrip()
-        + f" is {word} than {factor * bound:.4g} {unit}".rstrip()
-        + f", {row.why}: look at its unit"
+    given, limit = (f"{factor * v:.4g} {unit}".rstrip() for v in (value, bound))
+    return worded(
+        "{key} = {value} is {word} than {bound}, {why}: look at its unit",
+        key=row.key,
+        value=given,
+        word=word,
+        bound=limit,
+        why=row.why,
     )
 
 
@@ -81,7 +86,7 @@ def _of_bearings(devices: Mapping[str, LIRBearing], equivalent: EquivalentLinear
         yield _Row(
             f"{at} friction", max(law.f_max for law in bearing.frictions), "", 0.01, 0.3, why
         )
-        why = f"a fifth of the {1e3 * needed:.4g} mm that bearings without rims go"
+        why = worded("a fifth of the {c:.4g} mm that bearings without rims go", c=1e3 * needed)
         yield _Row(f"{at} capacity", bearing.lateral_capacity, "m", 0.2 * needed, math.inf, why)
         why = "the slider's radius: its edge has left the plate before the rim counts as failed"
         yield _Row(f"{at} rim_overrun", options["rim_overrun"], "m", 0.0, a, why)
@@ -104,8 +109,8 @@ def _of_limits(
 ) -> Iterator[_Row]:
     limits, load, weight = file.limits, max(system.loads), system.seismic_weight
     capacity = max(each.lateral_capacity for each in devices.values())
-    heaviest = f"the heaviest bearing carries {1e-3 * load:.4g} kN"
-    whole = f"the building weighs {1e-3 * weight:.4g} kN"
+    heaviest = worded("the heaviest bearing carries {load:.4g} kN", load=1e-3 * load)
+    whole = worded("the building weighs {weight:.4g} kN", weight=1e-3 * weight)
     pushed = min(each.base_shear for each in equivalent.bounds.values()) / weight
     rows: dict[str, tuple[str, float, float, str]] = {
         "rim_strength": ("N", 0.02 * load, 100.0 * load, heaviest),
@@ -118,8 +123,11 @@ def _of_limits(
             "m/s2",
             pushed * STANDARD_GRAVITY,
             25.0,
-            f"the isolation pushes with {pushed:.3g} of the weight, isolated floors have 1 to 10 "
-            "m/s2",
+            worded(
+                "the isolation pushes with {share:.3g} of the weight, isolated floors have 1 to 10 "
+                "m/s2",
+                share=pushed,
+            ),
         ),
         "drift": ("", 1e-4, 0.05, "codes allow 0.002 to 0.02 of isolated buildings"),
         "slip_left": ("m", 0.0, capacity, "the capacity: no run reaches it"),
@@ -135,15 +143,16 @@ def _of_devices(
     weight, each = system.seismic_weight, equivalent.bounds.values()
     needed = max(one.allowed_displacement for one in each)
     if file.moat is not None:
-        why = f"half of the {1e3 * needed:.4g} mm that bearings go without walls"
+        why = worded("half of the {c:.4g} mm that bearings go without walls", c=1e3 * needed)
         yield _Row("[moat] gap", file.moat.gap, "m", 0.5 * needed, math.inf, why)
         stiff = max(one.stiffness for one in each)
         why = "ten times the isolation's stiffness: a wall that soft is none"
         yield _Row("[moat] stiffness", file.moat.stiffness, "N/m", 10.0 * stiff, math.inf, why)
     for name, one in file.dampers.items():
         count = len(one.columns) or 1
-        why = f"the building weighs {1e-3 * weight:.4g} kN"
-        key = f"[dampers.{name}] force times {count}" if count > 1 else f"[dampers.{name}] force"
+        why = worded("the building weighs {weight:.4g} kN", weight=1e-3 * weight)
+        key = f"[dampers.{name}] force"
+        key = worded("{key} times {count}", key=key, count=count) if count > 1 else key
         yield _Row(key, count * one.force, "N", 1e-3 * weight, weight, why)
         why = "isolated buildings move at 0.1 to 2 m/s"
         yield _Row(f"[dampers.{name}] speed", one.speed, "m/s", 0.01, 5.0, why)
@@ -161,9 +170,12 @@ def _without_effect(file: ProjectFile, types: Mapping[str, str]) -> Iterator[str
     for key, instead in code.unread.items():
         given = above is not None and key in above.model_fields_set and getattr(above, key)
         if given and not math.isclose(given, 1.0):
-            yield (
-                f"[superstructure] {key} = {given:g} changes nothing: {code.name} {instead}; "
-                "leave it out"
+            yield worded(
+                "{key} = {value:g} changes nothing: {code} {instead}; leave it out",
+                key=f"[superstructure] {key}",
+                value=given,
+                code=code.name,
+                instead=instead,
             )
     by_load = any(kind.above is not None for kind in file.bearings.values())
     if by_load and STANDARD not in types.values():
@@ -213,9 +225,13 @@ def wind_doubts(
     if wind <= holds:
         return ()
     return (
-        f"[superstructure] wind_shear = {1e-3 * wind:.4g} kN is above {1e-3 * holds:.4g} kN, with "
-        "which all bearings slide at the lower bound of friction: the isolation slides in wind. "
-        "Raise the friction, add a wind restraint, or look at the unit of wind_shear",
+        worded(
+            "[superstructure] wind_shear = {wind:.4g} kN is above {holds:.4g} kN, with which all "
+            "bearings slide at the lower bound of friction: the isolation slides in wind. Raise "
+            "the friction, add a wind restraint, or look at the unit of wind_shear",
+            wind=1e-3 * wind,
+            holds=1e-3 * holds,
+        ),
     )
 
 
@@ -227,11 +243,11 @@ def _of_sections(file: ProjectFile) -> Iterator[str]:
     assumed = [key for key in keys if getattr(given, key) is None]
     if not assumed:
         return
-    yield (
-        f"[structure] {' and '.join(assumed)}: no section is given, those of an example are "
-        "assumed (`lir check` shows them), whatever the building carries: give each its section, "
-        'columns = { section = "HEB 300" }, beams = { rectangle = ["300 mm", "600 mm"], '
-        'material = "C30/37" }'
+    yield worded(
+        "[structure] {keys}: no section is given, those of an example are assumed (`lir check` "
+        "shows them), whatever the building carries: give each its section, columns = {{ section = "
+        '"HEB 300" }}, beams = {{ rectangle = ["300 mm", "600 mm"], material = "C30/37" }}',
+        keys=anded(assumed),
     )
 
 
@@ -253,9 +269,12 @@ def _of_masses(file: ProjectFile) -> Iterator[str]:
     strange = {k: v for k, v in found.items() if v > high or (v < low and k != "base_mass")}
     for key, value in list(strange.items())[:1]:
         unit = "is a mass in t written as kg?" if value < low else "is a mass in kg written as t?"
-        yield (
-            f"[structure] {key} is {value:.3g} kg on each m2 of the plan, buildings have 300 to "
-            f"1500: {unit} Masses are written with their unit, 300 t or 300000 kg"
+        yield worded(
+            "[structure] {key} is {mass:.3g} kg on each m2 of the plan, buildings have 300 to "
+            "1500: {unit} Masses are written with their unit, 300 t or 300000 kg",
+            key=key,
+            mass=value,
+            unit=unit,
         )
 
 
@@ -266,9 +285,13 @@ def _of_heights(file: ProjectFile) -> Iterator[str]:
     low, high = STOREY
     for k, height in enumerate(given.heights, start=1):
         if not low <= height <= high:
-            yield (
-                f"[structure] storey_height of storey {k} is {height:.4g} m, storeys have {low:g} "
-                f"to {high:g} m: look at its unit"
+            yield worded(
+                "[structure] storey_height of storey {storey} is {height:.4g} m, storeys have "
+                "{low:g} to {high:g} m: look at its unit",
+                storey=k,
+                height=height,
+                low=low,
+                high=high,
             )
             return
 
@@ -298,9 +321,11 @@ def _of_bays(file: ProjectFile) -> Iterator[str]:
     least = min(width for count, width in zip(given.bays, given.bay_width, strict=True) if count)
     if least >= side:
         return
-    yield (
-        f"[structure] bay_width = {least:.4g} m is less than the {side:.4g} m that a bearing takes "
-        "in plan (capacity and the diameter of the slider): look at its unit"
+    yield worded(
+        "[structure] bay_width = {width:.4g} m is less than the {side:.4g} m that a bearing takes "
+        "in plan (capacity and the diameter of the slider): look at its unit",
+        width=least,
+        side=side,
     )
 
 
@@ -316,11 +341,17 @@ def _of_storeys(file: ProjectFile) -> Iterator[str]:
         least, most = STIFF * (count - k), SOFT * (1 + count - k)
         period = 2.0 * math.pi * math.sqrt(above / stiffness)
         if not least <= period <= most:
-            bound = f"above {least:.3g}" if period < least else f"below {most:.3g}"
-            yield (
-                f"[structure] storey_stiffness[{k}] = {1e-6 * stiffness:.4g} kN/mm lets the "
-                f"{1e-3 * above:.4g} t above it swing with {period:.3g} s; storeys of buildings "
-                f"stay {bound} s: look at its unit"
+            bound = worded("above {bound:.3g} s", bound=least)
+            if period > most:
+                bound = worded("below {bound:.3g} s", bound=most)
+            yield worded(
+                "{key} = {stiffness:.4g} kN/mm lets the {mass:.4g} t above it swing with "
+                "{period:.3g} s; storeys of buildings stay {bound}: look at its unit",
+                key=f"[structure] storey_stiffness[{k}]",
+                stiffness=1e-6 * stiffness,
+                mass=1e-3 * above,
+                period=period,
+                bound=bound,
             )
             return
 
@@ -333,11 +364,15 @@ def _of_importance(file: ProjectFile) -> Iterator[str]:
     if own is None or above.importance == own:
         return
     share = above.importance / own
-    yield (
-        f"[superstructure] importance = {above.importance:g}, [spectrum] importance = "
-        f"{own:g}: {file.project.code} multiplies a_g by gamma_I, which only the spectrum's "
-        f"does; if {above.importance:g} is meant, the spectrum is to be multiplied by {share:.3g}: "
-        "give both sections the same"
+    yield worded(
+        "[superstructure] importance = {a:g}, [spectrum] importance = {b:g}: {code} multiplies a_g "
+        "by gamma_I, which only the spectrum's does; if {c:g} is meant, the spectrum is to be "
+        "multiplied by {share:.3g}: give both sections the same",
+        a=above.importance,
+        b=own,
+        code=file.project.code,
+        c=above.importance,
+        share=share,
     )
 
 
@@ -346,8 +381,10 @@ def _of_moat(file: ProjectFile) -> Iterator[str]:
     clear, wall = file.limits.moat_gap, file.moat
     if wall is None or clear is None or clear >= wall.gap or len(set(wall.sides)) < len(SIDES):
         return
-    yield (
-        f"[limits] moat_gap = {1e3 * clear:.5g} mm, [moat] gap = {1e3 * wall.gap:.5g} mm: walls "
-        "all around stand farther off than the clear distance that is checked; give both the same "
-        "if they are of one wall"
+    yield worded(
+        "[limits] moat_gap = {clear:.5g} mm, [moat] gap = {gap:.5g} mm: walls all around stand "
+        "farther off than the clear distance that is checked; give both the same if they are of "
+        "one wall",
+        clear=1e3 * clear,
+        gap=1e3 * wall.gap,
     )

@@ -18,6 +18,7 @@ from frames.design._errors import ProjectError
 from frames.design.hazard.motion_folder import files_of, table_rows
 from frames.design.project.schema_structure import ImportedModel, IrregularFrame, OpenSeesModel
 from lir_element.argument_checks import shown
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -152,8 +153,11 @@ class SourceFiles:
     def changed(self) -> tuple[str, ...]:
         """Return the files that are on disk no longer what was read, as sentences."""
         return tuple(
-            f"{path} was changed or removed after it was read: the numbers, the "
-            "input that is shown and its SHA-256 are of the file before"
+            worded(
+                "{file} was changed or removed after it was read: the numbers, the input that is "
+                "shown and its SHA-256 are of the file before",
+                file=path,
+            )
             for path, digest in self._digests.items()
             if _digest_of(path) != digest
         )

@@ -31,6 +31,7 @@ from frames.library.moment_frames import (
 )
 from frames.model.damping import ModalDamping
 from frames.model.sections import Section
+from lir_element.texts import joined
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -156,7 +157,9 @@ def _sections(
 ) -> list[NamedSection]:
     if not tables:
         section, said = _DEFAULTS[key]
-        return [NamedSection(section, None, f"{said}, steel (E 200 GPa), assumed")] * storeys
+        return [
+            NamedSection(section, None, joined(said, "steel (E 200 GPa)", "assumed", by=", "))
+        ] * storeys
     try:
         chosen = by_storey(tables, storeys, direction)
         made = {id(one): named_section(one, column=key == "columns") for one in chosen}

@@ -10,7 +10,13 @@ import numpy as np
 
 from frames.design.codes.registry import code_named
 from frames.design.project.devices_beside import device_rows
-from frames.design.project.member_sections import material_of, named_section
+from frames.design.project.member_sections import (
+    bending_said,
+    material_of,
+    named_section,
+    of_material,
+    storeys_said,
+)
 from frames.design.project.schema_sections import CrackedTable
 from frames.design.project.schema_structure import (
     BuildingTable,
@@ -22,6 +28,7 @@ from frames.design.project.structure_loads import loads_of
 from frames.design.project.structure_plan import DIRECTIONS, sections_of
 from frames.model.components import DEFAULT_CASE
 from frames.model.plane_faces import area_of
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -41,7 +48,15 @@ def structure_rows(file: ProjectFile, frame: Frame, spectrum: Spectrum | None = 
     given = file.structure
     levels = frame.levels
     rows = [
-        ("structure", f"{given.kind}, {len(levels) - 1} storeys on {len(frame.bearings)} bearings")
+        (
+            "structure",
+            worded(
+                "{kind}, {n} storeys on {m} bearings",
+                kind=given.kind,
+                n=len(levels) - 1,
+                m=len(frame.bearings),
+            ),
+        )
     ]
     if len(levels) > 1:
         rows.append(("height above the base", f"{levels[-1].z - levels[0].z:.4g} m"))
@@ -55,7 +70,12 @@ def structure_rows(file: ProjectFile, frame: Frame, spectrum: Spectrum | None = 
     if isinstance(given, BuildingTable):
         rows += _areas(frame)
         rows += _walls_and_braces(given)
-        rows.append(("damping above the bearings", f"{100.0 * given.damping:g} % in each mode"))
+        rows.append(
+            (
+                "damping above the bearings",
+                worded("{share:g} % in each mode", share=100.0 * given.damping),
+            )
+        )
     if isinstance(given, BuildingTable) and given.floor_load is not None:
         rows.append(("mass of a floor besides its members", f"{given.floor_load:.4g} kg/m2"))
     if file.loads is not None:
@@ -68,14 +88,24 @@ def structure_rows(file: ProjectFile, frame: Frame, spectrum: Spectrum | None = 
 
 def _import(account: Account) -> Rows:
     # What became of the file of another program, a row for each kind of object.
-    rows = [("import", f"of {account.file}")]
+    rows = [("import", worded("of {file}", file=account.file))]
     for fate, table, what, count, weight, stiffness in account.rows():
         shares = [
-            f"{share} of {word}"
+            worded("{share} of {whole}", share=share, whole=word)
             for share, word in ((weight, "own weight"), (stiffness, "stiffness"))
             if share
         ]
-        rows.append((fate, f"{table}: {what} ({', '.join([count, *shares])})"))
+        rows.append(
+            (
+                fate,
+                worded(
+                    "{table}: {what} ({counts})",
+                    table=table,
+                    what=what,
+                    counts=joined(count, *shares, by=", "),
+                ),
+            )
+        )
     return rows
 
 
@@ -83,10 +113,12 @@ def _named_sections(given: IrregularFrame, frame: Frame) -> Rows:
     places = np.array([node.position[:2] for node in frame.nodes.values()])
     sides = " x ".join(f"{side:.4g}" for side in np.ptp(places, axis=0))
     kinds = Counter(name.split("-", maxsplit=1)[0] for name in frame.members)
-    counts = ", ".join(f"{count} {kind}s" for kind, count in kinds.items())
+    counts = joined(
+        *(worded("{n} {kind}", n=count, kind=f"{kind}s") for kind, count in kinds.items()), by=", "
+    )
     rows = [("plan, largest sides", f"{sides} m"), ("members", counts)]
     for name, table in given.sections.items():
-        rows.append((f"section {name}", named_section(table, column=True).said))
+        rows.append((worded("section {name}", name=name), named_section(table, column=True).said))
     return rows
 
 
@@ -103,9 +135,9 @@ def _areas(frame: Frame) -> Rows:
     said = []
     for area, group in groupby(found, key=lambda level: f"{found[level]:.5g}"):
         names = list(group)
-        where = names[0] if len(names) == 1 else f"{names[0]} to {names[-1]}"
-        said.append(f"{where} {area} m2")
-    return [("loaded area", ", ".join(said))]
+        where = names[0] if len(names) == 1 else _span(names[0], names[-1])
+        said.append(worded("{where} {area} m2", where=where, area=area))
+    return [("loaded area", joined(*said, by=", "))]
 
 
 def _loads(file: ProjectFile, given: LoadsTable, spectrum: Spectrum | None) -> Rows:
@@ -114,22 +146,34 @@ def _loads(file: ProjectFile, given: LoadsTable, spectrum: Spectrum | None) -> R
     rows = []
     for what in ("floors", "roof", "base"):
         each = given.of_field(base=what == "base", roof=what == "roof")
-        parts = [f"{names[c]} {1e-3 * q:.4g}" for c, q in each.items() if q > 0.0]
-        rows.append((f"loads of {what}, besides the members", ", ".join(parts) + " kN/m2"))
+        parts = [
+            worded("{case} {load:.4g}", case=names[c], load=1e-3 * q)
+            for c, q in each.items()
+            if q > 0.0
+        ]
+        title = worded("loads of {what}, besides the members", what=what)
+        rows.append((title, worded("{loads} kN/m2", loads=joined(*parts, by=", "))))
     if given.facade > 0.0:
         rows.append(("facade, along the outer edges", f"{1e-3 * given.facade:.4g} kN/m"))
     found = loads_of(given, rule)
     mass = {} if found is None else found.mass
     source = rule.cited if given.mass is None else "as the file says"
-    rows.append(("seismic mass", f"members, {_sum(mass)} ({source})"))
+    counted = worded("members, {sum} ({source})", sum=_sum(mass), source=source)
+    rows.append(("seismic mass", counted))
     s_ms = None if spectrum is None else spectrum.parameters.get("S_MS")
     for name, factors in rule.combinations(s_ms).items():
-        rows.append((f"{name} combination, no horizontal earthquake", _sum(factors)))
+        title = worded("{name} combination, no horizontal earthquake", name=name)
+        rows.append((title, _sum(factors)))
     return rows
 
 
 def _sum(factors: Mapping[str, float]) -> str:
-    return " + ".join(f"{factor:g} {case}" for case, factor in factors.items() if factor > 0.0)
+    parts = (
+        worded("{factor:g} {case}", factor=factor, case=case)
+        for case, factor in factors.items()
+        if factor > 0.0
+    )
+    return joined(*parts, by=" + ")
 
 
 def _sections(given: MomentFrame) -> Rows:
@@ -137,11 +181,12 @@ def _sections(given: MomentFrame) -> Rows:
     rows = _by_storey("columns", [one.said for one in found.columns])
     alike = [one.said for one in found.beams["x"]] == [one.said for one in found.beams["y"]]
     for direction in DIRECTIONS[: 1 if alike else 2]:
-        what = "beams" if alike else f"beams along {direction}"
+        what = "beams" if alike else worded("beams along {axis}", axis=direction)
         rows += _by_storey(what, [one.said for one in found.beams[direction]])
     base = {found.base_beams[direction].said: direction for direction in DIRECTIONS}
     for said, direction in base.items():
-        rows.append(("base beams" if len(base) == 1 else f"base beams along {direction}", said))
+        what = "base beams" if len(base) == 1 else worded("base beams along {axis}", axis=direction)
+        rows.append((what, said))
     return rows
 
 
@@ -149,18 +194,20 @@ def _walls_and_braces(given: BuildingTable) -> Rows:
     rows = []
     for wall in given.walls:
         material = material_of(wall.material)
-        said = f"{1e3 * wall.thickness:.5g} mm, {material.name}"
-        said += f" (E {1e-9 * material.elastic_modulus:.4g} GPa)"
+        thickness = f"{1e3 * wall.thickness:.5g} mm"
         bending = wall.cracked if isinstance(wall.cracked, float) else None
         bending = wall.cracked.bending if isinstance(wall.cracked, CrackedTable) else bending
-        said += "" if bending is None else f", cracked: {bending:g} of the bending stiffness"
-        rows.append((f"wall {_between(wall)}, as a wide column", said))
+        cracked = "" if bending is None else bending_said(bending)
+        title = worded("wall {where}, as a wide column", where=_between(wall))
+        rows.append((title, joined(thickness, of_material(material), cracked, by=", ")))
     for rod in given.braces:
-        said = f"{_PATTERNS[rod.pattern]}, {named_section(rod, column=False).said}"
-        rows.append((f"braces {_between(rod)}", said))
+        of_rod = named_section(rod, column=False).said
+        title = worded("braces {where}", where=_between(rod))
+        rows.append((title, joined(_PATTERNS[rod.pattern], of_rod, by=", ")))
     for what, kind in (("floors", given.floor_diaphragm), ("base", given.base_diaphragm)):
         if kind == "flexible":
-            rows.append((f"diaphragm of {what}", "none: beams alone hold it in plan"))
+            title = worded("diaphragm of {what}", what=what)
+            rows.append((title, "none: beams alone hold it in plan"))
     return rows
 
 
@@ -168,15 +215,20 @@ _PATTERNS = {"x": "crossed", "up": "rising to the second", "down": "rising to th
 
 
 def _between(part: WallTable | BraceTable) -> str:
-    where = "" if part.storeys is None else f", storeys {part.storeys[0]} to {part.storeys[1]}"
-    return f"{part.between[0]} to {part.between[1]}{where}"
+    return joined(_span(*part.between), storeys_said(part.storeys), by=", ")
+
+
+def _span(first: str, last: str) -> str:
+    return worded("{first} to {last}", first=first, last=last)
 
 
 def _by_storey(what: str, said: Sequence[str]) -> Rows:
     rows, storey = [], 1
     for text, group in groupby(said):
         last = storey + len(list(group)) - 1
-        where = f", storey {storey}" if last == storey else f", storeys {storey} to {last}"
-        rows.append((what + ("" if last - storey + 1 == len(said) else where), text))
+        alone = worded("storey {number}", number=storey)
+        where = alone if last == storey else storeys_said((storey, last))
+        whole = last - storey + 1 == len(said)
+        rows.append((joined(what, "" if whole else where, by=", "), text))
         storey = last + 1
     return rows

@@ -16,6 +16,7 @@ from frames.design.calculation.unevaluated import NOT_EVALUATED
 from frames.design.codes.registry import code_named
 from frames.design.report.page import Table
 from lir_element._version import package_version
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -149,12 +150,13 @@ def statistic_of(check: Check) -> str:
             for runs in pattern.findall(step.formula):
                 values = check.trace[runs].value
                 count = len(values) if isinstance(values, tuple) else 1
-                found.append(f"{word} of {count} runs" if count > 1 else "1 run")
+                several = worded("{statistic} of {n} runs", statistic=word, n=count)
+                found.append(several if count > 1 else "1 run")
         if step.note == "largest of the run":
             found.append("1 run")
     if not found and check.symbol in _LARGEST_OF_RUNS:
         return "largest of all runs"
-    return ", ".join(dict.fromkeys(found))
+    return joined(*dict.fromkeys(found), by=", ")
 
 
 _LIBRARIES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
@@ -255,7 +257,7 @@ def _worst(checks: Iterable[Check]) -> list[tuple[Judged, str]]:
     for group in groups.values():
         worst = max(group, key=lambda check: check.ratio)
         others = dict.fromkeys(check.bound for check in group if check.bound != worst.bound)
-        found.append((judged(worst), ", ".join(others)))
+        found.append((judged(worst), joined(*others, by=", ")))
     return found
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from functools import partial
+from functools import partial, reduce
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -12,10 +12,12 @@ from matplotlib.colors import Normalize
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
+from frames.batch.runs import BOUND
 from frames.design.hazard.plot_hazard import motion_spectra
 from frames.design.histories.demand_table import worst_place
 from frames.design.histories.eccentricity import Case, levels_of, reached_by
 from frames.design.histories.suite import names_of, peaks_of_runs
+from frames.design.project.level_runs import most_displaced
 from frames.design.report.numbers import devices_by_type
 from frames.design.report.page import Picture, picture
 from frames.plots import (
@@ -32,6 +34,7 @@ from frames.plots import (
 from frames.plots import plot_style as ps
 from frames.results.peak_response import largest
 from frames.results.quantities import JUDGED
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -89,6 +92,12 @@ def _structure_level(run: ProjectRun) -> str:
     return next(level.name for level in run.rules.levels if level.judges_structure)
 
 
+def _placed(one: Reached) -> str:
+    if not one.case.bound:
+        return one.where
+    return worded("{where} at {bound}", where=one.where, bound=one.case.bound)
+
+
 def motions_figure(run: ProjectRun) -> Figure:
     """Draw displacement, slip and drift of every motion at every bound, and what counts of them."""
     shown = [
@@ -99,19 +108,15 @@ def motions_figure(run: ProjectRun) -> Figure:
     figure, panels = ps.panels_of(len(shown), 1, 1.75, share=False)
     for panel, (title, unit, factor, found) in zip(panels, shown, strict=True):
         _motions(panel, found, factor)
-        where = ", ".join(
-            dict.fromkeys(
-                f"{one.where} at {one.case.bound}" if one.case.bound else one.where for one in found
-            )
-        )
-        ps.caption(panel, y=f"[{unit}]", title=f"{title}: {where}")
+        where = joined(*dict.fromkeys(_placed(one) for one in found), by=", ")
+        ps.caption(panel, y=f"[{unit}]", title=worded("{what}: {where}", what=title, where=where))
     cases = [each.case for each in shown[0][3]]
     motions = list(map(str, cases[0].data["motion"].to_numpy()))
     for panel in panels:
         panel.set_xticks(range(len(motions)), motions if panel is panels[-1] else [], rotation=90)
     every = [each.case.suite for *_, found in shown for each in found]
-    raised = ", raised by moved masses"
-    statistics = sorted({f"{each.statistic}{raised if each.raised else ''}" for each in every})
+    raised = "raised by moved masses"
+    statistics = {joined(e.statistic, raised if e.raised else "", by=", ") for e in every}
     handles = [
         Line2D(
             [],
@@ -123,7 +128,13 @@ def motions_figure(run: ProjectRun) -> Figure:
         )
         for k, case in enumerate(cases)
     ]
-    title = f"All motions; lines: the {' or the '.join(statistics)}, at the place that governs"
+    title = worded(
+        "All motions; lines: the {statistic}, at the place that governs",
+        statistic=reduce(
+            lambda one, other: worded("{one} or the {other}", one=one, other=other),
+            sorted(statistics),
+        ),
+    )
     if any(any(each.failed) for each in every):
         handles.append(_cross(label="run that failed"))
     if not all(each.is_usable for each in every):
@@ -238,7 +249,7 @@ def plan_figure(run: ProjectRun) -> Figure | None:
     bar = figure.colorbar(colours, ax=panel, shrink=0.8)
     bar.set_label("ratio to the limit [-]", fontsize=ps.LABEL)
     bar.ax.tick_params(labelsize=ps.SMALL)
-    ps.add_legend(figure, [], title=f"{check.title}, {check.bound}")
+    ps.add_legend(figure, [], title=joined(check.title, check.bound, by=", "))
     return figure
 
 
@@ -248,7 +259,9 @@ def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:
         "structure": [("The model", lambda: model_view(run.frame))],
         "bearings": [
             (
-                f"The bearing, type {kind}, to scale" if kind else "The bearing, to scale",
+                worded("The bearing, type {kind}, to scale", kind=kind)
+                if kind
+                else "The bearing, to scale",
                 partial(bearing_dimensions, device),
             )
             for kind, device in devices_by_type(run).items()
@@ -280,26 +293,44 @@ def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:
 
 
 def _of_one_run(run: ProjectRun) -> list[Plan]:
-    data, where = run.governing, run.governing_case
+    where, bound = run.governing_case, str(most_displaced(run.runs).of(BOUND)[0])
+    name = worded("{name}, {bound} bound", name=run.frame.name, bound=bound)
+    title = worded("time history of {name}", name=name if bound else run.frame.name)
+    data = run.governing.assign_attrs(title=title)  # as a file has it, it is English
     bearing, typical = worst_bearing(data), typical_bearing(data)
     is_met = bool((data["rim_force"].sel(bearing=bearing) > 0.0).any())
     event = "the impact" if is_met else "its largest displacement"
     plans: list[Plan] = [
         (
-            f"The bearing before, during and after {event}, {bearing}; {where}",
+            worded(
+                "The bearing before, during and after {event}, {bearing}; {where}",
+                event=event,
+                bearing=bearing,
+                where=where,
+            ),
             lambda: bearing_sections(data, bearing=bearing),
         ),
-        (f"Force over displacement, {bearing}; {where}", lambda: hysteresis(data, bearing)),
+        (
+            worded("Force over displacement, {bearing}; {where}", bearing=bearing, where=where),
+            lambda: hysteresis(data, bearing),
+        ),
     ]
     if typical != bearing:
-        title = f"Force over displacement of a typical bearing, {typical}; {where}"
+        title = worded(
+            "Force over displacement of a typical bearing, {bearing}; {where}",
+            bearing=typical,
+            where=where,
+        )
         plans.append((title, lambda: hysteresis(data, typical)))
     return [
         *plans,
-        (f"Energy; {where}", lambda: energy(data)),
-        (f"Orbits, {bearing}; {where}", lambda: orbits(data, bearing)),
-        (f"Storeys; {where}", lambda: storey_profiles(data)),
-        (f"Bearings in plan; {where}", lambda: bearing_plan(data)),
+        (worded("Energy; {where}", where=where), lambda: energy(data)),
+        (
+            worded("Orbits, {bearing}; {where}", bearing=bearing, where=where),
+            lambda: orbits(data, bearing),
+        ),
+        (worded("Storeys; {where}", where=where), lambda: storey_profiles(data)),
+        (worded("Bearings in plan; {where}", where=where), lambda: bearing_plan(data)),
     ]
 
 

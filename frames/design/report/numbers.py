@@ -23,6 +23,7 @@ from frames.recording.force_rows import MEMBER_FORCES
 from frames.results.quantities import QUANTITIES
 from frames.statics.modes import modes
 from lir_element.device.friction import FrictionLaw
+from lir_element.texts import joined, keeping_texts, worded
 
 if TYPE_CHECKING:
     from frames.design.codes.bounds import BoundName
@@ -83,7 +84,7 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
         values = [peaks_of_runs(data, name).max(axis=0) for data in run.runs.parts]
         table[title] = QUANTITIES[name].sign * np.max(values, axis=0)
     if count := int((run.runs.of("status") != "ok").sum()):
-        table["void"] = f"{count} of {len(run.runs)} runs failed"
+        table["void"] = worded("{count} of {n} runs failed", count=count, n=len(run.runs))
     return table
 
 
@@ -100,7 +101,7 @@ def friction_table(run: ProjectRun) -> pd.DataFrame:
                 [law.f_min for law in device.frictions],
             )
             columns[bound] = [*fast, *slow, device.interface_friction]
-        rows = [f"{row}, {kind}" if kind else row for row in _FRICTIONS]
+        rows = [joined(row, kind, by=", ") for row in _FRICTIONS]
         tables.append(pd.DataFrame(columns, index=pd.Index(rows, name="friction coefficient")))
     return pd.concat(tables)
 
@@ -126,6 +127,7 @@ def mode_table(run: ProjectRun) -> pd.DataFrame:
     return pd.DataFrame({name: values[:length] for name, values in columns.items()}, index=index)
 
 
+@keeping_texts
 def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     """Return all tables of this module, by name."""
     raises = raises_by_case(run.checks)
@@ -171,9 +173,10 @@ def member_groups(run: ProjectRun, forces: pd.DataFrame | None) -> pd.DataFrame:
             those = part[part["extreme"] == extreme]
             worst = those.iloc[int(np.argmax(sign * those["value"].to_numpy()))]
             row[title] = float(worst["value"])
-            row[f"member of {title}"] = f"{worst['member']} {worst['station']}, {worst['bound']}"
+            station = joined(worst["member"], worst["station"], by=" ")
+            row[f"member of {title}"] = joined(station, worst["bound"], by=", ")
         if void:
-            row["void"] = "; ".join(dict.fromkeys(why for why in part["void"] if why))
+            row["void"] = joined(*dict.fromkeys(part["void"]))
         rows.append(row)
     table = pd.DataFrame(rows).set_index("group")
     size = table[["smallest", "largest"]].abs().max(axis=1)
@@ -197,11 +200,12 @@ def group_names(frame: Frame) -> dict[str, str]:
         ends |= dict(zip(part.elements.names, part.elements.nodes, strict=True))
     found = {}
     for name, nodes in ends.items():
-        heights = " to ".join(
-            f"{height:g}" for height in sorted({round(frame.nodes[node].z, 6) for node in nodes})
-        )
+        ends_at = sorted({round(frame.nodes[node].z, 6) for node in nodes})
+        heights = f"{ends_at[0]:g}"
+        if len(ends_at) > 1:
+            heights = worded("{first} to {last}", first=heights, last=f"{ends_at[1]:g}")
         kind = re.sub(r"[-_ ]*\d+", "", name)
-        found[name] = f"{kind} at {heights} m"
+        found[name] = worded("{kind} at {heights} m", kind=kind, heights=heights)
     return found
 
 
@@ -262,7 +266,7 @@ def model_table(model: ModelCheck) -> Table:
     ]
     if any(across):
         rows += [
-            (f"permanent load along {axis}", f"{1e-3 * force:.5g}", "kN")
+            (worded("permanent load along {axis}", axis=axis), f"{1e-3 * force:.5g}", "kN")
             for axis, force in zip("xy", model.loads[:2], strict=True)
         ]
     rows += [
@@ -303,8 +307,9 @@ def _held(stable: float, overlap: float) -> str:
         return "rigid slider"
     end = f"{1e3 * overlap:.3g} mm"
     if stable >= overlap:
-        return f"all {end}"
-    return f"{1e3 * max(stable, 0.0):.3g} of {end}"
+        return worded("all {overlap}", overlap=end)
+    held = 1e3 * max(stable, 0.0)
+    return worded("{stable:.3g} of {overlap}", stable=held, overlap=end)
 
 
 def _is_number(value: object) -> bool:
@@ -321,7 +326,7 @@ def _quantity(value: object, unit: str, endless: str) -> str:
     # A value in the unit shown; pairs that are alike once.
     if isinstance(value, tuple):
         parts = [_quantity(each, unit, endless) for each in value]
-        return parts[0] if len(set(parts)) == 1 else "; ".join(parts)
+        return parts[0] if len(set(parts)) == 1 else joined(*parts)
     if isinstance(value, FrictionLaw):
         return _friction(value)
     if isinstance(value, bool):
@@ -338,4 +343,4 @@ def _quantity(value: object, unit: str, endless: str) -> str:
 def _friction(law: FrictionLaw) -> str:
     if law.f_max == law.f_min:
         return f"{law.f_max:.4g}"
-    return f"{law.f_max:.4g} at high speed, {law.f_min:.4g} at rest"
+    return worded("{fast:.4g} at high speed, {slow:.4g} at rest", fast=law.f_max, slow=law.f_min)

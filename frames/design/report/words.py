@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+import sys
 import textwrap
+from copy import copy
 from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
@@ -13,6 +15,7 @@ from matplotlib.ticker import Formatter, NullFormatter
 
 from frames.design._errors import ProjectError
 from frames.design.report.tables import Table
+from lir_element.texts import Text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -22,31 +25,11 @@ if TYPE_CHECKING:
 LANGUAGES = ("en", "es")
 """Languages of reports; English is that of the sources."""
 
-_PLACE = re.compile(r"\{(\w+)\}")
 _CITED = r"(?:NCh ?\d+|EN \d[\d:-]*|ASCE(?:/SEI)? \d+-\d+|NTC \d+),? \d[\d.]*"  # clauses stay
 _DECIMAL = re.compile(rf"({_CITED})|(?<![\w.,])(-?\d+)\.(\d+(?:e[+-]\d+)?)(?![\w.]|-\d)")
 _LISTED = re.compile(r"(?<=[\d…]), (?=[-\d…])")
-_UNITS = r"mm|MPa|GPa|kN/m|kN/mm|s/m|m/s2?²?|kg|kg/m[23²³]"
-_WORDLESS = "|".join(
-    (
-        r"\S*\d\S*",
-        r"\S*_\S*",
-        r"[^a-zA-Z\s]+",
-        r"[a-zA-Z]{1,2}",
-        r"[A-Z-]{2,}\S*",
-        r"[+-][xyz]|[xyz][+-]",
-        r"\S+\.md",
-        r'"[^"]*"',  # a name of the user's
-        r"\w+ ?= ?(?:\"[^\"]*\"|\{[^}]*\})",  # a key with its value
-        r"\[[^\]]*\](?: [a-z_]+(?= |$))?",  # a section, and its key
-        _UNITS,
-    )
-)
-_NAME = re.compile(rf"(?:{_WORDLESS})(?: (?:{_WORDLESS}))*")
+_HEAD = re.compile(r"(.*?)( \[[^]]*\])")
 _MORE = 8  # letters that a line of a figure may have more than in English
-_SENTENCES = 3  # of a message of the catalogue, at most; trying patterns on more takes long
-_HEAD = re.compile(r"(.*?)( \[[^]]*\])$")
-_COUNTED = re.compile(r"(\d+) (\D.*)")
 _IN_MATH = re.compile(r"(?<=<mn>)[^<]*|(?<=<mtext>)[^<]*")
 
 
@@ -66,10 +49,10 @@ class Words:
         self.language, self.decimal = language, decimal
         self.missing: set[str] = set()
         self._names = frozenset(names)
-        self._texts, self._patterns = ({}, ()) if language == "en" else catalogue(language)
+        self._texts = {} if language == "en" else catalogue(language)
 
     def gettext(self, message: str) -> str:
-        """Return a message of a template in the language."""
+        """Return a message in the language; one without a translation is noted and stays."""
         found = self._texts.get(" ".join(message.split()))
         if found is None and self.language != "en":
             self.missing.add(message)
@@ -80,8 +63,18 @@ class Words:
         return self.gettext(one if count == 1 else several)
 
     def say(self, text: str) -> str:
-        """Return a text that another part of the program made."""
-        return self.number(self._said(text)) if text else text
+        """Return a text of the program: its template with its values, each in the language."""
+        if not isinstance(text, Text):
+            return text if text in self._names else self.number(self._word(text))
+        template = self.number(self.gettext(text.template))
+        values = {
+            name: value if f'"{{{name}}}"' in template else self._value(value)  # a name in quotes
+            for name, value in text.values.items()
+        }
+        return template.format_map(values) if values else template
+
+    def _value(self, value: str | float) -> object:
+        return self.say(value) if isinstance(value, str) else _Number(value, self)
 
     def number(self, text: str) -> str:
         """Return a text with the decimal sign; clauses, versions and names stay as they are."""
@@ -94,8 +87,12 @@ class Words:
         return Markup(mathml)  # noqa: S704  (of MathML that escapes what is in it)
 
     def cited(self, clause: str) -> str:
-        """Return a clause: that of a standard as it is, in words where no code has it."""
-        return self._said(clause) if clause.startswith("no code") else clause
+        """Return a clause: that of a standard with its points, in words where no code has it."""
+        if not clause.startswith("no code"):
+            return self._texts.get(clause, clause)
+        as_it_is = copy(self)
+        as_it_is.decimal = "."
+        return as_it_is.say(clause)
 
     def table(self, table: Table, *, plain: Sequence[str] = ("clause",)) -> Table:
         """Return a table in the language."""
@@ -107,7 +104,7 @@ class Words:
             ]
             for row in table.rows
         ]
-        return Table([self._said(title) for title in table.head], rows, table.left)
+        return Table([self._word(title) for title in table.head], rows, table.left)
 
     def figure(self, figure: Figure) -> Figure:
         """Say the texts of a figure in the language, in place; return the figure."""
@@ -116,8 +113,7 @@ class Words:
         from matplotlib.text import Text
 
         for text in figure.findobj(Text):
-            if words := text.get_text().strip():
-                text.set_text(self._lines(words))
+            text.set_text(self._lines(text.get_text()))
         for axes in figure.axes:
             third = getattr(axes, "zaxis", None)
             for axis in (axes.xaxis, axes.yaxis, *([third] if third else [])):
@@ -129,58 +125,39 @@ class Words:
         return inner if isinstance(inner, NullFormatter) else _Said(inner, self)
 
     def _listed(self, cell: str) -> str:
-        return _LISTED.sub("; ", cell) if self.decimal == "," else cell
+        listed = self.decimal == "," and not isinstance(cell, Text)
+        return _LISTED.sub("; ", cell) if listed else cell
 
     def _lines(self, text: str) -> str:
-        # A text of a figure, which may have been broken into lines; else line by line.
-        whole, lines = " ".join(text.split()), text.split("\n")
-        each = [self._known(line.strip()) for line in lines]
-        said = None if None not in each else self._known(whole)
-        if said is None:
-            return "\n".join(self.number(self._said(line.strip())) for line in lines)
-        width = max(map(len, lines)) + _MORE
-        return self.number("\n".join(textwrap.wrap(said, width)) if len(lines) > 1 else said)
+        # A text of a figure, which may have been broken into lines.
+        lines = text.split("\n")
+        if not isinstance(text, Text):
+            whole = " ".join(lines)
+            if whole not in self._texts:
+                return "\n".join(self.say(line.strip()) for line in lines)
+            text = whole
+        width = max(map(len, lines)) + _MORE if len(lines) > 1 else sys.maxsize
+        said = self.say(text).split("\n")
+        return "\n".join(part for line in said for part in textwrap.wrap(line, width) or [""])
 
-    def _said(self, text: str) -> str:
-        sentences = text.split("; ")
-        if len(sentences) > _SENTENCES:
-            return "; ".join(self._said(part) for part in sentences)
-        found = self._known(text)
-        if found is not None:
-            return found
-        if len(sentences) > 1:
-            return "; ".join(self._said(part) for part in sentences)
-        self.missing.add(text)
-        return text
-
-    def _known(self, text: str) -> str | None:
-        # A text in the language, None where it is not known.
-        if self.language == "en" or text in self._names:
-            return text
-        if text in self._texts:
-            return self._texts[text]
-        if not text or _NAME.fullmatch(text):
-            return text
-        for pattern, translated in self._patterns:
-            if found := pattern.fullmatch(text):
-                parts = {key: self._known(part) for key, part in found.groupdict().items()}
-                if None not in parts.values():
-                    return translated.format(**parts)
-        if found := _HEAD.fullmatch(text):
-            name = self._known(found[1])
-            return None if name is None else f"{name}{found[2]}"
-        found = _COUNTED.fullmatch(text)
-        if found and (rest := self._known(found[2])) is not None:
-            return f"{found[1]} {rest}"
-        for sign in ("; ", ", "):
-            if sign in text:
-                several = [self._known(part) for part in text.split(sign)]
-                return None if None in several else sign.join(map(str, several))
-        return None
+    def _word(self, text: str) -> str:
+        # A text without values; of the head of a column all but its unit.
+        head = None if text in self._texts else _HEAD.fullmatch(text)
+        return f"{self.gettext(head[1])}{head[2]}" if head else self.gettext(text)
 
 
 def _with_comma(found: re.Match[str]) -> str:
     return found[1] or f"{found[2]},{found[3]}"
+
+
+class _Number:
+    """A number of a text, which is formatted with the decimal sign."""
+
+    def __init__(self, value: float, words: Words) -> None:
+        self._value, self._words = value, words
+
+    def __format__(self, spec: str) -> str:
+        return self._words.number(format(self._value, spec))
 
 
 class _Said(Formatter):
@@ -208,10 +185,8 @@ class _Said(Formatter):
 
 
 @cache
-def catalogue(
-    language: str,
-) -> tuple[dict[str, str], tuple[tuple[re.Pattern[str], str], ...]]:
-    """Return the messages of a language."""
+def catalogue(language: str) -> dict[str, str]:
+    """Return the messages of a language by their English."""
     try:
         from babel.messages.pofile import read_po
     except ImportError as cause:
@@ -219,20 +194,5 @@ def catalogue(
         raise ProjectError(msg) from cause
     file = resources.files("frames.design.report") / "locale" / f"{language}.po"
     with file.open("rb") as opened:
-        messages = read_po(opened, locale=language)
-    texts, patterns = {}, []
-    for message in messages:
-        source, said = str(message.id), str(message.string)
-        if not source or not said:
-            continue
-        if _PLACE.search(source):
-            parts = _PLACE.split(source)
-            made = "".join(
-                f"(?P<{part}>.+?)" if k % 2 else re.escape(part) for k, part in enumerate(parts)
-            )
-            order = bool(parts[0]), len("".join(parts[::2]))
-            patterns.append((order, re.compile(made), said))
-        else:
-            texts[source] = said
-    patterns.sort(key=lambda each: each[0], reverse=True)
-    return texts, tuple((pattern, said) for _, pattern, said in patterns)
+        found = read_po(opened, locale=language)
+    return {str(one.id): str(one.string) for one in found if one.id}

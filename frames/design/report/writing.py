@@ -36,6 +36,7 @@ from frames.design.report.words import Words
 from frames.design.testing.programme import OWN_RULES
 from frames.results.findings import findings_of
 from frames.results.quantities import JUDGED
+from lir_element.texts import joined, keeping_texts, worded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -71,6 +72,7 @@ def report_html(
     return report_in(_words(run, language), run, source, tables, figures=figures)
 
 
+@keeping_texts
 def report_in(
     words: Words,
     run: ProjectRun,
@@ -162,11 +164,20 @@ def _levels(run: ProjectRun) -> str:
         "isolation": "the bearings",
         "superstructure": "what stands on the bearings",
     }
-    said = (
-        f"{words[one.judges]} at the level {one.name!r}, motions times {one.factor:g}"
+    each = (
+        worded(
+            "{what} at the level '{level}', motions times {factor:g}",
+            what=words[one.judges],
+            level=one.name,
+            factor=one.factor,
+        )
         for one in levels
     )
-    return f"{run.equivalent.code} judges {'; '.join(said)}. The table has both levels."
+    return worded(
+        "{code} judges {levels}. The table has both levels.",
+        code=run.equivalent.code,
+        levels=joined(*each),
+    )
 
 
 _FACTS = {"azimuth_x": "azimuth of x [°]", "azimuth_y": "azimuth of y [°]", "strike": "strike [°]"}
@@ -205,7 +216,8 @@ def _programme(tests: pd.DataFrame) -> Table:
         standing_of(said).cited(clause)
         for clause, said in zip(tests["clause"], tests["standing"], strict=True)
     ]
-    named = pd.Index([f"{k} {name}" for k, name in tests["what"].items()])
+    names = [worded("{k} {name}", k=k, name=name) for k, name in tests["what"].items()]
+    named = pd.Index(names, dtype=object)
     left_out = ["standing", "note", "what", "shows", "accepted if"]
     shown = tests.assign(clause=cited).drop(columns=left_out).set_index(named)
     if shown["bearings"].nunique() == 1:
@@ -266,15 +278,23 @@ def eccentricity_said(run: ProjectRun) -> str:
     share = 100.0 * run.rules.accidental_eccentricity
     moved = run.runs.moved
     if not len(moved):
-        said = f"; {clause} asks {100.0 * asked.accidental_eccentricity:g} % of the plan's sides"
-        return f"Accidental eccentricity is not in these demands{said if asked_for else ''}."
-    count, seconds = len(moved), float(moved.parts[0].attrs["seconds"])
-    return (
-        f"Accidental eccentricity ({clause}): the masses of all floors moved by {share:g} % of the "
-        f"plan's sides each way, {count} time histories more in {seconds:.3g} s. The factor of the "
-        "way that is worst multiplies what the suite gives; slip, rim force, eccentricity of the "
-        "sliders' resultant and lost axial force, which begin at a threshold, grow by the "
-        "difference."
+        if not asked_for:
+            return "Accidental eccentricity is not in these demands."
+        return worded(
+            "Accidental eccentricity is not in these demands; {clause} asks {share:g} % of the "
+            "plan's sides.",
+            clause=clause,
+            share=100.0 * asked.accidental_eccentricity,
+        )
+    return worded(
+        "Accidental eccentricity ({clause}): the masses of all floors moved by {share:g} % of the "
+        "plan's sides each way, {n} time histories more in {s:.3g} s. The factor of the way that "
+        "is worst multiplies what the suite gives; slip, rim force, eccentricity of the sliders' "
+        "resultant and lost axial force, which begin at a threshold, grow by the difference.",
+        clause=clause,
+        share=share,
+        n=len(moved),
+        s=float(moved.parts[0].attrs["seconds"]),
     )
 
 

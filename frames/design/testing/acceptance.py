@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Literal
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
-from frames.design.calculation.rendering import joined
 from frames.design.calculation.standing import MEMORY, OWN, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.pendulum import FrictionPendulum
@@ -18,6 +17,7 @@ from frames.design.testing.acceptance_of_code import checks_of_code
 from frames.design.testing.programme import pressure_factor
 from lir_element import LIRBearing
 from lir_element.fields import check_numbers, number
+from lir_element.texts import joined
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.standing import OWN, Standing
-from frames.design.calculation.unevaluated import NOT_EVALUATED
 from frames.design.codes.bounds import ENDS, with_property_bounds
 from frames.design.codes.code_values import CodeValue, weakest
 from frames.design.codes.pendulum import FrictionPendulum
@@ -22,6 +21,7 @@ from frames.design.codes.registry import code_named
 from frames.design.devices.limits import PROPOSED_LIMIT
 from lir_element import LIRBearing
 from lir_element.argument_checks import require_positive
+from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -144,7 +144,7 @@ def _without_loads(table: pd.DataFrame, why: str) -> pd.DataFrame:
     if why:
         of_load = table["what"].str.contains("(?:largest|least) load", regex=True)
         table.loc[of_load, ["vertical load [N]", "least force [N]", "largest force [N]"]] = math.nan
-        table.loc[of_load, "note"] = f"{NOT_EVALUATED}: {why}"
+        table.loc[of_load, "note"] = worded("not evaluated: {why}", why=why)
     return table
 
 
@@ -159,7 +159,15 @@ def _kinds(
     found = []
     for n, bearing in enumerate(unlike, start=1):
         places = [k for k, other in enumerate(system.bearings) if other == bearing]
-        found.append((f"kind {n}, {len(places)} of {len(system.bearings)}", bearing, places))
+        found.append(
+            (
+                worded(
+                    "kind {n}, {count} of {all}", n=n, count=len(places), all=len(system.bearings)
+                ),
+                bearing,
+                places,
+            )
+        )
     return found
 
 
@@ -193,10 +201,10 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
     if speed is None:  # harmonic: at the rim, of the amplitude
         speed = d.speed_at(math.sqrt(total**2 - rim**2) if total > rim else total)
     slow = d.demands.slow_speed
-    for words, load in (("largest", d.largest), ("least", d.least)):
+    for words, load in (("largest load", d.largest), ("least load", d.least)):
         for pace, at in (("slow", slow), ("fast", speed)):
             yield PlannedTest(
-                f"interface alone, {words} load, {pace}",
+                joined("interface alone", words, pace, by=", "),
                 slip,
                 load,
                 3.0,
@@ -205,9 +213,9 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
                 PROPOSED_LIMIT,
                 alone=True,
             )
-    for words, load in (("average", d.average), ("largest", d.largest)):
+    for words, load in (("average load", d.average), ("largest load", d.largest)):
         yield PlannedTest(
-            f"impact and return, {words} load",
+            joined("impact and return", words, by=", "),
             rim + slip,
             load,
             3.0,

@@ -1,0 +1,96 @@
+"""Texts for people that keep what they are made of: a template and its values."""
+
+from __future__ import annotations
+
+from functools import reduce
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+    from typing import TypeAlias
+
+    Value: TypeAlias = str | int | float
+
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+class Text(str):
+    """A finished text in English, with the template and the values that it is made of."""
+
+    __slots__ = ("template", "values")
+
+    template: str
+    values: Mapping[str, Value]
+
+    def __str__(self) -> Text:
+        """Return it with its template and values: `str` would drop both."""
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _made, (self.template, self.values)
+
+    def laid_out(self, finished: str) -> Text:
+        """Return the same text with other spaces between its words: broken into lines."""
+        text = Text(finished)
+        text.template, text.values = self.template, self.values
+        return text
+
+    def plain(self) -> list[Any]:
+        """Return template and values as JSON takes them: `text_from` reads it."""
+        values = {k: v.plain() if isinstance(v, Text) else v for k, v in self.values.items()}
+        return [self.template, values]
+
+
+def worded(template: str, /, **values: object) -> str:
+    """Return a text made of a template with places in braces, as of `str.format`."""
+    return _made(template, {name: _value(value) for name, value in values.items()})
+
+
+def joined(*parts: str, by: str = "; ") -> str:
+    """Return the parts that are not empty, one after the other."""
+    values = {f"part{k}": part for k, part in enumerate(filter(None, parts))}
+    return worded(by.join(f"{{{name}}}" for name in values), **values)
+
+
+def keeping_texts(make: Callable[P, T]) -> Callable[P, T]:
+    """Let tables of pandas that a function makes keep texts, and not their letters alone."""
+    import pandas as pd
+
+    made: Callable[P, T] = pd.option_context("mode.string_storage", "python")(make)
+    return made
+
+
+def text_from(plain: object) -> str:
+    """Return a text from what `Text.plain` gave, through JSON or not; others as they are."""
+    if not isinstance(plain, list):
+        return str(plain)
+    template, values = plain
+    return worded(
+        template, **{k: text_from(v) if isinstance(v, list) else v for k, v in values.items()}
+    )
+
+
+def _made(template: str, values: Mapping[str, Value]) -> Text:
+    text = Text(template.format_map(values) if values else template)
+    text.template, text.values = template, values
+    return text
+
+
+def _value(value: object) -> Value:
+    if isinstance(value, np.generic):
+        value = value.item()
+    return value if isinstance(value, (str, int, float)) else str(value)
+
+
+def anded(parts: Iterable[str]) -> str:
+    """Return names with "and" between each two."""
+    return reduce(lambda one, other: worded("{one} and {other}", one=one, other=other), parts)
+
+
+def first_of(text: str) -> str:
+    """Return the first of the parts that `joined` put together."""
+    return str(text.values.get("part0", text)) if isinstance(text, Text) else text
