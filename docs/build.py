@@ -41,7 +41,7 @@ from frames.design.codes.analysis import BUILT_IN
 from frames.design.codes.code_values import NEEDS, OF_BEARINGS, Provision
 from frames.laws import Bilinear, PlasticHinge
 from frames.results.quantities import QUANTITIES
-from frames.results.recorded import REACHED
+from frames.results.recorded import PEAK
 from lir_element import (
     AnalysisWarning,
     BackupSupport,
@@ -332,17 +332,17 @@ def reached() -> list[str]:
     """Return the table of what a recording keeps of all steps."""
     rows = []
     for name, each in QUANTITIES.items():
-        rows.append([code(REACHED + name), ", ".join(each.dims) or "-", each.unit, each.described])
+        rows.append([code(PEAK + name), ", ".join(each.dims) or "-", each.unit, each.described])
     rows += [
-        [code(f"{REACHED}until"), "-", "s", "time of the last base step"],
-        [code(f"{REACHED}line_storey"), "line", "-", "storey of a line of nodes"],
+        [code(f"{PEAK}until"), "-", "s", "time of the last base step"],
+        [code(f"{PEAK}line_storey"), "line", "-", "storey of a line of nodes"],
     ]
     head = ("variable", "dimensions", "unit", "meaning")
     return [
         "### Kept of all base steps by a recording that leaves something out",
         "",
         "Those that are the largest of something have their times beside them, as "
-        f"`{REACHED}slip_at` [s].",
+        f"`{PEAK}slip_at` [s].",
         "",
         *table(head, rows),
     ]

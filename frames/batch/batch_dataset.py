@@ -13,7 +13,7 @@ from frames.bundles.peak_data import ENERGY_TERMS
 from frames.results.findings import findings_from
 from frames.results.peak_response import with_exceeded
 from frames.results.peaks import Peak
-from frames.results.recorded import REACHED
+from frames.results.recorded import is_of_all_steps
 from lir_element.results.dataset import labelled
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def layout_of(judged: xr.Dataset) -> Layout:
     names = tuple(
         str(name)
         for name, variable in judged.variables.items()
-        if str(name).startswith(REACHED) and variable.dtype.kind == "f"
+        if is_of_all_steps(name) and variable.dtype.kind == "f"
     )
     found = [judged.variables[name] for name in names]
     used = {str(dim) for variable in found for dim in variable.dims}

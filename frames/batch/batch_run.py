@@ -15,7 +15,7 @@ from frames.recording.recording import Recording, bytes_over_time, require_known
 from frames.recording.reduction import reduced
 from frames.results.findings import Findings
 from frames.results.peaks import peaks_of
-from frames.results.recorded import REACHED
+from frames.results.recorded import is_of_all_steps
 from frames.solve.analysis import PreparedFrame
 from frames.solve.recorder import PeakRecorder, Recorder
 from frames.solve.run import run_one
@@ -201,11 +201,7 @@ class Worker:
 def _histories(recorded: xr.Dataset, template: xr.Dataset) -> xr.Dataset:
     # The histories of a run, and the places of the nodes, without which they cannot be drawn.
     known = {*template.data_vars, "nodes_of_level"} - {"node_position"}
-    names = [
-        name
-        for name in recorded.data_vars
-        if name not in known and not str(name).startswith(REACHED)
-    ]
+    names = [name for name in recorded.data_vars if name not in known and not is_of_all_steps(name)]
     return recorded[names].drop_attrs(deep=False)
 
 

@@ -190,7 +190,7 @@ def time_histories(
 
 def _computed(data: xr.Dataset) -> float:
     # Time of motion that was gone through in all [s].
-    return float(data["reached_until"].sum()) if "reached_until" in data else 0.0
+    return float(data["peak_until"].sum()) if "peak_until" in data else 0.0
 
 
 class _Interrupted(AnalysisInterrupted):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames.recording.force_rows import element_sections
-from frames.results.recorded import REACHED
+from frames.results.recorded import PEAK
 from lir_element.results.dataset import labelled
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ class ForceTracker:
         return variables, coordinates
 
     def _of(self, kind: ForceKind, rows: slice) -> dict[str, xr.Variable]:
-        six, name = _PLACES[kind.name], f"{REACHED}{kind.name}_force"
+        six, name = _PLACES[kind.name], f"{PEAK}{kind.name}_force"
         dims, shape = (*kind.dims, six), (*kind.shape, 6)
 
         def variable(values: FloatArray, more: tuple[str, ...], unit: str, text: str) -> Any:

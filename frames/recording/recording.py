@@ -57,7 +57,7 @@ class Recording:
     forces : bool
         Whether the largest and smallest forces in members, storeys and under bearings are kept,
         each with the others that act at its instant, over all base steps: the variables
-        ``reached_member_force``, ``reached_storey_force`` and ``reached_reaction_force``
+        ``peak_member_force``, ``peak_storey_force`` and ``peak_reaction_force``
         (docs/results.md).
 
     Raises

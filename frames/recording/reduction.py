@@ -12,7 +12,7 @@ from frames.results.envelopes import EXTREMES
 from frames.results.formulas import rims_met
 from frames.results.peak_response import Extreme, extreme_of, later, storeys_of_lines
 from frames.results.quantities import LEFT, PEAKS, QUANTITIES, TOTALS
-from frames.results.recorded import REACHED
+from frames.results.recorded import PEAK
 from lir_element.results.dataset import labelled
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Columns = dict[str, Any]
 
-UNTIL = f"{REACHED}until"
+UNTIL = f"{PEAK}until"
 """Variable that holds the time of the last base step of a run."""
 
 _SAME_TIME = 1e-9  # s: times that differ by less are one
@@ -62,19 +62,19 @@ def with_peak_state(data: xr.Dataset, found: PeakState) -> xr.Dataset:
     variables: dict[str, xr.Variable] = {}
     for name, most in found.reached.items():
         (dims, unit, *_), text = QUANTITIES[name], QUANTITIES[name].described
-        variables[REACHED + name] = labelled(dims, most.values, unit, text)
-        variables[f"{REACHED}{name}_at"] = labelled(dims, most.at, "s", f"time of: {text}")
+        variables[PEAK + name] = labelled(dims, most.values, unit, text)
+        variables[f"{PEAK}{name}_at"] = labelled(dims, most.at, "s", f"time of: {text}")
     for name, value in found.totals.items():
         dims, unit, meaning = QUANTITIES[name][:3]
-        variables[REACHED + name] = labelled(dims, value, unit, meaning)
+        variables[PEAK + name] = labelled(dims, value, unit, meaning)
     for name, value in found.left.items():
         dims, unit, meaning = QUANTITIES[f"{name}_left"][:3]
-        variables[f"{REACHED}{name}_left"] = labelled(dims, value, unit, meaning)
+        variables[f"{PEAK}{name}_left"] = labelled(dims, value, unit, meaning)
     variables[UNTIL] = labelled((), found.until, "s", "time of the last base step")
     coordinates: dict[str, Any] = {}
     if "line_drift" in found.reached:
         lines, storeys = storeys_of_lines(data)
-        variables[f"{REACHED}line_storey"] = xr.Variable(("line",), storeys)
+        variables[f"{PEAK}line_storey"] = xr.Variable(("line",), storeys)
         coordinates["line"] = lines
     return data.assign_coords(coordinates).assign(variables)
 
@@ -87,9 +87,9 @@ def with_other_peak_state(data: xr.Dataset, found: PeakState, peak: FloatArray) 
     known = data.variables
     values: dict[str, Any] = {str(name): known[name].data for name in data.data_vars}
     for name, most in found.reached.items():
-        values[REACHED + name], values[f"{REACHED}{name}_at"] = most
-    values |= {REACHED + name: value for name, value in found.totals.items()}
-    values |= {f"{REACHED}{name}_left": value for name, value in found.left.items()}
+        values[PEAK + name], values[f"{PEAK}{name}_at"] = most
+    values |= {PEAK + name: value for name, value in found.totals.items()}
+    values |= {f"{PEAK}{name}_left": value for name, value in found.left.items()}
     values |= {UNTIL: np.array(found.until), "peak_ground_velocity": peak}
     return data.copy(data=values)
 

@@ -70,7 +70,7 @@ def full_contact(data: xr.Dataset) -> Finding:
     doubts = level_doubts(data)
     if doubts.bearings:
         text = joined(text, doubts.sentence)
-    has_spin = "slider_spin" in data or "reached_spin" in data
+    has_spin = "slider_spin" in data or "peak_spin" in data
     spins = largest(data, "spin").values if has_spin else np.zeros(len(names))
     spun = (spins > SPUN) & (np.array(levels_of_bearings(data)) == "pendulum")
     if spun.any():
@@ -237,7 +237,7 @@ strength at 4 to 11 yield rotations (ASCE/SEI 41-17, chapter 9), others before."
 
 def equilibrium(data: xr.Dataset) -> tuple[Finding, ...]:
     """Judge whether forces, weight and inertia agree, and whether nodes moved beyond reason."""
-    if "imbalance" not in data and "reached_imbalance" not in data:
+    if "imbalance" not in data and "peak_imbalance" not in data:
         return ()
     gaps = largest(data, "imbalance")
     text, most, doubtful = "equilibrium: supports share in it, not summed up", 0.0, False

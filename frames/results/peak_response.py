@@ -2,7 +2,7 @@
 
 The assumption check, the judgement of the energy and the table of peaks rest on these numbers
 alone. A result with all steps has them in its histories. A recording that leaves steps out takes
-them up while the run goes on, at every base step, and keeps them as variables ``reached_...``: so
+them up while the run goes on, at every base step, and keeps them as variables ``peak_...``: so
 both give the same.
 """
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from frames.results.measures import lines_of
 from frames.results.quantities import QUANTITIES
-from frames.results.recorded import REACHED, largest_kept
+from frames.results.recorded import PEAK, largest_kept
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -52,12 +52,12 @@ def _with_exceeded(data: xr.Dataset, name: str, found: Extreme) -> Extreme:
 
 
 def with_exceeded(data: xr.Dataset) -> xr.Dataset:
-    """Return a result whose variables ``reached_...`` count the step that a limit ended, too."""
+    """Return a result whose variables ``peak_...`` count the step that a limit ended, too."""
     name = str(data.attrs.get("exceeded", ""))
     kept = largest_kept(data, name) if name else None
     if kept is None:
         return data
-    found = zip((REACHED + name, f"{REACHED}{name}_at"), largest(data, name), strict=True)
+    found = zip((PEAK + name, f"{PEAK}{name}_at"), largest(data, name), strict=True)
     return data.assign({key: data[key].copy(data=values) for key, values in found})
 
 
@@ -75,15 +75,15 @@ def later(old: Extreme, new: Extreme) -> Extreme:
 
 def total(data: xr.Dataset, name: str) -> FloatArray:
     """Return a sum over the steps of a time history: one of `TOTALS`."""
-    if REACHED + name in data.variables:
-        return data.variables[REACHED + name].to_numpy()
+    if PEAK + name in data.variables:
+        return data.variables[PEAK + name].to_numpy()
     return QUANTITIES[name].of(data, 0, data.sizes["time"])
 
 
 def left(data: xr.Dataset, name: str) -> FloatArray:
     """Return a quantity of `LEFT` at the last step of the run."""
-    if f"{REACHED}{name}_left" in data.variables:
-        return data.variables[f"{REACHED}{name}_left"].to_numpy()
+    if f"{PEAK}{name}_left" in data.variables:
+        return data.variables[f"{PEAK}{name}_left"].to_numpy()
     return np.asarray(QUANTITIES[name].of(data)[-1])
 
 
@@ -120,17 +120,17 @@ def places_of(data: xr.Dataset, name: str) -> NDArray[np.str_]:
 def computed_until(data: xr.Dataset) -> float:
     """Return the time of the last base step of a run [s]."""
     name = "until"
-    kept = data.variables.get(REACHED + name)
+    kept = data.variables.get(PEAK + name)
     return float(data["time"][-1]) if kept is None else float(kept)
 
 
 def storeys_of_lines(data: xr.Dataset) -> tuple[list[str], list[str]]:
     """Return the names of the lines of nodes over one another, and of the storey of each."""
-    if f"{REACHED}line_storey" in data.variables:
-        both = (data.variables[key].to_numpy() for key in ("line", f"{REACHED}line_storey"))
+    if f"{PEAK}line_storey" in data.variables:
+        both = (data.variables[key].to_numpy() for key in ("line", f"{PEAK}line_storey"))
         names, storeys = ([str(name) for name in each] for each in both)
         return names, storeys
-    if f"{REACHED}drift" in data.variables:  # of an earlier version, which kept none
+    if f"{PEAK}drift" in data.variables:  # of an earlier version, which kept none
         return [], []
     lines, nodes, levels = lines_of(data), data["node"].to_numpy(), data["level"].to_numpy()
     return [str(nodes[k]) for k in lines.upper], [str(levels[k]) for k in lines.storey]

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Hashable
+
     import xarray as xr
 
     from frames._types import FloatArray
@@ -17,15 +19,27 @@ EVERY_STEP = "every step"
 ENDS = "first and last step"
 """How that attribute begins where no step between is kept as a rule."""
 
-REACHED = "reached_"
+_OTHERS = {"peak_time", "peak_where", "peak_ground_velocity"}
+PEAK = "peak_"
 """Begins the names of what was reached at all steps: `frames.results.quantities`."""
+
+
+def is_of_all_steps(name: Hashable) -> bool:
+    """Return whether a variable holds what was reached at all steps."""
+    return str(name).startswith(PEAK) and name not in _OTHERS
+
+
+def with_present_names(data: xr.Dataset) -> xr.Dataset:
+    """Return results with the names of now: in version 0.2 such ones began with "reached_"."""
+    old = {str(name) for name in data.variables if str(name).startswith("reached_")}
+    return data.rename({name: PEAK + name.removeprefix("reached_") for name in old})
 
 
 def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] | None:
     """Return what a recording kept of a quantity: its largest values and their times [s]."""
-    if REACHED + name not in data.variables:
+    if PEAK + name not in data.variables:
         return None
-    values, at = (data.variables[REACHED + key].to_numpy() for key in (name, f"{name}_at"))
+    values, at = (data.variables[PEAK + key].to_numpy() for key in (name, f"{name}_at"))
     return values, at
 
 

@@ -19,6 +19,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from frames.results.recorded import with_present_names
+
 _FIRST_BYTES = 1 << 16  # of a file in memory: it grows
 
 
@@ -254,6 +256,6 @@ def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
         msg = f"{path} holds no results (netCDF): give a file that save, or `lir run`, has written"
         raise OSError(msg) from cause
     if lazy:
-        return data
+        return with_present_names(data)
     with data:
-        return data.load()
+        return with_present_names(data.load())

@@ -97,7 +97,7 @@ def _noted(name: str, number: float, text: str) -> tuple[Finding, ...]:
 
 def _tumbled(data: xr.Dataset) -> str:
     """Return what is doubtful of a run in which a slider tumbled, or an empty string."""
-    if "body_rotation" not in data and "reached_tilt" not in data:
+    if "body_rotation" not in data and "peak_tilt" not in data:
         return ""
     tilt = largest(data, "tilt").values  # NaN without contact points
     sine = (data["rim_displacement"] / data["radius"]).to_numpy().max(axis=1)

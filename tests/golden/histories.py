@@ -232,7 +232,7 @@ def compare(project, runs, tally):
         for bound, data in each.items():
             own = found[level, bound] = peaks(data, project.governing)
             for quantity in COMPARED:
-                reported = data[f"reached_{quantity}"].copy()
+                reported = data[f"peak_{quantity}"].copy()
                 beyond(data, quantity, reported, own[quantity], tally)
                 if quantity.endswith("_at"):  # of equal steps the one that was reported
                     first, last = np.moveaxis(own[quantity.replace("_at", "_equal")], 1, 0)

@@ -30,6 +30,7 @@ from frames import (
 from frames.batch.runs import Runs, tagged
 from frames.laws import Bilinear, PlasticHinge
 from frames.results.findings import findings_by_run, findings_of
+from frames.results.recorded import is_of_all_steps
 from lir_element import AnalysisInterrupted, AnalysisWarning, Features, LIRBearing
 
 ROUND_OFF = 1e-9  # sums in another order; of accelerations, parts of modes cancel
@@ -59,7 +60,7 @@ def agree(many: xr.Dataset, one: xr.Dataset) -> None:
         assert found.lines() == findings_of(one).lines()
         assert found.missing() == findings_of(one).missing()
     np.testing.assert_equal(float(many["failed_at"]), one.attrs.get("failed_at", np.nan))
-    names = [n for n in one.data_vars if str(n).startswith("reached_") and one[n].dtype == float]
+    names = [n for n in one.data_vars if is_of_all_steps(n) and one[n].dtype == float]
     assert len(names) > 50
     for name in names:
         own = many[name].sel({d: one[d].to_numpy() for d in one[name].dims}).to_numpy()
@@ -116,8 +117,8 @@ def test_rows_are_the_single_runs(grid, motions):
         )
         agree(data.sel(run=k), one)
     assert len(set(data["status"].to_numpy())) > 1  # some of them fail
-    assert float(data["reached_uplifts"].max()) > 0.0
-    assert float(data["reached_rims_met"].max()) > 0.0
+    assert float(data["peak_uplifts"].max()) > 0.0
+    assert float(data["peak_rims_met"].max()) > 0.0
 
 
 def test_rows_are_selected_by_tags(grid):
@@ -132,13 +133,13 @@ def test_rows_are_selected_by_tags(grid):
     assert groups["", "upper"].of("scale").tolist() == data["scale"].to_numpy()[1::2].tolist()
     upper = runs.where(model="mass", bound="upper")
     assert (
-        upper.of("reached_displacement")[:, -1].max()
-        == runs.of("reached_displacement")[
+        upper.of("peak_displacement")[:, -1].max()
+        == runs.of("peak_displacement")[
             (runs.of("model") == "mass") & (runs.of("bound") == "upper")
         ][:, -1].max()
     )
     mass = runs.where(model="mass", masses_moved="").data
-    assert np.shares_memory(mass["reached_slip"], data["reached_slip"])  # no copy
+    assert np.shares_memory(mass["peak_slip"], data["peak_slip"])  # no copy
     assert runs.where(device="none").parts == ()
     assert runs.data.sizes["run"] == 15
     assert set(runs.data["masses_moved"].to_numpy()[-3:]) == {"+x", "-x"}
@@ -150,8 +151,8 @@ def test_what_a_structure_does_not_have_is_nan(grid):
     drift = data["peak"].sel(quantity="storey drift, mean").to_numpy()
     assert np.isnan(drift[masses]).all()
     assert np.isfinite(drift[~masses]).all()
-    assert np.isnan(data["reached_slip"].isel(run=masses).sel(bearing="bearing-0-0")).all()
-    assert np.isnan(data["reached_slip"].isel(run=~masses).sel(bearing="bearing")).all()
+    assert np.isnan(data["peak_slip"].isel(run=masses).sel(bearing="bearing-0-0")).all()
+    assert np.isnan(data["peak_slip"].isel(run=~masses).sel(bearing="bearing")).all()
 
 
 @pytest.mark.parametrize("workers", [1, 3])
@@ -225,7 +226,7 @@ def test_histories_are_stacked(building: Frame, motions: dict[str, GroundMotion]
         there = own.isel(time=slice(one.sizes["time"]))
         np.testing.assert_array_equal(there, one["axial_force"])
         assert np.isnan(own.isel(time=slice(one.sizes["time"], None))).all()
-    ended = many["reached_until"]
+    ended = many["peak_until"]
     assert float(ended.min()) < float(ended.max())  # one stops early, and is filled up
 
 
@@ -237,7 +238,7 @@ def test_histories_of_some_levels_and_bearings(building, motions):
     whole = quietly(time_histories, building, motion, scales=[0.4, 0.5])
     one = quietly(time_history, building, motion.scaled(0.5), recording=recording)
     assert many["node"].to_numpy().tolist() == one["node"].to_numpy().tolist()
-    for name in ("node_displacement", "axial_force", "reached_displacement", "reached_node_plan"):
+    for name in ("node_displacement", "axial_force", "peak_displacement", "peak_node_plan"):
         np.testing.assert_array_equal(many[name].isel(run=1), one[name])
     there = [name for name in whole["quantity"].to_numpy() if name not in TIMED]
     of_all = (data["peak"].sel(quantity=there) for data in (many, whole))

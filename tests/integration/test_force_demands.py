@@ -152,9 +152,9 @@ def test_columns_carry_the_shear_of_their_storey_at_every_step(frame, runs):
 
 def test_statistics_motions_and_what_governs(runs, tables):
     for kind, name, places in (
-        ("members", "reached_member_force", ("member", "station", "component")),
-        ("storeys", "reached_storey_force", ("section", "storey_component")),
-        ("reactions", "reached_reaction_force", ("bearing", "side", "reaction")),
+        ("members", "peak_member_force", ("member", "station", "component")),
+        ("storeys", "peak_storey_force", ("section", "storey_component")),
+        ("reactions", "peak_reaction_force", ("bearing", "side", "reaction")),
     ):
         table = tables[kind].reset_index()
         assert set(table["statistic"]) == {"mean of 7 runs"}
@@ -189,7 +189,7 @@ def test_drifts_are_those_that_runs_reached(runs, tables):
     table = tables["storeys"]
     drifts = table[table["force"] == "drift"].set_index(["bound", "storey"])["value"]
     for bound, data in runs.items():
-        mean = data["reached_drift"].mean("run")
+        mean = data["peak_drift"].mean("run")
         assert drifts[bound].to_numpy() == pytest.approx(mean.to_numpy(), rel=1e-12)
 
 
@@ -237,7 +237,7 @@ def test_moved_masses_add_section_by_section(runs, tables, moved):
         ("storeys", ("section", "storey_component")),
         ("reactions", ("bearing", "side", "reaction")),
     ):
-        six, variable = places[-1], f"reached_{kind.removesuffix('s')}_force"
+        six, variable = places[-1], f"peak_{kind.removesuffix('s')}_force"
         table = found[kind].reset_index()
         own = tables[kind].reset_index()
         lower = (table["bound"] == "lower").to_numpy()
@@ -274,9 +274,9 @@ def test_moved_masses_add_section_by_section(runs, tables, moved):
             assert beyond <= 2e-3 or "masses" in row["motion"]
         assert changed > 5
     drift = found["storeys"].query("force == 'drift' and bound == 'lower'").set_index("storey")
-    more = moved["reached_drift"] - runs["lower"]["reached_drift"].isel(run=4)
+    more = moved["peak_drift"] - runs["lower"]["peak_drift"].isel(run=4)
     added = np.maximum(more.max("run").to_numpy(), 0.0)
-    mean = runs["lower"]["reached_drift"].mean("run").to_numpy()
+    mean = runs["lower"]["peak_drift"].mean("run").to_numpy()
     assert drift["value"].to_numpy() == pytest.approx(1.3 * (mean + added), rel=1e-12)
 
 

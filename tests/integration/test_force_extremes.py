@@ -67,8 +67,8 @@ def building(request):
 
 def assert_extremes(data, name, histories, time, places=...):
     """Hold what was kept to histories (time, section, 6): extremes, what acts with them, when."""
-    kept = data[f"reached_{name}_force"].to_numpy()[places]
-    at = data[f"reached_{name}_force_at"].to_numpy()[places]
+    kept = data[f"peak_{name}_force"].to_numpy()[places]
+    at = data[f"peak_{name}_force_at"].to_numpy()[places]
     kept = kept.reshape(-1, *kept.shape[-3:])
     at = at.reshape(-1, *at.shape[-2:])
     scale = np.abs(histories).max(axis=(0, 1))
@@ -93,7 +93,7 @@ def test_forces_at_the_ends_of_members_are_those_of_every_step(building):
     frame, whole, kept = building
     histories, time = ends(frame, whole), whole["time"].to_numpy()
     assert_extremes(kept, "member", histories, time, np.s_[:, [0, 2]])
-    rest = kept["reached_member_force_at_rest"].to_numpy()[:, [0, 2]].reshape(-1, 6)
+    rest = kept["peak_member_force_at_rest"].to_numpy()[:, [0, 2]].reshape(-1, 6)
     assert_allclose(rest, histories[0], rtol=0.0, atol=1e-6)
 
 
@@ -115,7 +115,7 @@ def test_reactions_below_hold_the_building(building):
     frame, whole, kept = building
     held = support_reactions(frame, whole)
     for name, link in frame.bearings.items():
-        mine = kept["reached_reaction_force"].sel(bearing=name, side="below")
+        mine = kept["peak_reaction_force"].sel(bearing=name, side="below")
         for reaction, dof, sign in (("N", "uz", 1.0), ("Vx", "ux", -1.0), ("My", "ry", -1.0)):
             theirs = sign * held.sel(support=link.i, dof=dof).to_numpy()
             found = mine.sel(reaction=reaction, reaction_at_once=reaction).to_numpy()
@@ -126,7 +126,7 @@ def test_a_displaced_bearing_bends_foundation_and_slab_by_its_share_of_the_load_
     """Equal surfaces: half of N u each, and the rest of what shear does over the height."""
     frame = lumped_mass(BEARING, 50e3)
     whole = time_history(frame, MOTION, dt=DT)
-    kept = time_history(frame, MOTION, dt=DT, recording=FORCES)["reached_reaction_force"]
+    kept = time_history(frame, MOTION, dt=DT, recording=FORCES)["peak_reaction_force"]
     u = whole["bearing_displacement"].isel(bearing=0).to_numpy()
     load, shear = whole["axial_force"].isel(bearing=0), whole["bearing_force"].isel(bearing=0)
     n = -shear.sel(axis="z").to_numpy()
@@ -143,7 +143,7 @@ def test_a_displaced_bearing_bends_foundation_and_slab_by_its_share_of_the_load_
 def test_the_middle_of_a_member_has_what_its_load_asks_for(building):
     """Forces of the part from end i to the middle, loads integrated by many points."""
     frame, _, kept = building
-    rest = kept["reached_member_force_at_rest"]
+    rest = kept["peak_member_force_at_rest"]
     loads = {
         name: lambda x, q=q: np.outer(np.ones_like(x), q) for name, q in frame.uniform_loads.items()
     }
@@ -188,7 +188,7 @@ def test_a_simple_beam_sags_by_q_l_squared_over_eight():
     frame.add_member("beam", "top-0", "top-1", BEAM, releases={"i": free, "j": free})
     frame.add_uniform_load("beam", (0.0, 0.0, -10e3))
     data = time_history(frame, MOTION, duration=0.1, recording=FORCES)
-    rest = data["reached_member_force_at_rest"].sel(member="beam")
+    rest = data["peak_member_force_at_rest"].sel(member="beam")
     assert_allclose(rest.sel(component="My"), [0.0, -10e3 * 8.0**2 / 8.0, 0.0], atol=1e-3)
     assert_allclose(rest.sel(component="Vz"), [-40e3, 0.0, 40e3], rtol=1e-9, atol=1e-6)
 
@@ -196,7 +196,7 @@ def test_a_simple_beam_sags_by_q_l_squared_over_eight():
 def test_forces_that_bars_have_are_tension_positive_along_all_of_them():
     frame = elastic()
     data = time_history(frame, MOTION, dt=DT, duration=1.5, recording=FORCES)
-    rest = data["reached_member_force_at_rest"].sel(component="N")
+    rest = data["peak_member_force_at_rest"].sel(component="N")
     columns = rest.sel(member=[n for n in frame.members if n.startswith("column")])
     assert (columns < 0.0).all()
     assert_allclose(columns.sel(station="i"), columns.sel(station="j"), rtol=1e-9)
@@ -208,9 +208,7 @@ def test_batch_and_small_buffers_keep_the_same(building, monkeypatch):
     monkeypatch.setattr(recorder, "BUFFER", 1e3)
     piecewise = time_history(frame, MOTION, dt=DT, recording=FORCES)
     names = [str(name) for name in kept.data_vars if "_force" in str(name)]
-    names = [
-        n for n in names if n.startswith(("reached_member", "reached_storey_f", "reached_rea"))
-    ]
+    names = [n for n in names if n.startswith(("peak_member", "peak_storey_f", "peak_rea"))]
     assert len(names) == 9
     for name in names:
         assert_array_equal(runs[name].to_numpy()[0], kept[name].to_numpy())

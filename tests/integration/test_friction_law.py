@@ -545,7 +545,7 @@ def test_a_campaign_varies_a_field_of_the_law(folder, put_example):
     campaign.run(workers=1)
     data = campaign.results()
     assert sorted(data["half_speed"].to_numpy().tolist()) == [0.01, 0.5]
-    moved = data["reached_displacement"].max("bearing").sortby(data["half_speed"]).to_numpy()
+    moved = data["peak_displacement"].max("bearing").sortby(data["half_speed"]).to_numpy()
     assert moved[1] > 1.005 * moved[0]  # less friction at speeds of some 0.1 m/s
     text = CAMPAIGN.replace('"0.5 m/s"]', '"0.5 m"]')
     (folder / "speeds.toml").write_text(text)

@@ -75,8 +75,8 @@ def one(checks: Checks, title: str) -> Check:
 
 def test_from_seven_motions_on_the_mean_counts_below_the_largest(frame, seven):
     assert (seven["status"] == "ok").all()
-    moved = seven["reached_displacement"].to_numpy()[:, 0]
-    drift = seven["reached_drift"].to_numpy()
+    moved = seven["peak_displacement"].to_numpy()[:, 0]
+    drift = seven["peak_drift"].to_numpy()
     alone = lumped_mass(frame.bearings["bearing"].bearing, 180e3)  # nothing that overturns
     asce = history_checks(seven, frame, "ASCE 7-22")
     assert {c.title for c in asce.failed} == {
@@ -88,7 +88,7 @@ def test_from_seven_motions_on_the_mean_counts_below_the_largest(frame, seven):
     assert (theta.demand, theta.limit) == pytest.approx((drift.mean(axis=0).max(), 0.02))
     assert theta.subject == ("floor-1", "floor-2")[int(drift.mean(axis=0).argmax())]
     assert one(asce, "residual slip").demand == pytest.approx(
-        seven["reached_slip_left"].to_numpy().mean(), rel=1e-12
+        seven["peak_slip_left"].to_numpy().mean(), rel=1e-12
     )
     few = seven.isel(run=[0, 3, 5])
     chile = history_checks(few, frame, "NCh2745", action_level="maximum")
@@ -121,7 +121,7 @@ def test_displacement_is_held_against_rims_and_the_slip_that_holds(frame, bearin
     assert check.limit == pytest.approx(0.2 + slip, rel=1e-12)
     rims = history_checks(seven, frame, "ASCE 7-22").of("17.2.4.5")
     assert [rim.demand for rim in rims] == pytest.approx([0.2 / check.demand] * 2)
-    fused = seven.assign(reached_displacement=0.0 * seven["reached_displacement"] + 0.21)
+    fused = seven.assign(peak_displacement=0.0 * seven["peak_displacement"] + 0.21)
     plain = frame.with_bearings(bearing.as_dcfp())
     assert not one(history_checks(fused, plain, "EN 1998-1"), "isolator displacement").passed
 
@@ -144,7 +144,7 @@ def test_a_run_that_failed_is_never_averaged_away(frame: Frame, with_failure: xr
             assert reason in check.void
             assert f"no valid value: {reason}" in check.statement
             assert "before failure" in check.said[0]
-        moved = with_failure["reached_displacement"].to_numpy()[:, 0]
+        moved = with_failure["peak_displacement"].to_numpy()[:, 0]
         gamma = HISTORY_RULES[code].displacement_factor
         demand = one(checks, "isolator displacement").demand
         assert demand == pytest.approx(gamma * moved.mean(), rel=1e-12)
@@ -155,7 +155,7 @@ def test_a_run_that_failed_is_never_averaged_away(frame: Frame, with_failure: xr
         assert row["void"].startswith(reason)
         assert table.attrs["statistics"] == {"value": "no valid value; mean of 7 runs, 1 failed"}
         assert np.isnan(table.loc["residual interface slip", "value"])
-        left = with_failure["reached_slip_left"].to_numpy()[:6, 0]
+        left = with_failure["peak_slip_left"].to_numpy()[:6, 0]
         assert table.loc["residual interface slip", "worst"] == pytest.approx(left.max())
 
 
@@ -163,7 +163,7 @@ def test_one_unacceptable_run_may_be_allowed_at_a_price(frame, with_failure):
     """Mean of the six others, but at least 1.2 times the median of all, the fourth of seven."""
     rules = replace(HISTORY_RULES["ASCE 7-22"], unacceptable_allowed=1)
     check = one(history_checks(with_failure, frame, rules), "isolator displacement")
-    moved = np.sort(with_failure["reached_displacement"].to_numpy()[:6, 0])
+    moved = np.sort(with_failure["peak_displacement"].to_numpy()[:6, 0])
     assert check.demand == pytest.approx(max(moved.mean(), 1.2 * moved[3]), rel=1e-12)
     table = history_demands(with_failure, rules)
     row = table.loc["isolator displacement"]
@@ -175,18 +175,18 @@ def test_one_unacceptable_run_may_be_allowed_at_a_price(frame, with_failure):
 
 
 def test_uplift_makes_a_run_unacceptable_where_the_code_has_none(frame, seven):
-    lifted = seven["reached_uplifts"].copy()
+    lifted = seven["peak_uplifts"].copy()
     lifted[2] = 3.0
     gone = seven.assign(
-        reached_uplifts=lifted,
-        reached_time_lifted=seven["reached_time_lifted"] + 0.02,
-        reached_gap=seven["reached_gap"] + np.where(np.arange(7) == 2, 2e-3, 4e-4)[:, None],
+        peak_uplifts=lifted,
+        peak_time_lifted=seven["peak_time_lifted"] + 0.02,
+        peak_gap=seven["peak_gap"] + np.where(np.arange(7) == 2, 2e-3, 4e-4)[:, None],
     )
     alone = lumped_mass(frame.bearings["bearing"].bearing, 180e3)  # nothing that overturns
     checks = history_checks(gone, alone, "EN 1998-1")
     assert "pulse 1.1: a bearing lifted off" in one(checks, "runs that failed").note
     assert one(checks, "uplift duration above 1 mm").demand == pytest.approx(0.02)
-    moved = gone["reached_displacement"].to_numpy()[:, 0]
+    moved = gone["peak_displacement"].to_numpy()[:, 0]
     check = one(checks, "isolator displacement")
     assert check.demand == pytest.approx(1.2 * moved.mean(), rel=1e-12)
     assert not check.passed
@@ -204,7 +204,7 @@ def test_uplift_makes_a_run_unacceptable_where_the_code_has_none(frame, seven):
     assert (
         "3 of 3 runs failed" in one(history_checks(small, frame, any_gap), "runs that failed").note
     )
-    unknown = small.assign(reached_gap=small["reached_gap"] * math.nan)
+    unknown = small.assign(peak_gap=small["peak_gap"] * math.nan)
     assert not one(history_checks(unknown, alone, "EN 1998-1"), "uplift duration above 1 mm").passed
     assert history_checks(gone, alone, "ASCE 7-22").passed
     row = history_demands(gone, "ASCE 7-22").loc["uplifts, all bearings"]
@@ -224,14 +224,14 @@ def test_runs_at_bounds_are_those_of_bounded_frames(frame: Frame) -> None:
         model = with_property_bounds(frame, bound, BOUNDS)
         alone = quietly(time_history, model, motions[0].scaled(1.1), recording=Recording.peaks())
         assert data["motion"].to_numpy().tolist() == ["pulse 1", "pulse 1.4"]
-        assert float(data["reached_displacement"][0, 0]) == float(alone["reached_displacement"][0])
+        assert float(data["peak_displacement"][0, 0]) == float(alone["peak_displacement"][0])
     checks = history_checks(runs, frame, "NCh2745", bounds=BOUNDS, action_level="maximum")
     limits = {c.bound: c.limit for c in checks if c.title == "slip over its stable limit s*"}
     for bound, factor in {"lower": 0.8, "nominal": 1.0, "upper": 1.2}.items():
         held = factor * frame.bearings["bearing"].bearing.slip_stability
         assert limits[bound] == pytest.approx(held, rel=1e-12)
     table = history_demands(runs, "NCh2745")
-    each = [float(data["reached_displacement"].max()) for data in runs.values()]
+    each = [float(data["peak_displacement"].max()) for data in runs.values()]
     row = table.loc["isolator displacement"]
     assert table.attrs["statistics"] == dict.fromkeys(runs, "largest of 2 runs")
     heads = [f"{bound}, largest of 2 runs" for bound in runs]
@@ -266,7 +266,7 @@ def test_minima_raise_displacement_shear_and_drift(frame: Frame, seven: xr.Datas
     reduced = found.value("D_prime_M") / found.value("D_M")
     least = 0.8 * strong["lower"].total_displacement * reduced
     assert one(raised, "isolator displacement").demand == pytest.approx(least, rel=1e-12)
-    shear = float(seven["reached_base_shear"].mean())
+    shear = float(seven["peak_base_shear"].mean())
     factor = 0.9 * strong["lower"].base_shear / shear
     assert factor > 1.1
     assert one(raised, "base shear").demand == pytest.approx(factor * shear)
@@ -301,7 +301,7 @@ def test_the_slip_that_holds_goes_by_the_pressure_of_the_runs(bearing: LIRBearin
             for k in np.linspace(0.4, 1.0, 7)
         ],
     )
-    least = -float(data["reached_axial_tension"].max())
+    least = -float(data["peak_axial_tension"].max())
     assert 0.0 < least < 0.8 * 180e3 * 9.80665
     check = one(history_checks(data, model, "ASCE 7-22"), "slip over its stable limit s*")
     factor = math.exp(-8e-9 * (least / (math.pi * 0.15**2) - 8e6))

@@ -171,7 +171,7 @@ def test_a_failed_run_has_no_values(frame: Frame) -> None:
     assert row["time"] == pytest.approx(data.attrs["failed_at"], rel=1e-12)
     assert peaks(data).loc["interface slip", "value"] == check.demand
     batch = quietly(time_histories, frame, {"a": full_sine(4.0), "b": full_sine(1.0)}, workers=1)
-    found = batch["reached_slip"].max("bearing").to_numpy()
+    found = batch["peak_slip"].max("bearing").to_numpy()
     assert found[0] == pytest.approx(check.demand, rel=1e-12)
     assert found[1] < overlap  # of another run
     least = quietly(time_history, frame, full_sine(4.0), recording=Recording.peaks())
@@ -275,7 +275,7 @@ def test_resultant_offsets_say_what_pressed() -> None:
     k = int(np.argmax(offset.to_numpy()))
     row = resultant_offsets(data).iloc[0]
     assert (row["offset"], row["time"]) == (float(offset[k]), float(data["time"][k]))
-    kept = quietly(time_histories, frame, [full_sine(2.6)])["reached_eccentricity"]
+    kept = quietly(time_histories, frame, [full_sine(2.6)])["peak_eccentricity"]
     assert row["offset"] == pytest.approx(float(kept[0, 0]))
     assert row["load"] == float(data["axial_force"][k, 0] / data["static_axial_force"][0])
     limit = 0.5 * row["offset"]

@@ -164,7 +164,7 @@ def test_forces_of_a_run_hold_nodes_in_balance(ops):
     assert top.name == "level-1"
     more = (total - total[0])[:, :2]  # loads along beams push sideways, too
     assert_allclose(more, shear, atol=1e-6 * np.abs(shear).max())
-    reached = data["reached_member_force"]
+    reached = data["peak_member_force"]
     for name in forces["member"].to_numpy():
         one = reached.sel(member=name).transpose(..., "extreme", "component_at_once")
         for station, sign in (("i", -1.0), ("j", 1.0)):
@@ -173,7 +173,7 @@ def test_forces_of_a_run_hold_nodes_in_balance(ops):
                 found = one.sel(station=station, component=force, component_at_once=force)
                 scale = 1e-6 * np.abs(own).max()
                 assert_allclose(found.to_numpy(), [own[:, c].max(), own[:, c].min()], atol=scale)
-    beam = data["reached_member_force_at_rest"].sel(member="element-5")
+    beam = data["peak_member_force_at_rest"].sel(member="element-5")
     length = np.hypot(6.0, 0.2)
     mean = 0.5 * (beam.sel(station="i") + beam.sel(station="j"))
     sag = (beam.sel(station="mid") - mean).sel(component=["My", "Mz"]).to_numpy()

@@ -49,6 +49,7 @@ from frames.plots import (
     worst_bearing,
 )
 from frames.recording.reduction import Reduction, reduced
+from frames.results.recorded import is_of_all_steps
 from frames.solve import recorder
 from lir_element import (
     AnalysisError,
@@ -468,4 +469,4 @@ def test_everything_is_as_if_nothing_were_asked(whole):
     full = whole("impacts")
     assert data.equals(full)
     assert data.attrs["recording"] == "every step"
-    assert not [name for name in data.variables if str(name).startswith("reached_")]
+    assert not [name for name in data.variables if is_of_all_steps(name)]

@@ -81,12 +81,12 @@ def test_storey_shears_are_the_inertia_above(frame: Frame, run: xr.Dataset) -> N
 
 def test_batches_keep_the_same_peaks(frame: Frame, runs: xr.Dataset, run: xr.Dataset) -> None:
     again = runs.isel(run=[0])
-    for name in ("reached_storey_shear", "reached_storey_shear_at"):
+    for name in ("peak_storey_shear", "peak_storey_shear_at"):
         assert name in again
     sizes = np.linalg.norm(run["storey_shear"].sel(axis=["x", "y"]).to_numpy(), axis=-1)
-    found = again["reached_storey_shear"].to_numpy()[0]
+    found = again["peak_storey_shear"].to_numpy()[0]
     assert found == pytest.approx(sizes.max(axis=0), rel=1e-9)
-    times = again["reached_storey_shear_at"].to_numpy()[0]
+    times = again["peak_storey_shear_at"].to_numpy()[0]
     assert times == pytest.approx(run["time"].to_numpy()[sizes.argmax(axis=0)])
     assert list(again["storey"].to_numpy()) == [level.name for level in frame.levels[1:]]
 
@@ -114,7 +114,7 @@ def test_bearings_between_storeys_carry_the_shear_there() -> None:
     assert data["storey_shear"].sel(storey="head").to_numpy() == pytest.approx(
         below.to_numpy(), abs=1e-6 * np.abs(below).max().item()
     )
-    kept = time_histories(frame, [pulse(1.0)])["reached_storey_shear"].to_numpy()[0]
+    kept = time_histories(frame, [pulse(1.0)])["peak_storey_shear"].to_numpy()[0]
     assert kept == pytest.approx(largest(data, "storey_shear").values, rel=1e-9)
 
 
@@ -130,7 +130,7 @@ def test_least_storey_shear_of_a_suite(frame: Frame, runs: xr.Dataset) -> None:
     known = linear(frame)
     t = known["lower"].trace
     check = least_shear(frame, runs, known)
-    each = runs["reached_storey_shear"].to_numpy()[:, 0]
+    each = runs["peak_storey_shear"].to_numpy()[:, 0]
     reduction = min(max(3.0 / 8.0 * 4.0, 1.0), 2.0)
     assert len(each) == 7
     assert np.ptp(each) > 0.0
@@ -145,11 +145,11 @@ def test_least_storey_shear_of_a_suite(frame: Frame, runs: xr.Dataset) -> None:
 
 def test_less_than_the_least_shear_raises_forces_and_drifts(frame: Frame, runs: xr.Dataset) -> None:
     """The earthquake's part of forces above the isolation counts times the ratio, and drifts do."""
-    most = runs["reached_storey_shear"].to_numpy()[:, 0].mean()
+    most = runs["peak_storey_shear"].to_numpy()[:, 0].mean()
     windy = linear(frame, wind_shear=1.5 * most / 1.5)  # V_s is 1.5 times the shear of the runs
     plain = history_checks({"lower": runs}, frame, "ASCE 7-22")
     found = history_checks({"lower": runs}, frame, "ASCE 7-22", equivalent=windy)
-    base = runs["reached_base_shear"].to_numpy().mean()
+    base = runs["peak_base_shear"].to_numpy().mean()
     at_base = max(windy["lower"].trace.value("V_b_dyn") / base, 1.0)
     (check,) = (each for each in found if each.title == "base shear of time histories")
     assert check.demand == pytest.approx(base, rel=1e-12)
@@ -171,7 +171,7 @@ def test_shears_above_the_least_leave_forces_as_they_are(frame: Frame, runs: xr.
     for name in ("V_b_dyn", "V_s"):
         assert weak["lower"].trace.value(name) > 0.0
     strong = runs.copy()
-    for name in ("reached_storey_shear", "reached_base_shear"):
+    for name in ("peak_storey_shear", "peak_base_shear"):
         strong[name] = 100.0 * runs[name]
     found = history_checks({"lower": strong}, frame, "ASCE 7-22", equivalent=weak)
     assert raises_by_case(found) == {("MCE_R", "lower"): Raise(1.0, 1.0)}
@@ -183,7 +183,7 @@ def test_less_than_seven_motions_count_by_the_largest(frame: Frame, runs: xr.Dat
     few = runs.isel(run=slice(0, 3))
     check = least_shear(frame, few, linear(frame))
     assert check.demand == pytest.approx(
-        few["reached_storey_shear"].to_numpy()[:, 0].max() / 1.5, rel=1e-12
+        few["peak_storey_shear"].to_numpy()[:, 0].max() / 1.5, rel=1e-12
     )
 
 
@@ -191,7 +191,7 @@ def test_a_suite_that_failed_has_no_storey_shear(frame: Frame, runs: xr.Dataset)
     status = runs["status"].copy()
     status[2] = "slip_exceeded"
     check = least_shear(frame, runs.assign(status=status), linear(frame), "upper")
-    each = runs["reached_storey_shear"].to_numpy()[:, 0]  # what was reached; a mean of no value
+    each = runs["peak_storey_shear"].to_numpy()[:, 0]  # what was reached; a mean of no value
     assert check.demand == pytest.approx(each.mean() / 1.5, rel=1e-12)
     assert check.demand > check.limit
     assert not check.passed
@@ -207,10 +207,10 @@ def test_without_its_analysis_there_is_no_least_shear(frame: Frame, runs: xr.Dat
     assert not [check for check in found if "storey shear" in check.title]
     demands = history_demands({"lower": runs}, "ASCE 7-22")
     assert demands.loc["storey shear", "lower"] == pytest.approx(
-        runs["reached_storey_shear"].to_numpy().mean(axis=0).max()
+        runs["peak_storey_shear"].to_numpy().mean(axis=0).max()
     )
 
 
 def test_results_without_storey_shears_are_refused(frame: Frame, runs: xr.Dataset) -> None:
     with pytest.raises(CheckError, match="compute them anew"):
-        least_shear(frame, runs.drop_vars("reached_storey_shear"), linear(frame))
+        least_shear(frame, runs.drop_vars("peak_storey_shear"), linear(frame))

@@ -45,12 +45,12 @@ def alone(bearing: LIRBearing) -> Frame:
 def lifted(runs: xr.Dataset) -> xr.Dataset:
     """The same with one lift-off, set by hand: 12 mm in one run, then 25.9 MN."""
     one = xr.DataArray((np.arange(7) == 2).astype(float), dims="run")
-    nothing = 0.0 * runs["reached_time_lifted"]
+    nothing = 0.0 * runs["peak_time_lifted"]
     return runs.assign(
-        reached_uplifts=3.0 * one,
-        reached_time_lifted=nothing + 0.2 * one,
-        reached_gap=nothing + 12e-3 * one,
-        reached_axial_force=nothing + xr.where(one > 0.0, 25.9e6, runs["reached_axial_force"]),
+        peak_uplifts=3.0 * one,
+        peak_time_lifted=nothing + 0.2 * one,
+        peak_gap=nothing + 12e-3 * one,
+        peak_axial_force=nothing + xr.where(one > 0.0, 25.9e6, runs["peak_axial_force"]),
     )
 
 
@@ -74,14 +74,14 @@ def test_the_widest_gap_and_the_hardest_landing_count_under_every_code(
     assert "lift off in 1 of 7 runs, 3 times in all; the widest gap, 12 mm, pulse 0.9" in gap.note
     assert "0.2 s of the run, axial force up to 2.59e+04 kN" in gap.note
     landing = one(checks, "pressure of a landing on the sliders")
-    slip = float(lifted["reached_slip"][2, 0])
+    slip = float(lifted["peak_slip"][2, 0])
     assert landing.demand == pytest.approx(25.9e6 / overlap_area(0.15, slip))
     assert (landing.limit, landing.passed) == (90e6, False)
     assert landing.clause == "no code: a proposal"
 
 
 def test_a_slider_that_leaves_its_rims_is_no_pass(alone: Frame, lifted: xr.Dataset) -> None:
-    wide = lifted.assign(reached_gap=10.0 * lifted["reached_gap"])
+    wide = lifted.assign(peak_gap=10.0 * lifted["peak_gap"])
     for code, level in CODES:
         assert not one(history_checks(wide, alone, code, action_level=level), RIMS).passed
     limits = DesignLimits(rim_height=0.13, uplift_gap=0.05, axial_force=30e6)
@@ -133,10 +133,8 @@ def test_displacement_says_when_its_level_may_have_more_wrong_than_its_margin(
     alone = lumped_mass(unlike, 180e3)
     title = "isolator displacement"
     limit = one(history_checks(runs, alone, "ASCE 7-22"), title).limit
-    nothing = 0.0 * runs["reached_displacement"]
-    tipped = runs.assign(
-        reached_displacement=nothing + share * limit, reached_eccentricity=nothing + 0.4
-    )
+    nothing = 0.0 * runs["peak_displacement"]
+    tipped = runs.assign(peak_displacement=nothing + share * limit, peak_eccentricity=nothing + 0.4)
     check = one(history_checks(tipped, alone, "ASCE 7-22"), title)
     assert check.passed
     assert check.demand == pytest.approx(share * limit)
@@ -178,7 +176,7 @@ def test_the_file_knows_every_limit() -> None:
 
 def test_gamma_x_raises_the_slip_as_well(frame, bearing, runs):
     """Rims met at 200 mm; 190 mm of runs are 228 mm by EN 1998-1, of which 28 mm are slip."""
-    moved = runs.assign(reached_displacement=0.19 + 0.0 * runs["reached_displacement"])
+    moved = runs.assign(peak_displacement=0.19 + 0.0 * runs["peak_displacement"])
     checks = history_checks(moved, frame, "EN 1998-1")
     for title in ("slip over the overlap", "slip over its stable limit s*"):
         assert one(checks, title).demand == pytest.approx(1.2 * 0.19 - 0.2)

@@ -307,7 +307,7 @@ def test_what_rims_did_is_told_by_any_recording(tmp_path: Path) -> None:
     assert f"{1e3 * most:.3g} mm (bearing, " in rims_finding(whole).sentence
     for recording in (Recording(every=None), Recording(every=50, channels=("axial_force",))):
         thin = pushed(device, recording=recording)
-        assert float(thin["reached_rim_plastic"].max()) == pytest.approx(most, rel=1e-12)
+        assert float(thin["peak_rim_plastic"].max()) == pytest.approx(most, rel=1e-12)
         assert rims_finding(thin).sentence == rims_finding(whole).sentence
     save(whole, tmp_path / "run.nc")
     kept = load(tmp_path / "run.nc")

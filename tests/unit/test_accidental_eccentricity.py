@@ -103,7 +103,7 @@ def test_factors_and_demands_are_those_of_the_runs(ran: Path) -> None:
     """Ratios of the governing motion, by hand of the files; they multiply what the suite gives."""
     out = ran / "out"
     runs, moved = load(out / "runs-lower.nc"), load(out / "moved-lower.nc")
-    worst = int(np.argmax(runs["reached_displacement"].max("bearing").to_numpy()))
+    worst = int(np.argmax(runs["peak_displacement"].max("bearing").to_numpy()))
     assert set(moved["motion"].values) == {runs["motion"].values[worst]}
     assert list(moved["masses_moved"].values) == ["+x", "-x", "+y", "-y"]
     table = pd.read_csv(out / "eccentricity.csv")
@@ -112,8 +112,8 @@ def test_factors_and_demands_are_those_of_the_runs(ran: Path) -> None:
     assert column == "lower, largest of 2 runs, raised by moved masses"
     checks = pd.read_csv(out / "checks.csv").set_index("title")
     for name, title in (FACTORED | ADDED).items():
-        own = runs[f"reached_{name}"].to_numpy().reshape(2, -1)
-        each = moved[f"reached_{name}"].to_numpy().reshape(4, -1).max(axis=1)
+        own = runs[f"peak_{name}"].to_numpy().reshape(2, -1)
+        each = moved[f"peak_{name}"].to_numpy().reshape(4, -1).max(axis=1)
         rows = table[table["quantity"] == name.replace("_", " ")]
         centred = own[worst].max()
         np.testing.assert_allclose(rows["centred"], centred, rtol=1e-12)
@@ -141,7 +141,7 @@ def test_forces_for_design_have_what_moved_masses_add(ran: Path) -> None:
     """Shears of storeys and reactions of a run's files, from the extremes that its runs kept."""
     out = ran / "out"
     runs, moved = load(out / "runs-lower.nc"), load(out / "moved-lower.nc")
-    worst = int(np.argmax(runs["reached_displacement"].max("bearing").to_numpy()))
+    worst = int(np.argmax(runs["peak_displacement"].max("bearing").to_numpy()))
     for kind, places in (
         ("storey", ("section", "storey_component")),
         ("reaction", ("bearing", "side", "reaction")),
@@ -154,8 +154,8 @@ def test_forces_for_design_have_what_moved_masses_add(ran: Path) -> None:
             labels |= {"side": row["side"]} if kind == "reaction" else {}
             labels |= {places[-1]: row["force"], f"{places[-1]}_at_once": row["force"]}
             labels |= {"extreme": {"max": "largest", "min": "smallest"}[row["extreme"]]}
-            own = runs[f"reached_{kind}_force"].sel(labels).to_numpy()
-            each = moved[f"reached_{kind}_force"].sel(labels).to_numpy()
+            own = runs[f"peak_{kind}_force"].sel(labels).to_numpy()
+            each = moved[f"peak_{kind}_force"].sel(labels).to_numpy()
             sign = 1.0 if row["extreme"] == "max" else -1.0
             added = max(float((sign * (each - own[worst])).max()), 0.0)
             assert row["moved masses add"] == pytest.approx(sign * added, abs=2e-3)
@@ -219,7 +219,7 @@ def test_all_motions_are_compared_as_the_code_counts_them(ran: Path) -> None:
     many = data.isel(run=[0, 1] * 4).assign_coords(motion=("run", list("abcdefgh")))
     ways = [
         many.assign_coords(masses_moved=("run", [way] * 8)).assign(
-            reached_displacement=many["reached_displacement"] * factor
+            peak_displacement=many["peak_displacement"] * factor
         )
         for way, factor in (("+x", 0.9), ("-x", 1.2), ("+y", 1.1), ("-y", 1.0))
     ]
@@ -295,14 +295,14 @@ def test_both_devices_of_a_comparison_have_their_own_moved_masses(ran: Path) -> 
     for column, device in enumerate((OURS, PLAIN), start=1):
         own = found.runs.where(device=device, hazard_level="MCE_R", bound="lower")
         runs, moved = own.centred.data, own.moved.data
-        worst = int(np.argmax(runs["reached_displacement"].max("bearing").to_numpy()))
+        worst = int(np.argmax(runs["peak_displacement"].max("bearing").to_numpy()))
         assert set(moved["motion"].values) == {runs["motion"].values[worst]}
         for name, title in FACTORED.items():
-            own = runs[f"reached_{name}"].to_numpy().reshape(2, -1)
-            factor = moved[f"reached_{name}"].to_numpy().max() / own[worst].max()
+            own = runs[f"peak_{name}"].to_numpy().reshape(2, -1)
+            factor = moved[f"peak_{name}"].to_numpy().max() / own[worst].max()
             expected = own.max() * max(factor, 1.0)
             assert table.iloc[:, column][title] == pytest.approx(expected, rel=1e-12)
-    reached = found.runs.where(device=PLAIN).of("reached_slip")
+    reached = found.runs.where(device=PLAIN).of("peak_slip")
     assert float(reached.max()) == 0.0
     whole = pd.read_csv(ran / "out" / "demands.csv", index_col=0)
     assert table.iloc[:, 1]["isolator displacement"] == pytest.approx(

@@ -127,12 +127,12 @@ def test_each_type_is_checked_at_its_own_loads(folder: Path) -> None:
     for kind, device in parts.devices().items():
         places = [k for k, name in enumerate(names) if types[name] == kind]
         most = max(
-            *(float(runs["reached_axial_force"][0, k]) for k in places),
+            *(float(runs["peak_axial_force"][0, k]) for k in places),
             *(1.2 * loads[names[k]] for k in places),
         )
         rows = checks[checks["subject"].str.startswith(f"type {kind}")]
         [pressure] = rows[rows["title"] == "pressure on the sliders' overlap"]["demand"]
-        slip = max(float(runs["reached_slip"][0, k]) for k in places)
+        slip = max(float(runs["peak_slip"][0, k]) for k in places)
         [again] = [
             check
             for check in device_checks(

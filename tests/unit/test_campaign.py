@@ -167,7 +167,7 @@ def test_rows_hold_what_time_histories_gives(store: Path) -> None:
                 np.testing.assert_array_equal(row[name].to_numpy(), expected.to_numpy(), str(name))
             else:
                 assert row[name].to_numpy().tolist() == expected.to_numpy().tolist(), name
-        assert own["reached_displacement"].attrs == row["reached_displacement"].attrs
+        assert own["peak_displacement"].attrs == row["peak_displacement"].attrs
 
 
 def test_the_digest_is_that_of_the_runs_alone(store: Path) -> None:
@@ -187,7 +187,7 @@ def test_a_batch_that_was_damaged_is_found(store: Path) -> None:
     chunk = store / "runs/000002.npz"
     with np.load(chunk) as file:
         arrays = dict(file)
-    arrays["of reached_displacement"][1] += 1e-12
+    arrays["of peak_displacement"][1] += 1e-12
     np.savez(chunk, **arrays)
     with pytest.raises(CampaignError, match=r"000002.npz is not as it was written: remove it"):
         campaign.digest()
@@ -196,9 +196,9 @@ def test_a_batch_that_was_damaged_is_found(store: Path) -> None:
 def test_a_store_of_another_version_is_refused(store: Path) -> None:
     small(store).run()
     layout = store / "layout.npz"
-    write_chunk(layout, load_chunk(layout).drop_vars("reached_slip"))
+    write_chunk(layout, load_chunk(layout).drop_vars("peak_slip"))
     next(store.rglob("000002.npz")).unlink()
-    with pytest.raises(CampaignError, match="no room for reached_slip: another version"):
+    with pytest.raises(CampaignError, match="no room for peak_slip: another version"):
         small(store).run()
 
 
@@ -215,7 +215,7 @@ def test_failed_runs_are_rows_with_their_reason(tmp_path: Path) -> None:
     failed = data["radius"] > 0.8
     assert set(data["status"].to_numpy()[failed].tolist()) == {"not_built"}
     assert set(data["message"].to_numpy()[failed].tolist()) == {"no such radius in the catalogue"}
-    assert data["reached_displacement"].isnull().all("bearing").to_numpy().tolist() == list(failed)
+    assert data["peak_displacement"].isnull().all("bearing").to_numpy().tolist() == list(failed)
     runs = IntensityRuns.from_dataset(
         data, PULSES, Intensity(kind="PGA", measure="x"), parameters="all"
     )
@@ -273,7 +273,7 @@ def test_parameters_that_change_nothing_give_one_run(tmp_path: Path, monkeypatch
     table = data["peak"].to_numpy().reshape(3, 4, -1)
     assert np.array_equal(table[0], table[1], equal_nan=True)
     assert np.array_equal(table[0], table[2], equal_nan=True)
-    assert len(np.unique(data["reached_displacement"])) == 3  # small as it is is half of large
+    assert len(np.unique(data["peak_displacement"])) == 3  # small as it is is half of large
     one, other = (campaign.store.histories(k)["bearing_displacement"] for k in (3, 11))
     assert np.array_equal(one, other)
     pair = {"LIR": lambda p: structure(replace(BEARING, interface_friction=p["hold"]))}
@@ -436,7 +436,7 @@ def test_a_batch_is_an_eighth_within_bounds(tmp_path: Path) -> None:
 
 
 def test_a_database_of_0_2_is_converted(tmp_path: Path) -> None:
-    """Made by 0.2.0: four runs in two batches, with histories; the digest is the one of then."""
+    """Made by 0.2.0: four runs in two batches, with histories; columns have the names of now."""
     pytest.importorskip("zarr")
     archive = Path(__file__).parents[1] / "data" / "campaign-0.2.tar.xz"
     with tarfile.open(archive) as file:
@@ -445,11 +445,12 @@ def test_a_database_of_0_2_is_converted(tmp_path: Path) -> None:
     with pytest.raises(CampaignError, match=r"has format 3, .*convert_campaign\(.* writes it anew"):
         open_campaign(old)
     converted = convert_campaign(old, new)
-    assert converted.digest().startswith("69058f55574d1c4b")
+    assert converted.digest().startswith("d2494a0d472a739f")
     assert str(converted.status()) == "4 of 4 runs done: 4 ok"
     data = xr.open_zarr(old / "runs.zarr", chunks=None, consolidated=False)
-    for name in ("peak", "friction", "reached_displacement_at"):
-        np.testing.assert_array_equal(converted.results()[name], data[name])
+    names = {"peak": "peak", "friction": "friction", "peak_slip_at": "reached_slip_at"}
+    for name, old_name in names.items():
+        np.testing.assert_array_equal(converted.results()[name], data[old_name])
     part = xr.open_zarr(old / "histories/000001/0.zarr", chunks=None, consolidated=False)
     mine = converted.histories(3)["bearing_displacement"]
     np.testing.assert_array_equal(mine, part["bearing_displacement"].sel(run=3))
@@ -492,7 +493,7 @@ def test_what_is_read_of_results_is_what_is_asked_for(store: Path) -> None:
     whole = open_campaign(store).results().load()
     next(store.rglob("000002.npz")).unlink()
     part, gone = open_campaign(store).results(), np.arange(16) // 3 == 2
-    for name, empty in (("peak", np.nan), ("status", ""), ("reached_displacement", np.nan)):
+    for name, empty in (("peak", np.nan), ("status", ""), ("peak_displacement", np.nan)):
         expected = whole[name].to_numpy().copy()
         expected[gone] = empty
         for key in (5, -1, slice(2, 12, 3), [0, 5, 15], [15, 1, 1]):
@@ -550,9 +551,9 @@ def test_rows_without_a_mark_are_empty(store: Path) -> None:
     gone = ~data["done"].to_numpy()
     assert gone.tolist() == [k // 3 == 2 for k in range(16)]
     assert set(data["status"].to_numpy()[gone]) == {""}
-    assert np.isnan(data["reached_displacement"].to_numpy()[gone]).all()
-    assert not np.isnan(data["reached_displacement"].to_numpy()[~gone]).any()
-    assert np.isnan(data["reached_displacement"].isel(run=7).to_numpy()).all()
+    assert np.isnan(data["peak_displacement"].to_numpy()[gone]).all()
+    assert not np.isnan(data["peak_displacement"].to_numpy()[~gone]).any()
+    assert np.isnan(data["peak_displacement"].isel(run=7).to_numpy()).all()
     assert data["model"].to_numpy().astype(str).dtype.kind == "U"
     assert data["quantity"].to_numpy().astype(str).dtype.kind == "U"
     assert data["status"].to_numpy().astype(str)[0] == "ok"
@@ -568,9 +569,9 @@ def test_one_table_has_every_run_with_its_units(store: Path) -> None:
     ]  # fmt: skip
     assert table.index.tolist() == list(range(16))
     for name, by_bearing in (
-        ("bearing displacement", "reached_displacement"),
-        ("interface slip", "reached_slip"),
-        ("rim force", "reached_rim_force"),
+        ("bearing displacement", "peak_displacement"),
+        ("interface slip", "peak_slip"),
+        ("rim force", "peak_rim_force"),
     ):
         expected = data[by_bearing].to_numpy().reshape(16, -1).max(axis=1)
         np.testing.assert_array_equal(table[name], expected)

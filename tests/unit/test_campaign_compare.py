@@ -263,7 +263,7 @@ def test_sizes_are_those_of_the_devices(folder: Path, data: xr.Dataset) -> None:
     table = pd.read_csv(folder / "rims-results/campaign-devices.csv", index_col=0)
     larger = table.loc["larger DCFP"]
     own = data["model"].to_numpy() == "larger DCFP"
-    largest = float(data["reached_displacement"].to_numpy()[own].max())
+    largest = float(data["peak_displacement"].to_numpy()[own].max())
     assert larger["largest displacement [m]"] == pytest.approx(largest, rel=1e-12)
     assert larger["dish diameter [m]"] == pytest.approx(2.0 * (largest * 1.5 / 2.8 + 0.2))
     weak, strong = (table.loc[f"DCFP, {rims}"] for rims in ("rims of 0.5 W", "unbreakable rims"))

@@ -77,7 +77,7 @@ def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
     friction = np.unique(data["friction"].to_numpy())
     assert sorted(((friction - 0.04) / 0.01).astype(int)) == [0, 1, 2, 3]
     assert sorted(np.unique(data["radius"].to_numpy())) == [1.5, 2.0]
-    slip = data["reached_slip"].max("bearing")
+    slip = data["peak_slip"].max("bearing")
     assert float(slip.where(data["model"] == "DCFP").max()) == 0.0
     again = run(app, ["campaign", "--no-figures", file])
     assert again.output.splitlines()[-1] == first.output.splitlines()[-1]

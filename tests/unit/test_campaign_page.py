@@ -69,7 +69,7 @@ def test_responses_are_those_of_the_database_with_failures_as_infinite(
 ) -> None:
     table = pd.read_csv(store / "campaign-response.csv")
     assert len(table) == 2 * 4
-    reached = data["reached_displacement"].max("bearing").to_numpy()
+    reached = data["peak_displacement"].max("bearing").to_numpy()
     failed = data["status"].to_numpy() != "ok"
     assert set(data["status"].to_numpy()) <= {"ok", "slip_exceeded", "slip_unstable"}
     assert failed.any()
@@ -114,7 +114,7 @@ def test_curves_are_those_of_the_runs_or_say_why_there_is_none(
         )
         for limit in asked.limits():
             row = table.loc[f"{model}, {limit.name}"]
-            drift = data["reached_drift"].max(set(data["reached_drift"].dims) - {"run"}).to_numpy()
+            drift = data["peak_drift"].max(set(data["peak_drift"].dims) - {"run"}).to_numpy()
             here = (data["model"] == model).to_numpy()
             lost = (data["status"] != "ok").to_numpy()[here]
             over = lost | (drift[here] > limit.limit) if limit.limit else lost

@@ -124,7 +124,7 @@ def test_what_is_said_follows_the_numbers(found: Comparison) -> None:
     assert verdict.is_ours is None or (verdict.is_ours == (not higher))
     counts = found.counts(OURS, verdict.level)
     assert counts.runs == 2
-    rims = found.runs.where(device=OURS).of("reached_rim_force").max(axis=1)
+    rims = found.runs.where(device=OURS).of("peak_rim_force").max(axis=1)
     assert counts.met == sum(force > 0.0 for force in rims) == 1  # less friction goes farther
     assert "the interface slips by" in said
 

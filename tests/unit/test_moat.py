@@ -48,8 +48,8 @@ def checked(gap: float | None, code: str, wall: MoatTable | None = None) -> list
         rules=rules,
         cases=cases_of(Runs(tagged(data, hazard_level=rules.bearing_level, bound="lower")), rules),
     )
-    reached = data["reached_displacement"].to_numpy().max(axis=1)
-    force = data["reached_link_force"].to_numpy() if wall else np.zeros((2, 1))
+    reached = data["peak_displacement"].to_numpy().max(axis=1)
+    force = data["peak_link_force"].to_numpy() if wall else np.zeros((2, 1))
     return [reached, *of_the_moat(run), force.max(axis=1)][: None if wall else -1]
 
 

@@ -255,7 +255,7 @@ def test_a_run_says_how_far_imported_members_would_have_yielded(ops, whole):
         motion = GroundMotion(x=size * pulse, dt=0.01)
         kept = Recording(forces=True)
         data = time_history(frame, motion, recording=kept)
-        extremes = data["reached_member_force"].sel(station=["i", "j"]).to_numpy()
+        extremes = data["peak_member_force"].sel(station=["i", "j"]).to_numpy()
         n, _, _, _, y, z = np.moveaxis(extremes.reshape(-1, 6), 1, 0)
         # 10 x 2 fibres of 20 x 100 mm, in one of 200 x 200 mm
         at, area = np.array([-0.09, -0.07, -0.05, -0.03, -0.01]), 0.02 * 0.1

@@ -281,8 +281,8 @@ def test_bearings_and_members_are_those_of_the_runs(results: Path, page: str) ->
     runs = [load(results / name) for name in files]
     bearings = pd.read_csv(results / "bearings.csv", index_col=0)
     for k, name in enumerate(bearings.index):
-        largest = max(float(one["reached_displacement"][:, k].max()) for one in runs)
-        least = min(float(-one["reached_axial_tension"][:, k].max()) for one in runs)
+        largest = max(float(one["peak_displacement"][:, k].max()) for one in runs)
+        least = min(float(-one["peak_axial_tension"][:, k].max()) for one in runs)
         assert bearings.loc[name, "displacement [m]"] == pytest.approx(largest, rel=1e-12)
         assert bearings.loc[name, "least load [N]"] == pytest.approx(least, rel=1e-12)
         assert f"<td>{1e3 * largest:.4g}</td>" in page
@@ -357,7 +357,7 @@ def test_results_of_a_version_without_forces_are_refused(copied: Path) -> None:
     path = copied / "results" / "runs-upper.nc"
     data = load(path)
     path.unlink()
-    save(data.drop_vars([n for n in data.data_vars if n.startswith("reached_reaction")]), path)
+    save(data.drop_vars([n for n in data.data_vars if n.startswith("peak_reaction")]), path)
     facts = copied / "results" / "run.json"
     known = json.loads(facts.read_text())
     known["digests"][path.name] = hashlib.sha256(path.read_bytes()).hexdigest()
@@ -713,7 +713,7 @@ def test_bearings_in_plan_reach_the_ratio_that_governs(
     assert list(evaluated.frame.bearings)[int(shares.argmax())] == check.subject
     runs = load(results / f"runs-{check.bound}.nc")
     assert check.title == "normalised eccentricity e/a"
-    mean = runs["reached_eccentricity_loaded"].mean("run").to_numpy()
+    mean = runs["peak_eccentricity_loaded"].mean("run").to_numpy()
     raised = pd.read_csv(results / "eccentricity.csv")
     of = (raised["bound"] == check.bound) & (raised["quantity"] == "eccentricity loaded")
     assert shares == pytest.approx((mean + raised[of]["added"].max()) / check.limit, rel=1e-12)
@@ -736,9 +736,9 @@ def test_drifts_of_all_motions_over_the_height(storeys: int) -> None:
     lasting = np.zeros((7, 1))
     data = xr.Dataset(
         {
-            "reached_drift": (("run", "storey"), drift),
-            "reached_time_lifted": (("run", "bearing"), lasting),
-            "reached_gap": (("run", "bearing"), lasting),
+            "peak_drift": (("run", "storey"), drift),
+            "peak_time_lifted": (("run", "bearing"), lasting),
+            "peak_gap": (("run", "bearing"), lasting),
             "status": ("run", ["ok"] * 7),
             "motion": ("run", list("abcdefg")),
             "scale": ("run", np.ones(7)),

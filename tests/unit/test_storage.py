@@ -30,6 +30,14 @@ def test_round_trip_and_replacement(tmp_path: Path) -> None:
     assert [entry.name for entry in tmp_path.iterdir()] == ["run.nc"]
 
 
+def test_a_file_of_version_0_2_is_read_with_the_names_of_now(tmp_path: Path) -> None:
+    save(results().assign(reached_slip=2.0, reached_slip_at=3.0), tmp_path / "run.nc")
+    now = results().assign(peak_slip=2.0, peak_slip_at=3.0)
+    xr.testing.assert_identical(load(tmp_path / "run.nc"), now)
+    with load(tmp_path / "run.nc", lazy=True) as data:
+        xr.testing.assert_identical(data.load(), now)
+
+
 def test_a_link_and_the_rights_of_a_file_are_kept(tmp_path: Path) -> None:
     path, link = tmp_path / "run.nc", tmp_path / "latest.nc"
     save(results(1.0), path)

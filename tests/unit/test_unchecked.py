@@ -52,6 +52,7 @@ from frames.design.project.reading import read_project
 from frames.design.report.figures import VOID_TITLE, motions_figure
 from frames.design.report.numbers import run_tables
 from frames.design.report.words import Words
+from frames.results.recorded import is_of_all_steps
 from tests.spanish import untold
 
 CODES = {
@@ -200,7 +201,7 @@ def seven(data: xr.Dataset) -> xr.Dataset:
 def scaled(data: xr.Dataset, factors: np.ndarray) -> xr.Dataset:
     """Return runs that reached so many times as much."""
     by = xr.DataArray(factors, dims="run")
-    reached = {n: v for n, v in data.data_vars.items() if str(n).startswith("reached_")}
+    reached = {n: v for n, v in data.data_vars.items() if is_of_all_steps(n)}
     numbers = {n: v for n, v in reached.items() if v.dtype == float and "run" in v.dims}
     return data.assign({n: (v * by).transpose(*v.dims) for n, v in numbers.items()})
 

@@ -96,7 +96,7 @@ def run_level(
 
 def moved(data: xr.Dataset) -> FloatArray:
     """Return the peak displacements of the bearings [m]."""
-    return np.asarray(data["reached_displacement"].to_numpy())
+    return np.asarray(data["peak_displacement"].to_numpy())
 
 
 def factor_for(

@@ -54,10 +54,10 @@ def perform(task: tuple[int, bool], *, seed: int) -> dict[str, Any]:
         found[level] = {
             "status": str(data.attrs["status"]),
             "seconds": float(data.attrs["seconds_loop"]),
-            "base_shear": float(data["reached_base_shear"]),
+            "base_shear": float(data["peak_base_shear"]),
         }
         for name in (*REACHED, "eccentricity", "lifted"):
-            found[level][name] = data[f"reached_{name}"].to_numpy().tolist()
+            found[level][name] = data[f"peak_{name}"].to_numpy().tolist()
     return found
 
 

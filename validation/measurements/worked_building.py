@@ -183,7 +183,7 @@ def device_numbers(
     )
     found = demands_by_bound(history_demands(runs, parts.rules()))
     for bound, data in runs.items():
-        moved = data["reached_displacement"].sel(bearing=list(MIDDLE))
+        moved = data["peak_displacement"].sel(bearing=list(MIDDLE))
         found[bound]["centre"] = float(moved.mean())
     return found
 

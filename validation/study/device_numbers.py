@@ -161,5 +161,5 @@ def eccentricity_of(data: xr.Dataset, device: str) -> float | None:
     complete = np.array([str(s) in ("ok", "inaccurate") for s in own["status"].to_numpy()])
     if not complete.any():
         return None
-    reached = own["reached_eccentricity_loaded"].to_numpy()[complete]
+    reached = own["peak_eccentricity_loaded"].to_numpy()[complete]
     return float((reached.max(axis=tuple(range(1, reached.ndim))) > 1.0).mean())

@@ -192,7 +192,7 @@ def losses_of(
     """
     own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == name))
     down = runs.exceeded(COLLAPSE)
-    parts = repair(own["reached_drift"].to_numpy(), own["reached_floor_plan"].to_numpy())
+    parts = repair(own["peak_drift"].to_numpy(), own["peak_floor_plan"].to_numpy())
     parts |= {number: np.zeros_like(parts[number]) for number in left_out}
     whole = np.sum([*parts.values()], axis=0)
     scale = np.where(whole > 1.0, 1.0 / np.maximum(whole, 1.0), 1.0)

@@ -142,7 +142,7 @@ def ductilities_of(data: xr.Dataset, at_yield: Callable[[str], float]) -> Any:
     Shapes: result (runs,).
     """
     limits = np.array([at_yield(str(name)) for name in data["hinge"].to_numpy()])
-    return 1.0 + (data["reached_hinge_rotation"].to_numpy() / limits).max(axis=1)
+    return 1.0 + (data["peak_hinge_rotation"].to_numpy() / limits).max(axis=1)
 
 
 def ductilities(data: xr.Dataset) -> Any:

@@ -136,7 +136,7 @@ def found_of(
         if "median" in curve
     }
     models = devices()
-    bent = data["reached_rim_plastic"].max("bearing").to_numpy()
+    bent = data["peak_rim_plastic"].max("bearing").to_numpy()
     model = data["model"].to_numpy()
     return {
         "considered": at,

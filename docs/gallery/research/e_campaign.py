@@ -29,7 +29,7 @@ motion = GroundMotion(x=1.2 * np.sin(3.0 * t) * (t < 4.18), dt=0.01, name="pulse
 sample = latin_hypercube({"friction": uniform(0.03, 0.06), "radius": uniform(1.2, 0.8)}, 12, seed=1)
 store = mkdtemp() + "/friction"
 runs = Campaign(lumped_mass(bearing, mass=200e3), motion, store=store, sample=sample).run()
-peak = 1e3 * runs["reached_displacement"].max("bearing")
+peak = 1e3 * runs["peak_displacement"].max("bearing")
 plt.scatter(runs["friction"], peak, c=runs["radius"])
 plt.colorbar(label="radius [m]")
 plt.xlabel("friction coefficient [-]")

@@ -24,7 +24,7 @@ from frames.design.histories.suite import (
     suite_of_failures,
 )
 from frames.results.quantities import QUANTITIES
-from frames.results.recorded import REACHED
+from frames.results.recorded import PEAK
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -102,7 +102,7 @@ class Case:
     def each_way(self) -> tuple[dict[tuple[str, str], Amplification], str]:
         """By what each way raises each quantity, and which runs with moved masses failed."""
         found, failed = dict[tuple[str, str], Amplification](), []
-        raised = [name for name in _RAISED if all(REACHED + name in each for each in self.parts)]
+        raised = [name for name in _RAISED if all(PEAK + name in each for each in self.parts)]
         for way in self.ways:
             if any(way.there.failed):
                 why = way.there.reason
@@ -157,7 +157,7 @@ class Case:
 
     def keeps(self, name: str) -> bool:
         """Return whether the runs have a quantity."""
-        return REACHED + name in self.data.variables
+        return PEAK + name in self.data.variables
 
     def design(self, name: str) -> FloatArray:
         """Return the values for design of a quantity at each of its places.
@@ -322,7 +322,7 @@ def _refuse_runs(data: xr.Dataset, bound: str) -> None:
     if data.attrs.get("status", "ok") != "ok":
         msg = f"{what}: the batch was interrupted, runs are missing: run it again"
         raise CheckError(msg)
-    if "reached_uplifts" not in data.variables:
+    if "peak_uplifts" not in data.variables:
         msg = f"{what}: none could begin: {data['message'].to_numpy()[0]}"
         raise CheckError(msg)
     models = sorted({str(name) for name in data["model"].to_numpy()})
@@ -346,7 +346,7 @@ def _refuse_unlike(data: xr.Dataset, moved: xr.Dataset, bound: str) -> None:
     if odd:
         msg = f"{what}: masses_moved = {min(odd)!r} must be one of {', '.join(WAYS)}"
         raise CheckError(msg)
-    if "reached_uplifts" not in moved.variables:
+    if "peak_uplifts" not in moved.variables:
         msg = f"{what}: none could begin: {moved['message'].to_numpy()[0]}"
         raise CheckError(msg)
     if names_of(data, "displacement") != names_of(moved, "displacement"):

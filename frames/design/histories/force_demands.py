@@ -10,7 +10,7 @@ from frames.design._errors import CheckError
 from frames.design.histories.demand_table import said
 from frames.design.histories.eccentricity import Case, levels_of
 from frames.design.histories.suite import Raise, peaks_of_runs
-from frames.results.recorded import REACHED
+from frames.results.recorded import PEAK
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ def _factors(data: xr.Dataset, name: str, kind: _Kind, more: Raise) -> FloatArra
 
 def _acting(data: xr.Dataset, kind: _Kind) -> FloatArray:
     # All six forces of each section, (run, section, force, extreme, at once).
-    name, six = REACHED + kind.variable, kind.forces
+    name, six = PEAK + kind.variable, kind.forces
     if name not in data:
         msg = (
             "moved: its runs kept no forces of the structure: run them with Recording(forces=True)"
@@ -103,11 +103,11 @@ def _of_bound(case: Case, kind: _Kind, factors: FloatArray) -> pd.DataFrame:
         return np.asarray(np.einsum("rscwc->rscw", _acting(runs, kind)) * _SIGN)
 
     def at(runs: xr.Dataset) -> FloatArray:
-        times = runs[f"{REACHED}{kind.variable}_at"].transpose(*order).to_numpy()
+        times = runs[f"{PEAK}{kind.variable}_at"].transpose(*order).to_numpy()
         return times.reshape(runs.sizes["run"], -1, 6, 2)
 
     together, times = case.all_runs(lambda runs: _acting(runs, kind)), case.all_runs(at)
-    rest = data[f"{REACHED}{kind.variable}_at_rest"].transpose(*order[:-1]).to_numpy()[0]
+    rest = data[f"{PEAK}{kind.variable}_at_rest"].transpose(*order[:-1]).to_numpy()[0]
     own = np.einsum("rscwc->rscw", together)
     value, which = case.counted(own * _SIGN)
     added, ways = case.added(outward)

@@ -36,7 +36,7 @@ def resultant_offsets(
         Of a time history that recorded eccentricity, axial force, rims, sliding and slip.
     least_load : float
         Axial force over that at rest above which offsets count [-]. All runs keep those above 0.05
-        (`reached_eccentricity`) and above 0.5 (`reached_eccentricity_loaded`, which checks take).
+        (`peak_eccentricity`) and above 0.5 (`peak_eccentricity_loaded`, which checks take).
     limit : float
         Offset over the slider's radius, the time above which is given [-].
 

@@ -14,7 +14,7 @@ from frames.design.calculation.trace import Trace
 from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.results.peak_response import places_of, reached
-from frames.results.recorded import REACHED
+from frames.results.recorded import PEAK
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -185,10 +185,10 @@ class Suite:
 def peaks_of_runs(data: xr.Dataset, name: str) -> FloatArray:
     """Return what runs reached of a quantity, (n_runs, ...)."""
     if "run" in data.dims:
-        if REACHED + name not in data.variables:
+        if PEAK + name not in data.variables:
             msg = f"the runs keep no {name!r}, an earlier version made them: run them again"
             raise CheckError(msg)
-        return data.variables[REACHED + name].transpose("run", ...).to_numpy()
+        return data.variables[PEAK + name].transpose("run", ...).to_numpy()
     return reached(data, name)[None]
 
 
@@ -343,8 +343,8 @@ def shear_checks(
     found = [judged(t, BASE, "V", "")]
     if not storey:
         return found
-    if f"{REACHED}storey_shear" not in data.variables:
-        msg = "runs have no storey shears (reached_storey_shear): compute them anew"
+    if f"{PEAK}storey_shear" not in data.variables:
+        msg = "runs have no storey shears (peak_storey_shear): compute them anew"
         raise CheckError(msg)
     t = Trace()
     suite.enter(t, "V_st", peaks_of_runs(data, "storey_shear")[:, 0], "N")

@@ -22,7 +22,7 @@ from frames.results.level_doubts import (
     rims_are_unequal,
     travels,
 )
-from frames.results.recorded import REACHED
+from frames.results.recorded import PEAK
 from lir_element.texts import joined, worded
 from lir_element.units import STANDARD_GRAVITY
 
@@ -43,7 +43,7 @@ ON_AXIAL_STIFFNESS = (
 
 def note_of_impacts(data: xr.Dataset, bearings: Mapping[str, LIRBearing]) -> str:
     """Return what checks of forces say where bearings of default stiffness met rims with a slip."""
-    if "run" in data.dims and f"{REACHED}closing" not in data.variables:
+    if "run" in data.dims and f"{PEAK}closing" not in data.variables:
         return ""  # of an earlier version
     closing = np.nan_to_num(peaks_of_runs(data, "closing")).max(axis=0)
     devices = [bearings[name] for name in names_of(data, "displacement")]

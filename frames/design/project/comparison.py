@@ -22,7 +22,7 @@ from frames.design.project.level_runs import (
 )
 from frames.design.project.preliminary import preliminary
 from frames.results.quantities import DEMANDS
-from frames.results.recorded import REACHED
+from frames.results.recorded import PEAK
 from frames.solve.time_history import time_history
 from lir_element.errors import AnalysisWarning
 
@@ -165,7 +165,7 @@ def compared_histories(
         for device, frame in _frames_of(found.known.frame).items():
             model, motion = model_and_motion(parts, frame, found.known.motions, worst)
             data[device] = time_history(model, motion, level=given.level, dt=given.dt)
-    where = list(found.known.frame.bearings)[int(np.argmax(worst.of("reached_displacement")[0]))]
+    where = list(found.known.frame.bearings)[int(np.argmax(worst.of("peak_displacement")[0]))]
     return data, named_case(worst), where
 
 
@@ -179,7 +179,7 @@ def _largest(runs: Runs, name: str) -> FloatArray:
     found = []
     for part in runs.parts:
         count = part.sizes["run"]
-        if f"{REACHED}{name}" in part:
+        if f"{PEAK}{name}" in part:
             every = peaks_of_runs(part, name).reshape(count, -1)
             found.append(np.nanmax(every, axis=1, initial=0.0))
         else:

@@ -98,7 +98,7 @@ def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
 def most_displaced(runs: Runs) -> Runs:
     """Return the run that displaces a bearing most, of those with the masses where they are."""
     own = runs.centred
-    reached = np.nan_to_num(own.of("reached_displacement"), nan=-np.inf).max(axis=1)
+    reached = np.nan_to_num(own.of("peak_displacement"), nan=-np.inf).max(axis=1)
     return own.those(np.arange(len(own)) == reached.argmax())
 
 
@@ -190,7 +190,7 @@ def _of_all(
 
 def governing_motion(data: xr.Dataset, rules: HistoryRules) -> str:
     """Return the motion that displaces a bearing most, of the runs that count if any do."""
-    reached = data["reached_displacement"].max("bearing").to_numpy()
+    reached = data["peak_displacement"].max("bearing").to_numpy()
     failed = np.array(suite_of(data, rules).failed)
     counted = reached if failed.all() else np.where(failed, -np.inf, reached)
     return str(data["motion"].to_numpy()[int(np.argmax(counted))])

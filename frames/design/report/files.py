@@ -121,7 +121,7 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> tuple[Runs, xr.Da
     except (OSError, RuntimeError) as cause:  # the latter of HDF5, on a damaged part
         msg = f"{folder}: {cause}: `lir run` writes all files anew"
         raise ProjectError(msg) from cause
-    if any("reached_reaction_force" not in data for data in runs.parts):
+    if any("peak_reaction_force" not in data for data in runs.parts):
         version = kept["lir_dcfp_version"]
         msg = (
             f"the time histories in {folder} were made by a version ({version}) that kept no "

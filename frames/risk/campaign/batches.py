@@ -105,7 +105,7 @@ class Work:
                     except REFUSED as cause:
                         first = first or str(cause)
                         continue
-                    if "reached_until" in data:
+                    if "peak_until" in data:
                         found[name] = frame
                         break
                     first = first or str(data["message"].item())

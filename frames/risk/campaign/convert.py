@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from frames.results.chunks import digest_of
+from frames.results.recorded import with_present_names
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.batches import Batch
 from frames.risk.campaign.packages import lacking_packages
@@ -29,7 +30,7 @@ def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
     Returns
     -------
     CampaignStore
-        With the same rows, digest and histories. To run what it lacks, `Campaign.run` takes
+        With the same rows and histories. To run what it lacks, `Campaign.run` takes
         `accept_other_sources=True`.
 
     Raises
@@ -62,9 +63,10 @@ def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
         raise CampaignError(msg)
     whole = xr.open_zarr(folder / "runs.zarr", chunks=None, consolidated=False)
     results = whole[whole.attrs["results"]].drop_attrs(deep=False)
+    present = with_present_names(results)
     of_run = [name for name in results.coords if "run" in results[name].dims]
     rows = _loaded(results[of_run])
-    store.create(plan | {"format": FORMAT}, rows, _loaded(results.isel(run=slice(1))))
+    store.create(plan | {"format": FORMAT}, rows, _loaded(present.isel(run=slice(1))))
     for mark in sorted((folder / "done").glob("*.json")):
         number, told = int(mark.stem), json.loads(mark.read_text(encoding="utf-8"))
         own = slice(number * plan["batch"], (number + 1) * plan["batch"])
@@ -73,6 +75,8 @@ def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
         if digest_of([arrays]) != told["digest"]:
             msg = f"batch {number} of {old} is not as it was written: remove {mark}, and convert"
             raise CampaignError(msg)
+        now = with_present_names(found).data_vars.items()
+        arrays = {str(name): variable.to_numpy() for name, variable in now}
         parts = sorted((folder / "histories" / mark.stem).glob("*.zarr"))
         histories = [_loaded(xr.open_zarr(part, chunks=None, consolidated=False)) for part in parts]
         store.write(number, Batch(arrays, histories, told["warnings"], told.get("reused", 0)))

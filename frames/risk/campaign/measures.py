@@ -177,7 +177,7 @@ def _of_run(data: xr.Dataset, k: int) -> xr.Dataset:
     own = data.isel(run=k)
     if "time" not in own.dims:
         return own
-    until = float(own["reached_until"])
+    until = float(own["peak_until"])
     return own.isel(time=np.flatnonzero(own["time"].to_numpy() <= until * (1.0 + 1e-9)))
 
 
