@@ -130,6 +130,14 @@ class _WholeLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
         passes, builder = self._codegen._module_pass_manager()
         passes.run(self._final_module, builder)
 
+    def _finalize_specific(self) -> None:
+        # How addresses in loops are counted on takes a third of the time, and gives no speed.
+        llvm.set_option("", "-disable-lsr=1")
+        try:
+            super()._finalize_specific()
+        finally:
+            llvm.set_option("", "-disable-lsr=0")
+
 
 class _Flags(compiler.Flags):  # type: ignore[misc]  # numba has no types
     """Flags that are compared as fast as the dictionaries they are: typing does so all the time."""
