@@ -30,7 +30,7 @@ from numba.core.typed_passes import (
 )
 from numba.core.types.containers import BaseNamedTuple, BaseTuple
 from numba.core.types.misc import unliteral
-from numba.core.untyped_passes import FindLiterallyCalls, WithLifting
+from numba.core.untyped_passes import FindLiterallyCalls, InlineClosureLikes, WithLifting
 from numba.np.arrayobj import fix_integer_index, load_item, store_item
 
 from lir_element._compile.front_end import ShortPasses
@@ -371,8 +371,14 @@ class KernelLowering(NativeLowering):  # type: ignore[misc]  # numba has no type
             del context.mangler
 
 
-_NEEDLESS = (InlineOverloads, NopythonRewrites, WithLifting, FindLiterallyCalls)
-"""Steps for expressions of arrays, overloads and contexts, which kernels do not have."""
+_NEEDLESS = (
+    FindLiterallyCalls,
+    InlineClosureLikes,
+    InlineOverloads,
+    NopythonRewrites,
+    WithLifting,
+)
+"""Steps for closures, expressions of arrays, overloads and contexts, which kernels do not have."""
 
 
 class KernelPipeline(CompilerBase):  # type: ignore[misc]  # numba has no types
