@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 _MEMINFO, _PARENT, _COUNT, _ITEM_SIZE, _DATA, _SHAPE, _STRIDES = range(7)  # parts of an array
 
 
-_LONG_LOOPS = {"linear", "shared_tangent"}
+_LONG_LOOPS = {"coupling", "linear", "shared_tangent"}
 """Modules of products and factors of matrices: loops there may be long, others are not."""
 
 _BIT = partial(llvm.Constant, llvm.IntType(1))
