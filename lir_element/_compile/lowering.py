@@ -41,8 +41,8 @@ if TYPE_CHECKING:
 _MEMINFO, _PARENT, _COUNT, _ITEM_SIZE, _DATA, _SHAPE, _STRIDES = range(7)  # parts of an array
 
 
-_LONG_LOOPS = {"coupling", "linear", "shared_tangent"}
-"""Modules of products and factors of matrices: loops there may be long, others are not."""
+_LONG_LOOPS = {"contact", "coupling", "linear", "shared_tangent"}
+"""Modules and packages of products and factors of matrices: most of their time is in loops."""
 
 _BIT = partial(llvm.Constant, llvm.IntType(1))
 
@@ -131,7 +131,7 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
         self._once = {name: found[0] for name, found in values.items() if len(found) == 1}
         self._arguments: dict[str, int | None] = {}
         self._plain = not self.flags.nrt and not self._disable_sroa_like_opt
-        short = self.func_ir.func_id.modname.rpartition(".")[2] not in _LONG_LOOPS
+        short = _LONG_LOOPS.isdisjoint(self.func_ir.func_id.modname.split("."))
         self._ends = _ends_of_loops(self.blocks) if short else set()
 
     def _argument(self, name: str) -> int | None:
