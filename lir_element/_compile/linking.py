@@ -89,27 +89,32 @@ class PartLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
         return self.name, code, below, fndesc, result.environment, result.signature
 
     def _get_module_for_linking(self) -> Any:
-        # With all below, callers first: a function that nobody has called yet is not taken in.
         module = self._final_module.clone()
-        for library in _callers_first(self)[1:]:
-            part = isinstance(library, PartLibrary)
-            code = library._final_module if part else library._get_module_for_linking()
-            module.link_in(code, preserve=True)
-            self._reload_init.update(library._reload_init)
+        _take_in(self, module)
         return module
 
 
 _kernels: weakref.WeakValueDictionary[int, Any] = weakref.WeakValueDictionary()
 
 
-def _callers_first(top: PartLibrary) -> list[Any]:
+def _take_in(top: Any, module: Any) -> None:
+    # All below a library, callers first: a function that nobody has called yet is not taken in.
+    for library in _callers_first(top)[1:]:
+        part = isinstance(library, PartLibrary)
+        module.link_in(
+            library._final_module if part else library._get_module_for_linking(), preserve=True
+        )
+        top._reload_init.update(library._reload_init)
+
+
+def _callers_first(top: Any) -> list[Any]:
     seen: set[Any] = set()
     order: list[Any] = []
 
     def visit(library: Any) -> None:
         seen.add(library)
-        if isinstance(library, PartLibrary):
-            for callee in library.below():
+        if library is top or isinstance(library, PartLibrary):
+            for callee in library._linking_libraries:
                 if callee not in seen:
                     visit(callee)
         order.append(library)
@@ -125,10 +130,24 @@ class _WholeLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba has no types
         ll_module.data_layout = self._codegen._data_layout
         self._final_module.link_in(ll_module)
 
+    def finalize(self) -> None:
+        """Take in all below, each once, and make machine code of it."""
+        _take_in(self, self._final_module)
+        self._linking_libraries.clear()
+        super().finalize()
+
     def _optimize_final_module(self) -> None:
         # Once: numba's first round finds pairs of counted references, of which kernels have none.
         passes, builder = self._codegen._module_pass_manager()
         passes.run(self._final_module, builder)
+
+    def _finalize_specific(self) -> None:
+        # How addresses in loops are counted on takes a third of the time, and gives no speed.
+        llvm.set_option("", "-disable-lsr=1")
+        try:
+            super()._finalize_specific()
+        finally:
+            llvm.set_option("", "-disable-lsr=0")
 
 
 class _Flags(compiler.Flags):  # type: ignore[misc]  # numba has no types

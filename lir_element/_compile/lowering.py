@@ -11,11 +11,12 @@ from __future__ import annotations
 
 import hashlib
 from collections import defaultdict
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir as llvm
 from numba.core import ir, types
+from numba.core.analysis import compute_cfg_from_blocks
 from numba.core.cgutils import alloca_once, get_record_member
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import register_pass
@@ -29,7 +30,7 @@ from numba.core.typed_passes import (
 )
 from numba.core.types.containers import BaseNamedTuple, BaseTuple
 from numba.core.types.misc import unliteral
-from numba.core.untyped_passes import FindLiterallyCalls, WithLifting
+from numba.core.untyped_passes import FindLiterallyCalls, InlineClosureLikes, WithLifting
 from numba.np.arrayobj import fix_integer_index, load_item, store_item
 
 from lir_element._compile.front_end import ShortPasses
@@ -38,6 +39,12 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 _MEMINFO, _PARENT, _COUNT, _ITEM_SIZE, _DATA, _SHAPE, _STRIDES = range(7)  # parts of an array
+
+
+_LONG_LOOPS = {"contact", "coupling", "linear", "shared_tangent"}
+"""Modules and packages of products and factors of matrices: most of their time is in loops."""
+
+_BIT = partial(llvm.Constant, llvm.IntType(1))
 
 
 class Parts:
@@ -124,6 +131,8 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
         self._once = {name: found[0] for name, found in values.items() if len(found) == 1}
         self._arguments: dict[str, int | None] = {}
         self._plain = not self.flags.nrt and not self._disable_sroa_like_opt
+        short = _LONG_LOOPS.isdisjoint(self.func_ir.func_id.modname.split("."))
+        self._ends = _ends_of_loops(self.blocks) if short else set()
 
     def _argument(self, name: str) -> int | None:
         # The place of the argument that a bundle is, under whatever names; None if it is another.
@@ -160,6 +169,19 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
                 self._write(inst.target.name, index.name, inst.value.name)
                 return
         super().lower_inst(inst)
+        if id(inst) in self._ends:
+            self.builder.block.terminator.set_metadata("llvm.loop", self._kept_small())
+
+    def _kept_small(self) -> Any:
+        # What makes LLVM neither unroll a loop of unknown length nor make vectors of it.
+        no = [("llvm.loop.unroll.runtime.disable",), ("llvm.loop.vectorize.enable", False)]
+        wishes = [
+            self.module.add_metadata([llvm.MetaDataString(self.module, name), *map(_BIT, value)])
+            for name, *value in no
+        ]
+        loop = llvm.MDValue(self.module, wishes, name=str(len(self.module.metadata)))
+        loop.operands = (loop, *loop.operands)  # by which it is another than all others
+        return loop
 
     def loadvar(self, name: str) -> Any:
         """Return the value of a variable."""
@@ -306,6 +328,17 @@ class KernelLower(Lower):  # type: ignore[misc]  # numba has no types
         store_item(self.context, self.builder, kind, given, place)
 
 
+def _ends_of_loops(blocks: dict[int, Any]) -> set[int]:
+    # The jumps, by their identity, that go back to the beginning of a loop.
+    return {
+        id(blocks[label].terminator)
+        for header, loop in compute_cfg_from_blocks(blocks).loops().items()
+        for label in loop.body
+        if isinstance(blocks[label].terminator, ir.Jump)
+        and blocks[label].terminator.target == header
+    }
+
+
 def _short(name: str, argtypes: Any, *, abi_tags: Any = (), uid: Any = None) -> str:
     # The name of a kernel in LLVM: numba's has all fields of its bundles in it, 20 000 letters.
     kinds = hashlib.sha256("".join(map(_shown, argtypes)).encode()).hexdigest()[:24]
@@ -338,8 +371,14 @@ class KernelLowering(NativeLowering):  # type: ignore[misc]  # numba has no type
             del context.mangler
 
 
-_NEEDLESS = (InlineOverloads, NopythonRewrites, WithLifting, FindLiterallyCalls)
-"""Steps for expressions of arrays, overloads and contexts, which kernels do not have."""
+_NEEDLESS = (
+    FindLiterallyCalls,
+    InlineClosureLikes,
+    InlineOverloads,
+    NopythonRewrites,
+    WithLifting,
+)
+"""Steps for closures, expressions of arrays, overloads and contexts, which kernels do not have."""
 
 
 class KernelPipeline(CompilerBase):  # type: ignore[misc]  # numba has no types

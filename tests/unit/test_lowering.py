@@ -16,6 +16,7 @@ from numba.core.registry import cpu_target
 
 from lir_element._compile.cache import Sources
 from lir_element._compile.jit import WITH_PARTS, expanded, kernels_of
+from lir_element.kernels import linear
 
 pytestmark = pytest.mark.skipif(
     not WITH_PARTS or os.environ.get("NUMBA_DISABLE_JIT", "0") != "0", reason="nothing is compiled"
@@ -140,6 +141,24 @@ def test_a_kernel_gives_what_its_python_gives(function, inlined, i, tmp_path, mo
     assert data.inner.table.tobytes() == python.inner.table.tobytes()
     for ours, theirs in zip(data[:3], python[:3], strict=True):
         assert ours.tobytes() == theirs.tobytes()
+
+
+def sums(x: Any) -> float:
+    """A loop of unknown length."""
+    total = 0.0
+    for k in range(x.shape[0]):
+        total += x[k]
+    return total
+
+
+@pytest.mark.parametrize("module", [linear.__name__, __name__])
+def test_loops_are_unrolled_where_they_are_long(module: str, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setenv("LIR_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(sums, "__module__", module)
+    compiled: Any = kernels_of(Sources(tmp_path))(sums)
+    assert compiled(np.arange(99.0)) == 99 * 49.0
+    (code,) = compiled.inspect_llvm().values()
+    assert (code.count("fadd") > 1) == (module != __name__)
 
 
 @expanded
