@@ -6,7 +6,7 @@ from pathlib import Path
 
 import lir_element
 from lir_element._compile.cache import Sources
-from lir_element._compile.jit import expanded as expanded
+from lir_element._compile.jit import inlined_before_typing as inlined_before_typing
 from lir_element._compile.jit import kernels_of
 from lir_element._compile.jit import on_arrays as on_arrays
 
@@ -14,5 +14,5 @@ _SOURCES = Sources(Path(lir_element.__file__).parent, Path(__file__).parent)
 
 kernel = kernels_of(_SOURCES)
 
-inlined = kernels_of(_SOURCES, inline=True)
+inlined_by_llvm = kernels_of(_SOURCES, inline=True)
 """The same for kernels that become part of their callers (see `kernels_of`)."""

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from frames.exchange.account import Account, BaseRotations
+    from frames.exchange.import_report import BaseRotations, ImportReport
     from frames.model.sections import Section
     from frames.motion.ground_motion import GroundMotion
     from frames.statics.model_check import ModelCheck
@@ -215,7 +215,7 @@ class Frame(FrameEditor):
             On what was probably not meant: words that are not known, mass without weight, supports
             that do not let each bearing carry its column, a level on the bearings without mass.
         """
-        from frames.exchange.account import Options
+        from frames.exchange.import_report import Options
         from frames.exchange.to_frame import imported
 
         options = Options(
@@ -276,7 +276,7 @@ class Frame(FrameEditor):
         ModelWarning
             As `from_sap2000` does.
         """
-        from frames.exchange.account import Options
+        from frames.exchange.import_report import Options
         from frames.exchange.to_frame import imported
 
         options = Options(
@@ -415,9 +415,9 @@ class Frame(FrameEditor):
         return program_tables(self, data, units=units, stations=stations)
 
     @property
-    def imported(self) -> Account | None:
+    def imported(self) -> ImportReport | None:
         """What became of the file that the frame was read from; None of one that was built."""
-        return cast("Account | None", self._imported)
+        return cast("ImportReport | None", self._imported)
 
     def check(self, motion: GroundMotion | None = None) -> ModelCheck:
         """Add the model up, and say what looks as if given in other units or put in a wrong place.

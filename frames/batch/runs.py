@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from frames._types import BoolArray
 
-TAGS = DEVICE, HAZARD, BOUND, WAY = "device", "hazard_level", "bound", "masses_moved"
+TAGS = DEVICE, HAZARD, BOUND, MASS_SHIFT = "device", "hazard_level", "bound", "masses_moved"
 """Tags of a run beside its model, motion and scale: bearings in a comparison, level of the seismic
 action, bound of the properties, way in which masses were moved. Each is a coordinate along `run`;
 one that is not there is "" of all runs."""
@@ -98,12 +98,12 @@ class Runs(Rows):
     @property
     def centred(self) -> Runs:
         """The rows with the masses where they are."""
-        return self.those(self.of(WAY) == "")
+        return self.those(self.of(MASS_SHIFT) == "")
 
     @property
     def moved(self) -> Runs:
         """The rows with moved masses: accidental eccentricity."""
-        return self.those(self.of(WAY) != "")
+        return self.those(self.of(MASS_SHIFT) != "")
 
     def those(self, mask: BoolArray) -> Runs:
         """Return rows by a mask (n_runs,); rows that follow one another are not copied."""

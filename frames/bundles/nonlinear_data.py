@@ -71,7 +71,7 @@ class NonlinearElements(NamedTuple):
     change: Array  # (m,) g - g_old
     flow: Array  # (m,) flows, of the last step, and as guessed: from these are the deformations
     flow_old: Array
-    guess: Array
+    predicted: Array
     give: Array  # (m, WIDEST) derivatives of the flows by the part's deformations
     loose: Array  # (n,) 1 where the force of the step is not linear
     active: Array  # (m,) deformations of loose parts
@@ -150,7 +150,7 @@ def parts_arrays(
         change=each(),
         flow=each(),
         flow_old=each(),
-        guess=each(),
+        predicted=each(),
         give=np.zeros((m, WIDEST)),
         loose=np.zeros(n, np.int64),
         active=np.zeros(m, np.int64),

@@ -14,7 +14,7 @@ import typer
 from rich.markup import escape
 
 from frames.command.campaigns import campaign, campaign_status
-from frames.command.console import FAILED_CHECKS, err, out, project_in, say, told, trust
+from frames.command.console import FAILED_CHECKS, err, exit_codes, out, project_in, say, trust
 from frames.command.designing import propose
 from frames.command.viewing import compare, view
 
@@ -82,7 +82,7 @@ def new(
     from frames.design._errors import ProjectError
     from frames.design.project.example import write_example
 
-    with told():
+    with exit_codes():
         try:
             written = write_example(folder, code, example)
         except FileExistsError as cause:
@@ -96,13 +96,13 @@ def check(file: File = FILE) -> None:
     """Check a project's file, its model and motions; analyse it equivalent-linearly."""
     from frames.design.histories.motions import motion_checks
     from frames.design.project.design_run import from_memory, provisions_of
-    from frames.design.project.devices_beside import columns_by_type
     from frames.design.project.level_runs import said_of_runs
+    from frames.design.project.moat_and_dampers import columns_by_type
     from frames.design.project.preliminary import preliminary
     from frames.design.project.structure_statement import structure_rows
     from lir_element.tables import text_table
 
-    with told():
+    with exit_codes():
         parts = project_in(file)
         ground = preliminary(parts)
         say(parts.code().cited)
@@ -138,7 +138,7 @@ def run(
     from frames.design.report.files import UNFINISHED, write_run  # with figures
     from frames.results.storage import make_folder
 
-    with told():
+    with exit_codes():
         try:
             parts = project_in(file)
             make_folder(results)
@@ -172,7 +172,7 @@ def report(
     from frames.design.report.printing import print_report
     from frames.results.storage import refuse_links
 
-    with told():
+    with exit_codes():
         refuse_links(results)
         parts = project_in(file)
         known = preliminary(parts)
@@ -248,7 +248,7 @@ def bench(
     from frames.results.storage import csv_of, write_whole
 
     ways: list[Way] = []
-    with told():
+    with exit_codes():
         ground = preliminary(project_in(file))
         name, motion = next(iter(ground.motions.items()))
         say(f"{name}, {motion.duration:g} s; differences from the first line, at nominal friction")

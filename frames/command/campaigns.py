@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from frames.command.console import INTERRUPTED, say, told
+from frames.command.console import INTERRUPTED, exit_codes, say
 
 if TYPE_CHECKING:
     from frames.risk.campaign.campaign import Campaign
@@ -31,7 +31,7 @@ def campaign(
 
     Among the results a page, campaign.html, with its tables: runs, failures, responses, fragility.
     """
-    with told():
+    with exit_codes():
         _require_packages()
         from frames.design.project.source_files import SourceFiles
         from frames.results.storage import refuse_links
@@ -84,7 +84,7 @@ def campaign_status(
     store: Annotated[Path, typer.Argument(help="Folder of the results.")],
 ) -> None:
     """Tell how far a campaign is, also while it runs."""
-    with told():
+    with exit_codes():
         _require_packages()
         from frames.risk.campaign.store import open_campaign
 

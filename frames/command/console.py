@@ -26,7 +26,7 @@ out, err = Console(), Console(stderr=True)
 
 
 @contextmanager
-def told() -> Generator[None, None, None]:
+def exit_codes() -> Generator[None, None, None]:
     """Tell errors as lines and leave with their exit code; each warning is a line, once."""
     from frames._errors import ModelError, MotionError, without_numbers
     from frames.design._errors import CheckError, ProjectError

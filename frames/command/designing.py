@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from frames.command.console import FAILED_CHECKS, err, project_in, say, told
+from frames.command.console import FAILED_CHECKS, err, exit_codes, project_in, say
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -74,7 +74,7 @@ def propose(
     from frames.design.project.verification import section_of
     from frames.results.storage import make_folder
 
-    with told():
+    with exit_codes():
         least = _objective(objective)
         _require_one_size(verify, sizes)
         parts = project_in(file)

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from frames.command.console import out, project_in, say, told
+from frames.command.console import exit_codes, out, project_in, say
 
 
 def view(
@@ -23,7 +23,7 @@ def view(
     from frames.results.storage import refuse_links
     from frames.viewer import write_view  # with figures
 
-    with told():
+    with exit_codes():
         refuse_links(results)
         parts = project_in(file)
         runs, governing = read_histories(results, inputs_of(parts, preliminary(parts)))
@@ -53,7 +53,7 @@ def compare(
     from frames.results.storage import make_folder
     from lir_element.tables import text_table
 
-    with told():
+    with exit_codes():
         parts = project_in(file)
         make_folder(results)
         found = compare_project(parts, progress=True)

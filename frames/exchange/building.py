@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import astuple, dataclass, field
 from typing import TypeAlias
 
-from frames.exchange.account import Account
+from frames.exchange.import_report import ImportReport
 from frames.exchange.tables import Units
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -274,7 +274,7 @@ class Building:
     program: str  # of the file
     version: str  # of the file
     units: Units  # of the file
-    account: Account  # what was read, read as something else, and left out
+    account: ImportReport  # what was read, read as something else, and left out
     joints: dict[str, Joint] = field(default_factory=dict)
     materials: dict[str, Material] = field(default_factory=dict)
     sections: dict[str, FrameSection] = field(default_factory=dict)

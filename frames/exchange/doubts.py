@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING
 from frames._remedies import argument
 from frames.exchange.building import AreaLoad, JointLoad
 from frames.exchange.loads import OWN_MASS, Sizes, own_loads
+from frames.exchange.member_splitting import is_offset
 from frames.exchange.members import LEAST_FACTOR
-from frames.exchange.stations import is_offset
 from lir_element.elevations import SAME_PLACE
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from frames.exchange.account import Options
     from frames.exchange.building import Building, LineLoad, MassSource
+    from frames.exchange.import_report import Options
+    from frames.exchange.member_splitting import SplitMember
     from frames.exchange.members import Sections
     from frames.exchange.mesh import Mesh
     from frames.exchange.slabs import Slabs
-    from frames.exchange.stations import Divided
     from frames.exchange.supports import Places
     from frames.model.frame_data import FrameData
 
@@ -171,7 +171,7 @@ def _quoted(names: Iterable[str]) -> str:
     return ", ".join(f'"{name}"' for name in names)
 
 
-def note_members(building: Building, sections: Sections, divided: list[Divided]) -> None:
+def note_members(building: Building, sections: Sections, divided: list[SplitMember]) -> None:
     """Note frame objects that became something else: softened, divided, offset, cut."""
     account = building.account
     account.read_as(

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from frames._errors import ModelError
 from frames.exchange import etabs_fields as dialect
-from frames.exchange.account import Account, Options, judge_rest
 from frames.exchange.building import (
     AreaSection,
     Building,
@@ -22,6 +21,7 @@ from frames.exchange.building import (
 from frames.exchange.etabs_links import EtabsLinks, read_groups
 from frames.exchange.etabs_objects import Objects
 from frames.exchange.fields import refused, values
+from frames.exchange.import_report import ImportReport, Options, judge_rest
 from frames.exchange.loads import (
     add_area_load,
     add_combinations,
@@ -55,7 +55,7 @@ def read_etabs(path: str | Path, options: Options | None = None) -> Building:
     """Read an ETABS model."""
     file, given = Path(path), options or Options()
     tables = read_e2k(file, given.decimal)
-    account = Account(file.name, given.allow)
+    account = ImportReport(file.name, given.allow)
     program = tables.rows("PROGRAM")
     version = program[0].text("VERSION", "") if program else ""
     row = tables.needed("UNITS", "$ CONTROLS has the units; export it with the others")[0]
@@ -75,7 +75,7 @@ def read_etabs(path: str | Path, options: Options | None = None) -> Building:
     return building
 
 
-def _refuse_stages(tables: Tables, account: Account) -> None:
+def _refuse_stages(tables: Tables, account: ImportReport) -> None:
     rows = tables.rows("LOADCASE")
     staged = [r for r in rows if r.has("STAGE") or "STAGED" in r.text("TYPE", "").upper()]
     if staged:

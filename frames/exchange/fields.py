@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 from frames.exchange.tables import known
 
 if TYPE_CHECKING:
-    from frames.exchange.account import Account
     from frames.exchange.building import Building
+    from frames.exchange.import_report import ImportReport
     from frames.exchange.tables import Row, Units, Value
 
 
@@ -97,7 +97,7 @@ def is_none_of(*words: str) -> Callable[[str], bool]:
     return lambda text: text.strip().lower() not in words
 
 
-def refused(row: Row, name: str, account: Account, refusals: Iterable[Refusal]) -> bool:
+def refused(row: Row, name: str, account: ImportReport, refusals: Iterable[Refusal]) -> bool:
     """Refuse an object by its row, or note what `allow` accepts; return whether there was any."""
     found = False
     for refusal in refusals:

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
-from frames.exchange.account import Account
 from frames.exchange.building import (
     LINK_DOFS,
     Building,
@@ -28,6 +27,7 @@ from frames.exchange.building import (
     Pattern,
 )
 from frames.exchange.geometry import frame_axes
+from frames.exchange.import_report import ImportReport
 from frames.exchange.links import COINCIDENT, UPRIGHT
 from frames.exchange.members import MOMENTS
 from frames.exchange.pendulum_link import pendulum_link
@@ -55,7 +55,7 @@ def building_of(
     """Return a frame as a building for a program, in whose file units are those words say."""
     units = units_of(words, "units", ModelError)
     _refuse(frame, displacement, program)
-    building = Building(frame.name, program, words, units, Account(frame.name))
+    building = Building(frame.name, program, words, units, ImportReport(frame.name))
     _add_joints(frame, building)
     _add_members(frame, building)
     shells_of(frame, building)

@@ -14,7 +14,7 @@ from frames.model.sections import Section
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.exchange.building import Building, FrameObject, LineLoad
-    from frames.exchange.stations import Divided
+    from frames.exchange.member_splitting import SplitMember
     from frames.model.editing import FrameEditor
     from frames.model.loading import FrameLoader
 
@@ -75,7 +75,7 @@ class Sections:
             raise ModelError(message) from cause
 
 
-def add_members(frame: FrameEditor, divided: list[Divided], sections: Sections) -> None:
+def add_members(frame: FrameEditor, divided: list[SplitMember], sections: Sections) -> None:
     """Add the members of all frame objects to a frame that has their nodes."""
     for one in divided:
         given, last = one.frame, len(one.nodes) - 2
@@ -112,7 +112,7 @@ def add_members(frame: FrameEditor, divided: list[Divided], sections: Sections) 
 
 
 def add_line_load(
-    frame: FrameLoader, one: Divided, load: LineLoad, factor: float, case: str
+    frame: FrameLoader, one: SplitMember, load: LineLoad, factor: float, case: str
 ) -> None:
     """Add a load along a frame object, or a force on it, to its members and nodes.
 
@@ -150,7 +150,7 @@ def _size(load: LineLoad, share: float) -> FloatArray:
 
 def _on_member(
     frame: FrameLoader,
-    one: Divided,
+    one: SplitMember,
     load: LineLoad,
     flexible: tuple[float, float],
     part: tuple[float, float],
@@ -170,7 +170,7 @@ def _on_member(
     frame.add_tapered_load(member, first.tolist(), last.tolist(), a, min(b, true), case=case)
 
 
-def _resultant(one: Divided, load: LineLoad, a: float, b: float, at: FloatArray) -> FloatArray:
+def _resultant(one: SplitMember, load: LineLoad, a: float, b: float, at: FloatArray) -> FloatArray:
     # Force and moment about a node of the part from a to b: by two Gauss points, which is exact.
     found = np.zeros(6)
     for place, weight in _GAUSS:

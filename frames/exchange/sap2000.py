@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 from frames.exchange import sap2000_fields as dialect
-from frames.exchange.account import Account, Options, judge_rest
 from frames.exchange.building import (
     LINK_DOFS,
     AreaLoad,
@@ -25,6 +24,7 @@ from frames.exchange.building import (
     Pattern,
 )
 from frames.exchange.fields import refused, values
+from frames.exchange.import_report import ImportReport, Options, judge_rest
 from frames.exchange.loads import (
     add_area_load,
     add_combinations,
@@ -53,7 +53,7 @@ def read_sap2000(path: str | Path, options: Options | None = None) -> Building:
     """Read a SAP2000 model."""
     file, given = Path(path), options or Options()
     tables = read_excel(file) if file.suffix.lower() in _BOOKS else read_s2k(file, given.decimal)
-    account = Account(file.name, given.allow)
+    account = ImportReport(file.name, given.allow)
     row = tables.needed("PROGRAM CONTROL", "it has the units; export it with the others")[0]
     units = units_of(row.text("CurrUnits"), "CurrUnits", row.error)
     building = Building(file.stem, "SAP2000", row.text("Version", ""), units, account)

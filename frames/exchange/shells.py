@@ -22,8 +22,8 @@ from lir_element.opensees import opensees
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.exchange.building import Building
+    from frames.exchange.member_splitting import Points
     from frames.exchange.mesh import Inside, Mesh
-    from frames.exchange.stations import Points
     from frames.model.editing import FrameEditor
     from frames.model.frame_data import FrameData
     from frames.model.superelement import Superelement

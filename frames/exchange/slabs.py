@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.exchange.building import AreaObject, Building
+    from frames.exchange.member_splitting import SplitMember
     from frames.exchange.mesh import Mesh
-    from frames.exchange.stations import Divided
     from frames.model.editing import FrameEditor
     from frames.model.floors import PanelLoads
 
@@ -152,7 +152,7 @@ def _along_horizontal(frame: FrameEditor) -> dict[str, list[str]]:
 class Loading:
     """Puts loads of patterns on a frame; those of shells go to their nodes."""
 
-    def __init__(self, building: Building, divided: Mapping[str, Divided], mesh: Mesh) -> None:
+    def __init__(self, building: Building, divided: Mapping[str, SplitMember], mesh: Mesh) -> None:
         self.building, self.divided, self.mesh = building, divided, mesh
         self._elements = mesh.by_area()
 

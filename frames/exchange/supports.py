@@ -14,8 +14,8 @@ from frames.model.editing import stand
 from lir_element.elevations import SAME_PLACE, by_elevation
 
 if TYPE_CHECKING:
-    from frames.exchange.account import Options
     from frames.exchange.building import Building, Constraint
+    from frames.exchange.import_report import Options
     from frames.model.editing import FrameEditor
     from lir_element import LIRBearing
 

@@ -8,22 +8,22 @@ from typing import TYPE_CHECKING, TypeVar
 
 from frames._errors import ModelError, ModelWarning
 from frames._remedies import argument
-from frames.exchange.account import Options
 from frames.exchange.building import MassSource
 from frames.exchange.doubts import doubt_base, doubt_weights, note_areas, note_members
 from frames.exchange.etabs import read_etabs
+from frames.exchange.import_report import Options
 from frames.exchange.links import Links, yield_displacements
 from frames.exchange.loads import OWN_MASS, Sizes
+from frames.exchange.member_splitting import divide, under_loads
 from frames.exchange.members import Sections, add_members
 from frames.exchange.mesh import Mesh, mesh_areas
 from frames.exchange.sap2000 import read_sap2000
 from frames.exchange.shells import add_shells, choose_shells, meet_joints
 from frames.exchange.slabs import Loading, Slabs
-from frames.exchange.stations import divide, under_loads
 from frames.exchange.supports import Places, add_constraints, add_supports, levels_of
 from frames.model.editing import FrameEditor
 from frames.model.load_combinations import applied_loads, load_masses
-from lir_element._compile.front_end import without_collection
+from lir_element._compile.front_end import gc_paused
 from lir_element.elevations import SAME_PLACE
 from lir_element.texts import worded
 
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from frames.exchange.building import Building
-    from frames.exchange.stations import Divided, Points
+    from frames.exchange.member_splitting import Points, SplitMember
     from lir_element import LIRBearing
 
 _KINDS = (
@@ -54,7 +54,7 @@ def imported(
     """Return a program's model as a frame on bearings, and warn of what was probably not meant."""
     building = READERS[program](path, options)
     frame = kind(building.name if name is None else name)
-    with without_collection():  # loads by the hundred thousand: a third of the time
+    with gc_paused():  # loads by the hundred thousand: a third of the time
         devices = fill(frame, building, options)
     frame = frame.with_bearings(devices) if devices else frame
     building.account.groups = {
@@ -210,7 +210,7 @@ def _points(building: Building) -> Points:
 
 
 def _add_nodes(
-    frame: FrameEditor, building: Building, points: Points, mesh: Mesh, divided: list[Divided]
+    frame: FrameEditor, building: Building, points: Points, mesh: Mesh, divided: list[SplitMember]
 ) -> None:
     for name, place in points.items():
         frame.add_node(name, *place)
@@ -261,7 +261,9 @@ def _hold_edges(frame: FrameEditor, building: Building, places: Places, mesh: Me
     building.account.read_as("supports", what, free)
 
 
-def _hold_pins(frame: FrameEditor, building: Building, divided: list[Divided], mesh: Mesh) -> None:
+def _hold_pins(
+    frame: FrameEditor, building: Building, divided: list[SplitMember], mesh: Mesh
+) -> None:
     # Nodes at which every member is hinged: nothing holds their rotations.
     ends: dict[str, list[bool]] = {}
     for one in divided:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames._jit import inlined
+from frames._jit import inlined_by_llvm
 
 if TYPE_CHECKING:
     from frames.bundles.run_data import IntegratorSettings
 
 
-@inlined
+@inlined_by_llvm
 def effective(settings: IntegratorSettings, dt: float) -> tuple[float, float, float]:
     """Return the factors of mass, damping and stiffness in the effective stiffness of a step."""
     c_m = (1.0 - settings.alpha_m) / (settings.beta * dt * dt)
@@ -18,7 +18,7 @@ def effective(settings: IntegratorSettings, dt: float) -> tuple[float, float, fl
     return c_m, c_c, 1.0 - settings.alpha_f
 
 
-@inlined
+@inlined_by_llvm
 def rates_after(
     change: float, v: float, a: float, dt: float, beta: float, gamma: float
 ) -> tuple[float, float]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames._jit import inlined
+from frames._jit import inlined_by_llvm
 from frames.kernels.coupling import coupled_work
 from frames.kernels.nonlinear_works import part_energy_on
 from lir_element.kernels.linear import dot, set_product
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 
-@inlined
+@inlined_by_llvm
 def kinetic_energy(
     model: ReducedModel, v_b: Floats, v_e: Floats, flow: Floats, momentum: Floats
 ) -> float:
@@ -35,7 +35,7 @@ def kinetic_energy(
     return 0.5 * total
 
 
-@inlined
+@inlined_by_llvm
 def elastic_energy(model: ReducedModel, b: Floats, e: Floats, force: Floats) -> float:
     """Return the strain energy of the structure, geometric part included.
 
@@ -47,7 +47,7 @@ def elastic_energy(model: ReducedModel, b: Floats, e: Floats, force: Floats) -> 
     return 0.5 * total
 
 
-@inlined
+@inlined_by_llvm
 def damping_work(model: ReducedModel, run: IntegrationState) -> float:
     """Return the work of all damping of the structure over the step."""
     total = 0.0
@@ -78,7 +78,7 @@ def damping_work(model: ReducedModel, run: IntegrationState) -> float:
     return total
 
 
-@inlined
+@inlined_by_llvm
 def add_energy(
     model: ReducedModel, run: IntegrationState, parts: NonlinearElements | None, ground: Ground
 ) -> None:
@@ -125,7 +125,7 @@ def add_energy(
     energy.kinetic, energy.elastic = kinetic, elastic
 
 
-@inlined
+@inlined_by_llvm
 def add_bearing_energy(run: IntegrationState) -> None:
     """Set the bearings' terms of the energy from their accumulated works.
 
@@ -147,13 +147,13 @@ def add_bearing_energy(run: IntegrationState) -> None:
         energy.sliders += old.work_sliders
 
 
-@inlined
+@inlined_by_llvm
 def part_store(parts: NonlinearElements) -> float:
     """Return what parts store besides what the linear structure would: given less dissipated."""
     return float(parts.work[3] - parts.work[0] - parts.work[1] - parts.work[2])
 
 
-@inlined
+@inlined_by_llvm
 def add_part_energy(run: IntegrationState, parts: NonlinearElements) -> None:
     """Set the nonlinear parts' terms of the energy, and make the elastic one that of the truth."""
     energy = run.energy[0]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames._jit import expanded, inlined, kernel
+from frames._jit import inlined_before_typing, inlined_by_llvm, kernel
 from frames.bundles.run_data import MOST_HALVINGS
 from frames.kernels.coupling import coupled_load, eliminate_modes
 from frames.kernels.effective import effective, rates_after
@@ -91,7 +91,7 @@ def renew_products(model: ReducedModel, run: IntegrationState) -> None:
             set_product(model.damping_b, run.a_b, run.flows[3])
 
 
-@expanded
+@inlined_before_typing
 def set_load(
     model: ReducedModel,
     run: IntegrationState,
@@ -168,7 +168,7 @@ def set_load(
     add_product(model.mass_eb, run.g_e, 1.0, run.rhs_b)
 
 
-@expanded
+@inlined_before_typing
 def finish_step(
     model: ReducedModel,
     run: IntegrationState,
@@ -211,7 +211,7 @@ def finish_step(
         )
 
 
-@expanded
+@inlined_before_typing
 def try_step(
     model: ReducedModel,
     run: IntegrationState,
@@ -254,7 +254,7 @@ def try_step(
     return code
 
 
-@expanded
+@inlined_before_typing
 def limits(run: IntegrationState) -> int:
     """Return the status of the bearings' limits in the trial state."""
     for k in range(run.new.shape[0]):
@@ -264,7 +264,7 @@ def limits(run: IntegrationState) -> int:
     return _OK
 
 
-@expanded
+@inlined_before_typing
 def accept_step(
     model: ReducedModel,
     run: IntegrationState,
@@ -353,7 +353,7 @@ def balanced_rates(
         a_e[k] -= run.h_e[k]
 
 
-@inlined
+@inlined_by_llvm
 def record(
     model: ReducedModel,
     run: IntegrationState,
@@ -391,7 +391,7 @@ def record(
                 out.part_state[place, k, n] = parts.old[k, n]
 
 
-@expanded
+@inlined_before_typing
 def halve(run: IntegrationState) -> None:
     """Halve the step that is being tried."""
     run.clock[0].halvings += 1
@@ -399,7 +399,7 @@ def halve(run: IntegrationState) -> None:
     run.counts[0].halvings += 1
 
 
-@expanded
+@inlined_before_typing
 def try_substep(
     model: ReducedModel,
     run: IntegrationState,

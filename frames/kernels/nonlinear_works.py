@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames._jit import inlined, kernel
+from frames._jit import inlined_by_llvm, kernel
 from frames.assembly.system import (
     HERTZ,
     HINGES,
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 
-@inlined
+@inlined_by_llvm
 def plastic_work(parts: NonlinearElements, k: int) -> float:
     """Add what part `k` of the structure dissipated in the step (and stores by hardening)."""
     at = parts.first[k]
@@ -46,7 +46,7 @@ def plastic_work(parts: NonlinearElements, k: int) -> float:
     return float(done)
 
 
-@inlined
+@inlined_by_llvm
 def add_part_work(parts: NonlinearElements) -> None:
     """Add the step's works of all parts: of yielding, of dampers, of stops and ties."""
     for k in range(parts.kind.shape[0]):
@@ -61,7 +61,7 @@ def add_part_work(parts: NonlinearElements) -> None:
         parts.work[1 if damper else 2] += done
 
 
-@inlined
+@inlined_by_llvm
 def commit_parts(parts: NonlinearElements, beta: float, gamma: float, dt: float) -> None:
     """Accept the trial state of all parts, and their forces in frame coordinates."""
     add_part_work(parts)
@@ -88,7 +88,7 @@ def commit_parts(parts: NonlinearElements, beta: float, gamma: float, dt: float)
             parts.old[k, n] = parts.new[k, n]
 
 
-@inlined
+@inlined_by_llvm
 def part_energy_on(load: Floats, parts: NonlinearElements, to: Floats, step: Floats) -> float:
     """Return the work of the parts' forces g over a step of coordinates, by the trapezoid."""
     total = 0.0
@@ -103,7 +103,7 @@ def part_energy_on(load: Floats, parts: NonlinearElements, to: Floats, step: Flo
     return total
 
 
-@inlined
+@inlined_by_llvm
 def part_error(parts: NonlinearElements, ratio: float) -> float:
     """Return the squared second difference of the parts' forces, for the error of a step."""
     total = 0.0
@@ -114,7 +114,7 @@ def part_error(parts: NonlinearElements, ratio: float) -> float:
     return total
 
 
-@inlined
+@inlined_by_llvm
 def part_defect(parts: NonlinearElements) -> float:
     """Return the energy that stops make or lose by opening and closing within the step."""
     total = 0.0

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames._jit import inlined, kernel
+from frames._jit import inlined_by_llvm, kernel
 from frames.assembly.system import BOUC_WEN, HINGES, WIDEST
 from frames.kernels.effective import effective
 from frames.kernels.hinges import turn_hinges
@@ -74,7 +74,7 @@ def part_trial(
     return 1 if flow[at] != 0.0 or give[at, 0] != 0.0 else 0
 
 
-@inlined
+@inlined_by_llvm
 def try_part(parts: NonlinearElements, k: int, dt: float) -> int:
     """Run part `k` at its deformations, with the speeds that the time integration implies."""
     speed, known_v, known_a = (
@@ -111,7 +111,7 @@ def try_part(parts: NonlinearElements, k: int, dt: float) -> int:
     )
 
 
-@inlined
+@inlined_by_llvm
 def set_changes(parts: NonlinearElements) -> None:
     """Set the changes of the forces g of loose parts from their flows."""
     for k in range(parts.kind.shape[0]):
@@ -128,7 +128,7 @@ def set_changes(parts: NonlinearElements) -> None:
             parts.change[at + a] = total
 
 
-@inlined
+@inlined_by_llvm
 def pushed(parts: NonlinearElements, i: int, x: Floats) -> float:
     """Return the work that forces of a flow `i` of 1 do on deformations `x` (m,)."""
     k = parts.owner[i]
@@ -236,7 +236,7 @@ def follow_of(
             lead[a, i] = out[i, a]
 
 
-@inlined
+@inlined_by_llvm
 def set_mode_flexibility(
     model: ReducedModel, parts: NonlinearElements, c_m: float, c_c: float, c_k: float
 ) -> None:
@@ -245,7 +245,7 @@ def set_mode_flexibility(
         parts.modes[0, k] = 1.0 / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
 
 
-@inlined
+@inlined_by_llvm
 def set_part_follow(
     model: ReducedModel,
     run: IntegrationState,
@@ -269,7 +269,7 @@ def set_part_follow(
     )
 
 
-@inlined
+@inlined_by_llvm
 def row_of(model: ReducedModel, run: IntegrationState, parts: NonlinearElements, i: int) -> int:
     """Return the place in the pool of the row of flow `i` at the present step size."""
     at = run.clock[0].halvings

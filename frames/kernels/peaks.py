@@ -8,12 +8,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames._jit import inlined, kernel
+from frames._jit import inlined_by_llvm, kernel
 from frames.bundles.peak_data import ENERGY_TERMS, LOOSE
 from frames.kernels.quantities import (
     balance_gap,
+    bearing_quantities,
     closing_speed,
-    show_bearing,
     size,
     sliding_power,
 )
@@ -45,7 +45,7 @@ _YIELDING = ENERGY_TERMS.index("yielding")
 _NUMERICAL = ENERGY_TERMS.index("numerical")
 
 
-@inlined
+@inlined_by_llvm
 def raise_to(values: Floats, times: Floats, place: int, value: float, time: float) -> None:
     """Keep a value that is larger than those before, or the first that is not a number."""
     old = values[place]
@@ -53,7 +53,7 @@ def raise_to(values: Floats, times: Floats, place: int, value: float, time: floa
         values[place], times[place] = value, time
 
 
-@inlined
+@inlined_by_llvm
 def add_totals(p: Props, state: State, reached: Reached, k: int, t: float) -> None:
     """Add a step of a bearing to the sums over steps."""
     load = max(state.axial_force, 0.0)
@@ -71,7 +71,7 @@ def add_totals(p: Props, state: State, reached: Reached, k: int, t: float) -> No
     reached.lifted[k, 1] = 1.0 if lifted else 0.0
 
 
-@inlined
+@inlined_by_llvm
 def add_loose_slip(static: float, load: float, slip: float, reached: Reached, k: int) -> None:
     """Add what the slip of a bearing changed by in a step at whose end its sliders are loose."""
     if load <= LOOSE * static and reached.last[1] > 0.0:
@@ -79,7 +79,7 @@ def add_loose_slip(static: float, load: float, slip: float, reached: Reached, k:
     reached.loose[k, 1] = slip
 
 
-@inlined
+@inlined_by_llvm
 def met_with_slip(length: float, state: State, reached: Reached, k: int, t: float) -> float:
     """Return the closing speed at which a bearing met a rim in the last step, 0 if it did not."""
     old, slip, u, speed = reached.met[k], state.slip_total, state.displacement, 0.0
@@ -102,7 +102,7 @@ def peak_bearings(devices: Devices, reached: Reached, states: Records, row: int,
         u = state.displacement
         for axis in range(3):
             raise_to(reached.axis, reached.axis_at, axis, size(u[6 + axis] - u[axis]), t)
-        show_bearing(
+        bearing_quantities(
             p,
             state,
             devices.static[k],
@@ -167,7 +167,7 @@ def expand_steps(shape: Shape, out: Output, first: int, count: int) -> None:
     columns_times(shape.rates, shape.x_rate, shape.a)
 
 
-@inlined
+@inlined_by_llvm
 def sparse_row(start: Any, place: Any, value: Floats, row: int, of: Floats) -> float:
     """Return one row of a sparse map times a vector."""
     total = 0.0
@@ -176,7 +176,7 @@ def sparse_row(start: Any, place: Any, value: Floats, row: int, of: Floats) -> f
     return total
 
 
-@inlined
+@inlined_by_llvm
 def peak_motion(shape: Shape, reached: Reached, ground: Ground, s: int, t: float) -> None:
     """Take up accelerations of nodes and levels, drifts of storeys and of lines at one step."""
     n_nodes, n_levels, n_storeys = shape.sizes[0], shape.sizes[1], shape.sizes[2]
@@ -204,7 +204,7 @@ def peak_motion(shape: Shape, reached: Reached, ground: Ground, s: int, t: float
             raise_to(reached.line, reached.line_at, k - n_storeys, in_plan(x, y), t)
 
 
-@inlined
+@inlined_by_llvm
 def peak_shear(
     devices: Devices,
     shape: Shape,
@@ -230,7 +230,7 @@ def peak_shear(
     raise_to(reached.whole, reached.whole_at, 0, in_plan(x, y), t)
 
 
-@inlined
+@inlined_by_llvm
 def peak_storey_shear(
     shape: Shape, reached: Reached, states: Records, row: int, s: int, t: float
 ) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from numpy import absolute, maximum, sqrt
 
-from frames._jit import inlined
+from frames._jit import inlined_by_llvm
 from frames.bundles.peak_data import FULL_SLIP, LEAST_SHARE, LOADED, PRESSED
 from lir_element.kernels.derived import eccentricity, in_plan, in_space, resultant_offset
 
@@ -21,55 +21,55 @@ if TYPE_CHECKING:
     from lir_element.layout import Props, State
 
 
-@inlined
+@inlined_by_llvm
 def opposite(value: float) -> float:
     """Return what is largest where a value is least."""
     return -value
 
 
-@inlined
+@inlined_by_llvm
 def size(value: float) -> float:
     """Return the size of a number."""
     return absolute(value)
 
 
-@inlined
+@inlined_by_llvm
 def presses(force: float) -> float:
     """Return 1 where a force presses, else 0."""
     return 1.0 * (force > 0.0)
 
 
-@inlined
+@inlined_by_llvm
 def either(first: float, second: float) -> float:
     """Return the larger of two."""
     return maximum(first, second)
 
 
-@inlined
+@inlined_by_llvm
 def over_static(vertical_force: float, static: float) -> float:
     """Return a vertical force over the one under permanent loads."""
     return vertical_force / static
 
 
-@inlined
+@inlined_by_llvm
 def vertical_change(ratio: float) -> float:
     """Return by how much a vertical force differs from the static one, over it."""
     return absolute(ratio - 1.0)
 
 
-@inlined
+@inlined_by_llvm
 def is_lifted(ratio: float) -> float:
     """Return 1 where nothing presses, else 0."""
     return 1.0 * (ratio <= 0.0)
 
 
-@inlined
+@inlined_by_llvm
 def by_tilt(lever_bottom: float, lever_top: float, bottom: float, top: float) -> float:
     """Return by how much turns of the plates shift the centres of their spheres, C2 - C1 [m]."""
     return lever_bottom * bottom + lever_top * top
 
 
-@inlined
+@inlined_by_llvm
 def open_gap(
     across_x: float, across_y: float, rise: float, length: float, slip: float, axial_force: float
 ) -> float:
@@ -84,19 +84,19 @@ def open_gap(
     return gap * (axial_force <= 0.0)
 
 
-@inlined
+@inlined_by_llvm
 def interface_share(force: float, axial_force: float, static: float, friction: float) -> float:
     """Return the force of the interface over what its friction holds."""
     return force / (friction * maximum(axial_force, LEAST_SHARE * static))
 
 
-@inlined
+@inlined_by_llvm
 def slips(share: float) -> float:
     """Return 1 where the interface slips, else 0."""
     return 1.0 * (share >= FULL_SLIP)
 
 
-@inlined
+@inlined_by_llvm
 def pressed_eccentricity(
     eccentricity: float, slider_radius: float, axial_force: float, static: float, share: float
 ) -> float:
@@ -104,7 +104,7 @@ def pressed_eccentricity(
     return eccentricity / slider_radius * (axial_force > share * static)
 
 
-@inlined
+@inlined_by_llvm
 def closing_speed(
     slip_x: float, slip_y: float, way_x: float, way_y: float, time: float, length: float
 ) -> float:
@@ -117,20 +117,20 @@ def closing_speed(
     return closes / (time * sqrt(length * length + slip_x * slip_x + slip_y * slip_y))
 
 
-@inlined
+@inlined_by_llvm
 def sliding_power(load: float, friction: float, speed: float) -> float:
     """Return what the friction of a surface takes up under a load [N m/s]."""
     return load * friction * speed
 
 
-@inlined
+@inlined_by_llvm
 def balance_gap(given: float, absorbed: float) -> float:
     """Return by how much the terms of the energy differ from the input [J]."""
     return absolute(given - absorbed)
 
 
-@inlined
-def show_bearing(
+@inlined_by_llvm
+def bearing_quantities(
     p: Props, state: State, static: float, radius: float, height: float, floor: float, now: Any
 ) -> None:
     """Fill the quantities of a bearing at one step, `now`: all that `by_step` names."""

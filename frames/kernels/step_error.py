@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames._jit import expanded, inlined, kernel
+from frames._jit import inlined_before_typing, inlined_by_llvm, kernel
 from frames.kernels.nonlinear_works import part_defect, part_error
 from lir_element.kernels.levels import bearing_defect
 from lir_element.kernels.sampling import ground_acceleration
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 
-@inlined
+@inlined_by_llvm
 def opening(model: ReducedModel, k: int, axis: int, b: Floats) -> float:
     """Return how far `b` takes node j of bearing `k`: to the side, or up from node i."""
     total = 0.0
@@ -35,7 +35,7 @@ def opening(model: ReducedModel, k: int, axis: int, b: Floats) -> float:
     return total
 
 
-@expanded
+@inlined_before_typing
 def rate(model: ReducedModel, run: IntegrationState, k: int, axis: int) -> float:
     """Return the acceleration of bearing `k`'s `opening` along an axis about the step's start.
 
@@ -46,7 +46,7 @@ def rate(model: ReducedModel, run: IntegrationState, k: int, axis: int) -> float
     return change / (0.5 * (clock.dt + clock.dt_before))
 
 
-@expanded
+@inlined_before_typing
 def lifting(model: ReducedModel, run: IntegrationState, ground: Ground, k: int) -> float:
     """Return the vertical acceleration of bearing `k`'s node j to i about the start of the step.
 
@@ -58,7 +58,7 @@ def lifting(model: ReducedModel, run: IntegrationState, ground: Ground, k: int) 
     return found
 
 
-@expanded
+@inlined_before_typing
 def driven(run: IntegrationState, ground: Ground, axis: int) -> tuple[float, float]:
     """Return the bearings' force over the mass they carry, and the ground's acceleration.
 
@@ -111,7 +111,7 @@ def ringing(
     return lost
 
 
-@expanded
+@inlined_before_typing
 def bend(run: IntegrationState, k: int, axis: int) -> float:
     """Return how far the force on node j of bearing `k` is from linear over two steps."""
     clock = run.clock[0]
@@ -120,7 +120,7 @@ def bend(run: IntegrationState, k: int, axis: int) -> float:
     return float(new - old - ratio * (old - run.push[k, axis]))
 
 
-@expanded
+@inlined_before_typing
 def turned(a_1: float, a_2: float, b_1: float, b_2: float) -> float:
     """Return the angle from (a_1, a_2) to (b_1, b_2), zero where one of them is none."""
     return math.atan2(a_1 * b_2 - a_2 * b_1, a_1 * b_1 + a_2 * b_2)
@@ -201,7 +201,7 @@ def estimated_error(
     return factor * error
 
 
-@expanded
+@inlined_before_typing
 def is_rough(
     model: ReducedModel,
     run: IntegrationState,
@@ -233,7 +233,7 @@ def is_rough(
     return clock.share > 1.0
 
 
-@expanded
+@inlined_before_typing
 def keep_motion(
     model: ReducedModel, run: IntegrationState, settings: IntegratorSettings, ground: Ground
 ) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames._jit import expanded, inlined, kernel
+from frames._jit import inlined_before_typing, inlined_by_llvm, kernel
 from frames.kernels.shared_tangent import (
     add_element_to_blocks,
     factorise_blocks,
@@ -53,7 +53,7 @@ _TAKE, _SHORTEN, _LEAVE = range(3)  # what is done with a corrected step
 _GRAVITY_WORTH = 3.0  # iterations that save a tangent of all coordinates under permanent loads
 
 
-@inlined
+@inlined_by_llvm
 def bearing_forces(
     model: ReducedModel, run: IntegrationState, contacts: Contacts | None, b: Floats, v_b: Floats
 ) -> int:
@@ -80,7 +80,7 @@ def bearing_forces(
     return worst
 
 
-@expanded
+@inlined_before_typing
 def bearing_tangents(
     model: ReducedModel,
     run: IntegrationState,
@@ -131,7 +131,7 @@ def norm(x: Floats) -> float:
     return math.sqrt(total)
 
 
-@inlined
+@inlined_by_llvm
 def set_residual(
     model: ReducedModel,
     run: IntegrationState,
@@ -169,7 +169,7 @@ def set_residual(
     return norm(run.residual)
 
 
-@inlined
+@inlined_by_llvm
 def solve_tangent(model: ReducedModel, run: IntegrationState, share: float, x: Floats) -> None:
     """Solve for the right-hand side `x` (n_b,) in place, with the tangent of many bearings.
 
@@ -202,7 +202,7 @@ def solve_tangent(model: ReducedModel, run: IntegrationState, share: float, x: F
     )
 
 
-@inlined
+@inlined_by_llvm
 def predict(model: ReducedModel, run: IntegrationState, linear: Floats, share: float) -> None:
     """Set a guess of ``run.step`` that takes no state determination.
 
@@ -240,7 +240,7 @@ def predict(model: ReducedModel, run: IntegrationState, linear: Floats, share: f
         run.step[a] += run.residual[a]
 
 
-@expanded
+@inlined_before_typing
 def renew_tangent(
     model: ReducedModel,
     run: IntegrationState,
@@ -280,7 +280,7 @@ def renew_tangent(
     return factorise(run.tangent, run.order)
 
 
-@inlined
+@inlined_by_llvm
 def set_trial(run: IntegrationState, corrected: bool, factor: float) -> None:
     """Set the step that is tried: `run.step`, or `run.g_b` with a share of the correction."""
     if corrected:
@@ -326,7 +326,7 @@ def needed_tangent(
     return _WHOLE if need == _SHARED and not new * fall**worth <= tolerance else less
 
 
-@inlined
+@inlined_by_llvm
 def set_correction(model: ReducedModel, run: IntegrationState, share: float, secants: int) -> int:
     """Set Newton's correction `run.h_b` with the present tangent.
 
@@ -349,7 +349,7 @@ def set_correction(model: ReducedModel, run: IntegrationState, share: float, sec
     )
 
 
-@inlined
+@inlined_by_llvm
 def newton(
     model: ReducedModel,
     run: IntegrationState,
@@ -471,7 +471,7 @@ def solve_gravity(
     return _OK
 
 
-@inlined
+@inlined_by_llvm
 def commit_bearings(model: ReducedModel, run: IntegrationState, contacts: Contacts | None) -> None:
     """Accept the trial states and forces of all bearings."""
     for k in range(run.old.shape[0]):

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from frames._jit import inlined
+from frames._jit import inlined_by_llvm
 from frames.kernels.effective import effective
 from frames.kernels.part_states import (
     add_rows,
@@ -40,7 +40,7 @@ _LESS = 0.7  # of the error before: then a step does
 _FLAT = 0.2  # of the slope of the potential at the start of a step: then it does, too
 
 
-@inlined
+@inlined_by_llvm
 def begin_parts(
     model: ReducedModel,
     run: IntegrationState,
@@ -78,24 +78,24 @@ def begin_parts(
         if flows:
             activate(parts, k)
             for i in range(parts.first[k], parts.first[k + 1]):
-                parts.guess[i] = ratio * parts.flow_old[i]
+                parts.predicted[i] = ratio * parts.flow_old[i]
     m = parts.d.shape[0]
     if parts.counts[0].rows + m > parts.pool.shape[0]:  # room for a row each
         parts.slot[:, :] = 0
         parts.counts[0].rows = 0
 
 
-@inlined
+@inlined_by_llvm
 def activate(parts: NonlinearElements, k: int) -> None:
     """Add a part to the loose ones."""
     parts.loose[k] = 1
     for i in range(parts.first[k], parts.first[k + 1]):
         parts.active[parts.counts[0].active] = i
-        parts.guess[i] = 0.0
+        parts.predicted[i] = 0.0
         parts.counts[0].active += 1
 
 
-@inlined
+@inlined_by_llvm
 def add_flows(
     model: ReducedModel,
     run: IntegrationState,
@@ -115,7 +115,7 @@ def add_flows(
     return count > 0
 
 
-@inlined
+@inlined_by_llvm
 def try_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> float:
     """Run the loose parts and return the size of what they lack; infinite without a state.
 
@@ -141,7 +141,7 @@ def try_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElemen
     return size
 
 
-@inlined
+@inlined_by_llvm
 def list_live(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """List the flows that deformations change or that are not as guessed.
 
@@ -151,7 +151,7 @@ def list_live(model: ReducedModel, run: IntegrationState, parts: NonlinearElemen
     for n in range(parts.counts[0].active):
         i = parts.active[n]
         k = parts.owner[i]
-        changes = parts.flow[i] != parts.guess[i]
+        changes = parts.flow[i] != parts.predicted[i]
         for q in range(parts.first[k + 1] - parts.first[k]):
             changes = changes or parts.give[i, q] != 0.0
         if changes:
@@ -163,7 +163,7 @@ def list_live(model: ReducedModel, run: IntegrationState, parts: NonlinearElemen
     return bool(same and count == parts.counts[0].factors)
 
 
-@inlined
+@inlined_by_llvm
 def factorise_parts(run: IntegrationState, parts: NonlinearElements) -> bool:
     """Factorise the matrix of the live flows; returns False where it is singular.
 
@@ -191,7 +191,7 @@ def factorise_parts(run: IntegrationState, parts: NonlinearElements) -> bool:
     return False
 
 
-@inlined
+@inlined_by_llvm
 def set_newton_step(
     model: ReducedModel, run: IntegrationState, parts: NonlinearElements, keep: bool
 ) -> int:
@@ -205,7 +205,7 @@ def set_newton_step(
         return -1
     count = parts.counts[0].live
     for n in range(count):
-        parts.vector[n] = parts.guess[parts.live[n]] - parts.flow[parts.live[n]]
+        parts.vector[n] = parts.predicted[parts.live[n]] - parts.flow[parts.live[n]]
     factors = parts.matrix[: count * count].reshape((count, count))
     substitute(factors, parts.order, parts.vector)
     for i in range(parts.way.shape[0]):
@@ -216,28 +216,28 @@ def set_newton_step(
     return 1 if kept else 0
 
 
-@inlined
+@inlined_by_llvm
 def go_along(parts: NonlinearElements, share: float) -> None:
     """Move the loose deformations and the guessed flows by a share of Newton's step."""
     for n in range(parts.counts[0].active):
         parts.d[parts.active[n]] += share * parts.way[parts.active[n]]
     for n in range(parts.counts[0].live):
-        parts.guess[parts.live[n]] += share * parts.right[n, 0]
+        parts.predicted[parts.live[n]] += share * parts.right[n, 0]
 
 
-@inlined
+@inlined_by_llvm
 def ascent(parts: NonlinearElements) -> float:
     """Return the derivative of the potential along Newton's step; zero where it is smallest."""
     total = 0.0
     for n in range(parts.counts[0].active):
         i = parts.active[n]
-        over = parts.flow[i] - parts.guess[i]
+        over = parts.flow[i] - parts.predicted[i]
         if over != 0.0:
             total += over * pushed(parts, i, parts.way)
     return total
 
 
-@inlined
+@inlined_by_llvm
 def newton_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Bring the loose parts into equilibrium with the frame; returns whether that succeeded.
 
@@ -291,7 +291,7 @@ def newton_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearEle
         here, tries = there, tries + 1
 
 
-@inlined
+@inlined_by_llvm
 def follow_step(parts: NonlinearElements, step: Floats) -> None:
     """Guess how the loose parts flow at a step of b from how they did at the one tried before."""
     for n in range(parts.counts[0].gains):
@@ -300,28 +300,28 @@ def follow_step(parts: NonlinearElements, step: Floats) -> None:
             total = 0.0
             for a in range(step.shape[0]):
                 total += parts.gain[n, a] * (step[a] - parts.at[a])
-            parts.guess[i] += total
+            parts.predicted[i] += total
     for a in range(step.shape[0]):
         parts.at[a] = step[a]
 
 
-@inlined
+@inlined_by_llvm
 def start_loose(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Set the deformations by the guessed flows; returns whether any is guessed."""
     for i in range(parts.d.shape[0]):
         parts.d[i] = parts.linear[i]
-    return add_flows(model, run, parts, parts.guess, parts.d)
+    return add_flows(model, run, parts, parts.predicted, parts.d)
 
 
-@inlined
+@inlined_by_llvm
 def forget_guess(parts: NonlinearElements) -> None:
     """Guess that nothing flows, whatever b does."""
     parts.counts[0].gains = 0
     for n in range(parts.counts[0].active):
-        parts.guess[parts.active[n]] = 0.0
+        parts.predicted[parts.active[n]] = 0.0
 
 
-@inlined
+@inlined_by_llvm
 def settle_parts(
     model: ReducedModel, run: IntegrationState, parts: NonlinearElements, step: Floats
 ) -> bool:
@@ -357,14 +357,14 @@ def settle_parts(
         if not more:
             for n in range(parts.counts[0].active):  # what the frame has: so no errors add up
                 i = parts.active[n]
-                parts.d[i], parts.guess[i] = parts.framed[i], parts.flow[i]
+                parts.d[i], parts.predicted[i] = parts.framed[i], parts.flow[i]
             set_changes(parts)
             return True
         turns += 1
     return False
 
 
-@inlined
+@inlined_by_llvm
 def add_part_forces(run: IntegrationState, parts: NonlinearElements, out: Floats) -> None:
     """Take the change of the forces g from a residual of b."""
     follow = parts.follow[run.clock[0].halvings]
@@ -376,7 +376,7 @@ def add_part_forces(run: IntegrationState, parts: NonlinearElements, out: Floats
                 out[a] -= value * follow[i, a]
 
 
-@inlined
+@inlined_by_llvm
 def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Add what the loose parts do to ``run.tangent``; returns False where they are singular."""
     parts.counts[0].gains = 0
@@ -414,7 +414,7 @@ def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: Nonlinea
     return True
 
 
-@inlined
+@inlined_by_llvm
 def part_load_on_modes(parts: NonlinearElements, out: Floats) -> None:
     """Take the change of the forces g from loads on the modes."""
     for n in range(parts.counts[0].active):

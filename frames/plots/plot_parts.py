@@ -17,7 +17,7 @@ from frames.plots.model_geometry import hinge_places, member_lines
 from frames.plots.plot_model import AT_REST, frame_of
 from frames.recording.recovery import require_own
 from frames.results.formulas import hinge_rotation
-from frames.results.peak_response import largest, left
+from frames.results.peak_response import final_value, largest
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
@@ -228,7 +228,7 @@ def _chosen(systems: Mapping[str, xr.Dataset], links: str | Collection[str] | No
     first = next(iter(systems.values()))
     known = [str(name) for name in first["link"].to_numpy()]
     if links is None:
-        work = np.abs(left(first, "link_work"))
+        work = np.abs(final_value(first, "link_work"))
         most = np.argsort(-work, kind="stable")[: min(MOST, max(1, int((work > 0.0).sum())))]
         names = [known[k] for k in sorted(most)]
     else:

@@ -9,7 +9,7 @@ import numpy as np
 from frames.assembly.system import N_PLASTIC, WORK_DONE
 from frames.kernels.hinges import place
 from frames.model.components import hinge_name, hinged_ends
-from frames.results.peak_response import Extreme, extreme_of, later
+from frames.results.peak_response import Extreme, extreme_of, larger_of
 from frames.results.recorded import require_recorded
 from lir_element.results.dataset import labelled
 
@@ -149,7 +149,7 @@ def _places(end: int) -> list[int]:
     return [place(end, part) for part in range(3)]
 
 
-class PartGauge:
+class NonlinearPeaks:
     """Keeps what nonlinear parts reached; of a structure without any, nothing."""
 
     def __init__(self, state: GravityState, model: FrameData) -> None:
@@ -170,7 +170,7 @@ class PartGauge:
             if len(time):
                 now = extreme_of(values, time)
                 before = self._reached.get(name)
-                self._reached[name] = now if before is None else later(before, now)
+                self._reached[name] = now if before is None else larger_of(before, now)
 
     def reached(self) -> dict[str, Extreme]:
         """Return what was reached, by quantity."""

@@ -10,7 +10,7 @@ import xarray as xr
 from frames.recording.recording import Recording
 from frames.results.envelopes import EXTREMES
 from frames.results.formulas import rims_met
-from frames.results.peak_response import Extreme, extreme_of, later, storeys_of_lines
+from frames.results.peak_response import Extreme, extreme_of, larger_of, storeys_of_lines
 from frames.results.quantities import LEFT, PEAKS, QUANTITIES, TOTALS
 from frames.results.recorded import PEAK
 from lir_element.results.dataset import labelled
@@ -124,7 +124,7 @@ class Reduction:
             first + count, parts, held, contact, last_kept, reached, totals, extremes, tail
         )
 
-    def judgeable(self) -> xr.Dataset:
+    def without_histories(self) -> xr.Dataset:
         """Return what the check reads of a run that was taken up to its end: no histories."""
         state = self._state
         tail = _tail(state)
@@ -134,7 +134,7 @@ class Reduction:
         return with_peak_state(_without_time(tail), found)
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
-        """Return the result: what `judgeable` gave, judged, with what is recorded besides."""
+        """Return what `without_histories` gave, judged, with what is recorded besides."""
         state, tail = self._state, _tail(self._state)
         self._state = state._replace(parts=())
         data = self._selected(judged)
@@ -204,7 +204,7 @@ class Reduction:
                 continue
             both = [extreme_of(sign * values[fresh], time[fresh]) for sign in (1.0, -1.0)]
             if name in old:
-                both = [later(a, b) for a, b in zip(old[name], both, strict=True)]
+                both = [larger_of(a, b) for a, b in zip(old[name], both, strict=True)]
             found[name] = (both[0], both[1])
         return found
 
@@ -239,14 +239,14 @@ def reduced(data: xr.Dataset, recording: Recording) -> xr.Dataset:
     """Return what a recording keeps of a result that holds all steps, its attributes kept."""
     reduction = Reduction(recording)
     reduction.take(data, 0, final=True)
-    return reduction.recorded(reduction.judgeable().assign_attrs(data.attrs))
+    return reduction.recorded(reduction.without_histories().assign_attrs(data.attrs))
 
 
-def judgeable_of(data: xr.Dataset) -> xr.Dataset:
+def without_histories_of(data: xr.Dataset) -> xr.Dataset:
     """Return what the check reads of a result that holds all steps, without its histories."""
     reduction = Reduction(Recording(every=None))
     reduction.take(data, 0, final=True)
-    return reduction.judgeable().assign_attrs(data.attrs)
+    return reduction.without_histories().assign_attrs(data.attrs)
 
 
 def _measured(
@@ -259,7 +259,7 @@ def _measured(
     reached, totals = {}, {}
     for name in present_quantities(piece):
         now = extreme_of(QUANTITIES[name].of(piece)[begin:end], time)
-        reached[name] = later(state.reached[name], now) if name in state.reached else now
+        reached[name] = larger_of(state.reached[name], now) if name in state.reached else now
     for name, total in TOTALS.items():
         now_total = total.of(piece, begin, end)
         totals[name] = state.totals[name] + now_total if name in state.totals else now_total

@@ -25,7 +25,7 @@ from frames.results.bearing_findings import (
 from frames.results.findings import Finding, Findings, by_whom, finding, percent
 from frames.results.formulas import left_out
 from frames.results.level_doubts import levels_of_bearings
-from frames.results.peak_response import largest, total
+from frames.results.peak_response import largest, summed
 from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
 from lir_element.texts import joined, worded
@@ -167,7 +167,7 @@ def _rims(data: xr.Dataset, out: bool) -> Finding:
     if out or not met.values.any():
         text = worded("reached {share} of the displacement capacity", share=percent(share))
         return finding("rims", out, out and mattered, share, text)
-    bent = total(data, "rim_plastic")
+    bent = summed(data, "rim_plastic")
     text = joined(worded("met by {whom}", whom=by_whom(met)), _bent_rims(data, bent))
     return finding("rims", out, True, share, text, doubtful=np.isinf(bent).any())
 
@@ -224,7 +224,7 @@ def _loose_slip(data: xr.Dataset) -> str:
     slips, moved = largest(data, "slip").values, largest(data, "displacement").values
     tilts = data.variables["rim_displacement"].to_numpy() / data.variables["radius"].to_numpy()
     room = data.variables["length"].to_numpy() * tilts.min(axis=1)  # until a rim is met
-    free = bodies * np.minimum(total(data, "slip_loose"), slips - np.maximum(moved - room, 0.0))
+    free = bodies * np.minimum(summed(data, "slip_loose"), slips - np.maximum(moved - room, 0.0))
     k = int(np.argmax(free))
     by, least = float(free[k]), BARE * float(data["slider_radius"][k])
     if not by > max(LOOSE_SLIP * float(slips.max()), least):
@@ -272,8 +272,8 @@ def _velocity_dependence(data: xr.Dataset, out: bool) -> Finding:
     if not data.variables["friction_drop"].to_numpy().any():
         text = "no friction depends on speed"
         return finding("velocity_dependence", out, False, 0.0, text)
-    work = float(total(data, "sliding_work"))
-    share = float(total(data, "sliding_work_lower")) / work if work > 0.0 else 0.0
+    work = float(summed(data, "sliding_work"))
+    share = float(summed(data, "sliding_work_lower")) / work if work > 0.0 else 0.0
     text = worded(
         "over the paths slid, friction is {share} below that at high speed", share=percent(share, 1)
     )
@@ -312,7 +312,7 @@ def _pressure_dependence(data: xr.Dataset, out: bool) -> Finding:
     if "pressure_rate" not in data or not data.variables["pressure_rate"].to_numpy().any():
         text = "no friction depends on pressure"
         return finding("pressure_dependence", out, False, 0.0, text)
-    share = _ratio(float(total(data, "sliding_work_pressed")), float(total(data, "sliding_work")))
+    share = _ratio(float(summed(data, "sliding_work_pressed")), float(summed(data, "sliding_work")))
     text = worded("over the paths slid, it changes friction by {share}", share=percent(share, 1))
     return finding("pressure_dependence", out, share > SMALL["pressure_dependence"], share, text)
 
@@ -321,7 +321,7 @@ def _friction_heating(data: xr.Dataset, out: bool) -> Finding:
     if "softening_rate" not in data or not data.variables["softening_rate"].to_numpy().any():
         text = "no friction depends on temperature"
         return finding("friction_heating", out, False, 0.0, text)
-    share = _ratio(float(total(data, "sliding_work_heated")), float(total(data, "sliding_work")))
+    share = _ratio(float(summed(data, "sliding_work_heated")), float(summed(data, "sliding_work")))
     hottest = float(np.nanmax(largest(data, "temperature").values[:, :2]))
     text = worded(
         "the surfaces reached {hottest:.0f} C, over the paths slid that changes friction by "

@@ -9,7 +9,7 @@ import numpy as np
 from frames.results.findings import Finding, finding, percent, remark
 from frames.results.formulas import VIOLENT
 from frames.results.level_doubts import level_doubts, levels_of_bearings
-from frames.results.peak_response import largest, left
+from frames.results.peak_response import final_value, largest
 from lir_element.device.specification import STACK_RANGE, stack_stiffness
 from lir_element.texts import joined, worded
 from lir_element.units import STANDARD_GRAVITY
@@ -189,7 +189,7 @@ def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
     slid = (held > 0.0) & (moved > SLID * yields)
     shares = np.where(slid, moved / np.maximum(held, 1e-12), np.inf)
     ended = "exceeded" not in data.attrs and data.attrs.get("status", "ok") in COMPLETE
-    rest = np.where(slid, left(data, "displacement"), 0.0) * ended
+    rest = np.where(slid, final_value(data, "displacement"), 0.0) * ended
     least, most = int(np.argmin(shares)), int(np.argmax(rest / np.maximum(held, 1e-12)))
     names, parts = data.variables["bearing"].to_numpy(), []
     if shares[least] < STUCK:

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from frames.results.formulas import can_yield
-from frames.results.peak_response import largest, left, remaining
+from frames.results.peak_response import final_if_complete, final_value, largest
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -81,7 +81,7 @@ def ductility(data: xr.Dataset) -> pd.DataFrame:
     if "link_yield_deformation" in data:
         found, names = largest(data, "link_ductility"), data["link"].to_numpy()
         limits = data["link_yield_deformation"].to_numpy()
-        rest, work = remaining(data, "link_deformation"), left(data, "link_work")
+        rest, work = final_if_complete(data, "link_deformation"), final_value(data, "link_work")
         for k in np.flatnonzero(can_yield(data)).tolist():
             ratio, at = _reached(found.values[k], found.at[k])
             size = ratio * limits[k]
@@ -89,8 +89,8 @@ def ductility(data: xr.Dataset) -> pd.DataFrame:
             rows.append((str(names[k]), "link", *map(float, numbers)))
     if "hinge_moment" in data:
         found, names = largest(data, "hinge_rotation"), data["hinge"].to_numpy()
-        turn, work = largest(data, "hinge_turn").values, left(data, "hinge_work")
-        rest = remaining(data, "hinge_rotation")
+        turn, work = largest(data, "hinge_turn").values, final_value(data, "hinge_work")
+        rest = final_if_complete(data, "hinge_rotation")
         for k, name in enumerate(names):
             size, at = _reached(found.values[k], found.at[k])
             numbers = (size, at, math.nan, math.nan, rest[k], turn[k], work[k])

@@ -48,7 +48,7 @@ def _with_exceeded(data: xr.Dataset, name: str, found: Extreme) -> Extreme:
     where = data.variables["bearing"].to_numpy() == attrs["exceeded_bearing"]
     ends = computed_until(data) + 1.5 * float(attrs.get("dt", math.inf)) >= at
     beyond = np.where(where & ends, float(attrs["exceeded_value"]), -math.inf)
-    return later(found, Extreme(beyond, np.full(len(beyond), at)))
+    return larger_of(found, Extreme(beyond, np.full(len(beyond), at)))
 
 
 def with_exceeded(data: xr.Dataset) -> xr.Dataset:
@@ -67,31 +67,31 @@ def extreme_of(history: FloatArray, time: FloatArray) -> Extreme:
     return Extreme(np.take_along_axis(history, at[None], axis=0)[0], time[at])
 
 
-def later(old: Extreme, new: Extreme) -> Extreme:
+def larger_of(old: Extreme, new: Extreme) -> Extreme:
     """Return the larger of both, the older where they are equal; what is not a number stays so."""
     more = (new.values > old.values) | (np.isnan(new.values) & ~np.isnan(old.values))
     return Extreme(np.where(more, new.values, old.values), np.where(more, new.at, old.at))
 
 
-def total(data: xr.Dataset, name: str) -> FloatArray:
+def summed(data: xr.Dataset, name: str) -> FloatArray:
     """Return a sum over the steps of a time history: one of `TOTALS`."""
     if PEAK + name in data.variables:
         return data.variables[PEAK + name].to_numpy()
     return QUANTITIES[name].of(data, 0, data.sizes["time"])
 
 
-def left(data: xr.Dataset, name: str) -> FloatArray:
+def final_value(data: xr.Dataset, name: str) -> FloatArray:
     """Return a quantity of `LEFT` at the last step of the run."""
     if f"{PEAK}{name}_left" in data.variables:
         return data.variables[f"{PEAK}{name}_left"].to_numpy()
     return np.asarray(QUANTITIES[name].of(data)[-1])
 
 
-def remaining(data: xr.Dataset, name: str) -> FloatArray:
+def final_if_complete(data: xr.Dataset, name: str) -> FloatArray:
     """Return the same of a run that went to its end; NaN of one that stopped before."""
     # one that was interrupted has no time of failure
     ended = data.attrs["status"] in {"ok", "bearing_lost"}
-    return left(data, name) * (1.0 if ended else math.nan)
+    return final_value(data, name) * (1.0 if ended else math.nan)
 
 
 def reached(data: xr.Dataset, name: str) -> FloatArray:
@@ -99,7 +99,7 @@ def reached(data: xr.Dataset, name: str) -> FloatArray:
     kind = QUANTITIES[name].kind
     if kind == "peak":
         return largest(data, name).values
-    return total(data, name) if kind == "sum" else left(data, name.removesuffix("_left"))
+    return summed(data, name) if kind == "sum" else final_value(data, name.removesuffix("_left"))
 
 
 def places_of(data: xr.Dataset, name: str) -> NDArray[np.str_]:

@@ -16,11 +16,11 @@ from frames.results.measures import energy_error, lateral_capacity
 from frames.results.peak_response import (
     Extreme,
     computed_until,
+    final_if_complete,
     largest,
     places_of,
-    remaining,
     storeys_of_lines,
-    total,
+    summed,
 )
 from frames.results.quantities import QUANTITIES
 from lir_element.argument_checks import require_type
@@ -156,10 +156,10 @@ def _rows(data: xr.Dataset, name: str) -> Iterator[Peak]:
     # Of a quantity, and what is formed of it.
     _, unit, _, _, kind, _, title, *_ = quantity = QUANTITIES[name]
     if kind == "final":
-        left_over = remaining(data, name.removesuffix("_left"))
+        left_over = final_if_complete(data, name.removesuffix("_left"))
         yield Peak(title, float(left_over.max()), unit, computed_until(data))
     elif kind == "sum":
-        values = total(data, name)
+        values = summed(data, name)
         worst = int(np.argmax(values))
         there = values.ndim and values[worst] > 0.0
         where = str(data.variables["bearing"].to_numpy()[worst]) if there else ""

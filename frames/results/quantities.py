@@ -56,7 +56,7 @@ class Quantity(NamedTuple):
     kind: Literal["peak", "final", "sum"] = "peak"
     """Largest value, value at the last step, or sum over steps."""
     by_step: bool = False
-    """Whether compiled code fills it, of each bearing at each step (`show_bearing`)."""
+    """Whether compiled code fills it, of each bearing at each step (`bearing_quantities`)."""
     title: str = ""
     """Its row in the table of peaks."""
     demand: str = ""

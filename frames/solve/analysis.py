@@ -28,7 +28,7 @@ from frames.model.superelement import Superelement
 from frames.recording.dataset import build_dataset, common_of
 from frames.recording.force_rows import force_maps
 from frames.recording.peak_tracking import can_track, devices_of, places_of, shape_of
-from frames.recording.reduction import judgeable_of, with_peak_state
+from frames.recording.reduction import with_peak_state, without_histories_of
 from frames.statics.gravity import gravity
 from frames.statics.springs import plane_coupling
 from lir_element.bundles.contact_data import detached
@@ -153,7 +153,7 @@ class PreparedFrame:
     @cached_property
     def template(self) -> xr.Dataset:
         """What the assumption check and the tables of peaks read of it."""
-        return judgeable_of(self.at_rest)
+        return without_histories_of(self.at_rest)
 
     def judged(self, data: xr.Dataset, found: PeakState) -> xr.Dataset:
         """Return what the check reads of a run with all histories that reached `found`."""

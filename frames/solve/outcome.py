@@ -48,7 +48,7 @@ class Outcome(NamedTuple):
     detail: str
 
 
-def evaluated(data: xr.Dataset) -> tuple[RunStatus, str, tuple[Finding, ...]]:
+def energy_status(data: xr.Dataset) -> tuple[RunStatus, str, tuple[Finding, ...]]:
     """Judge a completed run by its energy balance, and by its sliders where they are bodies."""
     gap, numerical, given = (
         float(largest(data, name).values)
@@ -117,7 +117,7 @@ def _tumbled(data: xr.Dataset) -> str:
     )
 
 
-def concluded(
+def final_status(
     data: xr.Dataset, state: GravityState, end: tuple[RunStatus, str]
 ) -> tuple[Outcome, Findings]:
     """Check the assumptions of a run and judge it."""
@@ -127,7 +127,7 @@ def concluded(
     name = state.system.bearings[int(state.run.counts["bearing"][0])].name
     where = f'bearing "{name}"' if status.is_bearing_failure else culprit(state)
     if status is RunStatus.OK:
-        status, detail, noted = evaluated(data)
+        status, detail, noted = energy_status(data)
         findings = Findings((*findings, *noted))
         lost = _lost(state, float(data.attrs["dt"]))
         if lost:
@@ -185,7 +185,7 @@ def _exceeded(state: GravityState, status: RunStatus) -> dict[str, object]:
     }
 
 
-def ended(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]:
+def loop_status(state: GravityState, status: RunStatus) -> tuple[RunStatus, str]:
     """Return how a run ended that its loop left with `status`, and the number behind it."""
     run = state.run
     if status is RunStatus.STEP_TOO_SMALL:

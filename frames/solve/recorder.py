@@ -11,7 +11,7 @@ from frames.bundles.nonlinear_data import part_sizes
 from frames.bundles.run_data import output_arrays
 from frames.recording.dataset import build_dataset, ground_at, peak_velocity
 from frames.recording.force_tracking import ForceTracker, StrainGauge
-from frames.recording.nonlinear_results import PartGauge
+from frames.recording.nonlinear_results import NonlinearPeaks
 from frames.recording.peak_tracking import PeakTracker
 from frames.recording.recording import (
     bytes_of_step,
@@ -24,9 +24,9 @@ from frames.recording.recording import (
 from frames.recording.reduction import (
     PeakState,
     Reduction,
-    judgeable_of,
     present_quantities,
     with_other_peak_state,
+    without_histories_of,
 )
 from frames.results.peak_response import largest, with_exceeded
 from frames.statics.resultants import Plausibility
@@ -63,7 +63,7 @@ class Gauges:
     def __init__(self, analysis: PreparedFrame, *, whole: bool) -> None:
         state = analysis.state
         self._bearings = PeakTracker(analysis.devices, analysis.shape if whole else None)
-        self._parts = PartGauge(state, analysis.model)
+        self._parts = NonlinearPeaks(state, analysis.model)
         self._sums = Plausibility(state, analysis.common.resultants)
 
     def take(self, out: Output, states: Records, ground: Ground, first: int, last: int) -> None:
@@ -183,7 +183,7 @@ class Recorder(_Buffer):
         require_known(recording, start)
         reduction = Reduction(recording)
         reduction.take(start, 0, final=True)
-        row = reduction.recorded(reduction.judgeable())
+        row = reduction.recorded(reduction.without_histories())
         require_room(bytes_over_time(row), count, BUFFER)
 
     def data(self, done: int) -> xr.Dataset:
@@ -194,21 +194,23 @@ class Recorder(_Buffer):
         if self._is_whole:
             return data
         self._reduction.take(data, self.first, final=True)
-        judged = self._reduction.judgeable()
+        judged = self._reduction.without_histories()
         if self._forces is None:
             return judged
         self._forces.take(self._states, self.out, self.first, rows)
         variables, coordinates = self._forces.variables()
         return judged.assign_coords(coordinates).assign(variables)
 
-    def judgeable(self, data: xr.Dataset) -> xr.Dataset:
+    def without_histories(self, data: xr.Dataset) -> xr.Dataset:
         """Return what the assumption check reads of a result that `data` gave."""
         if self._is_whole and self._every_peak:
-            return judgeable_of(data)
+            return without_histories_of(data)
         if not self._is_whole or not self._analysis.can_track:
             return data
         count = data.sizes["time"]
-        found = self._gauged(count, whole=False).peak_state(self.out, self._states, count - 1)
+        found = self._peaks_compiled(count, whole=False).peak_state(
+            self.out, self._states, count - 1
+        )
         judged = self._analysis.judged(data, found)
         return with_other_peak_state(judged, found, data.variables["peak_ground_velocity"].values)
 
@@ -216,13 +218,13 @@ class Recorder(_Buffer):
         """Return the largest values of all quantities of a result that `data` gave, by name."""
         if not self._is_whole or not self._analysis.can_track:
             return {name: largest(data, name) for name in present_quantities(data)}
-        return self._gauged(data.sizes["time"], whole=True).reached()
+        return self._peaks_compiled(data.sizes["time"], whole=True).reached()
 
     def recorded(self, judged: xr.Dataset) -> xr.Dataset:
         """Return the result, once: `data` with what the run records and the attributes given."""
         return judged if self._is_whole else with_exceeded(self._reduction.recorded(judged))
 
-    def _gauged(self, count: int, *, whole: bool) -> Gauges:
+    def _peaks_compiled(self, count: int, *, whole: bool) -> Gauges:
         gauges = Gauges(self._analysis, whole=whole)
         gauges.take(self.out, self._states, self._ground, 0, count)
         return gauges
@@ -270,7 +272,7 @@ class PeakRecorder(_Buffer):
         peak = peak_velocity(self._motion, found.until)
         return with_other_peak_state(self._analysis.template, found, peak)
 
-    def judgeable(self, data: xr.Dataset) -> xr.Dataset:
+    def without_histories(self, data: xr.Dataset) -> xr.Dataset:
         """Return what the assumption check reads of a result that `data` gave."""
         return data
 

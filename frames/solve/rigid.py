@@ -16,7 +16,7 @@ from frames.recording.recording import Recording, number_of_steps, require_known
 from frames.recording.reduction import reduced
 from frames.results.assumption_checks import audit
 from frames.results.findings import Findings
-from frames.solve.outcome import Outcome, evaluated
+from frames.solve.outcome import Outcome, energy_status
 from frames.statics.gravity import gravity
 from lir_element.bundles.rigid_data import (
     DEFAULT_TOLERANCE,
@@ -128,7 +128,7 @@ def rigid_time_history(
     where = f'bearing "{state.system.bearings[0].name}"'
     detail = limit_detail(run.props, run.states[2:], 0)
     if status is RunStatus.OK:
-        status, detail, noted = evaluated(data)
+        status, detail, noted = energy_status(data)
         findings = Findings((*findings, *noted))
     data.attrs |= findings.attrs()
     if is_thinned:

@@ -13,7 +13,7 @@ from frames._provenance import provenance
 from frames.bundles.run_data import MOST_HALVINGS, Ground, IntegratorSettings
 from frames.kernels.integration import integrate_chunk
 from frames.motion.ground_motion import seen_by_steps
-from frames.solve.outcome import Outcome, concluded, ended
+from frames.solve.outcome import Outcome, final_status, loop_status
 from frames.solve.rigid import LARGEST_STEP
 from frames.statics.equilibrium import force_tolerance
 from lir_element.errors import RunStatus
@@ -71,7 +71,7 @@ class StepWriter(Protocol):
         """Return the result of `done` base steps, or what the assumption check reads of it."""
         ...
 
-    def judgeable(self, data: xr.Dataset) -> xr.Dataset:
+    def without_histories(self, data: xr.Dataset) -> xr.Dataset:
         """Return what the assumption check reads of a result that `data` gave."""
         ...
 
@@ -100,7 +100,7 @@ def run_one(
     recorder.renew(motion, ground)
     begin(state, ground, settings)
     code, seconds = integrate(state, settings, ground, recorder, options)
-    end = ended(state, code)
+    end = loop_status(state, code)
     data = recorder.data(int(state.run.clock["done"][0]))
     data.attrs = {
         **analysis.attrs,
@@ -111,9 +111,9 @@ def run_one(
         **_attrs(state, settings, options),
         "seconds_loop": seconds,
     }
-    judged = recorder.judgeable(data)
+    judged = recorder.without_histories(data)
     judged.attrs = dict(data.attrs)
-    outcome, findings = concluded(judged, state, end)
+    outcome, findings = final_status(judged, state, end)
     data.attrs = dict(judged.attrs)
     return Run(data, judged, outcome, findings)
 

@@ -23,7 +23,7 @@ from frames.assembly.basis import bearing_rows
 from frames.assembly.solvers import Factors
 from frames.model.components import bearing_axial_stiffness
 from frames.results.formulas import VIOLENT
-from frames.results.peak_response import Extreme, extreme_of, later
+from frames.results.peak_response import Extreme, extreme_of, larger_of
 from frames.statics.springs import spring_matrix
 
 if TYPE_CHECKING:
@@ -233,7 +233,7 @@ class Plausibility:
 
     def _keep(self, name: str, now: Extreme) -> None:
         before = self._reached.get(name)
-        self._reached[name] = now if before is None else later(before, now)
+        self._reached[name] = now if before is None else larger_of(before, now)
 
     def _violence(self, out: Output, ground: FloatArray, first: int, last: int) -> Extreme:
         # No node has more energy of acceleration than all: others need not be looked at.

@@ -29,7 +29,7 @@ _signature_of = _kind_of_function.get_call_type
 
 
 @contextmanager
-def shortened() -> Generator[None]:
+def faster_typing() -> Generator[None]:
     """Shorten the front end's ways; whoever compiles holds numba's lock."""
     if _kind_of_function.get_call_type is _remembered:  # by the kernel compiled around this one
         yield
@@ -119,7 +119,7 @@ def _variables(self: Any, value: Any) -> list[Any]:
 
 
 @contextmanager
-def without_collection() -> Generator[None]:
+def gc_paused() -> Generator[None]:
     """Keep Python from looking for garbage in what is still needed."""
     looks = gc.isenabled()
     gc.disable()

@@ -81,18 +81,18 @@ def entry_point(signature: str) -> Callable[[Callable[..., Any]], Any]:
 kernel = kernels_of(OWN)
 """The kernel decorator of this package."""
 
-counting = kernels_of(OWN, counts=True)
+with_refcounts = kernels_of(OWN, counts=True)
 """The same for kernels that make arrays of addresses (see `kernels_of`)."""
 
-inlined = kernels_of(OWN, inline=True)
+inlined_by_llvm = kernels_of(OWN, inline=True)
 """The same for kernels that become part of their callers (see `kernels_of`)."""
 
-expanded: KernelDecorator = numba.njit(inline="always")
+inlined_before_typing: KernelDecorator = numba.njit(inline="always")
 """For kernels that are part of one other, or stand for an expression: put there before typing.
 
-Nothing is compiled for themselves: a chain of `inlined` ones is optimised and made machine code at
-each of its links, all that is below included. They may give back what compiled functions cannot
-return: a bundle of records.
+Nothing is compiled for themselves: a chain of `inlined_by_llvm` ones is optimised and made machine
+code at each of its links, all that is below included. They may give back what compiled functions
+cannot return: a bundle of records.
 """
 
 

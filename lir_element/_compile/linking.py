@@ -21,7 +21,7 @@ from numba.core.registry import CPUDispatcher
 from numba.core.runtime import rtsys
 from numba.core.types.misc import unliteral
 
-from lir_element._compile.front_end import shortened, without_collection
+from lir_element._compile.front_end import faster_typing, gc_paused
 from lir_element._compile.lowering import KernelPipeline
 
 if TYPE_CHECKING:
@@ -243,7 +243,7 @@ class KernelDispatcher(CPUDispatcher):  # type: ignore[misc]  # numba has no typ
             before = self._compiler.as_part
             self._compiler.as_part = self._cache.as_part = as_part
             try:
-                with without_collection(), shortened():
+                with gc_paused(), faster_typing():
                     return super().compile(sig)
             finally:
                 self._compiler.as_part = self._cache.as_part = before

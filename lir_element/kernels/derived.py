@@ -8,22 +8,22 @@ from __future__ import annotations
 
 from numpy import maximum, sqrt
 
-from lir_element._compile.jit import inlined
+from lir_element._compile.jit import inlined_by_llvm
 
 
-@inlined
+@inlined_by_llvm
 def in_plan(x: float, y: float) -> float:
     """Return the size of a vector in a plane."""
     return sqrt(x * x + y * y)
 
 
-@inlined
+@inlined_by_llvm
 def in_space(x: float, y: float, z: float) -> float:
     """Return the size of a vector."""
     return sqrt(x * x + y * y + z * z)
 
 
-@inlined
+@inlined_by_llvm
 def eccentricity(
     axial_force: float,
     floor: float,
@@ -57,7 +57,7 @@ def eccentricity(
     return sqrt(maximum(b_x * b_x + b_y * b_y, t_x * t_x + t_y * t_y)) * pressed
 
 
-@inlined
+@inlined_by_llvm
 def resultant_offset(by_forces: float, of_pressure: float) -> float:
     """Return the eccentricity: of the pressure itself where sliders are bodies (not 0) [m].
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Props, State, Work
@@ -51,7 +51,7 @@ def lowered(p: Props, k: int, speed: float) -> tuple[float, float]:
     return left_of_drop(p.friction_drop[k], p.friction_rate[k], p.friction_table[k], speed)
 
 
-@inlined
+@inlined_by_llvm
 def lowered_near(p: Props, w: Work, k: int) -> tuple[float, float]:
     """Return the same at the speed of a trial, ``w.speed[k]``.
 

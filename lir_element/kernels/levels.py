@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import expanded, kernel
+from lir_element._compile.jit import inlined_before_typing, kernel
 from lir_element.bundles.contact_data import BodyStep
 from lir_element.errors import RunStatus
 from lir_element.kernels.backup import (
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 _OK = int(RunStatus.OK)
 
 
-@expanded
+@inlined_before_typing
 def bodies_of(props: Records, contacts: Contacts, k: int, at: int) -> BodyStep:
     """Return the bodies of bearing `k`, which stand at `at` in `contacts`."""
     return BodyStep(

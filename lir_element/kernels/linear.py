@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Words
@@ -13,7 +13,7 @@ _WHOLE = 200  # columns, up to which a matrix stays at hand as a whole while it 
 _PANEL = 32  # columns of a larger one that are taken out of the rest together: a multiple of 4
 
 
-@inlined
+@inlined_by_llvm
 def gather(start: Words, columns: Words, values: Floats, source: Floats, target: Floats) -> None:
     """Set the 12 displacements `target` of a bearing's nodes from those of a model, `source`.
 
@@ -26,7 +26,7 @@ def gather(start: Words, columns: Words, values: Floats, source: Floats, target:
         target[row] = total
 
 
-@inlined
+@inlined_by_llvm
 def scatter(
     start: Words, columns: Words, values: Floats, factor: float, force: Floats, target: Floats
 ) -> None:
@@ -65,7 +65,7 @@ def set_product(columns: Floats, x: Floats, out: Floats) -> None:
     add_product(columns, x, 1.0, out)
 
 
-@inlined
+@inlined_by_llvm
 def copy(source: Floats, target: Floats) -> None:
     """Set `target` (n,) to `source`."""
     for a in range(target.shape[0]):
@@ -181,7 +181,7 @@ def factorise_pivots(columns: Floats, order: Words, first: int, last: int) -> bo
     return True
 
 
-@inlined
+@inlined_by_llvm
 def eliminate_pivots(columns: Floats, first: int, last: int, begin: int, end: int) -> None:
     """Take the pivots `first` to `last` out of one another's columns `begin` to `end`."""
     for row in range(first + 1, last):
@@ -210,7 +210,7 @@ def eliminate_panel(columns: Floats, first: int, last: int) -> None:
                 columns[n - 1, k] -= factor * columns[col, k]
 
 
-@inlined
+@inlined_by_llvm
 def eliminate_four(columns: Floats, row: int, at: int, begin: int) -> None:
     """Take the four pivots from `at` on out of a row and the next, from column `begin` on."""
     f_0, f_1 = columns[row, at], columns[row, at + 1]
@@ -259,7 +259,7 @@ def substitute_rows(factors: Floats, order: Words, x: Floats) -> None:
             y[c], y[order[c]] = y[order[c]], y[c]
 
 
-@inlined
+@inlined_by_llvm
 def forward_four(factors: Floats, c: int, x: Floats) -> None:
     """Take four unknowns from `c` on, which become known, out of those that follow."""
     for k in range(c, c + 4):
@@ -273,7 +273,7 @@ def forward_four(factors: Floats, c: int, x: Floats) -> None:
         x[a] = (less - f_2[a] * x_2) - f_3[a] * x_3
 
 
-@inlined
+@inlined_by_llvm
 def backward_four(factors: Floats, c: int, x: Floats) -> None:
     """Take four unknowns from `c` on, which become known, out of those before."""
     for k in range(c + 3, c, -1):

@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 
-@inlined
+@inlined_by_llvm
 def coefficients(square: float) -> tuple[float, float, float]:
     """Return sin(x)/x, (1 - cos(x))/x^2 and (x - sin(x))/x^3 of x^2 = `square`."""
     if square < 2.5e-3:  # series: the next terms lie below round-off

@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Mapped
@@ -74,7 +74,7 @@ def bouc_wen_radius(size: float, kappa: float, exponent: float) -> tuple[float, 
     return rho, 1.0 / (1.0 + kappa * exponent * power), rho * power
 
 
-@inlined
+@inlined_by_llvm
 def small_angle(tangent: float) -> float:
     """Return the arc tangent; for a small one by its series."""
     if abs(tangent) > _SMALL:
@@ -84,7 +84,7 @@ def small_angle(tangent: float) -> float:
     return tangent * (1.0 - x * (1.0 / 3.0) + x * x * high)
 
 
-@inlined
+@inlined_by_llvm
 def direction_of(angle: float) -> tuple[float, float]:
     """Return cosine and sine; of a small angle by their series."""
     if abs(angle) > _SMALL:
@@ -107,7 +107,7 @@ def return_map(
     return returned(bouc_wen, exponent, old_1, old_2, dw_1 / u_y, dw_2 / u_y, u_y, 1.0 / u_y)
 
 
-@inlined
+@inlined_by_llvm
 def returned(
     bouc_wen: int,
     exponent: float,
@@ -229,7 +229,7 @@ def friction_map(
     )
 
 
-@inlined
+@inlined_by_llvm
 def friction_step(
     bouc_wen: int,
     exponent: float,
@@ -298,7 +298,7 @@ def friction_step(
     )
 
 
-@inlined
+@inlined_by_llvm
 def turn_to_end(
     before_1: float,
     before_2: float,
@@ -326,7 +326,7 @@ def turn_to_end(
     return True, whole * part, by_angle, whole * u_y * over * over
 
 
-@inlined
+@inlined_by_llvm
 def sliding_on(
     old_1: float, old_2: float, before: float, d_1: float, d_2: float, u_y: float
 ) -> tuple[float, float, float]:
@@ -350,7 +350,7 @@ def step_share(dt: float, before: float) -> float:
     return dt / (dt + before) if dt > 0.0 and before > 0.0 else 0.0
 
 
-@inlined
+@inlined_by_llvm
 def speed_at_end(
     slip: float, dt: float, slip_before: float, dt_before: float, share: float
 ) -> tuple[float, float]:

@@ -11,12 +11,12 @@ from lir_element.opensees.isolation import Isolation as Isolation
 from lir_element.opensees.isolation import IsolationWarning as IsolationWarning
 from lir_element.opensees.isolation import isolate as isolate
 from lir_element.opensees.library import opensees as opensees
+from lir_element.opensees.out_of_process.remote import RouteWarning as RouteWarning
+from lir_element.opensees.out_of_process.remote import ServerError as ServerError
 from lir_element.opensees.placement import PlacementWarning as PlacementWarning
 from lir_element.opensees.plugin import bearing_element as bearing_element
 from lir_element.opensees.plugin import bearing_response as bearing_response
 from lir_element.opensees.plugin import bearing_tags as bearing_tags
-from lir_element.opensees.portable.remote import RouteWarning as RouteWarning
-from lir_element.opensees.portable.remote import ServerError as ServerError
 from lir_element.opensees.recording import BearingRecording as BearingRecording
 from lir_element.opensees.recording import record_bearings as record_bearings
 

@@ -19,7 +19,7 @@ from lir_element.opensees.block.protocol import vector_length
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from lir_element.opensees.placement import Placement
+    from lir_element.opensees.placement import BearingTransform
 
 _LOOPBACK = "127.0.0.1"
 _BACKLOG = 16
@@ -27,7 +27,7 @@ _WAIT = 5.0
 """How long a connection may take to show up [s]; it is there when the element was added."""
 
 
-def add_host_element(ops: Any, tag: int, placement: Placement) -> socket.socket:
+def add_host_element(ops: Any, tag: int, placement: BearingTransform) -> socket.socket:
     """Add a `genericClient` to the current model and return our end of its connection."""
     dofs = [*range(1, placement.dofs // 2 + 1)]
     with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as listener:

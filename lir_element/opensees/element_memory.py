@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from lir_element.device.bearing import LIRBearing
     from lir_element.layout import Floats, Records
-    from lir_element.opensees.placement import Placement
+    from lir_element.opensees.placement import BearingTransform
 
 _C = ctypes.cdll.msvcrt if sys.platform == "win32" else ctypes.CDLL(None)
 _C.free.argtypes = [ctypes.c_void_p]
@@ -66,7 +66,7 @@ class ElementMemory:
         tag: int,
         bearing: LIRBearing,
         level: str,
-        placement: Placement,
+        placement: BearingTransform,
         symmetric: bool = False,
     ) -> None:
         self.tag = tag

@@ -43,7 +43,7 @@ class PlacementWarning(UserWarning):
     """
 
 
-class Placement(NamedTuple):
+class BearingTransform(NamedTuple):
     """How the model's degrees of freedom lead to the bearing's own axes."""
 
     nodes: tuple[int, int]
@@ -67,7 +67,7 @@ def place(
     orient: Sequence[float] | None,
     length_unit: float,
     force_unit: float,
-) -> Placement:
+) -> BearingTransform:
     """Check where a bearing is to stand, and return its map."""
     metre = require_positive("length_unit", length_unit, "m")
     newton = require_positive("force_unit", force_unit, "N")
@@ -97,7 +97,7 @@ def place(
     if ndm == 2:  # ux, uy, rz of the plane
         matrix = matrix[:, [0, 1, 5, 6, 7, 11]]
     factor = 1.0 / (newton * metre)
-    return Placement((int(i), int(j)), matrix.shape[1], matrix, factor, axes, newton)
+    return BearingTransform((int(i), int(j)), matrix.shape[1], matrix, factor, axes, newton)
 
 
 def _hangs(ops: Any, i: int, j: int, ndm: int) -> bool:

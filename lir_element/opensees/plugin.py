@@ -15,13 +15,19 @@ from lir_element.device.bearing import LIRBearing
 from lir_element.element import LEVELS, Level
 from lir_element.opensees.connection import add_host_element, restart_reads, signals_held
 from lir_element.opensees.element_memory import ElementMemory, entries_of
-from lir_element.opensees.fast.in_process_element import Grafted
-from lir_element.opensees.fast.portable_responses import Manners
-from lir_element.opensees.fast.selftest import why_not_fast
-from lir_element.opensees.fast.symbols import NotPossibleError
+from lir_element.opensees.in_process.in_process_element import InProcessElement
+from lir_element.opensees.in_process.selftest import why_not_fast
+from lir_element.opensees.in_process.symbols import NotPossibleError
 from lir_element.opensees.library import opensees
-from lir_element.opensees.placement import Placement, place
-from lir_element.opensees.portable.remote import Orphans, Remote, RouteWarning, Server, ServerError
+from lir_element.opensees.out_of_process.remote import (
+    ForkedElements,
+    Remote,
+    RouteWarning,
+    Server,
+    ServerError,
+)
+from lir_element.opensees.out_of_process.responses import HostOverrides
+from lir_element.opensees.placement import BearingTransform, place
 
 Route = Literal["auto", "fast", "portable"]
 ROUTES = ("auto", "fast", "portable")
@@ -34,9 +40,9 @@ class _Session:
     # The bearings of this process by tag, and the server of the out-of-process coupling.
 
     def __init__(self) -> None:
-        self.bearings: dict[int, Grafted | Remote] = {}
+        self.bearings: dict[int, InProcessElement | Remote] = {}
         self.server: Server | None = None
-        self.orphans: Orphans | None = None
+        self.forked_elements: ForkedElements | None = None
         self.told = False
 
     @signals_held()
@@ -66,17 +72,17 @@ class _Session:
             bearing.detach()
         if self.server is not None:
             self.server.close()
-        if self.orphans is not None:
-            self.orphans.close()
+        if self.forked_elements is not None:
+            self.forked_elements.close()
 
     def forget(self) -> None:
         """Start anew in a forked process: connections and server are the parent's."""
         remotes = self._remotes()
         self.bearings = {
-            tag: each for tag, each in self.bearings.items() if isinstance(each, Grafted)
+            tag: each for tag, each in self.bearings.items() if isinstance(each, InProcessElement)
         }
         if remotes:
-            self.orphans = Orphans(remotes)
+            self.forked_elements = ForkedElements(remotes)
         if self.server is not None:
             self.server.leave()
             self.server = None
@@ -267,7 +273,7 @@ def bearing_tags() -> tuple[int, ...]:
     return tuple(_SESSION.bearings)
 
 
-def bearing_at(tag: int) -> Grafted | Remote:
+def bearing_at(tag: int) -> InProcessElement | Remote:
     """Return what stands behind a bearing's element."""
     found = _SESSION.bearings.get(tag)
     if found is None or tag not in element_tags() or not found.alive:
@@ -310,12 +316,17 @@ def _choose(route: str) -> str:
 
 
 def _add_fast(
-    ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement, symmetric: bool
-) -> Grafted:
+    ops: Any,
+    tag: int,
+    bearing: LIRBearing,
+    level: str,
+    placement: BearingTransform,
+    symmetric: bool,
+) -> InProcessElement:
     hosted = ElementMemory(tag, bearing, level, placement, symmetric)
     connection = add_host_element(ops, tag, placement)
     try:
-        return Grafted(hosted, connection)
+        return InProcessElement(hosted, connection)
     except NotPossibleError:
         ops.remove("element", tag)
         connection.close()
@@ -323,7 +334,12 @@ def _add_fast(
 
 
 def _add_portable(
-    ops: Any, tag: int, bearing: LIRBearing, level: str, placement: Placement, symmetric: bool
+    ops: Any,
+    tag: int,
+    bearing: LIRBearing,
+    level: str,
+    placement: BearingTransform,
+    symmetric: bool,
 ) -> Remote:
     server = _SESSION.running_server()
     remote = Remote(server, tag, bearing, level, placement, symmetric)
@@ -331,7 +347,7 @@ def _add_portable(
     try:
         remote.connect(connection)
         if not why_not_fast():
-            remote.teach(Manners(tag, bearing, level, placement))
+            remote.override(HostOverrides(tag, bearing, level, placement))
         else:
             restart_reads(restart=True)
     except (ServerError, ValueError, NotPossibleError):

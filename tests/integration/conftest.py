@@ -10,7 +10,7 @@ import xarray as xr
 from frames import Frame, GroundMotion, energy_error, time_history
 from lir_element import LIRBearing
 from lir_element.opensees import bearing_tags, opensees
-from lir_element.opensees.fast.selftest import why_not_fast
+from lir_element.opensees.in_process.selftest import why_not_fast
 from tests.integration.stand import Stand
 from tests.scenes import paper_bearing
 

@@ -17,7 +17,7 @@ from frames.design import (
 from frames.design._errors import CheckError
 from frames.design.histories.eccentricity import Case
 from frames.design.histories.force_demands import force_demands
-from frames.design.histories.suite import Raise, Suite
+from frames.design.histories.suite import RunSet, ShearFactor
 from frames.library.moved_masses import with_moved_masses
 from frames.model.axes import default_up, local_axes
 from tests.scenes import simple_bearing
@@ -195,7 +195,7 @@ def test_drifts_are_those_that_runs_reached(runs, tables):
 
 def test_least_shears_raise_the_earthquakes_part(runs, tables):
     """Of members, storeys and drifts by one factor, of bearings and the foot of all by another."""
-    raises = {("MCE_R", "upper"): Raise(above=1.4, isolation=1.1)}
+    raises = {("MCE_R", "upper"): ShearFactor(above=1.4, isolation=1.1)}
     raised = force_demands(cases(runs), raises)
     foot = str(runs["upper"]["section"].to_numpy()[0])
     assert foot not in set(map(str, runs["upper"]["storey"].to_numpy()))
@@ -230,7 +230,7 @@ def moved(frame):
 
 def test_moved_masses_add_section_by_section(runs, tables, moved):
     """The larger difference of two ways by hand, on the side to which the extreme goes."""
-    raises = {("MCE_R", "lower"): Raise(above=1.3)}
+    raises = {("MCE_R", "lower"): ShearFactor(above=1.3)}
     found = force_demands(cases(runs, moved), raises)
     for kind, places in (
         ("members", ("member", "station", "component")),
@@ -321,7 +321,7 @@ def test_many_values_count_as_one_by_one(statistic, failed, allowed):
     if 0 not in failed:
         values = np.nan_to_num(values, nan=1.0)
     flags = tuple(k in failed for k in range(5))
-    suite = Suite(statistic=statistic, failed=flags, allowed=allowed)
+    suite = RunSet(statistic=statistic, failed=flags, allowed=allowed)
     found = suite.values(values)
     for place in np.ndindex(4, 3):
         wanted = suite.value(values[slice(None), *place])

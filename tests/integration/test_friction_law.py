@@ -14,7 +14,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 from frames import GroundMotion, lumped_mass, time_history
 from frames._fingerprint import fingerprint
-from frames.results.peak_response import total
+from frames.results.peak_response import summed
 from lir_element import (
     CoulombFriction,
     Element,
@@ -220,7 +220,7 @@ def test_histories_by_table_are_those_of_the_exponential(run: Any, level: str) -
     )
     assert "friction_table" not in one
     assert two["friction_table"].dims == ("bearing", "surface", "knot")
-    lower = [float(total(data, "sliding_work_lower")) for data in (one, two)]
+    lower = [float(summed(data, "sliding_work_lower")) for data in (one, two)]
     assert lower[1] == pytest.approx(lower[0], rel=1e-5)
     assert lower[0] > 0.0
 
@@ -282,7 +282,7 @@ def test_energy_balance_closes_and_what_a_run_keeps_is_the_same(run: Any) -> Non
     full, thin = (run(model, motion, dt=0.005, record_every=n) for n in (1, 8))
     assert float(full["work_low_friction"].isel(time=-1).sum()) > 0.0
     for name in ("sliding_work", "sliding_work_lower"):
-        assert float(total(full, name)) == pytest.approx(float(total(thin, name)), rel=1e-12)
+        assert float(summed(full, name)) == pytest.approx(float(summed(thin, name)), rel=1e-12)
     table = full["friction_table"].isel(bearing=0)
     assert table.sel(surface="bottom")[0] > 0.0
     assert not table.sel(surface="top").any()

@@ -24,7 +24,7 @@ from frames.batch.runs import Runs
 from frames.demo import table_of
 from frames.design import HISTORY_RULES, history_demands
 from frames.design.histories.suite import names_of, peaks_of_runs
-from frames.design.report.numbers import bearing_table
+from frames.design.report.result_tables import bearing_table
 from frames.plots import storey_profiles
 from frames.results.quantities import DEMANDS
 from lir_element import AnalysisWarning

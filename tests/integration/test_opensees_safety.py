@@ -25,7 +25,7 @@ import psutil
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import ServerError, bearing_response, bearing_tags
 from lir_element.opensees.block.responses import HINTED
-from lir_element.opensees.fast.selftest import why_not_fast
+from lir_element.opensees.in_process.selftest import why_not_fast
 from lir_element.opensees.plugin import _SESSION
 from tests.integration.stand import advance, begin, listening
 from tests.integration.test_opensees_analyses import push_through

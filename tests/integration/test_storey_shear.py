@@ -30,7 +30,7 @@ from frames.design import (
     history_demands,
 )
 from frames.design.codes.bounds import BoundName
-from frames.design.histories.suite import Raise, raises_by_case
+from frames.design.histories.suite import ShearFactor, raises_by_case
 from frames.results.peak_response import largest
 from tests.scenes import full_sine, paper_bearing
 
@@ -174,7 +174,7 @@ def test_shears_above_the_least_leave_forces_as_they_are(frame: Frame, runs: xr.
     for name in ("peak_storey_shear", "peak_base_shear"):
         strong[name] = 100.0 * runs[name]
     found = history_checks({"lower": strong}, frame, "ASCE 7-22", equivalent=weak)
-    assert raises_by_case(found) == {("MCE_R", "lower"): Raise(1.0, 1.0)}
+    assert raises_by_case(found) == {("MCE_R", "lower"): ShearFactor(1.0, 1.0)}
     nominal = history_checks({"nominal": runs}, frame, "ASCE 7-22", equivalent=weak)
     assert raises_by_case(nominal) == {}
 
@@ -198,7 +198,9 @@ def test_a_suite_that_failed_has_no_storey_shear(frame: Frame, runs: xr.Dataset)
     assert check.verdict == "no value"
     failed, windy = runs.assign(status=status), linear(frame, wind_shear=100.0 * each.mean())
     found = history_checks({"upper": failed}, frame, "ASCE 7-22", equivalent=windy)
-    assert raises_by_case(found) == {("MCE_R", "upper"): Raise()}  # of no value nothing is raised
+    assert raises_by_case(found) == {
+        ("MCE_R", "upper"): ShearFactor()
+    }  # of no value nothing is raised
     assert "1 of 7 runs failed" in check.void
 
 

@@ -28,7 +28,7 @@ KERNELS = [path for path in MODULES if "kernels" in path.relative_to(ROOT).parts
 ADDRESSES = [ROOT / "lir_element/opensees/block/pointers.py"]
 # Beside the mathematics of numbers: that of formulas which arrays go through as well.
 FOREIGN = {"numba.carray", "numpy.absolute", "numpy.maximum", "numpy.sqrt"}
-DECORATORS = {"kernel", "inlined", "expanded", "intrinsic", "entry_point"}
+DECORATORS = {"kernel", "inlined_by_llvm", "inlined_before_typing", "intrinsic", "entry_point"}
 BUNDLES = {"lir_element.errors.RunStatus"} | {
     f"lir_element.bundles.contact_data.{name}" for name in ("BodyStep", "Contacts")
 }
@@ -74,8 +74,8 @@ FLOORS = (
     "lir_element.rig",
     "lir_element.opensees.block",
     "lir_element.opensees.kernels",
-    "lir_element.opensees.fast",
-    "lir_element.opensees.portable",
+    "lir_element.opensees.in_process",
+    "lir_element.opensees.out_of_process",
     "lir_element.opensees.compare",
     "frames.model",
     "frames.motion",

@@ -27,7 +27,7 @@ from frames.results.assumption_checks import needed_level
 from frames.results.findings import doubts_of, findings_of
 from frames.results.level_doubts import DOUBTED, level_doubts, travels
 from frames.results.measures import centre_shift
-from frames.results.peak_response import largest, total
+from frames.results.peak_response import largest, summed
 from frames.solve.escalation import escalate_level, mark_other_end
 from lir_element import (
     CoulombFriction,
@@ -128,7 +128,7 @@ def test_slip_of_sliders_that_fly_is_told_apart():
         slip = data["interface_slip_size"].to_numpy()[:, 0]
         loose = data["axial_force"].to_numpy()[1:, 0] <= 0.01 * float(data["static_axial_force"][0])
         gained = float(np.diff(slip)[loose].sum())
-        assert float(total(data, "slip_loose")[0]) == pytest.approx(gained, rel=1e-9)
+        assert float(summed(data, "slip_loose")[0]) == pytest.approx(gained, rel=1e-9)
         moved = float(np.hypot(*data["bearing_displacement"].to_numpy()[:, 0, :2].T).max())
         made = moved - bearing.lateral_capacity  # by rims, whatever sliders do
         assert 0.5 * slip.max() < made < gained

@@ -21,7 +21,7 @@ from frames.design import (
     code_named,
     equivalent_linear,
 )
-from frames.design.calculation.standing import MEMORY, OWN, Standing
+from frames.design.calculation.standing import FROM_MEMORY, PROJECT, Standing
 from frames.design.codes.analysis import BUILT_IN
 from frames.design.codes.code_values import E031, NTC, UFC_BNBC, standing_by, weakest
 from frames.design.codes.registry import standing_in
@@ -79,7 +79,7 @@ def test_every_factor_of_a_code_is_a_value_with_a_standing(code: DesignCode) -> 
 def test_every_code_has_an_edition(code: DesignCode) -> None:
     assert code.edition
     assert code.cited == f"{code.name}: {code.title} ({code.edition})"
-    assert code.standing("no such value") == MEMORY
+    assert code.standing("no such value") == FROM_MEMORY
 
 
 def test_tables_of_2003_do_not_go_by_the_name_of_2013() -> None:
@@ -141,7 +141,7 @@ def test_every_check_of_the_package_is_made_with_a_standing() -> None:
 )
 def test_checks_have_the_standing_of_what_they_rest_on(code, known):
     found = checks_of(code)
-    agreeing = {check.title: check.standing for check in found if check.standing != MEMORY}
+    agreeing = {check.title: check.standing for check in found if check.standing != FROM_MEMORY}
     assert agreeing == known
     assert len(found) > len(known)
     table = found.to_dataframe()
@@ -167,23 +167,23 @@ def test_a_value_from_memory_has_its_star(monkeypatch: pytest.MonkeyPatch) -> No
 
     assert damping().cited == "ASCE 7-22 17.4.1"
     value = ASCE_VALUES["most damping"]
-    monkeypatch.setitem(ASCE_VALUES, "most damping", value._replace(standing=MEMORY))
+    monkeypatch.setitem(ASCE_VALUES, "most damping", value._replace(standing=FROM_MEMORY))
     assert damping().cited == "ASCE 7-22 17.4.1 *"
-    assert Checks([damping()]).to_dataframe()["standing"].tolist() == [str(MEMORY)]
+    assert Checks([damping()]).to_dataframe()["standing"].tolist() == [str(FROM_MEMORY)]
 
 
 def test_of_a_factor_that_is_changed_nothing_is_known() -> None:
     changed = {c.title: c.standing for c in checks_of(ASCE7(most_damping=0.25))}
-    assert changed["effective damping"] == MEMORY
+    assert changed["effective damping"] == FROM_MEMORY
     assert changed["effective period"] == E031
 
 
 def test_the_weakest_counts() -> None:
     read = Standing("read", "ASCE/SEI 7-22, 17.5.4")
     assert weakest([read, E031]) == E031
-    assert weakest([E031, MEMORY, read]) == MEMORY
+    assert weakest([E031, FROM_MEMORY, read]) == FROM_MEMORY
     assert weakest([E031, UFC_BNBC, E031]).source == f"{E031.source}; {UFC_BNBC.source}"
-    for none in ([], [E031, OWN]):
+    for none in ([], [E031, PROJECT]):
         with pytest.raises(CheckError, match="one at least"):
             weakest(none)
 
@@ -192,11 +192,11 @@ def test_values_are_named() -> None:
     with pytest.raises(CheckError, match="value 'drifts' is none"):
         standing_by(ASCE_VALUES, "drifts")
     assert standing_in("ASCE 7", "history drift") == UFC_BNBC
-    assert standing_in("Atlantis 12", "history drift") == MEMORY
+    assert standing_in("Atlantis 12", "history drift") == FROM_MEMORY
 
 
 def test_a_spectrum_has_the_standing_of_its_formula() -> None:
     assert Spectrum.nch433("B", 2).standing.kind == "agrees"
-    assert Spectrum.asce7(s_ms=1.2, s_m1=0.6).standing == MEMORY
+    assert Spectrum.asce7(s_ms=1.2, s_m1=0.6).standing == FROM_MEMORY
     given = Spectrum.given([0.1, 1.0, 3.0], [5.0, 4.0, 1.0])
-    assert given.standing == OWN
+    assert given.standing == PROJECT

@@ -15,7 +15,7 @@ from numba.core.ir import Inst
 from numba.core.registry import cpu_target
 
 from lir_element._compile.cache import Sources
-from lir_element._compile.jit import WITH_PARTS, expanded, kernels_of
+from lir_element._compile.jit import WITH_PARTS, inlined_before_typing, kernels_of
 from lir_element.kernels import linear
 
 pytestmark = pytest.mark.skipif(
@@ -161,7 +161,7 @@ def test_loops_are_unrolled_where_they_are_long(module: str, tmp_path: Path, mon
     assert (code.count("fadd") > 1) == (module != __name__)
 
 
-@expanded
+@inlined_before_typing
 def stretched(b: Outer, by: float) -> Inner:
     """A bundle from a kernel that is put into others."""
     total = 0.0

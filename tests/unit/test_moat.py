@@ -19,7 +19,7 @@ from frames.design import CheckError, DesignLimits, ProjectError, code_named
 from frames.design.devices.limits import PROJECT_LIMIT
 from frames.design.histories.eccentricity import cases_of
 from frames.design.project.check_register import of_the_moat
-from frames.design.project.devices_beside import walls_of, with_devices
+from frames.design.project.moat_and_dampers import walls_of, with_devices
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.schema_bearing import MoatTable

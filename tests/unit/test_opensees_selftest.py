@@ -17,7 +17,7 @@ pytest.importorskip("openseespy")
 pytest.importorskip("psutil")
 
 from lir_element.opensees import RouteWarning, bearing_element, opensees, plugin
-from lir_element.opensees.fast import selftest, symbols
+from lir_element.opensees.in_process import selftest, symbols
 
 DEVICE = static_bearing()
 _RUN = subprocess.run

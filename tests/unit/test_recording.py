@@ -8,7 +8,7 @@ import pytest
 from frames import Recording
 from frames.recording.recording import recording_of
 from frames.recording.reduction import _regular
-from frames.results.peak_response import Extreme, extreme_of, later
+from frames.results.peak_response import Extreme, extreme_of, larger_of
 
 
 def test_constructors_are_fields_put_together():
@@ -80,7 +80,7 @@ def test_extremes_of_pieces_are_those_of_the_whole():
     assert whole.at.tolist() == [0.1, 0.0, 0.1]
     for cut in (1, 2, 3):
         parts = [extreme_of(history[s], time[s]) for s in (slice(None, cut), slice(cut, None))]
-        joined = later(*parts)
+        joined = larger_of(*parts)
         assert isinstance(joined, Extreme)
         np.testing.assert_array_equal(joined.values, whole.values)
         np.testing.assert_array_equal(joined.at, whole.at)

@@ -50,7 +50,7 @@ from frames.design.project.level_runs import project_runs
 from frames.design.project.preliminary import Preliminary, preliminary
 from frames.design.project.reading import read_project
 from frames.design.report.figures import VOID_TITLE, motions_figure
-from frames.design.report.numbers import run_tables
+from frames.design.report.result_tables import run_tables
 from frames.design.report.words import Words
 from frames.results.recorded import is_of_all_steps
 from tests.spanish import untold

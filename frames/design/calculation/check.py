@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, get_args, overload
 
 from frames.design._errors import CheckError
 from frames.design.calculation.rendering import quantity, scale, usual_unit
-from frames.design.calculation.standing import MEMORY, Standing
+from frames.design.calculation.standing import FROM_MEMORY, Standing
 from frames.design.calculation.trace import Trace
 from lir_element.argument_checks import as_number, require_choice, require_type
 from lir_element.tables import html_table, text_table
@@ -90,7 +90,7 @@ class Check:
     unit: str = "-"
     relation: Literal["<=", ">="] = "<="
     trace: Trace = Trace()  # noqa: RUF009  (copied, never added to)
-    standing: Standing = MEMORY
+    standing: Standing = FROM_MEMORY
     bound: Bound = ""
     subject: str = ""
     note: str = ""

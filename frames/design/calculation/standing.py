@@ -83,13 +83,13 @@ class Standing:
         return f"{self.words} {self.source}".strip()
 
 
-MEMORY = Standing("memory")
+FROM_MEMORY = Standing("memory")
 """The weakest: of all that nobody said more of."""
 
-OWN = Standing("own")
+PROJECT = Standing("own")
 """Of what no code has: mechanics, proposals of this package, limits of the project."""
 
-LEGEND = f"clauses, formulas and factors with a star: {MEMORY}"
+LEGEND = f"clauses, formulas and factors with a star: {FROM_MEMORY}"
 """What the star means, under tables."""
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Checks
-from frames.design.calculation.standing import OWN
+from frames.design.calculation.standing import PROJECT
 from frames.design.calculation.trace import Trace
 from frames.design.codes.bounds import ENDS, BoundName, PropertyBounds, with_property_bounds
 from frames.design.codes.isolation import Extremes, IsolationSystem
@@ -62,7 +62,7 @@ def slip_threshold(system: IsolationSystem, bounds: PropertyBounds) -> Checks:
     t.each("mu_h_low", "lambda_h * mu_h")
     t.each("mu_e_up", "lambda_e * mu_e", note="what the interface carries, over the load")
     clause = "LIR-DCFP, docs/theory.md (2.1)"
-    check = CheckBuilder(t, "", OWN).worst(
+    check = CheckBuilder(t, "", PROJECT).worst(
         clause,
         "interface holds before the rim",
         "mu_h_low",
@@ -92,7 +92,7 @@ def service_checks(
     if above.wind_shear > 0.0:
         t = least_strength(system, bounds)
         t.given("V_wind", above.wind_shear, "N")
-        judge = CheckBuilder(t, "lower", OWN if wind is None else wind.standing)
+        judge = CheckBuilder(t, "lower", PROJECT if wind is None else wind.standing)
         clause = NO_CLAUSE if wind is None else wind.clause
         title, note = "sliding under wind", "where it slides: more friction, or a wind restraint"
         found.append(judge(clause, title, "V_wind", "<=", "Q_min", note=note))
@@ -101,7 +101,7 @@ def service_checks(
         t.given("d_ser", above.service_displacement, "m", shown="mm", note="as given")
         rims = [p.capacity for p in system.pendulums]
         t.given("d_rim", min(rims), "m", shown="mm", note="displacement at the first rim contact")
-        judge = CheckBuilder(t, "", OWN)
+        judge = CheckBuilder(t, "", PROJECT)
         title = "no restrainer contact in service"
         found.append(judge(NO_CLAUSE, title, "d_ser", "<=", "d_rim"))
     return Checks(found)

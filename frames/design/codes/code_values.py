@@ -6,8 +6,8 @@ import re
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from frames.design._errors import CheckError
-from frames.design.calculation.standing import MEMORY, OWN, Standing
-from frames.design.calculation.unevaluated import NOT_EVALUATED
+from frames.design.calculation.not_evaluated import NOT_EVALUATED
+from frames.design.calculation.standing import FROM_MEMORY, PROJECT, Standing
 from lir_element.texts import first_of, joined, worded
 
 if TYPE_CHECKING:
@@ -200,7 +200,7 @@ def _begins(check: Check, title: str) -> bool:
 def _state(
     one: Provision, facts: Collection[str], made: Iterable[Check], is_run: bool
 ) -> ProvisionState:
-    standing = OWN if one.clause.startswith(NO_CODE) else MEMORY
+    standing = PROJECT if one.clause.startswith(NO_CODE) else FROM_MEMORY
     if one.yours:
         return ProvisionState(standing.cited(one.clause), one.what, "yours", one.why)
     lacking = next((NEEDS[name] for name in one.needs if name not in facts), "")
@@ -271,7 +271,7 @@ class CodeValue(NamedTuple):
 
     clause: str
     what: str
-    standing: Standing = MEMORY
+    standing: Standing = FROM_MEMORY
     field: str = ""
 
 
@@ -294,7 +294,7 @@ def standing_by(values: Mapping[str, CodeValue], *names: str, analysis: object =
         msg = f"value {missing[0]!r} is none of the code's: it has {', '.join(values)}"
         raise CheckError(msg)
     return weakest(
-        MEMORY if _is_changed(values[name].field, analysis) else values[name].standing
+        FROM_MEMORY if _is_changed(values[name].field, analysis) else values[name].standing
         for name in names
     )
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
-from frames.design.calculation.standing import MEMORY
-from frames.design.calculation.unevaluated import not_evaluated
+from frames.design.calculation.not_evaluated import not_evaluated
+from frames.design.calculation.standing import FROM_MEMORY
 from frames.design.codes.code_values import CodeValue
 from frames.design.codes.outcome import BoundResult, Iteration, Symbols
 from frames.design.codes.secant import CheckBuilder, held_by, iterate_displacement
@@ -95,7 +95,9 @@ class LinearAnalysis(abc.ABC):
             pendulum.require_sliding(t.value(self.sliding or self.symbols.displacement))
         self.totals(t, system, spectrum)
         self.base_shear(t, spectrum, extremes)
-        judge = CheckBuilder(t, bound, MEMORY, level=self.level, values=self.values, analysis=self)
+        judge = CheckBuilder(
+            t, bound, FROM_MEMORY, level=self.level, values=self.values, analysis=self
+        )
         checks, forces = self.device_checks(t, system, judge), tuple[float, ...]()
         if superstructure is not None:
             self.shears(t, superstructure, spectrum, extremes)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal, NamedTuple, get_args
 
 from frames.design._errors import CheckError
-from frames.design.calculation.standing import MEMORY, Standing
+from frames.design.calculation.standing import FROM_MEMORY, Standing
 from frames.model.load_combinations import isolator_combinations
 from lir_element.argument_checks import require_choice
 from lir_element.fields import check_numbers, number
@@ -281,7 +281,7 @@ class LoadRule(NamedTuple):
     clause: str
     mass: Mapping[str, float]
     combinations: Callable[[float | None], Combinations]
-    standing: Standing = MEMORY
+    standing: Standing = FROM_MEMORY
     note: str = ""
 
     @property
@@ -300,7 +300,7 @@ LOADS_OF_ASCE = LoadRule(
     "ASCE/SEI 7-22, 12.7.2 and 17.2.7.1",
     {"D": 1.0, "L": 0.0, "S": 0.0},
     lambda s_ms: isolator_combinations(s_ms or 0.0),
-    MEMORY,
+    FROM_MEMORY,
     "of live load only that of storage counts as mass, 25 %",
 )
 """Seismic weight and combinations of ASCE 7, and of codes that give none of their own."""

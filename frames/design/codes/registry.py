@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, Protocol, cast, runtime_checkable
 
 from frames.design._errors import CheckError
-from frames.design.calculation.standing import MEMORY, Standing
+from frames.design.calculation.standing import FROM_MEMORY, Standing
 from frames.design.codes.factor_sources import factors_by_source
 from frames.design.codes.history_rules import LOADS_OF_ASCE, HistoryRules, LoadRule
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, no_tests
@@ -78,7 +78,7 @@ class RimRule(NamedTuple):
     symbol: str
     least: float
     note: str
-    standing: Standing = MEMORY
+    standing: Standing = FROM_MEMORY
 
 
 class SpectrumKey(NamedTuple):
@@ -233,7 +233,7 @@ class DesignCode(HazardRules):
 
     def standing(self, name: str) -> Standing:
         """Return how well one of its `values` is known; from memory of what it does not list."""
-        return self.values[name].standing if name in self.values else MEMORY
+        return self.values[name].standing if name in self.values else FROM_MEMORY
 
     def by_points(
         self, periods: Sequence[float], accelerations: Sequence[float], **keys: float
@@ -343,7 +343,7 @@ def standing_in(code: str, name: str) -> Standing:
     """Return how well a value of a code is known."""
     spelled = canonical(code)
     found = [one for one in known_codes() if one.name == spelled]
-    return found[0].standing(name) if found else MEMORY
+    return found[0].standing(name) if found else FROM_MEMORY
 
 
 class _HistoryRulesByCode(Mapping[str, HistoryRules]):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Scope
-from frames.design.calculation.standing import MEMORY, Standing
+from frames.design.calculation.standing import FROM_MEMORY, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.code_values import CodeValue, standing_by
 from frames.design.codes.outcome import Iteration, Symbols
@@ -126,7 +126,7 @@ class CheckBuilder:
 
     t: Trace  # the calculation
     bound: Bound  # properties of the bearings that it is for
-    standing: Standing = MEMORY  # of its checks
+    standing: Standing = FROM_MEMORY  # of its checks
     scope: Scope = "any"  # of its checks
     void: str = ""  # why its demands are no values for design
     level: str = ""  # level of the seismic action of its checks

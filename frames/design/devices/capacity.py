@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
-from frames.design.calculation.standing import MEMORY, OWN, Standing
+from frames.design.calculation.standing import FROM_MEMORY, PROJECT, Standing
 from frames.design.codes.registry import code_named
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import (
@@ -80,7 +80,7 @@ def capacity_checks(
     t("U_slide", "min(D, U_cap)", "m", shown="mm", note="both surfaces, as the slider tilts")
     t("s_D", "max(D - U_cap, 0) + s_left", "m", shown="mm")
     t("U_max", "U_cap + s_lim - s_left", "m", shown="mm")
-    judge, clause = CheckBuilder(t, bound, OWN), by_section("2")
+    judge, clause = CheckBuilder(t, bound, PROJECT), by_section("2")
     found = []
     for k, name in enumerate(SURFACES, start=1):
         t(f"d_{k}", f"R_{k} * U_slide / L", "m", shown="mm")
@@ -154,12 +154,12 @@ def engagement_checks(
     require_rims(bearing)
     rule = code_named(code).rims
     share = rule.least if least is None else require_positive("least", least, "-", error=CheckError)
-    known = rule.standing if least is None else MEMORY
+    known = rule.standing if least is None else FROM_MEMORY
     asked = [(rule.clause, known, share, rule.note)]
     if agreed is not None:
         require_positive("agreed", agreed, "-", error=CheckError)
         said = "as agreed; the code's own is checked beside it"
-        asked.append((PROJECT_LIMIT, OWN, agreed, said))
+        asked.append((PROJECT_LIMIT, PROJECT, agreed, said))
     of: Mapping[Bound, float] = (
         displacement if isinstance(displacement, Mapping) else {"": displacement}
     )
@@ -196,7 +196,7 @@ def _met(
         note=worded("{name} rim is met", name=name),
     )
     share = t("eta", "U_rim / D_allowed")
-    no_rule = standing != OWN and rule.least >= 1.0
+    no_rule = standing != PROJECT and rule.least >= 1.0
     judge = CheckBuilder(t, at[0], standing, "agreement" if no_rule else "any")
     return judge.worst(
         clause,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from frames.design.calculation.check import Check, Checks
-from frames.design.calculation.standing import OWN
+from frames.design.calculation.standing import PROJECT
 from frames.design.codes.prototype_programme import ordered_loads
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import (
@@ -92,7 +92,7 @@ def device_checks(
     t = enter_bearing(bearing, bounds, ordered_loads(loads))
     enter_length(t, "s", slip)
     enter_length(t, "s_left", slip_left, note="left by an earlier event")
-    judge = CheckBuilder(t, "", OWN)
+    judge = CheckBuilder(t, "", PROJECT)
     return Checks(
         [
             *_holds(judge, limits),

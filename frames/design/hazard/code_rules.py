@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames._errors import MotionError
-from frames.design.calculation.standing import MEMORY, Standing
+from frames.design.calculation.standing import FROM_MEMORY, Standing
 from lir_element.argument_checks import require_between, require_choice
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class DampingRule(NamedTuple):
 
     source: str
     rule: str
-    standing: Standing = MEMORY
+    standing: Standing = FROM_MEMORY
     table: tuple[tuple[float, float], ...] = ()
     formula: Callable[[float], float] | None = None
 
@@ -110,7 +110,7 @@ class ScalingRule(NamedTuple):
     clause: str
     periods: tuple[float, float]
     fault_axes: bool = False
-    standing: Standing = MEMORY
+    standing: Standing = FROM_MEMORY
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

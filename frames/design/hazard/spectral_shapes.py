@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from frames._types import FloatArray
-from frames.design.calculation.standing import MEMORY, OWN, Standing
+from frames.design.calculation.standing import FROM_MEMORY, PROJECT, Standing
 from lir_element.units import STANDARD_GRAVITY
 
 Parameters = Mapping[str, float]
@@ -75,7 +75,7 @@ class Shape(NamedTuple):
     amplitudes: tuple[str, ...]  # parameters that grow with the spectrum
     corners: tuple[str, ...]  # parameters that are periods where the formula changes
     source: str  # where the code has it
-    standing: Standing = MEMORY  # how well it is known
+    standing: Standing = FROM_MEMORY  # how well it is known
 
 
 def _where(period: FloatArray, limit: float) -> FloatArray:
@@ -151,7 +151,7 @@ SHAPES = {
         _nch2745, ("Z",), ("T_a", "T_b", "T_c", "T_d"), "NCh2745 Of.2003", NCH2745_TABLES
     ),
     "nch433": Shape(_nch433, ("A_0",), ("T_0",), "NCh433 with decree 61 of 2011", _DS61),
-    "given": Shape(_given, (), (), "as given", OWN),
+    "given": Shape(_given, (), (), "as given", PROJECT),
 }
 """Families of spectra by name."""
 

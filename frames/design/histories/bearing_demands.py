@@ -12,7 +12,7 @@ import numpy as np
 from frames.bundles.peak_data import LOADED, PRESSED
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check
-from frames.design.calculation.standing import OWN, Standing
+from frames.design.calculation.standing import PROJECT, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import (
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.design.devices.limits import DesignLimits
-    from frames.design.histories.suite import Suite
+    from frames.design.histories.suite import RunSet
     from frames.frame import Frame
     from lir_element import LIRBearing
 
@@ -43,7 +43,7 @@ _ALONE = (
 )
 
 
-class Calculation(NamedTuple):
+class DemandOverLimit(NamedTuple):
     """A calculation with its symbols of demand and limit."""
 
     trace: Trace
@@ -51,7 +51,7 @@ class Calculation(NamedTuple):
     limit: str
 
 
-Fill = Callable[[int], Calculation]
+Fill = Callable[[int], DemandOverLimit]
 """Returns the calculation of the bearing of a place."""
 
 
@@ -70,7 +70,7 @@ class BearingDemands:
     """Makes checks of what runs asked for: of bearings, and of what is worst of anything."""
 
     data: xr.Dataset  # the runs
-    suite: Suite  # how they are taken together
+    suite: RunSet  # how they are taken together
     bearings: Mapping[str, LIRBearing]  # the bearings as they were in these runs
     limits: DesignLimits  # of the project
     bound: Bound  # properties of the bearings
@@ -85,7 +85,7 @@ class BearingDemands:
         *,
         limit: float | None = None,
         clause: str = "",
-        standing: Standing = OWN,
+        standing: Standing = PROJECT,
         title: str = "",
         note: str = "",
     ) -> list[Check]:
@@ -93,7 +93,7 @@ class BearingDemands:
 
         `enter` enters the demand of a place by the values of the runs, and returns its symbol.
         """
-        quantity, each, own = JUDGED[name], dict[str, Calculation](), limit is None
+        quantity, each, own = JUDGED[name], dict[str, DemandOverLimit](), limit is None
         if own:
             limit, clause = self.limit(name), self.limits.clause_of(quantity.limit)
         if limit is None:
@@ -124,7 +124,7 @@ class BearingDemands:
         *,
         value: float | None = None,
         note: str = "",
-    ) -> Calculation:
+    ) -> DemandOverLimit:
         """Enter the limit of a quantity, that of the project if None, and its value if given."""
         unit, shown, end = JUDGED[name].pure_unit, JUDGED[name].in_checks, f"{symbol}_lim"
         if value is not None:
@@ -132,14 +132,14 @@ class BearingDemands:
         given = "as given" if limit is None else ""
         limit = self.limit(name) if limit is None else limit
         t.given(end, math.inf if limit is None else limit, unit, shown=shown, note=given)
-        return Calculation(t, symbol, end)
+        return DemandOverLimit(t, symbol, end)
 
     def worst(
         self,
         standing: Standing,
         clause: str,
         title: str,
-        each: Mapping[str, Calculation],
+        each: Mapping[str, DemandOverLimit],
         note: str = "",
     ) -> list[Check]:
         """Return the check of the largest ratio; none of nothing."""
@@ -164,7 +164,7 @@ class BearingDemands:
         """Return the check of the displacement against what rims and overlap allow."""
         values = peaks_of_runs(self.data, "displacement")
 
-        def fill(k: int) -> Calculation:
+        def fill(k: int) -> DemandOverLimit:
             bearing, t = self._at(k), Trace()
             if bearing.is_dcfp:
                 t.given("U_max", bearing.lateral_capacity, "m", shown="mm", note="a rim is met")
@@ -181,9 +181,9 @@ class BearingDemands:
                 t.given("D_least", least, "m", shown="mm", note=note)
                 formula = f"max({formula}, D_least)"
             if formula == "D":
-                return Calculation(t, "D", "U_max")
+                return DemandOverLimit(t, "D", "U_max")
             self.suite.form(t, "D_d", formula, "m", "mm", of="D")
-            return Calculation(t, "D_d", "U_max")
+            return DemandOverLimit(t, "D_d", "U_max")
 
         places = [k for k in self._all if math.isfinite(self._at(k).lateral_capacity)]
         found = self._of(clause, "isolator displacement", fill, places, standing)
@@ -194,7 +194,7 @@ class BearingDemands:
         most, left = peaks_of_runs(self.data, "slip"), peaks_of_runs(self.data, "slip_left")
 
         def of(symbol: str, values: FloatArray, limit: str) -> Fill:
-            def fill(k: int) -> Calculation:
+            def fill(k: int) -> DemandOverLimit:
                 t = self._entered(k)
                 if symbol == "s":
                     self._enter_slip(t, k)
@@ -202,7 +202,7 @@ class BearingDemands:
                     self.suite.enter(t, symbol, values[:, k], "m", "mm", of="slip_left")
                 if limit not in t and self.limits.slip_left is not None:
                     t.given(limit, self.limits.slip_left, "m", shown="mm", note="as given")
-                return Calculation(t, symbol, limit)
+                return DemandOverLimit(t, symbol, limit)
 
             return fill
 
@@ -250,14 +250,14 @@ class BearingDemands:
             return []
         values = peaks_of_runs(self.data, "rim_plastic")
 
-        def fill(k: int) -> Calculation:
+        def fill(k: int) -> DemandOverLimit:
             options, bearing, t = self._at(k).resolved(), self._at(k), Trace()
             t.given("P_y", bearing.rim_yield_force, "N")
             t.given("k_r", options["rim_stiffness"], "N/m")
             t.given("g_u", options["rim_overrun"], "m", shown="mm", note="at which a rim breaks")
             self.suite.enter(t, "g_p", values[:, k], "m", "mm", of="rim_plastic")
             t("g_lim", "g_u - P_y / k_r", "m", shown="mm", source="docs/theory.md (3.11)")
-            return Calculation(t, "g_p", "g_lim")
+            return DemandOverLimit(t, "g_p", "g_lim")
 
         return self._of(by_equation("3.11"), "plastic deformation of rims", fill, places)
 
@@ -277,13 +277,13 @@ class BearingDemands:
             return []
         load = peaks_of_runs(self.data, "axial_force")
 
-        def fill(k: int) -> Calculation:
+        def fill(k: int) -> DemandOverLimit:
             t = self._entered(k)
             t.given("p_lim", limit, "Pa", note="as given")
             self.suite.enter(t, "N", load[:, k], "N", of="axial_force")
             self._enter_slip(t, k)
             of(t)
-            return Calculation(t, "p", "p_lim")
+            return DemandOverLimit(t, "p", "p_lim")
 
         impacts = note_of_impacts(self.data, self.bearings)
         taken = "largest load and largest slip taken together"
@@ -335,7 +335,7 @@ class BearingDemands:
         title: str,
         fill: Fill,
         places: list[int],
-        standing: Standing = OWN,
+        standing: Standing = PROJECT,
         note: str = "",
     ) -> list[Check]:
         each = {self._names[k]: fill(k) for k in places}

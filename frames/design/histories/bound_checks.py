@@ -11,9 +11,9 @@ import numpy as np
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check
-from frames.design.calculation.standing import MEMORY, OWN, Standing
+from frames.design.calculation.not_evaluated import OF_AXIAL_FORCES, not_evaluated
+from frames.design.calculation.standing import FROM_MEMORY, PROJECT, Standing
 from frames.design.calculation.trace import Trace
-from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.design.codes.registry import HISTORY_RULES, standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.capacity import engagement_checks
@@ -76,7 +76,7 @@ class BoundChecks:
     def _of_bearings(self) -> list[Check]:
         rules, bearings = self.case.rules, self._bearings
         clause = self._clause(rules.displacement_clause)
-        moved = bearings.displacement(clause, MEMORY, self._least("D_TM_dyn"))
+        moved = bearings.displacement(clause, FROM_MEMORY, self._least("D_TM_dyn"))
         found = [
             *moved,
             *self._engagement(moved),
@@ -156,7 +156,7 @@ class BoundChecks:
         allowed = self.case.rules.unacceptable_allowed if self.case.suite.statistic == "mean" else 0
         t.given("n_allowed", float(allowed))
         clause = self._clause(self.case.rules.statistic_clause)
-        judge = CheckBuilder(t, self.case.bound, MEMORY)
+        judge = CheckBuilder(t, self.case.bound, FROM_MEMORY)
         note = joined(self.case.suite.reason, self._small_gaps, self._audit)
         return judge(clause, "runs that failed", "n_failed", "<=", "n_allowed", note=note)
 
@@ -346,7 +346,7 @@ class BoundChecks:
                     partial(enter, of=name),
                     limit=limit,
                     clause=self._clause(self.case.rules.drift_clause),
-                    standing=OWN if limit is None else self._known("history drift", "drift"),
+                    standing=PROJECT if limit is None else self._known("history drift", "drift"),
                     title=JUDGED["drift"].demand,
                     note=of,
                 )
@@ -372,7 +372,7 @@ class BoundChecks:
         # How well a value of the code is known; of one that the project changed nothing is.
         own = HISTORY_RULES.get(self.case.rules.code)
         same = own is not None and getattr(self.case.rules, field) == getattr(own, field)
-        return standing_in(self.case.rules.code, value) if same else MEMORY
+        return standing_in(self.case.rules.code, value) if same else FROM_MEMORY
 
     def _clause(self, clause: str) -> str:
         return f"{self.case.rules.cited} {clause}".strip()

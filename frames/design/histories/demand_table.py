@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.batch.runs import WAY
+from frames.batch.runs import MASS_SHIFT
 from frames.design.histories.eccentricity import levels_of, reached_by
 from frames.design.histories.suite import names_of, peaks_of_runs, run_named, suite_of
 from frames.results.quantities import DEMANDS, JUDGED, Quantity
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.design.codes.history_rules import HistoryRules
     from frames.design.histories.eccentricity import Case
-    from frames.design.histories.suite import Failure, Suite
+    from frames.design.histories.suite import Failure, RunSet
 
 COUNTED = {DEMANDS[name].demand for name in ("uplifts", "time_lifted", "gap")}
 """Rows of uplift, of which codes without uplift leave small gaps aside."""
@@ -109,7 +109,7 @@ def _note(quantity: Quantity, rules: HistoryRules) -> str:
     return quantity.note
 
 
-def said(suite: Suite) -> str:
+def said(suite: RunSet) -> str:
     """Return in words how the runs of a bound are taken together."""
     n, failed = len(suite.failed), sum(suite.failed)
     of_all = worded("{statistic} of {n} runs", statistic=suite.statistic, n=n)
@@ -274,7 +274,7 @@ def _farthest(values: FloatArray) -> FloatArray:
 def _key(data: xr.Dataset, key: str, rules: HistoryRules) -> Sequence[object]:
     # A column that says of which run a row is.
     if key == "masses moved":
-        own = data[WAY].to_numpy() if WAY in data.coords else [""] * data.sizes["run"]
+        own = data[MASS_SHIFT].to_numpy() if MASS_SHIFT in data.coords else [""] * data.sizes["run"]
         return [str(way) for way in own]
     if key == "failed":
         return ["yes" if failed else "no" for failed in suite_of(data, rules).failed]

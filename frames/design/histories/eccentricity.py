@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
-from frames.batch.runs import BOUND, HAZARD, WAY
+from frames.batch.runs import BOUND, HAZARD, MASS_SHIFT
 from frames.design._errors import CheckError
 from frames.design.histories.suite import (
-    Amplification,
     Failure,
-    Suite,
+    RunSet,
+    TorsionFactor,
     failures_of,
     motion_of,
     names_of,
@@ -60,8 +60,8 @@ class _Way(NamedTuple):
     name: str
     own: list[int]
     rows: list[int]
-    here: Suite
-    there: Suite
+    here: RunSet
+    there: RunSet
 
     def both(self, own: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
         # Values for design of all runs and of all with moved masses, (n_runs, ...).
@@ -89,7 +89,7 @@ class Case:
         """The ways of the moved masses, and of each the runs that are compared."""
         if self.moved is None:
             return []
-        found, count, names = [], self.data.sizes["run"], self.moved[WAY].to_numpy().tolist()
+        found, count, names = [], self.data.sizes["run"], self.moved[MASS_SHIFT].to_numpy().tolist()
         for name in dict.fromkeys(names):
             rows = [k for k, each in enumerate(names) if each == name]
             own = [_place(self.data, self.moved, k) for k in rows]
@@ -99,9 +99,9 @@ class Case:
         return found
 
     @cached_property
-    def each_way(self) -> tuple[dict[tuple[str, str], Amplification], str]:
+    def each_way(self) -> tuple[dict[tuple[str, str], TorsionFactor], str]:
         """By what each way raises each quantity, and which runs with moved masses failed."""
-        found, failed = dict[tuple[str, str], Amplification](), []
+        found, failed = dict[tuple[str, str], TorsionFactor](), []
         raised = [name for name in _RAISED if all(PEAK + name in each for each in self.parts)]
         for way in self.ways:
             if any(way.there.failed):
@@ -121,10 +121,10 @@ class Case:
         return found, joined(*dict.fromkeys(failed))
 
     @cached_property
-    def suite(self) -> Suite:
+    def suite(self) -> RunSet:
         """How the runs are taken together, accidental eccentricity with them."""
         table, failed = self.each_way
-        found: dict[str, Amplification] = {}
+        found: dict[str, TorsionFactor] = {}
         for (name, _), one in table.items():
             worst = found.get(name)
             if worst is None or (one.factor, one.added) > (worst.factor, worst.added):
@@ -146,7 +146,7 @@ class Case:
             return self.data
         parts = [self.data, named_by_way(self.moved)]
         kept = [name for name in self.data.variables if all(_is_of_runs(p, name) for p in parts)]
-        parts = [part[kept].drop_vars(WAY, errors="ignore") for part in parts]
+        parts = [part[kept].drop_vars(MASS_SHIFT, errors="ignore") for part in parts]
         found = xr.concat(parts, "run", data_vars="minimal", coords="minimal", compat="override")
         return found.assign_attrs(self.data.attrs)
 
@@ -279,7 +279,9 @@ def named_by_way(moved: xr.Dataset) -> xr.Dataset:
     """Return runs with moved masses whose motions name the way as well."""
     named = [
         worded("{motion}, masses {way}", motion=motion, way=way)
-        for motion, way in zip(moved["motion"].to_numpy(), moved[WAY].to_numpy(), strict=True)
+        for motion, way in zip(
+            moved["motion"].to_numpy(), moved[MASS_SHIFT].to_numpy(), strict=True
+        )
     ]
     return moved.assign_coords(motion=("run", np.array(named, dtype=object)))
 
@@ -304,13 +306,13 @@ def _largest(each: FloatArray) -> float:
     return float(known.max()) if len(known) else 0.0
 
 
-def _raise(way: str, centred: float, moved: float, motions: str, name: str) -> Amplification:
+def _raise(way: str, centred: float, moved: float, motions: str, name: str) -> TorsionFactor:
     factor, added, kind = 0.0, 0.0, QUANTITIES[name].raised
     if kind == "factor" and centred > 0.0:
         factor = moved / centred
     elif kind == "difference":
         added = moved - centred
-    return Amplification(way, centred, moved, max(factor, 1.0), max(added, 0.0), motions)
+    return TorsionFactor(way, centred, moved, max(factor, 1.0), max(added, 0.0), motions)
 
 
 def _refuse_runs(data: xr.Dataset, bound: str) -> None:
@@ -339,10 +341,10 @@ def _refuse_runs(data: xr.Dataset, bound: str) -> None:
 def _refuse_unlike(data: xr.Dataset, moved: xr.Dataset, bound: str) -> None:
     """Refuse runs with moved masses that do not belong to others."""
     what = f"moved at the bound {bound!r}" if bound else "moved"
-    if "run" not in moved.dims or WAY not in moved.coords:
-        msg = f"{what}: no coordinate {WAY!r} along 'run': name the way of each run, '+x'"
+    if "run" not in moved.dims or MASS_SHIFT not in moved.coords:
+        msg = f"{what}: no coordinate {MASS_SHIFT!r} along 'run': name the way of each run, '+x'"
         raise CheckError(msg)
-    odd = {*map(str, np.unique(moved[WAY].to_numpy()))} - {*WAYS}
+    odd = {*map(str, np.unique(moved[MASS_SHIFT].to_numpy()))} - {*WAYS}
     if odd:
         msg = f"{what}: masses_moved = {min(odd)!r} must be one of {', '.join(WAYS)}"
         raise CheckError(msg)

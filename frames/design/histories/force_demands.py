@@ -9,7 +9,7 @@ import numpy as np
 from frames.design._errors import CheckError
 from frames.design.histories.demand_table import said
 from frames.design.histories.eccentricity import Case, levels_of
-from frames.design.histories.suite import Raise, peaks_of_runs
+from frames.design.histories.suite import ShearFactor, peaks_of_runs
 from frames.results.recorded import PEAK
 from lir_element.texts import joined, worded
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray, IntArray
-    from frames.design.histories.suite import Suite
+    from frames.design.histories.suite import RunSet
 
 
 class _Kind(NamedTuple):
@@ -43,7 +43,7 @@ _DIGITS = 3  # after the point, of forces: what is less than a millinewton is ro
 
 
 def force_demands(
-    cases: Sequence[Case], raises: Mapping[tuple[str, str], Raise] | None = None
+    cases: Sequence[Case], raises: Mapping[tuple[str, str], ShearFactor] | None = None
 ) -> dict[str, pd.DataFrame]:
     """Return what time histories ask of members, storeys and what bearings stand on and carry."""
     import pandas as pd
@@ -56,7 +56,7 @@ def force_demands(
             tables = []
             for case in own:
                 if case.keeps(kind.variable):
-                    more = known.get((level, case.bound), Raise())
+                    more = known.get((level, case.bound), ShearFactor())
                     table = _of_bound(case, kind, _factors(case.data, name, kind, more))
                     if name == "storeys":
                         table = pd.concat([table, _drifts(case, more.above)])
@@ -70,7 +70,7 @@ def force_demands(
     return found
 
 
-def _factors(data: xr.Dataset, name: str, kind: _Kind, more: Raise) -> FloatArray:
+def _factors(data: xr.Dataset, name: str, kind: _Kind, more: ShearFactor) -> FloatArray:
     # Of each section, which are in the order of the table: the foot of the lowest level is the
     # first of the storeys.
     shape = tuple(data.sizes[dim] for dim in kind.columns)
@@ -146,7 +146,7 @@ def _shown(values: FloatArray) -> FloatArray:
     return np.asarray(np.round(values, _DIGITS).ravel() + 0.0)  # no -0
 
 
-def _void(suite: Suite) -> str:
+def _void(suite: RunSet) -> str:
     # Which runs and why is in the table of demands.
     if not suite.void:
         return ""

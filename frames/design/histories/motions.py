@@ -9,7 +9,7 @@ import numpy as np
 from frames._errors import MotionError
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
-from frames.design.calculation.standing import MEMORY, Standing
+from frames.design.calculation.standing import FROM_MEMORY, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.registry import code_named, standing_in
 from frames.design.codes.secant import CheckBuilder
@@ -197,7 +197,7 @@ def _turned(motions: MotionSet, clause: str) -> list[Check]:
         names=", ".join(odd),
     )
     title = "near-fault pairs that are not turned to the fault"
-    judge = CheckBuilder(t, "", MEMORY)
+    judge = CheckBuilder(t, "", FROM_MEMORY)
     return [judge(clause, title, "n_odd", "<=", "n_allowed", note=note if odd else "")]
 
 

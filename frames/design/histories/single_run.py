@@ -7,21 +7,21 @@ from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
-from frames.design.calculation.standing import OWN
+from frames.design.calculation.not_evaluated import OF_AXIAL_FORCES, not_evaluated
+from frames.design.calculation.standing import PROJECT
 from frames.design.calculation.trace import Trace
-from frames.design.calculation.unevaluated import OF_AXIAL_FORCES, not_evaluated
 from frames.design.codes.registry import standing_in
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.bearing_numbers import by_equation, by_section, enter_bearing
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
-from frames.design.histories.bearing_demands import BearingDemands, Calculation, devices_of
+from frames.design.histories.bearing_demands import BearingDemands, DemandOverLimit, devices_of
 from frames.design.histories.impacts import (
     impact_demand,
     rim_engagement,
     slips_of_events,
     uplift_events,
 )
-from frames.design.histories.suite import Suite
+from frames.design.histories.suite import RunSet
 from frames.design.histories.suite_notes import left_out_checks
 from frames.design.histories.uplift import Uplift, suite_of_uplift
 from frames.results.findings import doubts_of
@@ -89,12 +89,12 @@ def impact_checks(
     limits = DesignLimits() if limits is None else limits
     failed = str(data.attrs["status"]) != "ok"
     reason = str(data.attrs["message"]) if failed else ""
-    suite = Suite(statistic="single", failed=(failed,), reason=reason)
+    suite = RunSet(statistic="single", failed=(failed,), reason=reason)
     devices = devices_of(data, frame)
     bearings = BearingDemands(data, suite, devices, limits, bound, reason)
     found = [_complete(data, bound)]
     found += left_out_checks(data, bound)
-    found += bearings.displacement(by_section("2"), OWN)
+    found += bearings.displacement(by_section("2"), PROJECT)
     found += [*bearings.slips(), *bearings.forces()]
     found += [*_structure(bearings), *_uplift(bearings)]
     landing = suite_of_uplift(data, reason)
@@ -158,7 +158,7 @@ def event_checks(
     limits = DesignLimits() if limits is None else limits
     void = "" if str(data.attrs["status"]) == "ok" else str(data.attrs["message"])
     found, devices = [_complete(data, bound)], devices_of(data, frame)
-    suite = Suite(statistic="single", failed=(bool(void),), reason=void)
+    suite = RunSet(statistic="single", failed=(bool(void),), reason=void)
     demands = BearingDemands(data, suite, devices, limits, bound)
     for event, rows in slips_of_events(data, ends).groupby("event"):
         left = "s_star" if limits.slip_left is None else "s_allowed"
@@ -172,7 +172,7 @@ def event_checks(
                 if not devices[name].is_dcfp
             }
             title = f"{what}, event {event}"
-            found += demands.worst(OWN, by_equation("2.7"), title, each)
+            found += demands.worst(PROJECT, by_equation("2.7"), title, each)
     return Checks(replace(check, void=void) for check in found)
 
 
@@ -182,7 +182,7 @@ def _complete(data: xr.Dataset, bound: Bound) -> Check:
     t.given("n_allowed", 0.0)
     said = (f"assumption check: {doubt}" for doubt in doubts_of(data))
     note = "; ".join((str(data.attrs["message"]), *said))
-    judge = CheckBuilder(t, bound, OWN)
+    judge = CheckBuilder(t, bound, PROJECT)
     return judge("no code", "run is complete", "n_failed", "<=", "n_allowed", note=note)
 
 
@@ -198,7 +198,7 @@ def _structure(demands: BearingDemands) -> list[Check]:
             note = f"t = {row['time']:.4g} s; {row['ratio']:.3g} times the largest before impacts"
             place, t = str(label).partition(" of ")[2], Trace()
             each[place] = demands.within(t, symbol, name, value=row["at_impact"], note=note)
-        found += demands.worst(OWN, PROJECT_LIMIT, f"{kind} at an impact", each)
+        found += demands.worst(PROJECT, PROJECT_LIMIT, f"{kind} at an impact", each)
     return found
 
 
@@ -219,7 +219,7 @@ def _uplift(demands: BearingDemands) -> list[Check]:
         row, t = rows.loc[rows[column].idxmax()], Trace()
         when = f"lifted off at t = {row['begin']:.4g} s for {row['duration']:.4g} s"
         one = demands.within(t, symbol, name, value=row[column], note=when)
-        found += demands.worst(OWN, PROJECT_LIMIT, title, {str(row["bearing"]): one}, said)
+        found += demands.worst(PROJECT, PROJECT_LIMIT, title, {str(row["bearing"]): one}, said)
     return found
 
 
@@ -248,9 +248,9 @@ def _engagement(data: xr.Dataset, whole: float, least: float, bound: Bound) -> l
 
 def _slip_of(
     bearing: LIRBearing, symbol: str, value: float, limit: str, limits: DesignLimits
-) -> Calculation:
+) -> DemandOverLimit:
     t = enter_bearing(bearing, None)
     t.given(symbol, value, "m", shown="mm")
     if limit not in t and limits.slip_left is not None:
         t.given(limit, limits.slip_left, "m", shown="mm", note="as given")
-    return Calculation(t, symbol, limit)
+    return DemandOverLimit(t, symbol, limit)

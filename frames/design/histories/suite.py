@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from frames.design.codes.outcome import BoundResult
 
 
-class Amplification(NamedTuple):
+class TorsionFactor(NamedTuple):
     """What the way that is worst does to the largest of a quantity: accidental eccentricity."""
 
     way: str  # which way the masses are moved, "+x"
@@ -50,7 +50,7 @@ class Amplification(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Suite:
+class RunSet:
     """How runs are taken together."""
 
     # mean of the runs' largest values, the largest of them, or that of one run
@@ -61,7 +61,7 @@ class Suite:
     reason: str = ""  # which runs failed, in words
     source: str = ""  # clause of the statistic
     # by what accidental eccentricity raises quantities, by their names
-    raised: Mapping[str, Amplification] = field(default_factory=dict)
+    raised: Mapping[str, TorsionFactor] = field(default_factory=dict)
     # which runs with moved masses failed, in words: then nothing is a value for design
     moved_failed: str = ""
 
@@ -226,14 +226,14 @@ def failures_of(data: xr.Dataset, rules: HistoryRules) -> list[Failure | None]:
     return [_failure(data, k) if word != "ok" or torn[k] else None for k, word in enumerate(status)]
 
 
-def suite_of(data: xr.Dataset, rules: HistoryRules) -> Suite:
+def suite_of(data: xr.Dataset, rules: HistoryRules) -> RunSet:
     """Return how the runs of one bound are taken together."""
     return suite_of_failures(failures_of(data, rules), rules)
 
 
-def suite_of_failures(failures: Sequence[Failure | None], rules: HistoryRules) -> Suite:
+def suite_of_failures(failures: Sequence[Failure | None], rules: HistoryRules) -> RunSet:
     """Return how runs are taken together, by the failure of each."""
-    return Suite(
+    return RunSet(
         statistic="mean" if len(failures) >= rules.mean_from else "largest",
         failed=tuple(one is not None for one in failures),
         allowed=rules.unacceptable_allowed,
@@ -298,7 +298,7 @@ STOREY = "storey shear of time histories"
 LEAST = "least one, of the equivalent-linear analysis"
 
 
-class Raise(NamedTuple):
+class ShearFactor(NamedTuple):
     """Factors on the earthquake's part of forces and drifts, 1 at least."""
 
     # above the isolation: the larger ratio of least shear to that of the runs, of the lowest
@@ -309,7 +309,7 @@ class Raise(NamedTuple):
 
 def shear_checks(
     data: xr.Dataset,
-    suite: Suite,
+    suite: RunSet,
     rules: HistoryRules,
     known: BoundResult,
     storey: str = "",
@@ -356,16 +356,16 @@ def shear_checks(
     return [*found, judged(t, STOREY, "V_run", storey)]
 
 
-def raise_of(checks: list[Check]) -> Raise:
+def raise_of(checks: list[Check]) -> ShearFactor:
     """Return by what the least shears raise forces."""
     factors = {BASE: 1.0, STOREY: 1.0}
     for check in checks:
         if not check.void and check.demand > 0.0:
             factors[check.title] = max(check.limit / check.demand, 1.0)
-    return Raise(above=max(factors.values()), isolation=factors[BASE])
+    return ShearFactor(above=max(factors.values()), isolation=factors[BASE])
 
 
-def raises_by_case(checks: Iterable[Check]) -> dict[tuple[str, str], Raise]:
+def raises_by_case(checks: Iterable[Check]) -> dict[tuple[str, str], ShearFactor]:
     """Return by what the least shears raise the forces of runs."""
     cases: dict[tuple[str, str], list[Check]] = {}
     for check in checks:

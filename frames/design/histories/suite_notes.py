@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.design.calculation.standing import OWN
+from frames.design.calculation.standing import PROJECT
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.histories.suite import motion_of, names_of, parted, peaks_of_runs
@@ -96,7 +96,7 @@ def left_out_checks(data: xr.Dataset, bound: Bound, void: str = "") -> list[Chec
     spoilt = sum(bool(found.missing()) for found in findings_by_run(data))
     t.given("n_spoilt", float(spoilt), note="by their assumption checks")
     t.given("n_allowed", 0.0)
-    judge = CheckBuilder(t, bound, OWN, void=void)
+    judge = CheckBuilder(t, bound, PROJECT, void=void)
     title = "runs whose modelling assumptions are violated"
     return [judge("no code: assumption check", title, "n_spoilt", "<=", "n_allowed", note=features)]
 

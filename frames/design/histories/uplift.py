@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design.calculation.check import Check
-from frames.design.calculation.standing import MEMORY, OWN
+from frames.design.calculation.standing import FROM_MEMORY, PROJECT
 from frames.design.calculation.trace import Trace
 from frames.design.devices.bearing_numbers import enter_geometry, overlap_area, pressure
 from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
-from frames.design.histories.bearing_demands import BearingDemands, Calculation
-from frames.design.histories.suite import Suite, motion_of, peaks_of_runs, stopped_in
+from frames.design.histories.bearing_demands import BearingDemands, DemandOverLimit
+from frames.design.histories.suite import RunSet, motion_of, peaks_of_runs, stopped_in
 from lir_element.device.sliders import interface_height
 from lir_element.texts import worded
 
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
 _FREE_SHARE = 0.5  # of the height that has place for a rim, where its height is not given
 
 
-def suite_of_uplift(data: xr.Dataset, reason: str = "") -> Suite:
+def suite_of_uplift(data: xr.Dataset, reason: str = "") -> RunSet:
     """Return how lift-offs count: the largest of runs, none where one failed or keeps no gap."""
     stopped, lifted = stopped_in(data), _lifted_in(data)
     unknown = (np.isnan(peaks_of_runs(data, "gap")) & lifted).any(axis=1)
     if not stopped.any():
         reason = "a bearing lifted off by a gap that was not recorded"
     failed = tuple((stopped | unknown).tolist())
-    return Suite(statistic="largest", failed=failed, reason=reason)
+    return RunSet(statistic="largest", failed=failed, reason=reason)
 
 
 @dataclass(frozen=True)
@@ -58,8 +58,8 @@ class Uplift(BearingDemands):
             else:
                 t = Trace()
                 t.given("h_rim", own, "m", shown="mm", note="height of the rims, as given")
-            each[name] = Calculation(self._with_gap(t, k), "g", "h_rim")
-        known, clause = (MEMORY, self.clause) if self.clause else (OWN, PROPOSED_LIMIT)
+            each[name] = DemandOverLimit(self._with_gap(t, k), "g", "h_rim")
+        known, clause = (FROM_MEMORY, self.clause) if self.clause else (PROJECT, PROPOSED_LIMIT)
         return self.worst(known, clause, "maximum uplift over the rim height", each, self._told)
 
     def gaps(self) -> list[Check]:
@@ -69,7 +69,7 @@ class Uplift(BearingDemands):
             for k, name in enumerate(self._names)
             if self.limit("gap") is not None
         }
-        return self.worst(OWN, PROJECT_LIMIT, "maximum uplift", each, self._told)
+        return self.worst(PROJECT, PROJECT_LIMIT, "maximum uplift", each, self._told)
 
     def landings(self) -> list[Check]:
         """Return the check of the landing's force or pressure; none where nothing lifted off."""
@@ -84,9 +84,9 @@ class Uplift(BearingDemands):
             title = "axial force with a landing"
         elif limits.interface_pressure is None:
             clause = PROPOSED_LIMIT
-        return self.worst(OWN, clause, title, each, self._told)
+        return self.worst(PROJECT, clause, title, each, self._told)
 
-    def _landing(self, k: int, bearing: LIRBearing, runs: Sequence[int]) -> Calculation:
+    def _landing(self, k: int, bearing: LIRBearing, runs: Sequence[int]) -> DemandOverLimit:
         # Of the runs in which the bearing lifts off, the one that presses it most.
         force, slip = (
             peaks_of_runs(self.data, "axial_force")[:, k],
@@ -106,7 +106,7 @@ class Uplift(BearingDemands):
             t.given("a", bearing.slider_radius, "m", shown="mm")
             t.given("s", float(slip[run]), "m", shown="mm", note="largest slip of that run")
             pressure(t, symbol, "N_land", "s")
-        return Calculation(t, symbol, limit)
+        return DemandOverLimit(t, symbol, limit)
 
     def _enter_resistance(self, t: Trace) -> tuple[str, str]:
         # What a landing is held against: symbols of demand and limit.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
-from frames.design.calculation.unevaluated import not_evaluated
+from frames.design.calculation.not_evaluated import not_evaluated
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.device import device_checks
 from frames.design.histories.eccentricity import levels_of

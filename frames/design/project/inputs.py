@@ -19,8 +19,8 @@ from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
-from frames.design.project.devices_beside import STANDARD, on_types, types_by_column, with_devices
 from frames.design.project.member_sections import named_section
+from frames.design.project.moat_and_dampers import STANDARD, on_types, types_by_column, with_devices
 from frames.design.project.schema import PointsTable, read_points
 from frames.design.project.schema_bearing import Bearing, FactorSources
 from frames.design.project.schema_structure import (

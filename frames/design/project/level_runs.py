@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from frames._errors import ModelError, MotionError
-from frames.batch.runs import BOUND, HAZARD, WAY, Runs, tagged
+from frames.batch.runs import BOUND, HAZARD, MASS_SHIFT, Runs, tagged
 from frames.batch.time_histories import time_histories
 from frames.design._errors import ProjectError
 from frames.design.codes.bounds import with_property_bounds
@@ -185,7 +185,7 @@ def _of_all(
     except ValueError as cause:  # of steps, and of results that would not fit the memory
         msg = f"[analysis] {cause}"
         raise ProjectError(msg) from cause
-    return Runs(tagged(data, **{HAZARD: levels, BOUND: bounds, WAY: ways}))
+    return Runs(tagged(data, **{HAZARD: levels, BOUND: bounds, MASS_SHIFT: ways}))
 
 
 def governing_motion(data: xr.Dataset, rules: HistoryRules) -> str:

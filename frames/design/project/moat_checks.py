@@ -6,12 +6,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design.calculation.check import Check
-from frames.design.calculation.standing import OWN
+from frames.design.calculation.standing import PROJECT
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
 from frames.design.histories.suite import motion_of, peaks_of_runs, stopped_runs
-from frames.design.project.devices_beside import walls_of
+from frames.design.project.moat_and_dampers import walls_of
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def clearance_checks(
         t = _with_gap(gap)
         t.given("D_T", each.allowed_displacement, "m", shown="mm", note="that bearings must allow")
         title = "clearance to the moat wall, equivalent-linear"
-        judge = CheckBuilder(t, each.bound, OWN if room is None else room.standing)
+        judge = CheckBuilder(t, each.bound, PROJECT if room is None else room.standing)
         clause = PROJECT_LIMIT if room is None else room.clause
         found.append(judge(clause, title, "D_T", "<=", "g_moat", note=_AT_BEARINGS))
     level = code.histories.bearing_level
@@ -61,7 +61,7 @@ def _of_histories(frame: Frame, case: Case, gap: float) -> list[Check]:
     t.given("D", reached, "m", shown="mm", note="of the histories, as the code counts")
     t.given("gamma_x", case.rules.displacement_factor)
     t("D_d", "gamma_x * D", "m", shown="mm")
-    judge = CheckBuilder(t, case.bound, OWN, void=case.suite.void)
+    judge = CheckBuilder(t, case.bound, PROJECT, void=case.suite.void)
     title = "clearance to the moat wall"
     every = case.every
     told = _told_of_walls(frame, every)
@@ -71,7 +71,7 @@ def _of_histories(frame: Frame, case: Case, gap: float) -> list[Check]:
     k = int(largest.argmax())
     t = _with_gap(gap)
     t.given("D_max", float(largest[k]), "m", shown="mm", note=motion_of(every, k))
-    judge = CheckBuilder(t, case.bound, OWN, void=stopped_runs(every))
+    judge = CheckBuilder(t, case.bound, PROJECT, void=stopped_runs(every))
     title = "moat wall is not met in any run"
     return [first, judge(PROJECT_LIMIT, title, "D_max", "<=", "g_moat", note=told.model)]
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from frames.design.codes.analysis import least_strength
 from frames.design.codes.registry import code_named
-from frames.design.project.devices_beside import STANDARD
 from frames.design.project.inputs import bearing_of
+from frames.design.project.moat_and_dampers import STANDARD
 from frames.design.project.schema_bearing import SIDES
 from frames.design.project.schema_structure import (
     BuildingTable,

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames.design.codes.registry import code_named
-from frames.design.project.devices_beside import device_rows
 from frames.design.project.member_sections import (
     bending_said,
     material_of,
@@ -17,6 +16,7 @@ from frames.design.project.member_sections import (
     of_material,
     storeys_said,
 )
+from frames.design.project.moat_and_dampers import device_rows
 from frames.design.project.schema_sections import CrackedTable
 from frames.design.project.schema_structure import (
     BuildingTable,
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from frames.design.project.schema import ProjectFile
     from frames.design.project.schema_sections import BraceTable, WallTable
     from frames.design.project.structure_loads import LoadsTable
-    from frames.exchange.account import Account
+    from frames.exchange.import_report import ImportReport
     from frames.frame import Frame
 
 Rows = list[tuple[str, str]]
@@ -86,7 +86,7 @@ def structure_rows(file: ProjectFile, frame: Frame, spectrum: Spectrum | None = 
     return rows
 
 
-def _import(account: Account) -> Rows:
+def _import(account: ImportReport) -> Rows:
     # What became of the file of another program, a row for each kind of object.
     rows = [("import", worded("of {file}", file=account.file))]
     for fate, table, what, count, weight, stiffness in account.rows():

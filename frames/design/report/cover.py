@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from markupsafe import Markup
 
-from frames.design.calculation.unevaluated import NOT_EVALUATED
+from frames.design.calculation.not_evaluated import NOT_EVALUATED
 from frames.design.codes.registry import code_named
 from frames.design.report.page import Table
 from lir_element._version import package_version

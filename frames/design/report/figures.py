@@ -18,8 +18,8 @@ from frames.design.histories.demand_table import worst_place
 from frames.design.histories.eccentricity import Case, levels_of, reached_by
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.design.project.level_runs import most_displaced
-from frames.design.report.numbers import devices_by_type
 from frames.design.report.page import Picture, picture
+from frames.design.report.result_tables import devices_by_type
 from frames.plots import (
     bearing_dimensions,
     bearing_plan,

@@ -15,7 +15,7 @@ from frames.design._errors import ProjectError
 from frames.design.calculation.check import COLUMNS, Check, Checks
 from frames.design.calculation.standing import standing_of
 from frames.design.histories.demand_table import headed
-from frames.design.report.numbers import BY_MOTION, ECCENTRICITY, TABLES_OF_FORCES, run_tables
+from frames.design.report.result_tables import BY_MOTION, ECCENTRICITY, TABLES_OF_FORCES, run_tables
 from frames.design.report.writing import report_html
 from frames.results.storage import csv_of, from_text, load, make_folder, save, write_whole
 from lir_element._version import package_version

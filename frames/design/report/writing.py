@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from frames.design.calculation.standing import LEGEND, MEMORY, standing_of
+from frames.design.calculation.standing import FROM_MEMORY, LEGEND, standing_of
 from frames.design.codes.code_values import left_to_the_engineer
 from frames.design.codes.registry import code_named
 from frames.design.histories.demand_table import largest_of_links, tables_of_levels
@@ -20,7 +20,8 @@ from frames.design.report.cover import (
     what_governs,
 )
 from frames.design.report.figures import pictures
-from frames.design.report.numbers import (
+from frames.design.report.page import Table, page_table, page_template
+from frames.design.report.result_tables import (
     BY_MOTION,
     ECCENTRICITY,
     LINKS,
@@ -30,7 +31,6 @@ from frames.design.report.numbers import (
     loads_table,
     model_table,
 )
-from frames.design.report.page import Table, page_table, page_template
 from frames.design.report.tables import in_mm_and_kn, in_parts
 from frames.design.report.words import Words
 from frames.design.testing.programme import OWN_RULES
@@ -273,7 +273,7 @@ def _factor(value: float) -> str:
 def eccentricity_said(run: ProjectRun) -> str:
     """Return what of accidental eccentricity is in the demands, in words."""
     asked = code_named(run.equivalent.code).histories
-    clause = MEMORY.cited(f"{asked.cited} {asked.eccentricity_clause}".strip())
+    clause = FROM_MEMORY.cited(f"{asked.cited} {asked.eccentricity_clause}".strip())
     asked_for = asked.accidental_eccentricity > 0.0
     share = 100.0 * run.rules.accidental_eccentricity
     moved = run.runs.moved

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Check, Checks
-from frames.design.calculation.standing import MEMORY, OWN, Standing
+from frames.design.calculation.standing import FROM_MEMORY, PROJECT, Standing
 from frames.design.calculation.trace import Trace
 from frames.design.codes.pendulum import FrictionPendulum
 from frames.design.codes.registry import code_named
@@ -199,7 +199,7 @@ class _Set:
     def of_bearing(self) -> list[Check]:
         own = FrictionPendulum.of(self.bearing)
         reached = max(max(c.highest, -c.lowest) for c in self._cycles)
-        t, judge = self._begin(MEMORY)
+        t, judge = self._begin(FROM_MEMORY)
         found = [self._each(judge, "E", "energy dissipated per cycle (EDC)", "spread")]
         if reached <= own.capacity:
             t.given_each(
@@ -228,7 +228,7 @@ class _Set:
         if not isinstance(self.bearing, LIRBearing) or self.bearing.is_dcfp:
             msg = f"test {self.name!r} is of the interface: the bearing has none"
             raise CheckError(msg)
-        _, judge = self._begin(OWN)
+        _, judge = self._begin(PROJECT)
         factors = self.bounds.interface_factors
         mu, said = self.bearing.interface_friction, "friction of the interface"
         range_ = factors.lower, factors.upper

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
-from frames.design.calculation.standing import OWN, Standing
+from frames.design.calculation.standing import PROJECT, Standing
 from frames.design.codes.bounds import ENDS, with_property_bounds
 from frames.design.codes.code_values import CodeValue, weakest
 from frames.design.codes.pendulum import FrictionPendulum
@@ -39,16 +39,18 @@ OWN_RULES = (
         CodeValue(
             PROPOSED_LIMIT,
             "friction of the interface within the bounds that the design counts on",
-            OWN,
+            PROJECT,
         ),
     ),
     AcceptanceRule(
         ("impact and return",),
-        CodeValue(PROPOSED_LIMIT, "rims, liner and welds whole; the slider comes back", OWN),
+        CodeValue(PROPOSED_LIMIT, "rims, liner and welds whole; the slider comes back", PROJECT),
     ),
     AcceptanceRule(
         ("after the impacts",),
-        CodeValue(PROPOSED_LIMIT, "the interface does not slip; EDC as before the impacts", OWN),
+        CodeValue(
+            PROPOSED_LIMIT, "the interface does not slip; EDC as before the impacts", PROJECT
+        ),
     ),
 )
 """What is proposed to be accepted of the tests that no code has."""
@@ -126,7 +128,7 @@ def prototype_tests(
         at_ends = [end.bearings[places[0]] for end in ends]
         design = DesignToTest(result, bearing, at_ends, *_loads(system, places, asked), asked)
         rows += [_row(title, test, design, known, code.accepted) for test in code.tests(design)]
-        rows += [_row(title, test, design, OWN, OWN_RULES) for test in _of_interface(design)]
+        rows += [_row(title, test, design, PROJECT, OWN_RULES) for test in _of_interface(design)]
     table = pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
     return _without_loads(table, "" if asked.loads is not None else system.unknown_loads)
 

@@ -52,7 +52,7 @@ class Batch(NamedTuple):
     reused: int = 0  # runs that were taken over, or are those of another row
 
 
-class Reference(NamedTuple):
+class TemplateRun(NamedTuple):
     """What the results database is laid out by: the first model of each name that can be set up."""
 
     frames: dict[str, Frame]
@@ -60,7 +60,7 @@ class Reference(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Work:
+class CampaignJob:
     """All that computes batches, wherever that is."""
 
     plan: Plan  # the rows
@@ -88,7 +88,7 @@ class Work:
             raise TypeError(msg)
         return frame
 
-    def reference(self) -> Reference:
+    def reference(self) -> TemplateRun:
         """Return of each model the first that can be set up, and what runs of these give."""
         motion = next(iter(self.motions.values()))
         brief = dict(self.options)
@@ -114,11 +114,11 @@ class Work:
                 raise CampaignError(msg)
             layout = _untimed(time_histories(found, motion, record=self.read, **brief))
             layout = with_room(layout, self.measures)
-            return Reference(found, layout.drop_dims(["time", "step"], errors="ignore"))
+            return TemplateRun(found, layout.drop_dims(["time", "step"], errors="ignore"))
 
 
 def compute(
-    work: Work,
+    work: CampaignJob,
     layout: xr.Dataset,
     batch: int,
     workers: int | None,
@@ -153,7 +153,7 @@ class _Runs:
     # The runs of a batch, in parts: whatever keeps others from running is a part of its own.
 
     def __init__(
-        self, work: Work, layout: xr.Dataset, workers: int | None, told: Told | None
+        self, work: CampaignJob, layout: xr.Dataset, workers: int | None, told: Told | None
     ) -> None:
         self._work, self._layout, self._workers, self._told = work, layout, workers, told
         self.repeated = 0  # rows that are the run of another one

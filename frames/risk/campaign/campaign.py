@@ -15,7 +15,7 @@ from frames.batch.cases import BatchProgress, grid, named_models, named_motions,
 from frames.frame import Frame
 from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
-from frames.risk.campaign.batches import Reference, Work, compute
+from frames.risk.campaign.batches import CampaignJob, TemplateRun, compute
 from frames.risk.campaign.cluster import over_cluster
 from frames.risk.campaign.measures import Measure, checked_measures
 from frames.risk.campaign.packages import lacking_packages
@@ -161,7 +161,7 @@ class Campaign:
             plan = replace(plan, batch=int(self.store.plan()["batch"]))
         elif record is None and not own:
             plan = replace(plan, batch=usual_batch(plan.runs))
-        self._work = Work(plan, structures, grounds, options, record, own)
+        self._work = CampaignJob(plan, structures, grounds, options, record, own)
 
     def __repr__(self) -> str:
         """Return the results database and the number of runs."""
@@ -256,7 +256,7 @@ class Campaign:
 
     def _computed(
         self,
-        reference: Reference,
+        reference: TemplateRun,
         counting: _Counting,
         client: Any,
         workers: int | None,

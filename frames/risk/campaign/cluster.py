@@ -8,7 +8,7 @@ from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 from frames.risk._errors import CampaignError
-from frames.risk.campaign.batches import Batch, Work, compute
+from frames.risk.campaign.batches import Batch, CampaignJob, compute
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -28,7 +28,7 @@ _ONE_AT_A_TIME = threading.Lock()  # a worker computes a batch with all of its t
 
 
 def over_cluster(
-    client: Any, work: Work, layout: xr.Dataset, batches: Sequence[int], workers: int | None
+    client: Any, work: CampaignJob, layout: xr.Dataset, batches: Sequence[int], workers: int | None
 ) -> Iterator[tuple[int, Batch]]:
     """Compute batches on a Dask cluster, in whichever order they are done."""
     from distributed import as_completed
@@ -100,14 +100,14 @@ def _result(future: Any, number: int) -> Batch | None:
     return batch
 
 
-def _unpacked(payload: bytes) -> tuple[Work, xr.Dataset]:
+def _unpacked(payload: bytes) -> tuple[CampaignJob, xr.Dataset]:
     from distributed.protocol.pickle import loads
 
-    found: tuple[Work, xr.Dataset] = loads(payload)
+    found: tuple[CampaignJob, xr.Dataset] = loads(payload)
     return found
 
 
-def _computed(shared: tuple[Work, xr.Dataset], number: int, workers: int | None) -> Batch:
+def _computed(shared: tuple[CampaignJob, xr.Dataset], number: int, workers: int | None) -> Batch:
     from distributed import get_worker
 
     work, layout = shared

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import IntArray
-    from frames.risk.campaign.batches import Work
+    from frames.risk.campaign.batches import CampaignJob
 
 _SAME = "program", "sources", "options", "record", "measures"
 _HISTORIES = "what was reached"
@@ -34,7 +34,7 @@ class KnownRuns:
     """
 
     def __init__(
-        self, stores: Sequence[str | Path], work: Work, planned: Mapping[str, Any]
+        self, stores: Sequence[str | Path], work: CampaignJob, planned: Mapping[str, Any]
     ) -> None:
         self._work, self._motions = work, dict(planned["motions"])
         self._names = list(planned["parameters"])

@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.slip import bouc_wen_radius, direction_of, turn_to_end
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def segment(u: float) -> tuple[float, float, float, float]:
     return f, h, share, by
 
 
-@inlined
+@inlined_by_llvm
 def disc_load(p: float, g_1: float, g_2: float, a: float) -> tuple[float, float, float]:
     """Return mean penetration and place of the centre of pressure (2) of a disc; zeros if open."""
     tilt = math.sqrt(g_1 * g_1 + g_2 * g_2)
@@ -89,7 +89,7 @@ def disc_load_slope(w: Scratch, p: float, g_1: float, g_2: float, a: float) -> N
     out[2, 2] = by_tilt * e_2 * e_2 + hoop * e_1 * e_1
 
 
-@inlined
+@inlined_by_llvm
 def rubbing(x: float, y: float, s: float) -> tuple[float, float, float, float, float, float]:
     """Return the square of the norm of (x, y, s), and half its derivatives by the squares (7.12).
 
@@ -113,7 +113,7 @@ def rubbing(x: float, y: float, s: float) -> tuple[float, float, float, float, f
     )
 
 
-@inlined
+@inlined_by_llvm
 def slid_on(
     z: Floats, before: float, d_1: float, d_2: float, d_3: float, u_y: float
 ) -> tuple[float, float, float, float]:
@@ -131,7 +131,7 @@ def slid_on(
     return u_y * (size - before), b_1 * q_v * over, b_2 * q_v * over, b_3 * q_t * over
 
 
-@inlined
+@inlined_by_llvm
 def returned_by(
     bouc_wen: int, exponent: float, size: float, kappa: float
 ) -> tuple[float, float, float, float]:
@@ -152,7 +152,7 @@ def returned_by(
     return 1.0, 0.0, 0.0, 0.0
 
 
-@inlined
+@inlined_by_llvm
 def rub(
     w: Scratch,
     bouc_wen: int,

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.contact.disc import disc_load, rub
 from lir_element.kernels.contact.disc_slope import (
     scale_slope,
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 _LEAST_RADIUS = 0.05  # of the slider's, in which an edge still resists spin (a choice)
 
 
-@inlined
+@inlined_by_llvm
 def damped_centre(
     e_1: float, e_2: float, old: Touch, share: float, a: float
 ) -> tuple[float, float]:
@@ -48,7 +48,7 @@ def damped_centre(
     return a / size * e_1, a / size * e_2
 
 
-@inlined
+@inlined_by_llvm
 def press_bed(
     w: Scratch,
     c: Sliders,
@@ -96,7 +96,7 @@ def press_bed(
     return push
 
 
-@inlined
+@inlined_by_llvm
 def spun(w: Scratch, old: Touch, n_0: float, n_1: float, n_2: float) -> float:
     """Return the body's spin about `n` against its carrier since the committed state."""
     x_0, x_1, x_2 = 0.0, 0.0, 0.0
@@ -119,7 +119,7 @@ def rest_disc(w: Scratch, old: Touch, new: Touch, friction: float) -> None:
     new.friction, new.slid, new.speed = friction, 0.0, 0.0
 
 
-@inlined
+@inlined_by_llvm
 def keep_place(w: Scratch, new: Touch) -> None:
     """Keep where the face is, for the next step."""
     for a in range(3):
@@ -127,7 +127,7 @@ def keep_place(w: Scratch, new: Touch) -> None:
         new.axes[0, a], new.axes[1, a] = w.face[0, a], w.face[1, a]
 
 
-@inlined
+@inlined_by_llvm
 def torsion_radius(old: Touch, a: float) -> float:
     """Return the radius of the even disc about the centre of pressure that resists spin alike.
 

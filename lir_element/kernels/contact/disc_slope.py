@@ -9,14 +9,14 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.contact.disc import disc_load_slope
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats, Scratch, Touch
 
 
-@inlined
+@inlined_by_llvm
 def turned(q: Floats, v: Floats) -> tuple[float, float, float]:
     """Return a vector of a body with axes `q` in global axes."""
     return (
@@ -26,7 +26,7 @@ def turned(q: Floats, v: Floats) -> tuple[float, float, float]:
     )
 
 
-@inlined
+@inlined_by_llvm
 def slope_of_tilt(
     w: Scratch, face: Floats, m_0: float, m_1: float, m_2: float, bend: float
 ) -> None:
@@ -108,7 +108,7 @@ def slope_of_push(
             )
 
 
-@inlined
+@inlined_by_llvm
 def slope_of_spin(
     w: Scratch, q: Floats, face: Floats, old: Touch, n_0: float, n_1: float, n_2: float
 ) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.contact.disc_pair import bond_disc, plane_disc, sphere_disc
 from lir_element.kernels.contact.pair import clear_pair, rim
 from lir_element.kernels.contact.places import (
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats, Scratch
 
 
-@inlined
+@inlined_by_llvm
 def clear_parts(parts: Floats) -> None:
     """Set the forces of all origins but the sliders' own to zero."""
     for part in range(OWN):
@@ -39,7 +39,7 @@ def clear_parts(parts: Floats) -> None:
             parts[part, row] = 0.0
 
 
-@inlined
+@inlined_by_llvm
 def clear_square(k: Floats) -> None:
     """Set the derivative of all forces to zero."""
     for row in range(24):
@@ -47,7 +47,7 @@ def clear_square(k: Floats) -> None:
             k[row, col] = 0.0
 
 
-@inlined
+@inlined_by_llvm
 def hold_rim(s: BodyStep, side: int, body: int, carrier: int, dt: float, derive: bool) -> None:
     """Hold the force of a rim on the slider's outermost point; its derivative goes to ``w.k``."""
     p, w, held = s.props, s.scratch, s.scratch.held[3 + side]
@@ -67,7 +67,7 @@ def hold_rim(s: BodyStep, side: int, body: int, carrier: int, dt: float, derive:
         add_slope(w, body, carrier)
 
 
-@inlined
+@inlined_by_llvm
 def hold_pairs(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive: bool) -> None:
     """Hold the forces of discs and rims, and set the new state of contacts; see `press`."""
     w = s.scratch
@@ -84,7 +84,7 @@ def hold_pairs(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, de
     hold_rim(s, 1, 2, 3, dt, derive)
 
 
-@inlined
+@inlined_by_llvm
 def push_sliders(s: BodyStep, out: Floats) -> None:
     """Add the forces of discs and rims on both sliders to `out` (12,)."""
     held = s.scratch.held
@@ -128,7 +128,7 @@ def press(s: BodyStep, dt: float, speed_bottom: float, speed_top: float, derive:
     add_up(s)
 
 
-@inlined
+@inlined_by_llvm
 def add_block(w: Scratch, held: Floats, sign: float, arm: Floats, s: int, r: int, col: int) -> None:
     """Add a disc's derivative by one of its bodies, whose arm is `arm`, to ``w.k``.
 
@@ -163,7 +163,7 @@ def add_block(w: Scratch, held: Floats, sign: float, arm: Floats, s: int, r: int
         k[r + 5, col + e] -= u * g_1 - v * g_0 + row[5, e]
 
 
-@inlined
+@inlined_by_llvm
 def add_disc_slope(w: Scratch, held: Floats, body: int, carrier: int) -> None:
     """Add the derivative of a disc's forces and moments to ``w.k``."""
     f, k, arm = w.force[0], w.k, held[0]
@@ -182,7 +182,7 @@ def add_disc_slope(w: Scratch, held: Floats, body: int, carrier: int) -> None:
     add_cross(k, r + 3, r, f[0], f[1], f[2], -1.0)
 
 
-@inlined
+@inlined_by_llvm
 def set_face(w: Scratch, body: int, carrier: int) -> None:
     """Set the axes of the body's face as the carrier sees them, ``w.face`` (2, 3)."""
     q, r = w.q[body], w.q[carrier]
@@ -191,7 +191,7 @@ def set_face(w: Scratch, body: int, carrier: int) -> None:
             w.face[k, a] = r[0, a] * q[0, k] + r[1, a] * q[1, k] + r[2, a] * q[2, k]
 
 
-@inlined
+@inlined_by_llvm
 def hold_disc(
     s: BodyStep, pair: int, body: int, carrier: int, dt: float, speed: float, derive: bool
 ) -> None:
@@ -230,7 +230,7 @@ PUSH, FRICTION, COUPLE = 2, 3, 4
 """Rows of what is held; 0 and 1 are the arms."""
 
 
-@inlined
+@inlined_by_llvm
 def place_point(
     w: Scratch, held: Floats, body: int, carrier: int, height: float, up: float
 ) -> None:
@@ -247,7 +247,7 @@ def place_point(
     w.d[2] -= up
 
 
-@inlined
+@inlined_by_llvm
 def hold_forces(w: Scratch, held: Floats, carrier: int) -> None:
     """Hold the force and couple that a pair has in axes of its carrier."""
     q = w.q[carrier]
@@ -258,14 +258,14 @@ def hold_forces(w: Scratch, held: Floats, carrier: int) -> None:
         held[COUPLE, a] = q[a, 0] * m[0] + q[a, 1] * m[1] + q[a, 2] * m[2]
 
 
-@inlined
+@inlined_by_llvm
 def hold_nothing(held: Floats) -> None:
     """Hold that a pair passes no force."""
     for a in range(3):
         held[PUSH, a], held[FRICTION, a], held[COUPLE, a] = 0.0, 0.0, 0.0
 
 
-@inlined
+@inlined_by_llvm
 def add_wrench(
     out: Floats, first: int, sign: float, arm: Floats, x: float, y: float, z: float
 ) -> None:
@@ -278,7 +278,7 @@ def add_wrench(
     out[first + 5] += sign * (arm[0] * y - arm[1] * x)
 
 
-@inlined
+@inlined_by_llvm
 def add_held(out: Floats, first: int, sign: float, side: int, held: Floats) -> None:
     """Add all that is held of a pair to the body of one `side`: 0 the body, 1 the carrier."""
     x = held[PUSH, 0] + held[FRICTION, 0]
@@ -289,7 +289,7 @@ def add_held(out: Floats, first: int, sign: float, side: int, held: Floats) -> N
         out[first + 3 + a] += sign * held[COUPLE, a]
 
 
-@inlined
+@inlined_by_llvm
 def spread_pair(
     parts: Floats, held: Floats, body: int, carrier: int, normal: int, friction: int
 ) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import OWN, place_bodies
 from lir_element.kernels.contact.slider_motion import add_gyration, own_forces
@@ -44,7 +44,7 @@ def unbalanced(s: BodyStep, dt: float, speeds: Floats, derive: bool) -> float:
     return size_of_residual(c, w)
 
 
-@inlined
+@inlined_by_llvm
 def size_of_residual(c: Sliders, w: Scratch) -> float:
     """Return the size of ``w.residual``."""
     total = 0.0
@@ -100,7 +100,7 @@ def set_system(s: BodyStep, dt: float) -> None:
         add_gyration(s, dt, k, first + 3)
 
 
-@inlined
+@inlined_by_llvm
 def eliminate(a: Floats, width: int) -> bool:
     """Bring the first twelve columns to upper triangular form, over `width` columns."""
     for col in range(12):

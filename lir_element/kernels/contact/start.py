@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.contact.places import matrix_of, turn_by
 from lir_element.kernels.rotation import rotate
 
@@ -127,7 +127,7 @@ def shortest_turn(x: Floats, y: Floats, q: Floats) -> bool:
     return True
 
 
-@inlined
+@inlined_by_llvm
 def set_axes_of(face: Floats, out: Floats) -> None:
     """Set the axes of a body (columns of `out`) from the two in its face, by rows."""
     for a in range(3):
@@ -136,7 +136,7 @@ def set_axes_of(face: Floats, out: Floats) -> None:
         out[a, 2] = face[0, m] * face[1, o] - face[0, o] * face[1, m]
 
 
-@inlined
+@inlined_by_llvm
 def multiply(x: Floats, y: Floats, out: Floats) -> None:
     """Set `out` (3, 3) to the product of two matrices, neither of which it is."""
     for a in range(3):

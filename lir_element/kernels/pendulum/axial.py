@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.friction_law import left_by_pressure
 from lir_element.kernels.slip import kelvin_voigt, kept_share
 
@@ -34,7 +34,7 @@ def fix_length(p: Props, w: Work) -> None:
         w.c[2] = -math.sqrt(rest) if rest > 0.0 else 0.0
 
 
-@inlined
+@inlined_by_llvm
 def axial(p: Props, old: State, w: Work) -> None:
     """Set the axial force of the string and its floor (below it all forces fade alike).
 

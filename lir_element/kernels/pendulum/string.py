@@ -23,7 +23,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.friction_law import lowered_near
 from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
 from lir_element.kernels.pendulum.spin import turn_with_sliders
@@ -185,7 +185,7 @@ def static_speeds(p: Props, w: Work, v: Floats) -> None:
     w.static_speed[1] = p.radius[1] * math.sqrt(square_top)
 
 
-@inlined
+@inlined_by_llvm
 def surface(p: Props, old: State, w: Work, k: int) -> None:
     """Set the friction of surface `k` (0 bottom, 1 top): force and derivative over N."""
     m = w.old_top if k == 1 else old.axis
@@ -237,7 +237,7 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     w.h[k, 1, 0], w.h[k, 1, 1] = mu * h_21 + z_2 * by_1, mu * h_22 + z_2 * by_2
 
 
-@inlined
+@inlined_by_llvm
 def interface(p: Props, old: State, w: Work) -> None:
     """Set the friction of the plane interface: force and derivative over N.
 
@@ -282,7 +282,7 @@ def interface(p: Props, old: State, w: Work) -> None:
     w.h_s[0, 0], w.h_s[0, 1], w.h_s[1, 0], w.h_s[1, 1] = mu * h_11, mu * h_12, mu * h_21, mu * h_22
 
 
-@inlined
+@inlined_by_llvm
 def rims(p: Props, old: State, w: Work) -> None:
     """Set the rim forces of both plates; their directions where one of the rims is met.
 

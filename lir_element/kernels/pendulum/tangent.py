@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import inlined, kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.pendulum.axial import held_rate, held_rate_fused, tension_rates
 from lir_element.kernels.pendulum.spin import plain_rate, rates_by_spin, shared
 from lir_element.layout import SPIN_BALANCE
@@ -23,7 +23,7 @@ Rates = tuple[
 ]
 
 
-@inlined
+@inlined_by_llvm
 def friction_rate(
     w: Work, k: int, d_hat: float, d_pos: float, dw_1: float, dw_2: float
 ) -> tuple[float, float]:
@@ -100,7 +100,7 @@ def drag_rate(w: Work, k: int, dw_1: float, dw_2: float, m_1: float, m_2: float)
     return m_1 * f[1] - m_2 * f[0] + w.n_hat * (arm[0] * q_2 - arm[1] * q_1)
 
 
-@inlined
+@inlined_by_llvm
 def string_rates(
     p: Props, w: Work, d_s1: float, d_s2: float, d_l: float, d_n: float, tilt: float
 ) -> tuple[float, float, float, float]:
@@ -159,7 +159,7 @@ def balance_rate(
     return balance - drag_rate(w, 1, w_21, w_22, m_1, m_2)
 
 
-@inlined
+@inlined_by_llvm
 def by_turn(p: Props, w: Work, a: int) -> Rates:
     """Return the derivatives by a turn of the slider's axis towards t_1 (0) or t_2 (1).
 
@@ -248,7 +248,7 @@ def by_turn(p: Props, w: Work, a: int) -> Rates:
     return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, d_rim, q_1, q_2, q_3, spin, balance
 
 
-@inlined
+@inlined_by_llvm
 def by_shift(p: Props, w: Work, d_1: float, d_2: float, d_3: float) -> Rates:
     """Return the same by a shift of the top sphere's centre along the slider's own axes."""
     d_l = -d_3
@@ -293,7 +293,7 @@ def by_shift(p: Props, w: Work, d_1: float, d_2: float, d_3: float) -> Rates:
     return r_1, r_2, d_n, g_d1, g_d2, f_21, f_22, 0.0, 0.0, 0.0, 0.0, 0.0, balance
 
 
-@inlined
+@inlined_by_llvm
 def by_plate(p: Props, w: Work, v_1: float, v_2: float, v_3: float) -> Rates:
     """Return the same by a spin of the top plate about the slider's own axes."""
     m = w.old[1]
@@ -349,7 +349,7 @@ def slider_jacobian(p: Props, w: Work) -> None:
     w.jacobian[0, 1], w.jacobian[1, 1] = y[0], y[1]
 
 
-@inlined
+@inlined_by_llvm
 def column(p: Props, w: Work, col: int, rates: Rates, d_1: float, d_2: float, d_3: float) -> None:
     """Set column `col` of the condensed stiffness from what a shift `d`, or a spin, changes.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import expanded, kernel
+from lir_element._compile.jit import inlined_before_typing, kernel
 from lir_element.bundles.contact_data import BodyStep
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.pairs import press
@@ -78,7 +78,7 @@ def kinetic_energy(run: RigidRun, at: int) -> float:
     return total
 
 
-@expanded
+@inlined_before_typing
 def body_step(run: RigidRun, before: int, after: int) -> BodyStep:
     """Return the bodies over the step between two of their states."""
     return BodyStep(

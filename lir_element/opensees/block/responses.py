@@ -25,7 +25,7 @@ from lir_element.opensees.block.layout import (
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
-    from lir_element.opensees.placement import Placement
+    from lir_element.opensees.placement import BearingTransform
 
 _LOCAL = [2, 0, 1]  # the bearing's axes as local x, y, z
 _NAMES = {
@@ -56,7 +56,7 @@ class HostResponse(NamedTuple):
     """(n, dofs) by which these are multiplied; of a constant the values, (n,)."""
 
 
-def host_responses(placement: Placement) -> dict[str, HostResponse]:
+def host_responses(placement: BearingTransform) -> dict[str, HostResponse]:
     """Return the responses that OpenSees' own bearings have."""
     turn = local_axes(placement)
     half = len(turn) // 2
@@ -76,7 +76,7 @@ def host_responses(placement: Placement) -> dict[str, HostResponse]:
     return found
 
 
-def local_axes(placement: Placement) -> Floats:
+def local_axes(placement: BearingTransform) -> Floats:
     """Return the matrix that turns the model's degrees of freedom to local axes, (dofs, dofs)."""
     rows = placement.axes[_LOCAL]
     turn = np.zeros((12, 12))
@@ -92,7 +92,7 @@ HINTED = np.zeros(1, dtype=np.int64)
 """1 once a failed step of this process was explained."""
 
 
-def bearing_messages(tag: int, design_load: float, placement: Placement) -> dict[int, str]:
+def bearing_messages(tag: int, design_load: float, placement: BearingTransform) -> dict[int, str]:
     """Return the messages of a bearing."""
     who = f"bearing element {tag}"
     load = f"its design load, {design_load:g} N ({design_load / placement.force_unit:g} of the"

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from numba import carray
 
-from lir_element._compile.jit import counting as kernel
 from lir_element._compile.jit import entry_point
+from lir_element._compile.jit import with_refcounts as kernel
 from lir_element.opensees.block.layout import HOST, NOT_SAVED, RESPONSE
 from lir_element.opensees.block.pointers import (
     call_2,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from numba import carray
 
-from lir_element._compile.jit import counting as kernel
+from lir_element._compile.jit import with_refcounts as kernel
 from lir_element.bundles.contact_data import Contacts
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.chord import forget

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from numba import carray
 
-from lir_element._compile.jit import counting as kernel
 from lir_element._compile.jit import entry_point
+from lir_element._compile.jit import with_refcounts as kernel
 from lir_element.opensees.block.guard_layout import GUARD
 from lir_element.opensees.block.layout import WORDS
 from lir_element.opensees.block.pointers import call_poll, call_transfer, call_write, pointer

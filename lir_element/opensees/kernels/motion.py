@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from numba import carray
 
-from lir_element._compile.jit import counting as kernel
+from lir_element._compile.jit import with_refcounts as kernel
 from lir_element.opensees.block.layout import (
     CONSTANT,
     FROM_FORCE,

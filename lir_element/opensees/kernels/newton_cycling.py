@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import counting as kernel
+from lir_element._compile.jit import with_refcounts as kernel
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats

@@ -10,7 +10,7 @@ import numpy as np
 from lir_element.layout import STATE, STATE_FIELDS
 from lir_element.opensees.block.layout import MOST_DOFS, offset_of
 from lir_element.opensees.block.responses import host_responses
-from lir_element.opensees.fast.vtable_patch import Graft, address_of, common_functions
+from lir_element.opensees.in_process.vtable_patch import VTablePatch, address_of, common_functions
 
 if TYPE_CHECKING:
     import socket
@@ -21,7 +21,7 @@ _HOST_RESPONSES = {"force"}
 """Names that the host element answers by itself, from our resisting force."""
 
 
-class Grafted:
+class InProcessElement:
     """A bearing in the place of a host element of the current model.
 
     Parameters
@@ -45,7 +45,7 @@ class Grafted:
         self.level = hosted.level
         self.placement = hosted.placement
         self._farewell = farewell
-        self._graft = Graft(hosted.tag, hosted.placement, hosted.block, hosted.messages)
+        self._graft = VTablePatch(hosted.tag, hosted.placement, hosted.block, hosted.messages)
         self._set_objects()
         self._graft.set_responses(host_responses(hosted.placement), _state_words())
         self._graft.set_printed(

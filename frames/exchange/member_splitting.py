@@ -27,7 +27,7 @@ Points = dict[str, tuple[float, float, float]]
 
 
 @dataclass(frozen=True, eq=False)
-class Divided:
+class SplitMember:
     """A frame object divided into members."""
 
     frame: FrameObject
@@ -68,7 +68,7 @@ class Divided:
 
 def divide(
     building: Building, points: Points, loads: Mapping[str, Sequence[float]]
-) -> list[Divided]:
+) -> list[SplitMember]:
     """Divide all frame objects."""
     names = list(points)
     where = np.array([points[name] for name in names])
@@ -119,7 +119,7 @@ def _divided(
     between: list[tuple[float, str]],
     ends: tuple[FloatArray, FloatArray],
     length: float,
-) -> Divided:
+) -> SplitMember:
     axes = frame_axes(ends[0], ends[1], frame.angle)
     shifts = [np.zeros(3), np.zeros(3)]
     if frame.transforms:
@@ -129,7 +129,7 @@ def _divided(
         shifts = [np.array(o) + middle for o in (frame.offset_i, frame.offset_j)]
     start, end = ends[0] + shifts[0], ends[1] + shifts[1]
     shares = np.array([0.0, *(share for share, _ in between), 1.0])
-    return Divided(
+    return SplitMember(
         frame=frame,
         nodes=[frame.i, *(name for _, name in between), frame.j],
         shares=shares,
@@ -151,7 +151,9 @@ def _stiff_zones(frame: FrameObject, shares: FloatArray, length: float) -> tuple
     return min(i, MOST_STIFF * rooms[0]), min(j, MOST_STIFF * rooms[1])
 
 
-def _at_loads(found: list[Divided], points: Points, loads: Mapping[str, Sequence[float]]) -> None:
+def _at_loads(
+    found: list[SplitMember], points: Points, loads: Mapping[str, Sequence[float]]
+) -> None:
     # A node under each point load that is on the flexible part.
     for k, each in enumerate(found):
         for share in sorted(set(loads.get(each.frame.name, ()))):
@@ -167,12 +169,12 @@ def _at_loads(found: list[Divided], points: Points, loads: Mapping[str, Sequence
             points[name] = (x, y, z)
             nodes = [*one.nodes[:place], name, *one.nodes[place:]]
             shares = np.insert(one.shares, place, share)
-            found[k] = Divided(
+            found[k] = SplitMember(
                 one.frame, nodes, shares, one.start, one.way, one.length, one.axes, one.stiff
             )
 
 
-def under_loads(found: list[Divided], joints: Points) -> dict[str, list[tuple[str, float]]]:
+def under_loads(found: list[SplitMember], joints: Points) -> dict[str, list[tuple[str, float]]]:
     """Return the nodes under point loads, and by the rule of the lever those beside them."""
     beside = {}
     for one in found:

@@ -1,6 +1,6 @@
 """Whether in-process coupling works with the OpenSees at hand: tried once in another process.
 
-    python -m lir_element.opensees.fast.selftest
+    python -m lir_element.opensees.in_process.selftest
 
 A mass on a bearing moves vertically under compression: a linear spring, whose answer the same
 build gives with an element of its own. Static and transient analysis, a wipe, all of it twice.
@@ -26,8 +26,8 @@ from lir_element._compile.jit import OWN
 from lir_element._compile.progress import say
 from lir_element.opensees.connection import add_host_element
 from lir_element.opensees.element_memory import ElementMemory
-from lir_element.opensees.fast.in_process_element import Grafted
-from lir_element.opensees.fast.symbols import NotPossibleError, addresses, library_path
+from lir_element.opensees.in_process.in_process_element import InProcessElement
+from lir_element.opensees.in_process.symbols import NotPossibleError, addresses, library_path
 from lir_element.opensees.library import child_environment, opensees
 from lir_element.opensees.placement import place
 
@@ -81,7 +81,7 @@ def _run_child() -> tuple[str, bool]:
     # numbers: what no time or no memory decided may be otherwise tomorrow.
     try:
         done = subprocess.run(
-            [sys.executable, "-P", "-m", "lir_element.opensees.fast.selftest"],
+            [sys.executable, "-P", "-m", "lir_element.opensees.in_process.selftest"],
             env=child_environment(),
             capture_output=True,
             text=True,
@@ -137,7 +137,7 @@ def _run(bearing: LIRBearing | None) -> np.ndarray[Any, Any]:
     else:
         placement = place(ops, 1, 2, bearing, None, 1.0, 1.0)
         hosted = ElementMemory(7, bearing, "pendulum", placement)
-        grafted = Grafted(hosted, add_host_element(ops, 7, placement))
+        grafted = InProcessElement(hosted, add_host_element(ops, 7, placement))
     moves = [*_settle(ops), *_shake(ops)]
     force = ops.eleForce(7, 9)
     ops.wipe()

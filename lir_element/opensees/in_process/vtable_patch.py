@@ -20,7 +20,7 @@ import numpy as np
 
 from lir_element.opensees.block.layout import CONSTANT, RESPONSE, offset_of
 from lir_element.opensees.block.responses import HINTED
-from lir_element.opensees.fast.symbols import (
+from lir_element.opensees.in_process.symbols import (
     OPTIONAL,
     REPLACED,
     REPLACED_AGAIN,
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from lir_element.layout import Records
     from lir_element.opensees.block.responses import HostResponse
-    from lir_element.opensees.placement import Placement
+    from lir_element.opensees.placement import BearingTransform
 
 _WORDS = 62
 """Of the host's virtual tables together, after the first one's two words of head."""
@@ -46,7 +46,7 @@ _OBJECT_BYTES = 256
 _TYPE = np.frombuffer(b"LIRBearing\0", dtype=np.uint8)
 
 
-class Graft:
+class VTablePatch:
     """Callbacks in an element of the current model, and the block that they read.
 
     Parameters
@@ -67,7 +67,7 @@ class Graft:
     """
 
     def __init__(
-        self, tag: int, placement: Placement, block: Records, messages: dict[int, str]
+        self, tag: int, placement: BearingTransform, block: Records, messages: dict[int, str]
     ) -> None:
         self.block = block
         self._kept: list[Any] = [block]

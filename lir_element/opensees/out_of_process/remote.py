@@ -17,14 +17,14 @@ from lir_element.device.friction import without_class
 from lir_element.opensees.block.protocol import vector_length
 from lir_element.opensees.connection import own_connections, signals_held
 from lir_element.opensees.library import child_environment, opensees
-from lir_element.opensees.portable.guard import Guard
+from lir_element.opensees.out_of_process.guard import Guard
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from lir_element.device.bearing import LIRBearing
-    from lir_element.opensees.fast.portable_responses import Manners
-    from lir_element.opensees.placement import Placement
+    from lir_element.opensees.out_of_process.responses import HostOverrides
+    from lir_element.opensees.placement import BearingTransform
 
 
 class ServerError(RuntimeError):
@@ -92,7 +92,7 @@ class Remote:
         tag: int,
         bearing: LIRBearing,
         level: str,
-        placement: Placement,
+        placement: BearingTransform,
         symmetric: bool = False,
     ) -> None:
         self._server = server
@@ -105,7 +105,7 @@ class Remote:
         self._records: tuple[Any, ...] | None = None
         self._outcome = (0, False, 0.0)
         self._recording = False
-        self._manners: Manners | None = None
+        self._overrides: HostOverrides | None = None
         self._tag, self._warned = tag, False
         sent = _without_classes(bearing)
         server.ask("prepare", self._key, tag, sent, level, placement, symmetric)
@@ -116,9 +116,9 @@ class Remote:
         self._sock = sock
         self._server.ask("connect", self._key, sock=sock)
 
-    def teach(self, manners: Manners) -> None:
+    def override(self, overrides: HostOverrides) -> None:
         """Keep what the element does otherwise than its host."""
-        self._manners = manners
+        self._overrides = overrides
 
     @property
     def alive(self) -> bool:
@@ -180,7 +180,7 @@ class Remote:
             self._sock.detach()
             self._sock = None
 
-    def abandon(self, own: dict[tuple[Any, Any], int], guard: Guard) -> socket.socket | None:
+    def disconnect(self, own: dict[tuple[Any, Any], int], guard: Guard) -> socket.socket | None:
         """Cut the element of a forked process off from the connection of its parent."""
         self._undo()
         if self._sock is None:
@@ -197,8 +197,8 @@ class Remote:
         return far
 
     def _compare_clocks(self) -> None:
-        # The element says what it commits (`Manners`), or the server takes its last trial for it.
-        if self._manners is not None or self._warned:
+        # The element says what it commits (`HostOverrides`), or the last trial stands for it.
+        if self._overrides is not None or self._warned:
             return
         committed, step = self._server.ask("clock", self._key)
         away = abs(opensees().getTime() - committed)
@@ -212,8 +212,8 @@ class Remote:
             warnings.warn(msg, RouteWarning, stacklevel=4)
 
     def _undo(self) -> None:
-        if self._manners is not None:
-            self._manners.undo()
+        if self._overrides is not None:
+            self._overrides.undo()
 
     def _is_connected(self) -> bool:
         # Without a server nobody else reads; the end of the stream is the element's end.
@@ -230,7 +230,7 @@ class Remote:
         return False
 
 
-class Orphans:
+class ForkedElements:
     """Elements of the out-of-process coupling that a forked process finds in its copy of the model.
 
     Their server is the parent's. In this process they answer nothing, so that an analysis fails
@@ -249,7 +249,7 @@ class Orphans:
         )
         self._guard = Guard(None, message)
         own = {(tuple(each.laddr), tuple(each.raddr)): each.fd for each in own_connections()}
-        self._kept = [remote.abandon(own, self._guard) for remote in remotes]
+        self._kept = [remote.disconnect(own, self._guard) for remote in remotes]
         self._guard.start()
 
     def close(self) -> None:
@@ -265,7 +265,7 @@ class Server:
 
     def __init__(self) -> None:
         ours, theirs = Pipe()
-        module = "lir_element.opensees.portable.server"
+        module = "lir_element.opensees.out_of_process.server"
         command = [sys.executable, "-P", "-m", module, str(theirs.fileno()), str(os.getpid())]
         # in a session of its own: Ctrl-C in a terminal goes to all processes of the model's
         options: dict[str, Any] = {"pass_fds": [theirs.fileno()], "start_new_session": True}

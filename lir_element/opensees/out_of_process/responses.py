@@ -15,12 +15,12 @@ import numpy as np
 
 from lir_element.opensees.block.layout import HOST, MOST_DOFS
 from lir_element.opensees.block.responses import bearing_messages, host_responses
-from lir_element.opensees.fast.symbols import addresses
-from lir_element.opensees.fast.vtable_patch import Graft, common_functions
+from lir_element.opensees.in_process.symbols import addresses
+from lir_element.opensees.in_process.vtable_patch import VTablePatch, common_functions
 
 if TYPE_CHECKING:
     from lir_element.device.bearing import LIRBearing
-    from lir_element.opensees.placement import Placement
+    from lir_element.opensees.placement import BearingTransform
 
 _HOST = {"tangent": "tangent_stiff", "initial": "initial_stiff", "commit": "commit_state"}
 _OWN = {
@@ -38,7 +38,7 @@ _OWN = {
 """Callbacks in the place of the host's functions."""
 
 
-class Manners:
+class HostOverrides:
     """Some functions of ours in an element of the out-of-process coupling.
 
     Parameters
@@ -58,7 +58,9 @@ class Manners:
         If the element is not what it was in the self-test.
     """
 
-    def __init__(self, tag: int, bearing: LIRBearing, level: str, placement: Placement) -> None:
+    def __init__(
+        self, tag: int, bearing: LIRBearing, level: str, placement: BearingTransform
+    ) -> None:
         from lir_element.opensees.kernels import callbacks
 
         block = np.zeros(1, dtype=HOST)
@@ -71,7 +73,7 @@ class Manners:
         for name in ("update", "tangent", "initial", "commit"):
             block[f"host_{name}"] = where[_HOST.get(name, name)]
         load = bearing.resolved()["design_load"]
-        self._graft = Graft(tag, placement, block, bearing_messages(tag, load, placement))
+        self._graft = VTablePatch(tag, placement, block, bearing_messages(tag, load, placement))
         self._graft.set_responses(host_responses(placement))
         self._graft.set_printed(
             name=tag,

@@ -1,6 +1,6 @@
 """The process that determines the states of bearings in the out-of-process coupling.
 
-    python -m lir_element.opensees.portable.server HANDLE PARENT
+    python -m lir_element.opensees.out_of_process.server HANDLE PARENT
 
 is started by `remote.Server`. It talks to the model's process through a private pipe (the handle),
 which hands it the connections of the host elements; it never listens anywhere. It ends with the

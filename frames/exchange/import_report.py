@@ -79,7 +79,7 @@ class Entry:
     stiffness: float | None = None  # the same of modulus times volume of all elements [-]
 
 
-class Account:
+class ImportReport:
     """What became of everything in a file; `allow` has keys of what may be left out of it."""
 
     SHOWN = 6
@@ -208,7 +208,7 @@ class Account:
 
 def judge_rest(
     tables: Tables,
-    account: Account,
+    account: ImportReport,
     refused: Collection[tuple[str, str, str]],
     known: Mapping[str, str],
     objects: tuple[str, ...] = (),
