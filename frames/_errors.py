@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from lir_element.errors import AnalysisWarning
+from lir_element.texts import TextWarning
 
 _NUMBERS = re.compile(r"(?<![\w-])\d[\d.e+-]*")
 
@@ -28,7 +29,7 @@ class ModelError(ValueError):
     """
 
 
-class ModelWarning(UserWarning):
+class ModelWarning(TextWarning):
     """A structural model that can be used, with something that its user should know.
 
     Examples
@@ -58,7 +59,7 @@ class MotionError(ValueError):
     """
 
 
-class MotionWarning(UserWarning):
+class MotionWarning(TextWarning):
     """A ground motion that can be used, with something that its user should know.
 
     Examples

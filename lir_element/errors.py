@@ -5,6 +5,8 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import Any
 
+from lir_element.texts import TextWarning
+
 
 class RunStatus(IntEnum):
     """Outcome of a state determination or of an analysis.
@@ -209,7 +211,7 @@ def failure_message(status: RunStatus, time: float, where: str, detail: str = ""
     return f"at t = {time:.6g} s, {where}: {status.meaning}{extra}. What to try: {status.remedy}."
 
 
-class AnalysisWarning(UserWarning):
+class AnalysisWarning(TextWarning):
     """An analysis that stopped early and handed back what it had computed, or is doubtful.
 
     Examples

@@ -45,6 +45,14 @@ class Text(str):
         return [self.template, values]
 
 
+class TextWarning(UserWarning):
+    """A warning whose `text` keeps template and values; its argument is the plain string."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(str.__str__(text))
+        self.text = text
+
+
 def worded(template: str, /, **values: object) -> str:
     """Return a text made of a template with places in braces, as of `str.format`."""
     return _made(template, {name: _value(value) for name, value in values.items()})

@@ -193,7 +193,9 @@ def time_history(
         mark_other_end(data, ends)
     else:
         analyse(Features.all() if features is None else features, level)
-    return _reported(*runs[0], on_failure)
+    last, recorder = runs[0]
+    data = recorder.recorded(last.data)
+    return _told(report(data, *last.outcome, on_failure=on_failure))
 
 
 class Analysis:
@@ -300,14 +302,11 @@ class Analysis:
         with blas_threads_for(prepared.model):
             run, recorder = _run_prepared(prepared, prepared.fresh(), motion, options)
         run.data.attrs |= run.findings.attrs()
-        return _reported(run, recorder, on_failure)
+        data = recorder.recorded(run.data)
+        return _told(report(data, *run.outcome, on_failure=on_failure))
 
 
 _DIRECT = METHODS[0]
-
-
-def _reported(run: Run, recorder: Recorder, on_failure: str) -> xr.Dataset:
-    return _told(report(recorder.recorded(run.data), *run.outcome, on_failure=on_failure))
 
 
 def _run_prepared(

@@ -26,6 +26,7 @@ from lir_element.device.sanity_checks import (
     slider_area,
 )
 from lir_element.device.specification import BackupSupport
+from lir_element.texts import TextWarning
 from lir_element.units import STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ LARGEST_SINE = 0.95
 """Of the slider's tilt at the rim; the kernels stop at 72 degrees."""
 
 
-class DesignWarning(UserWarning):
+class DesignWarning(TextWarning):
     """A bearing that can be computed, but will not work as it is meant to.
 
     Examples

@@ -18,6 +18,7 @@ pytest.importorskip("pydantic")
 from babel.messages.extract import extract_from_dir
 from typer.testing import CliRunner
 
+from frames._errors import AuditWarning, ModelWarning, MotionWarning
 from frames.command.app import app
 from frames.design._errors import ProjectError
 from frames.design.codes.registry import code_named
@@ -33,7 +34,8 @@ from frames.design.report.words import LANGUAGES, Words, catalogue
 from frames.design.report.writing import SECTIONS
 from frames.plots import plot_style as ps
 from frames.results.findings import Findings, finding, findings_from
-from lir_element.texts import Text, joined, text_from, worded
+from lir_element.device.bearing_checks import DesignWarning
+from lir_element.texts import Text, TextWarning, joined, text_from, worded
 from tests.spanish import PLACES, untold
 
 ROOT = Path(__file__).parents[2]
@@ -186,6 +188,16 @@ def test_findings_keep_their_templates_through_a_file() -> None:
     assert again == found
     assert again[0].sentence == "rims: met by 2 of 9 bearings"
     assert Words("es").say(again.lines()[0]) == "  anillos: tocados por 2 de 9 aisladores"
+
+
+@pytest.mark.parametrize("kind", [AuditWarning, DesignWarning, ModelWarning, MotionWarning])
+def test_warnings_go_to_other_processes_as_plain_strings(kind: type[TextWarning]) -> None:
+    text = worded("{count} of {all} bearings", count=2, all=9)
+    with pytest.warns(kind) as caught:
+        warnings.warn(text, kind, stacklevel=1)
+    heard = caught[0].message
+    assert type(heard.args[0]) is type(str(heard)) is str
+    assert str(heard) == heard.text == text
 
 
 def test_names_of_the_user_stay() -> None:

@@ -67,8 +67,8 @@ def preliminary(parts: ProjectInputs) -> Preliminary:
     finally:
         for each in _once(told):
             warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
-    kinds = (ModelWarning, MotionWarning)
-    doubts = tuple(str(each.message) for each in _once(told) if issubclass(each.category, kinds))
+    heard = [each.message for each in _once(told)]
+    doubts = tuple(one.text for one in heard if isinstance(one, (ModelWarning, MotionWarning)))
     return replace(known, doubts=doubts)
 
 
