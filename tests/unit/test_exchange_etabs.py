@@ -289,7 +289,7 @@ def test_material_without_weight_is_doubted(tmp_path: Path) -> None:
     said = " ".join(str(each.message) for each in told)
     words = Words("es")
     for each in told:
-        words.say(str(each.message))
+        words.say(each.message.text)
     assert untold(words) == set()
     assert 'material "C30" has no weight, and pattern "Dead" has own weight' in said
     assert "of the mass has no weight" in said

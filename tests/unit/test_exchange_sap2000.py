@@ -381,7 +381,7 @@ def doubts(tmp_path: Path, tables: models.Rows, **options: object) -> tuple[Fram
         frame = Frame.from_sap2000(path, BEARING, **options)  # type: ignore[arg-type]
     words = Words("es")
     for each in told:
-        words.say(str(each.message))
+        words.say(each.message.text)
     assert untold(words) == set()
     return frame, " ".join(str(each.message) for each in told)
 
