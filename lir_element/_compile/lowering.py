@@ -41,7 +41,17 @@ if TYPE_CHECKING:
 _MEMINFO, _PARENT, _COUNT, _ITEM_SIZE, _DATA, _SHAPE, _STRIDES = range(7)  # parts of an array
 
 
-_LONG_LOOPS = {"contact", "coupling", "linear", "shared_tangent"}
+_LONG_LOOPS = {
+    "contact",
+    "coupling",
+    "hinges",
+    "laws",
+    "linear",
+    "nonlinear_works",
+    "part_states",
+    "shared_tangent",
+    "yielding",
+}
 """Modules and packages of products and factors of matrices: most of their time is in loops."""
 
 _BIT = partial(llvm.Constant, llvm.IntType(1))
