@@ -52,7 +52,8 @@ _LONG_LOOPS = {
     "shared_tangent",
     "yielding",
 }
-"""Modules and packages of products and factors of matrices: most of their time is in loops."""
+"""Modules and packages of products and factors of matrices, and of parts that yield: most of their
+time is in loops."""
 
 _BIT = partial(llvm.Constant, llvm.IntType(1))
 
