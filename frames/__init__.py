@@ -51,10 +51,9 @@ if TYPE_CHECKING:
     from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
 
 if not TYPE_CHECKING:  # noqa: RUF067  # a checker of types would take any name for one of these
-    from frames._moved import moved_name
     from lir_element._lazy import lazily
 
-    __getattr__, __dir__ = lazily(__name__, __file__, moved_name)
+    __getattr__, __dir__ = lazily(__name__, __file__)
 
 
 __all__ = [

@@ -17,9 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
-def lazily(
-    package: str, file: str, otherwise: Callable[[str, str], Any] | None = None
-) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
+def lazily(package: str, file: str) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
     """Return what a package takes as its `__getattr__` and `__dir__`."""
     homes = _listed(Path(file).read_text(encoding="utf-8"))
     module = sys.modules[package]
@@ -31,8 +29,6 @@ def lazily(
             return found
         if not name.startswith("_") and find_spec(f"{package}.{name}") is not None:
             return import_module(f"{package}.{name}")
-        if otherwise is not None:
-            return otherwise(package, name)
         msg = f"module {package!r} has no attribute {name!r}"
         raise AttributeError(msg)
 

@@ -1,6 +1,5 @@
 """Design: spectra and sets of motions, codes, checks, sizing, tests of bearings."""
 
-from frames.design._callable import make_callable
 from frames.design._errors import CheckError as CheckError
 from frames.design._errors import ProjectError as ProjectError
 from frames.design.calculation.check import Check as Check
@@ -142,5 +141,3 @@ __all__ = [
     "uplift_events",
     "with_property_bounds",
 ]
-
-make_callable(__name__, design)  # noqa: RUF067  # for one version

@@ -10,8 +10,6 @@ no display and keeps no state. ``start`` and ``end`` [s] show a part of the time
 between figures of the same systems.
 """
 
-from typing import TYPE_CHECKING
-
 from frames.plots.bearing_dimensions import bearing_dimensions as bearing_dimensions
 from frames.plots.bearing_drawing import bearing_sections as bearing_sections
 from frames.plots.plot_choice import worst_bearing as worst_bearing
@@ -28,13 +26,6 @@ from frames.plots.plot_parts import link_loops as link_loops
 from frames.plots.plot_summaries import energy as energy
 from frames.plots.plot_summaries import floor_spectra as floor_spectra
 from frames.plots.plot_summaries import storey_profiles as storey_profiles
-
-if not TYPE_CHECKING:  # noqa: RUF067  # a checker of types would take any name for one of these
-    from frames._moved import moved_name
-
-    def __getattr__(name: str) -> object:
-        return moved_name(__name__, name)
-
 
 __all__ = [
     "QUANTITIES",

@@ -11,7 +11,6 @@ from typing import Any
 
 import pytest
 
-from frames._moved import NAMES
 from tests.patience import fresh
 
 PACKAGES = [
@@ -130,29 +129,9 @@ def test_errors_and_warnings_of_a_run_are_exported() -> None:
         frames.GroundMotion(x=[1.0], dt=0.1)
 
 
-@pytest.mark.parametrize("package", NAMES)
-def test_names_that_moved_still_work_and_say_where_they_are(package: str) -> None:
-    module = importlib.import_module(package)
-    for name, home in NAMES[package].items():
-        with pytest.warns(DeprecationWarning, match=rf"{package}.{name} is now {home}\.") as told:
-            found = getattr(module, name)
-        new = str(told[0].message).split(" is now ")[1].split(";")[0].rpartition(".")[2]
-        assert found is getattr(importlib.import_module(home), new)
-        assert told[0].filename == __file__  # the caller is told, not the package
-
-
 def test_a_name_that_never_was_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="'frames' has no attribute 'nothing'"):
         importlib.import_module("frames").nothing  # noqa: B018
-
-
-def test_the_package_of_design_can_be_called_as_the_function_it_was() -> None:
-    package = importlib.import_module("frames.design")
-    with (
-        pytest.warns(DeprecationWarning, match=r"now frames\.design\.design"),
-        pytest.raises(TypeError),
-    ):
-        package()
 
 
 def test_the_engine_has_a_short_list_of_names() -> None:
