@@ -298,20 +298,25 @@ def nch(s, given, above):
     return found
 
 
+def floor_weights(statics):
+    """Return the weights of the floors' masses, each node's with the nearest level."""
+    height, levels = statics["node_position"][:, 2], statics["level_height"]
+    nearest = np.abs(height[:, None] - levels).argmin(axis=1)
+    mass = np.array([statics["node_mass"][nearest == k, 0].sum() for k in range(len(levels))])
+    return G * mass[1:]
+
+
 def above_of(project):
     """Return what stands on the bearings: weights and heights of floors, fixed-base period."""
     given = project.file.get("superstructure")
     if given is None:
         return None
-    statics = project.governing
-    height, levels = statics["node_position"][:, 2], statics["level_height"]
-    nearest = np.abs(height[:, None] - levels).argmin(axis=1)
-    mass = np.array([statics["node_mass"][nearest == k, 0].sum() for k in range(len(levels))])
+    weights, levels = floor_weights(project.governing), project.governing["level_height"]
     facts = json.loads(project.text("run.json"))  # of the base held: modes.csv has a fixed base
     period = facts["fixed_base_period"]
     return {
-        "W_s": G * mass[1:].sum(),
-        "w": G * mass[1:],
+        "W_s": weights.sum(),
+        "w": weights,
         "h": levels[1:] - levels[0],
         "R": given.get("R"),
         "importance": given.get("importance", 1.0),

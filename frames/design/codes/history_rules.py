@@ -98,6 +98,13 @@ class HistoryRules:
     second_order : float, optional
         Storey drift ratio times R_I above which the effects of gravity on the displaced structure
         (P-Delta) must be in the analysis [-]; None where the code has none.
+    torsion : float, optional
+        Largest drift of a line of nodes over the mean of its storey [-] up to which a structure is
+        regular in plan; None where the code has none.
+    stability : tuple of float, optional
+        Largest coefficient of P-Delta theta = P d / (V h) of a storey [-], if the analysis is
+        without the effects of gravity on the displaced structure, and if it has them; None where
+        the code has none.
     displacement_factor : float
         On the isolators' displacement [-].
     uplift_allowed : bool
@@ -124,6 +131,8 @@ class HistoryRules:
         Levels of the seismic action at which histories are run, and what is judged at each.
     statistic_clause, displacement_clause, drift_clause, force_clause, uplift_clause : str
         Clauses; `uplift_clause` that of what bearings must keep where they lift off.
+    torsion_clause, stability_clause : str
+        Clauses of `torsion` and `stability`.
     eccentricity_clause : str
         Clause of accidental eccentricity.
     standard : str
@@ -144,6 +153,8 @@ class HistoryRules:
     drift_factor: float = field(default=1.0, metadata=number("-", "[0.1, 1]"))
     drift_classes: tuple[tuple[str, float], ...] = ()
     second_order: float | None = field(default=None, metadata=_SHARE)
+    torsion: float | None = field(default=None, metadata=number("-", "[1, 10)"))
+    stability: tuple[float, float] | None = field(default=None, metadata=number("-", "(0, 1)"))
     displacement_factor: float = field(default=1.0, metadata=number("-", "[1, 10)"))
     uplift_allowed: bool = False
     least_gap: float = field(default=1e-3, metadata=number("m", "[0, inf)"))
@@ -163,6 +174,8 @@ class HistoryRules:
     statistic_clause: str = ""
     displacement_clause: str = ""
     drift_clause: str = ""
+    torsion_clause: str = ""
+    stability_clause: str = ""
     force_clause: str = ""
     uplift_clause: str = ""
     eccentricity_clause: str = ""

@@ -14,6 +14,7 @@ from lir_element.argument_checks import require_vector
 from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:
+    from frames._types import FloatArray
     from frames.frame import Frame
 
 
@@ -119,13 +120,9 @@ class Superstructure:
         if len(levels) < 2:
             msg = f"{len(levels)} levels: name the base and each floor above by Frame.add_level"
             raise CheckError(msg)
-        state = gravity(frame)
-        away = np.abs(state.system.coordinates[:, 2, None] - levels)
-        own = np.where(above_bearings(state.system), state.system.node_mass[:, 0], 0.0)
-        mass = np.bincount(away.argmin(axis=1), own, len(levels))
         return cls(
-            fixed_base_period=state.held_periods[0],
-            storey_weights=tuple((frame.gravity * mass[1:]).tolist()),
+            fixed_base_period=gravity(frame).held_periods[0],
+            storey_weights=tuple(floor_weights(frame).tolist()),
             storey_heights=tuple(np.diff(levels).tolist()),
             R=R,
             importance=importance,
@@ -144,3 +141,16 @@ class Superstructure:
     def elevations(self) -> tuple[float, ...]:
         """Height of each floor above the base level [m]."""
         return tuple(np.cumsum(self.storey_heights).tolist())
+
+
+def floor_weights(frame: Frame) -> FloatArray:
+    """Return the weights of the masses of the floors above the base level [N].
+
+    Shapes: result (n_floors,), lowest first.
+    """
+    levels = np.array([level.z for level in frame.levels])
+    system = gravity(frame).system
+    away = np.abs(system.coordinates[:, 2, None] - levels)
+    own = np.where(above_bearings(system), system.node_mass[:, 0], 0.0)
+    weights = frame.gravity * np.bincount(away.argmin(axis=1), own, len(levels))
+    return np.asarray(weights[1:])

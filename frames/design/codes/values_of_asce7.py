@@ -84,6 +84,10 @@ VALUES = {
     "S_MS, S_M1": CodeValue("ASCE 7-22 21.4", "S_MS and S_M1 of spectra by points", USGS),
     "history drift": CodeValue("ASCE 7-22 17.6.4.4", "storey drift at most 0.020", UFC_BNBC),
     "second order": CodeValue("ASCE 7-22 17.6.4.4", "P-Delta above a drift of 0.010 / R_I"),
+    "drift of lines": CodeValue("ASCE 7-22 12.3.2", "largest over mean drift at most 1.4"),
+    "stability": CodeValue(
+        "ASCE 7-22 12.8.7", "P-Delta coefficient at most 0.10, in the analysis 0.25"
+    ),
     "history minima": CodeValue(
         "ASCE 7-22 17.6.4", "0.8 D_TM, 0.9 V_b, and V_s whole", field="history_share"
     ),
@@ -138,8 +142,14 @@ PROVISIONS = (
     ),
     Provision(
         f"{NAME} 17.4.1, 12.3.2",
-        "regularity in plan and height, torsional irregularity",
-        why="since the largest drift over the mean one is held against no limit",
+        "extreme torsional irregularity",
+        ("largest over mean drift of a storey",),
+        ("storeys",),
+    ),
+    yours(
+        f"{NAME} 17.2.2.1, 12.3.2",
+        "weak and soft storeys",
+        "the strength and stiffness of each storey over that above",
     ),
     Provision(
         f"{NAME} 17.5.6",
@@ -154,9 +164,10 @@ PROVISIONS = (
         ("storeys",),
     ),
     Provision(
-        f"{NAME} 17.6.4.4",
-        "P-Delta from a drift of 0.010 / R_I on",
-        why="since the note of the drifts alone says whether the analysis has it",
+        f"{NAME} 12.8.7, 17.6.4.4",
+        "P-Delta: coefficient of the storeys, and whether the analysis has it",
+        ("P-Delta coefficient of a storey",),
+        ("storeys",),
     ),
     Provision(
         f"{NAME} 17.2.4.7",
@@ -288,6 +299,8 @@ RULES: dict[str, Any] = {
         mean_from=7,
         drift=0.020,
         second_order=0.010,
+        torsion=1.4,
+        stability=(0.10, 0.25),
         uplift_allowed=True,
         has_minima=True,
         accidental_eccentricity=0.05,
@@ -295,6 +308,8 @@ RULES: dict[str, Any] = {
         statistic_clause="17.3.3",
         displacement_clause="17.6.4",
         drift_clause="17.6.4.4",
+        torsion_clause="17.4.1, 12.3.2",
+        stability_clause="12.8.7",
         force_clause="17.6.4",
         uplift_clause="17.2.4.7",
         eccentricity_clause="17.6.2.1",

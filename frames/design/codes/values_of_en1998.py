@@ -72,6 +72,9 @@ VALUES = {
     "history drift": CodeValue(
         "EN 1998-1 4.4.3.2", "nu d_r of histories at most 0.005, 0.0075 or 0.010 of the height"
     ),
+    "stability": CodeValue(
+        "EN 1998-1 4.4.2.2", "P-Delta coefficient at most 0.1, in the analysis 0.3"
+    ),
     "orthogonal": CodeValue("EN 1998-1 4.3.3.5", "30 % of the other direction", field="orthogonal"),
     "vertical loads": CodeValue("EN 15129 8.3, EN 1998-1 10.10", "no uplift, pressure of sliders"),
     "overturning": CodeValue("EN 1998-1 4.4.2.4", "of the whole structure, safety 1.0"),
@@ -153,13 +156,14 @@ PROVISIONS = (
     ),
     Provision(
         "EN 1998-1 4.4.2.2",
-        "second-order effects, theta at most 0.1",
-        why="since theta of the storeys is not formed",
+        "second-order effects: theta of the storeys, and whether the analysis has them",
+        ("P-Delta coefficient of a storey",),
+        ("storeys",),
     ),
-    Provision(
+    yours(
         "EN 1998-1 4.2.3",
-        "regularity in plan and height, torsion",
-        why="since the largest drift over the mean one is held against no limit",
+        "regularity in plan and height",
+        "the model is spatial; 4.2.3.1(7) reduces q if the elevation is irregular",
     ),
     Provision(
         "EN 1998-1 4.4.2.4",
@@ -294,11 +298,13 @@ RULES: dict[str, Any] = {
         drift=_DRIFTS["brittle"],
         drift_factor=0.5,
         drift_classes=tuple(_DRIFTS.items()),
+        stability=(0.1, 0.3),
         displacement_factor=1.2,
         accidental_eccentricity=0.05,
         statistic_clause="4.3.3.4.3(3)",
         displacement_clause="10.3(2)",
         drift_clause="4.4.3.2",
+        stability_clause="4.4.2.2",
         force_clause="10.10",
         eccentricity_clause="4.3.2",
     ),

@@ -108,9 +108,9 @@ PROVISIONS = (
         why="since none were read; those of ASCE 7-22 and UBC-97 are a measure",
     ),
     Provision(
-        "NCh433 5.5",
+        "NCh433 5.5, 5.9.3",
         "regularity in plan and height, torsion",
-        why="since the largest drift over the mean one is held against no limit",
+        why="since 0.001 h between edge and centre (5.9.3) is of buildings on a fixed base",
     ),
     Provision(
         "NCh2745 7.6",

@@ -19,6 +19,7 @@ from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.capacity import engagement_checks
 from frames.design.histories.bearing_demands import BearingDemands, devices_of
 from frames.design.histories.eccentricity import Case, named_by_way
+from frames.design.histories.storey_checks import stability_checks, torsion_checks
 from frames.design.histories.suite import (
     LEAST,
     parted,
@@ -70,7 +71,7 @@ class BoundChecks:
             found += self._of_bearings()
         if self.level.judges_structure:
             found += [*self._base_shear(), *self._least_shears]
-            found += [*self._drift(), *self._acceleration()]
+            found += [*self._drift(), *self._storeys(), *self._acceleration()]
         return [replace(check, level=self.level.name) for check in found]
 
     def _of_bearings(self) -> list[Check]:
@@ -351,6 +352,15 @@ class BoundChecks:
                     note=of,
                 )
         return [max(found, key=lambda check: check.compared)] if found else []
+
+    def _storeys(self) -> list[Check]:
+        if len(self.frame.levels) < 2:
+            return []
+        rules, makes = self.case.rules, self._bearings
+        clause, known = self._clause(rules.torsion_clause), self._known("drift of lines", "torsion")
+        found = torsion_checks(self.case, makes, self.frame, clause, known)
+        clause, known = self._clause(rules.stability_clause), self._known("stability", "stability")
+        return [*found, *stability_checks(self.case, makes, self.frame, clause, known)]
 
     def _acceleration(self) -> list[Check]:
         return self._bearings.against("floor_plan") if self.frame.levels else []
