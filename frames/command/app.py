@@ -16,7 +16,7 @@ from rich.markup import escape
 from frames.command.campaigns import campaign, campaign_status
 from frames.command.console import FAILED_CHECKS, err, exit_codes, out, project_in, say, trust
 from frames.command.designing import propose
-from frames.command.viewing import compare, view
+from frames.command.viewing import compare, export, view
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -231,6 +231,7 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
 
 
 app.command()(compare)
+app.command()(export)
 
 
 @app.command()

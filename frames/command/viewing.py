@@ -1,4 +1,4 @@
-"""The commands that show results: a run in motion, and the bearings beside rigid sliders."""
+"""The commands that show a project: a run in motion, beside rigid sliders, in other programs."""
 
 from __future__ import annotations
 
@@ -69,3 +69,38 @@ def compare(
                 say(f"  {text}")
         say(f"\n{found.eccentricity}")
         say(f"\n{', '.join(path.name for path in written)} in {results}")
+
+
+def export(
+    file: Annotated[Path, typer.Argument(help="The project's file.")] = Path("project.toml"),
+    to: Annotated[str, typer.Option(help="etabs or sap2000.")] = "etabs",
+    results: Annotated[Path, typer.Option(help="Folder for the files.")] = Path("export"),
+) -> None:
+    """Write the project for another program, and what its response spectrum analysis should give.
+
+    At each bound of friction a model whose links have the effective stiffness and damping of the
+    equivalent-linear analysis; links.csv, spectrum.csv with that damping, expected.csv.
+    """
+    from typing import get_args
+
+    from frames.design._errors import ProjectError
+    from frames.design.project.handover import Program, handed_over
+    from frames.design.project.preliminary import preliminary
+    from frames.design.report.tables import in_mm_and_kn, rows_of
+    from frames.results.storage import csv_of, make_folder, write_whole
+    from lir_element.argument_checks import require_choice
+    from lir_element.tables import text_table
+
+    with exit_codes():
+        require_choice("--to", to, get_args(Program), error=ProjectError)
+        parts = project_in(file)
+        known = preliminary(parts)
+        make_folder(results)
+        found = handed_over(parts, known, to, results)  # type: ignore[arg-type]  # refused before
+        for name, table in found.tables.items():
+            write_whole(results / f"{name}.csv", csv_of(table, index=False))
+        for line in found.said:
+            say(line)
+        shown = in_mm_and_kn(known.equivalent.to_dataframe())
+        say(text_table(rows_of(shown), ("", *map(str, shown.columns))))
+        say(f"{', '.join(f'{name}.csv' for name in found.tables)} in {results}, in SI units")

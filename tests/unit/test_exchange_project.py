@@ -6,10 +6,14 @@ import re
 import warnings
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pytest
 from numpy.testing import assert_allclose
+from typer.testing import CliRunner
 
-from frames import ModelWarning
+from frames import Frame, ModelWarning
+from frames.command.app import app
 from frames.design._errors import ProjectError
 from frames.design.project import example
 from frames.design.project.inputs import ProjectInputs
@@ -167,3 +171,40 @@ def test_types_of_bearings_by_groups_of_links(tmp_path: Path) -> None:
     path.write_text(path.read_text(encoding="utf-8").replace("[bounds]", own, 1), encoding="utf-8")
     parts = ProjectInputs(read_project(path), tmp_path)
     assert list(parts.types().values()) == ["inner", "standard", "inner", "standard"]
+
+
+@pytest.mark.parametrize("program", ["etabs", "sap2000"])
+def test_export_hands_over_what_another_program_confirms(tmp_path: Path, program: str) -> None:
+    """Links add up to the code's stiffness and damping; the spectrum gives its displacement."""
+    example.write_example(tmp_path, "EN 1998")
+    out = tmp_path / "out"
+    told = ["export", str(tmp_path / "project.toml"), "--to", program, "--results", str(out)]
+    done = CliRunner().invoke(app, told)
+    assert done.exit_code == 0, done.output
+    links, spectrum, rows = (
+        pd.read_csv(out / f"{name}.csv") for name in ("links", "spectrum", "expected")
+    )
+    for bound, own in links.groupby("bound"):
+        said = rows[rows["bound"] == bound].set_index("quantity")["value"]
+        total, d = said["shear of the isolation system [N]"], said["displacement [m]"]
+        assert_allclose(own["effective stiffness [N/m]"].sum() * d, total, rtol=1e-9)
+        shares = own["damping ratio [-]"] * own["effective stiffness [N/m]"]
+        damping = shares.sum() / own["effective stiffness [N/m]"].sum()
+        assert_allclose(damping, said["effective damping [-]"], rtol=1e-9)
+        period = said["effective period [s]"]
+        ordinate = np.interp(period, spectrum["period [s]"], spectrum[f"{bound} [m/s2]"])
+        assert_allclose(ordinate * (period / (2.0 * np.pi)) ** 2, d, rtol=5e-3)
+        short = spectrum["period [s]"] < 0.79 * period
+        columns = (f"{bound} [m/s2]", "5 % [m/s2]")
+        assert_allclose(*(spectrum[name][short] for name in columns))
+    read = Frame.from_etabs if program == "etabs" else Frame.from_sap2000
+    suffix = "e2k" if program == "etabs" else "s2k"
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        again = read(out / f"model-upper.{suffix}")
+    assert len(again.bearings) == len(own)
+
+
+def test_export_refuses_other_programs(tmp_path: Path) -> None:
+    done = CliRunner().invoke(app, ["export", str(tmp_path), "--to", "robot"])
+    assert "etabs, sap2000" in done.output.replace("'", "")
