@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 import numpy as np
 import pandas as pd
@@ -15,6 +15,7 @@ from lir_element.texts import worded
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from frames.design.codes.bounds import BoundName
     from frames.design.codes.outcome import BoundResult
     from frames.design.project.inputs import ProjectInputs
     from frames.design.project.preliminary import Preliminary
@@ -54,7 +55,8 @@ def handed_over(
     said: list[str] = []
     links: list[dict[str, object]] = []
     for result in known.equivalent.bounds.values():
-        frame = with_property_bounds(known.frame, result.bound, parts.bounds())
+        bound = cast("BoundName", result.bound)
+        frame = with_property_bounds(known.frame, bound, parts.bounds())
         said.append(_written(frame, result, program, folder))
         links += _links(known, frame, result)
     tables = {
