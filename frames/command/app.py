@@ -77,6 +77,10 @@ def new(
     example: Annotated[
         str | None, typer.Option(help="A whole building instead: hospital, near-fault, office.")
     ] = None,
+    model: Annotated[
+        Path | None,
+        typer.Option("--from", help="A model of SAP2000 or ETABS as its structure, as text."),
+    ] = None,
 ) -> None:
     """Write an example project: a commented file, and motions to try it with."""
     from frames.design._errors import ProjectError
@@ -84,11 +88,12 @@ def new(
 
     with exit_codes():
         try:
-            written = write_example(folder, code, example)
+            written = write_example(folder, code, example, model)
         except FileExistsError as cause:
             msg = f"{cause} is there already: name another folder"
             raise ProjectError(msg) from cause
-    say(f"{written[0]} and {len(written) - 1} other files; next: lir check {written[0]}")
+    then = "check" if model is None else "design"
+    say(f"{written[0]} and {len(written) - 1} other files; next: lir {then} {written[0]}")
 
 
 @app.command()

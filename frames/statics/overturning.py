@@ -56,7 +56,10 @@ class Overturning(NamedTuple):
             share=100.0 * least,
             axis=axis,
         )
-        remedy = "free rx and ry of base and floors, or shear_building(..., overturning=True)"
+        remedy = (
+            'free rx and ry of base and floors: base_rotations="free" of an imported model, '
+            "overturning=True of a shear building"
+        )
         return joined(held, remedy)
 
 

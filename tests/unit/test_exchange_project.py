@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 
 from frames import Frame, ModelWarning
 from frames.command.app import app
+from frames.command.console import BAD_INPUT
 from frames.design._errors import ProjectError
 from frames.design.project import example
 from frames.design.project.inputs import ProjectInputs
@@ -208,3 +209,36 @@ def test_export_hands_over_what_another_program_confirms(tmp_path: Path, program
 def test_export_refuses_other_programs(tmp_path: Path) -> None:
     done = CliRunner().invoke(app, ["export", str(tmp_path), "--to", "robot"])
     assert "etabs, sap2000" in done.output.replace("'", "")
+
+
+def test_a_project_begins_with_a_model(tmp_path: Path) -> None:
+    """`lir new --from` copies the model; what `lir design` lacks is said with its remedy."""
+    model = tmp_path / "tower.e2k"
+    model.write_text(etabs_models.building(), encoding="utf-8")
+    folder, run = tmp_path / "project", CliRunner().invoke
+    made = run(app, ["new", str(folder), "--from", str(model)])
+    assert made.exit_code == 0, made.output
+    path = folder / "project.toml"
+    text = path.read_text(encoding="utf-8")
+    assert 'name = "tower"' in text
+    held = run(app, ["design", str(path), "--results", str(tmp_path / "one")])
+    remedy = 'base_rotations = "free"'
+    assert held.exit_code == BAD_INPUT
+    assert remedy in held.output
+    path.write_text(text.replace(f"# {remedy}", remedy), encoding="utf-8")
+    parts = ProjectInputs(read_project(path), folder)
+    assert not parts.system(parts.provisional_frame(), parts.spectrum()).unknown_loads
+
+
+@pytest.mark.parametrize(
+    ("told", "said"),
+    [
+        (["--from", "none.e2k"], r"none\.e2k must be a file of SAP2000 or ETABS"),
+        (["--from", "a.dwg"], r"\.e2k, \.\$et, \.s2k"),
+        (["--from", "a.e2k", "--example", "office"], "leave one out"),
+    ],
+)
+def test_what_is_no_model_is_refused(tmp_path: Path, told: list[str], said: str) -> None:
+    done = CliRunner().invoke(app, ["new", str(tmp_path / "p"), *told])
+    assert done.exit_code == BAD_INPUT
+    assert re.search(said, done.output)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import shutil
 from importlib import resources
 from typing import TYPE_CHECKING
 
@@ -125,24 +126,63 @@ BUILDINGS = {
 
 _WITH_VERTICAL = frozenset({"near-fault"})  # buildings whose motions have a vertical component
 _PLAIN = "example.toml"
+MODEL_FILES = {"etabs": (".e2k", ".$et"), "sap2000": (".s2k", ".$2k", ".xlsx")}
+"""Programs, and endings of their models as text."""
+_NO_BEARING = """# [bearing] is what `lir design` prints: put it here.
+
+"""
 _KEPT_AS_TEXT = ".txt"  # ending of files of a building that are not Python of this package
 
 
-def write_example(folder: Path, code: str | None = None, building: str | None = None) -> list[Path]:
-    """Write a project's file and artificial motions into a folder.
+def write_example(
+    folder: Path,
+    code: str | None = None,
+    building: str | None = None,
+    model: Path | None = None,
+) -> list[Path]:
+    """Write a project's file and artificial motions into a folder; of a model a copy, too.
 
     The motions are filtered noise with a pulse of velocity in it, weaker across, whose amplitudes
     are brought to the design spectrum: there to try the project with, not to design by.
     """
+    if model is not None and building is not None:
+        msg = f"--example {building} beside --from {model}: leave one out"
+        raise ProjectError(msg)
     texts = _plain(code) if building is None else _building(building, code)
+    if model is not None:
+        texts = {"project.toml": _of_model(texts["project.toml"], model)}
     for name in (*texts, "motions/motions.csv"):  # before the motions are made
         if (folder / name).exists():
             raise FileExistsError(str(folder / name))
     make_folder(folder)
+    if model is not None and folder.resolve() != model.resolve().parent:
+        if (folder / model.name).exists():
+            raise FileExistsError(str(folder / model.name))
+        shutil.copyfile(model, folder / model.name)
     written = _put(folder, texts)
     parts = ProjectInputs(read_project(written[0]), folder)
     motions = motion_files(parts.spectrum(), vertical=building in _WITH_VERTICAL)
     return [*written, *_put(folder / "motions", motions)]
+
+
+def _of_model(text: str, model: Path) -> str:
+    # The plain file with a model of another program as its structure; `lir design` has bearings.
+    suffix = model.suffix.lower()
+    kind = next((kind for kind, known in MODEL_FILES.items() if suffix in known), "")
+    if not kind or not model.is_file():
+        listed = ", ".join(", ".join(known) for known in MODEL_FILES.values())
+        msg = f"--from {model} must be a file of SAP2000 or ETABS, exported as text: {listed}"
+        raise ProjectError(msg)
+    section = _kept().joinpath("imported.toml").read_text(encoding="utf-8")
+    section = section.replace("KIND", kind).replace("FILE", model.name)
+    text = _replaced(text, "structure", f"[structure]\n{section}\n")
+    text = _replaced(_replaced(text, "loads", ""), "bearing", _NO_BEARING)
+    return re.sub(r'(?m)^name = "[^"]*"', f'name = "{model.stem}"', text, count=1)
+
+
+def _replaced(text: str, name: str, by: str) -> str:
+    # A section with all its keys.
+    return re.sub(rf"(?ms)^\[{name}\].*?(?=^\[|\Z)", lambda _: by, text)
 
 
 def _put(folder: Path, texts: Mapping[str, str]) -> list[Path]:
@@ -184,5 +224,5 @@ def _plain(code: str | None) -> dict[str, str]:
     text = text.replace('code = "ASCE 7-22"', f'code = "{own.name}"')
     chosen = own.example or ExampleProject({}, {})
     for name, content in chosen.sections.items():
-        text = re.sub(rf"(?ms)^\[{name}\].*?(?=^\[|\Z)", f"[{name}]\n{content}\n", text)
+        text = _replaced(text, name, f"[{name}]\n{content}\n")
     return {"project.toml": text}

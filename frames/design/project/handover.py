@@ -10,7 +10,6 @@ import pandas as pd
 from frames._errors import ModelError
 from frames.design.codes.bounds import with_property_bounds
 from frames.exchange.pendulum_link import pendulum_link
-from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -74,8 +73,8 @@ def _written(frame: Frame, result: BoundResult, program: Program, folder: Path) 
     try:
         write(path, displacement=result.displacement)
     except ModelError as cause:
-        return worded("{file} is not written: {cause}", file=path.name, cause=cause)
-    return worded("{file}: links at {mm:.1f} mm", file=path.name, mm=1e3 * result.displacement)
+        return f"{path.name} is not written: {cause}"
+    return f"{path.name}: links at {1e3 * result.displacement:.1f} mm"
 
 
 def _links(known: Preliminary, frame: Frame, result: BoundResult) -> list[dict[str, object]]:

@@ -7,13 +7,15 @@ import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from frames.design.calculation.check import Checks
+from frames.design.calculation.check import Check, Checks
+from frames.design.calculation.not_evaluated import NOT_EVALUATED
 from frames.design.calculation.trace import Trace
 from frames.design.codes.registry import code_named
 from frames.design.devices.device import device_checks
 from frames.design.sizing.candidate import Candidate, Governing
 from lir_element import DesignWarning, LIRBearing
 from lir_element.device.bearing_checks import LARGEST_SINE
+from lir_element.texts import first_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -254,7 +256,14 @@ def _lacks(
     ]
     ill = [*checks.failed]
     ill += [*analysis.checks.failed]
-    return found + sorted({f"{check.title} (ratio {check.ratio:.2f})" for check in ill})
+    return found + sorted({_lacking(check) for check in ill})
+
+
+def _lacking(check: Check) -> str:
+    # By how much a check fails, or why it was not evaluated.
+    if NOT_EVALUATED in check.title:
+        return f"{check.title} ({first_of(check.note)})"
+    return f"{check.title} (ratio {check.ratio:.2f})"
 
 
 def _governing(

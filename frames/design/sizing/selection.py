@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from frames.design._errors import CheckError
+from frames.design.calculation.not_evaluated import NOT_EVALUATED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -70,9 +71,15 @@ class NoCandidateError(CheckError):
             near = min(candidates, key=lambda one: (len(one.lacks), one.governing.ratio))
             said += (
                 f"; nearest: radius {near.radius:g} m, friction {near.friction.f_max:g}, where "
-                f"{'; '.join(near.lacks)}. Offer other radii and frictions, rims at a larger share "
-                "of the displacement (rim_share), or narrower bounds of the interface friction"
+                f"{'; '.join(near.lacks)}. "
             )
+            if all(NOT_EVALUATED in one for one in near.lacks):
+                said += "No bearing mends this: mend the model"
+            else:
+                said += (
+                    "Offer other radii and frictions, rims at a larger share of the displacement "
+                    "(rim_share), or narrower bounds of the interface friction"
+                )
         else:
             first = impossible[0]
             said += f": radius {first.radius:g} m, friction {first.friction:g}: {first.reason}"
