@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from frames._types import BoolArray
 
-TAGS = DEVICE, HAZARD, BOUND, MASS_SHIFT = "device", "hazard_level", "bound", "masses_moved"
+TAGS = DEVICE, HAZARD, BOUND, MASS_SHIFT = "device", "hazard_level", "bound", "mass_shift"
 """Tags of a run beside its model, motion and scale: bearings in a comparison, level of the seismic
 action, bound of the properties, way in which masses were moved. Each is a coordinate along `run`;
 one that is not there is "" of all runs."""

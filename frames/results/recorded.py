@@ -20,6 +20,7 @@ ENDS = "first and last step"
 """How that attribute begins where no step between is kept as a rule."""
 
 _OTHERS = {"peak_time", "peak_where", "peak_ground_velocity"}
+_RENAMED = {"masses_moved": "mass_shift"}
 PEAK = "peak_"
 """Begins the names of what was reached at all steps: `frames.results.quantities`."""
 
@@ -30,9 +31,10 @@ def is_of_all_steps(name: Hashable) -> bool:
 
 
 def with_present_names(data: xr.Dataset) -> xr.Dataset:
-    """Return results with the names of now: in version 0.2 such ones began with "reached_"."""
+    """Return results with the names of now: in version 0.2 peaks began with "reached_"."""
     old = {str(name) for name in data.variables if str(name).startswith("reached_")}
-    return data.rename({name: PEAK + name.removeprefix("reached_") for name in old})
+    renamed = {name: PEAK + name.removeprefix("reached_") for name in old}
+    return data.rename(renamed | {old: new for old, new in _RENAMED.items() if old in data})
 
 
 def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] | None:

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
     from frames.recording.recording import Recording
     from frames.results.peak_response import Extreme
+    from frames.solve.outcome import Outcome
     from frames.statics.gravity import GravityState
 
 
@@ -172,7 +173,7 @@ def time_history(
             recording=wanted,
             progress=told,
         )
-        return _told(report(data, *outcome, on_failure=on_failure))
+        return _ended(data, outcome, on_failure)
     runs: list[tuple[Run, Recorder]] = []
     ends: list[tuple[RunStatus, float]] = []
 
@@ -185,7 +186,7 @@ def time_history(
         data.attrs |= run.findings.attrs()
         ends.append((outcome.status, outcome.time))
         if outcome.status is RunStatus.INTERRUPTED:  # no further run of level="auto"
-            report(recorder.recorded(data), *outcome, on_failure=on_failure)
+            _ended(recorder.recorded(data), outcome, on_failure)
         return data
 
     if level == "auto":
@@ -194,8 +195,7 @@ def time_history(
     else:
         analyse(Features.all() if features is None else features, level)
     last, recorder = runs[0]
-    data = recorder.recorded(last.data)
-    return _told(report(data, *last.outcome, on_failure=on_failure))
+    return _ended(recorder.recorded(last.data), last.outcome, on_failure)
 
 
 class Analysis:
@@ -302,8 +302,7 @@ class Analysis:
         with blas_threads_for(prepared.model):
             run, recorder = _run_prepared(prepared, prepared.fresh(), motion, options)
         run.data.attrs |= run.findings.attrs()
-        data = recorder.recorded(run.data)
-        return _told(report(data, *run.outcome, on_failure=on_failure))
+        return _ended(recorder.recorded(run.data), run.outcome, on_failure)
 
 
 _DIRECT = METHODS[0]
@@ -317,8 +316,9 @@ def _run_prepared(
     return run_one(prepared, state, motion, options, recorder), recorder
 
 
-def _told(data: xr.Dataset) -> xr.Dataset:
-    # Warns of what the assumption check of a completed run marks.
+def _ended(data: xr.Dataset, outcome: Outcome, on_failure: str) -> xr.Dataset:
+    # Warns of how a run ended, and of what the assumption check of a completed one marks.
+    report(data, *outcome, on_failure=on_failure, stacklevel=4)
     doubts = doubts_of(data)
     if doubts and "failed_at" not in data.attrs:
         what = "completed with a warning: " + "; ".join(doubts)

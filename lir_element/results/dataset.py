@@ -252,7 +252,14 @@ def bearing_coordinates(names: Sequence[str]) -> dict[str, Any]:
 
 
 def report(
-    data: xr.Dataset, status: RunStatus, time: float, where: str, detail: str, *, on_failure: str
+    data: xr.Dataset,
+    status: RunStatus,
+    time: float,
+    where: str,
+    detail: str,
+    *,
+    on_failure: str,
+    stacklevel: int = 3,
 ) -> xr.Dataset:
     """Write the outcome into the attributes; warn or raise on failure, warn of a given detail."""
     note_end(data, status, time, where, detail)
@@ -262,9 +269,9 @@ def report(
     if "failed_at" in data.attrs and on_failure == "raise":
         raise AnalysisError(status, time, where, detail, data)
     if status is not RunStatus.OK:
-        warnings.warn(data.attrs["message"], AnalysisWarning, stacklevel=3)
+        warnings.warn(data.attrs["message"], AnalysisWarning, stacklevel=stacklevel)
     elif detail:
-        warnings.warn(detail, AnalysisWarning, stacklevel=3)
+        warnings.warn(detail, AnalysisWarning, stacklevel=stacklevel)
     return data
 
 

@@ -77,7 +77,7 @@ class Suite:
         if self.moved is None:
             return
         known = list(zip(map(str, self.data["motion"]), self.data["scale"], strict=True))
-        ways = list(map(str, self.moved["masses_moved"]))
+        ways = list(map(str, self.moved["mass_shift"]))
         for way in dict.fromkeys(ways):
             there = [k for k, word in enumerate(ways) if word == way]
             own = [(str(self.moved["motion"][k]), self.moved["scale"][k]) for k in there]
@@ -316,7 +316,7 @@ def _by_motion(project, found, tally):
                     _one_motion(suite, k, (title, quantity, sign), row, tally)
             beside = suite.moved["motion"] if suite.moved is not None else ()
             for k, motion in enumerate(map(str, beside)):
-                row, way = next(rows), str(suite.moved["masses_moved"][k])
+                row, way = next(rows), str(suite.moved["mass_shift"][k])
                 said = [row["bound"], row["motion"], row["masses moved"], row["failed"]]
                 known = [bound, motion, way, "yes" if suite.moved_failed[k] else "no"]
                 tally.words(name, "run", " ".join(said), " ".join(known))

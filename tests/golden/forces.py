@@ -143,7 +143,7 @@ def _run_of(suite, said):
     # The place of a run by its name, those with moved masses last.
     names = list(map(str, suite.data["motion"]))
     if suite.moved is not None:
-        ways = zip(suite.moved["motion"], suite.moved["masses_moved"], strict=True)
+        ways = zip(suite.moved["motion"], suite.moved["mass_shift"], strict=True)
         names += [f"{motion}, masses {way}" for motion, way in ways]
     return names.index(said.partition(" x ")[0])
 

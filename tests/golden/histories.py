@@ -11,7 +11,7 @@ PRESSED = 0.05  # share of the load at rest below which a resultant's offset doe
 
 def peaks(data, statics):
     """Return what each run reached, by name as the package has it, (n_runs, ...)."""
-    ways = data.get("masses_moved", [""] * len(data["run"]))
+    ways = data.get("mass_shift", [""] * len(data["run"]))
     rows = [of_run(one(data, k), of_way(statics, way)) for k, way in enumerate(ways)]
     return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from frames import (
+    Analysis,
     AuditWarning,
     GroundMotion,
     audit,
@@ -40,8 +41,11 @@ def model():
 
 @pytest.fixture(scope="module")
 def marked(model):
-    with pytest.warns(AuditWarning, match="rims left out: reached"):
-        return time_history(model, PUSH, features=WITHOUT)
+    with pytest.warns(AuditWarning, match="rims left out: reached") as told:
+        data = time_history(model, PUSH, features=WITHOUT)
+        Analysis(model, features=WITHOUT).run(PUSH)
+    assert [one.filename for one in told if one.category is AuditWarning] == [__file__] * 2
+    return data
 
 
 def test_status_stays(marked):

@@ -124,10 +124,10 @@ def test_rows_are_the_single_runs(grid, motions):
 def test_rows_are_selected_by_tags(grid):
     """Of batches that do not share their steps; those of a group stay where they are."""
     _, data = grid
-    far = tagged(data.isel(run=[4, 0, 2]), masses_moved=["+x", "-x", "+x"], bound="lower")
+    far = tagged(data.isel(run=[4, 0, 2]), mass_shift=["+x", "-x", "+x"], bound="lower")
     runs = Runs(tagged(data, bound=["lower", "upper"] * 6)) + Runs(far)
     assert (len(runs), len(runs.moved), len(runs.centred)) == (15, 3, 12)
-    groups = runs.by("masses_moved", "bound")
+    groups = runs.by("mass_shift", "bound")
     assert list(groups) == [("", "lower"), ("", "upper"), ("+x", "lower"), ("-x", "lower")]
     assert groups["+x", "lower"].of("run").tolist() == [4, 2]
     assert groups["", "upper"].of("scale").tolist() == data["scale"].to_numpy()[1::2].tolist()
@@ -138,11 +138,11 @@ def test_rows_are_selected_by_tags(grid):
             (runs.of("model") == "mass") & (runs.of("bound") == "upper")
         ][:, -1].max()
     )
-    mass = runs.where(model="mass", masses_moved="").data
+    mass = runs.where(model="mass", mass_shift="").data
     assert np.shares_memory(mass["peak_slip"], data["peak_slip"])  # no copy
     assert runs.where(device="none").parts == ()
     assert runs.data.sizes["run"] == 15
-    assert set(runs.data["masses_moved"].to_numpy()[-3:]) == {"+x", "-x"}
+    assert set(runs.data["mass_shift"].to_numpy()[-3:]) == {"+x", "-x"}
 
 
 def test_what_a_structure_does_not_have_is_nan(grid):

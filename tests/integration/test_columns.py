@@ -114,7 +114,7 @@ assert history_demands(batch, "ASCE 7-22").loc["rim deformation", "value"] == va
 checks = history_checks(batch, model, "ASCE 7-22", limits=DesignLimits(slip_left=0.01))
 [check] = [check for check in checks if check.title == "rim deformation"]
 assert (check.symbol, check.demand, check.limit) == ("g_in", value, 0.01)
-moved = batch.assign_coords(masses_moved=("run", ["+x"]))
+moved = batch.assign_coords(mass_shift=("run", ["+x"]))
 moved = moved.assign(peak_pressed_in=1.5 * moved["peak_pressed_in"])
 raised = history_demands(batch, "ASCE 7-22", moved=moved)
 assert raised.loc["rim deformation", "value"] == 1.5 * value

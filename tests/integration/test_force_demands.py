@@ -225,7 +225,7 @@ def moved(frame):
         dt=0.01,
         record=Recording(every=None, forces=True),
     )
-    return data.assign_coords(masses_moved=("run", list(ways)))
+    return data.assign_coords(mass_shift=("run", list(ways)))
 
 
 def test_moved_masses_add_section_by_section(runs, tables, moved):

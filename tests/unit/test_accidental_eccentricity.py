@@ -105,7 +105,7 @@ def test_factors_and_demands_are_those_of_the_runs(ran: Path) -> None:
     runs, moved = load(out / "runs-lower.nc"), load(out / "moved-lower.nc")
     worst = int(np.argmax(runs["peak_displacement"].max("bearing").to_numpy()))
     assert set(moved["motion"].values) == {runs["motion"].values[worst]}
-    assert list(moved["masses_moved"].values) == ["+x", "-x", "+y", "-y"]
+    assert list(moved["mass_shift"].values) == ["+x", "-x", "+y", "-y"]
     table = pd.read_csv(out / "eccentricity.csv")
     demands = pd.read_csv(out / "demands.csv", index_col=0)
     [column] = [name for name in demands.columns if name.startswith("lower, ")]
@@ -218,7 +218,7 @@ def test_all_motions_are_compared_as_the_code_counts_them(ran: Path) -> None:
     data, moved = (load(ran / "out" / f"{kind}-lower.nc") for kind in ("runs", "moved"))
     many = data.isel(run=[0, 1] * 4).assign_coords(motion=("run", list("abcdefgh")))
     ways = [
-        many.assign_coords(masses_moved=("run", [way] * 8)).assign(
+        many.assign_coords(mass_shift=("run", [way] * 8)).assign(
             peak_displacement=many["peak_displacement"] * factor
         )
         for way, factor in (("+x", 0.9), ("-x", 1.2), ("+y", 1.1), ("-y", 1.0))
@@ -235,10 +235,10 @@ def test_all_motions_are_compared_as_the_code_counts_them(ran: Path) -> None:
     assert table.attrs["statistics"]["value"] == "mean of 8 runs, raised by moved masses"
     with pytest.raises(CheckError, match="is not among the runs: give runs of the same motions"):
         history_demands(many, "ASCE 7-22", moved=moved)
-    odd = moved.assign_coords(masses_moved=("run", ["up"] * 4))
-    with pytest.raises(CheckError, match="masses_moved = 'up' must be one of"):
+    odd = moved.assign_coords(mass_shift=("run", ["up"] * 4))
+    with pytest.raises(CheckError, match="mass_shift = 'up' must be one of"):
         history_demands(data, "ASCE 7-22", moved=odd)
-    with pytest.raises(CheckError, match="no coordinate 'masses_moved'"):
+    with pytest.raises(CheckError, match="no coordinate 'mass_shift'"):
         history_demands(data, "ASCE 7-22", moved=data)
     with pytest.raises(CheckError, match="of which there are no runs"):
         history_demands({"lower": data}, "ASCE 7-22", moved={"upper": moved})

@@ -31,8 +31,9 @@ def test_round_trip_and_replacement(tmp_path: Path) -> None:
 
 
 def test_a_file_of_version_0_2_is_read_with_the_names_of_now(tmp_path: Path) -> None:
-    save(results().assign(reached_slip=2.0, reached_slip_at=3.0), tmp_path / "run.nc")
-    now = results().assign(peak_slip=2.0, peak_slip_at=3.0)
+    old = results().assign(reached_slip=2.0, reached_slip_at=3.0)
+    save(old.assign_coords(masses_moved="+x"), tmp_path / "run.nc")
+    now = results().assign(peak_slip=2.0, peak_slip_at=3.0).assign_coords(mass_shift="+x")
     xr.testing.assert_identical(load(tmp_path / "run.nc"), now)
     with load(tmp_path / "run.nc", lazy=True) as data:
         xr.testing.assert_identical(data.load(), now)

@@ -218,7 +218,7 @@ def judged(
     moved: xr.Dataset | None = None,
 ) -> ProjectRun:
     """Evaluate runs at all levels of a code; with moved masses four of the first motion."""
-    ways = {"masses_moved": ("run", ["+x", "-x", "+y", "-y"])}
+    ways = {"mass_shift": ("run", ["+x", "-x", "+y", "-y"])}
     moved = (data.isel(run=[0] * 4) if moved is None else moved).assign_coords(ways)
     every = (data, moved) if known.moved else (data,)
     runs = [

@@ -346,7 +346,7 @@ def _refuse_unlike(data: xr.Dataset, moved: xr.Dataset, bound: str) -> None:
         raise CheckError(msg)
     odd = {*map(str, np.unique(moved[MASS_SHIFT].to_numpy()))} - {*WAYS}
     if odd:
-        msg = f"{what}: masses_moved = {min(odd)!r} must be one of {', '.join(WAYS)}"
+        msg = f"{what}: mass_shift = {min(odd)!r} must be one of {', '.join(WAYS)}"
         raise CheckError(msg)
     if "peak_uplifts" not in moved.variables:
         msg = f"{what}: none could begin: {moved['message'].to_numpy()[0]}"

@@ -134,7 +134,7 @@ def history_checks(
         judges what stands on the bearings at "design", the bearings at "maximum".
     moved : xarray.Dataset or mapping of str to xarray.Dataset, optional
         Runs of motions among those of `runs` with the floors' masses moved, by bound as these: a
-        coordinate ``masses_moved`` along `run` says which way, "+x", "-x", "+y" or "-y". What the
+        coordinate ``mass_shift`` along `run` says which way, "+x", "-x", "+y" or "-y". What the
         worst way does to the largest of a quantity raises its demands: by the factor of the two,
         of slip, rim force, eccentricity of the sliders' resultant and lost axial force by their
         difference (docs/history_checks.md). None of them may fail.

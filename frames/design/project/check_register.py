@@ -78,7 +78,7 @@ class RunToCheck:
         Equivalent-linear analysis at both bounds.
     runs : frames.batch.runs.Runs
         Time histories, a row each: ``run.runs.where(hazard_level="MCE_R", bound="lower").data`` is
-        a Dataset of some. The tag "masses_moved" is the way of those with moved masses.
+        a Dataset of some. The tag "mass_shift" is the way of those with moved masses.
     cases : list of Case
         The same by level and bound as the code counts them, accidental eccentricity with them.
     demands : pandas.DataFrame
