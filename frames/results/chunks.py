@@ -26,7 +26,7 @@ indexing: Any = xarray_indexing  # its types are those of another kind of arrays
 
 ENDING = ".npz"
 _NAME, _HEAD, _OF = "name", "head", "of "
-_TIMINGS = {"seconds_loop"}  # what no run has twice
+_NOT_REACHED = {"seconds_loop", "run_digest"}  # a time that no run has twice, and its inputs
 _DAMAGE = (OSError, ValueError, LookupError, TypeError, EOFError, BadZipFile, zlib.error)
 
 
@@ -60,7 +60,10 @@ def marks_of(path: Path, error: type[ValueError] = ValueError) -> dict[str, Any]
 def load_chunk(
     path: Path, *, lazy: bool = False, error: type[ValueError] = ValueError
 ) -> xr.Dataset:
-    """Return the runs of a chunk; lazy: numbers along `run` are read where they are used."""
+    """Return the runs of a chunk, with its marks as `encoding`.
+
+    Lazy: numbers along `run` are read where they are used.
+    """
     data: dict[str, xr.Variable] = {}
     labels: dict[str, xr.Variable] = {}
     with _opened(path, error) as file:
@@ -73,7 +76,9 @@ def load_chunk(
                 values = _texts(file[f"{_OF}{name}"], told["kind"])
             own = labels if told["label"] else data
             own[name] = xr.Variable(dims, values, told["attrs"])
-    return xr.Dataset(data, labels, head["attrs"])
+    found = xr.Dataset(data, labels, head["attrs"])
+    found.encoding = head["marks"]
+    return found
 
 
 @dataclass(eq=False)
@@ -156,7 +161,7 @@ def digest_of(chunks: Iterable[Mapping[str, Any]]) -> str:
     """Return a digest of arrays (runs, ...) by name, however the runs are parted into chunks."""
     found: dict[str, Any] = {}
     for arrays in chunks:
-        for name in arrays.keys() - _TIMINGS:
+        for name in arrays.keys() - _NOT_REACHED:
             found.setdefault(name, hashlib.sha256()).update(_content(np.asarray(arrays[name])))
     whole = "".join(f"{name} {found[name].hexdigest()}\n" for name in sorted(found))
     return hashlib.sha256(whole.encode()).hexdigest()

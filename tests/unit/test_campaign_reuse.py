@@ -1,13 +1,15 @@
 """Runs of another campaign that are taken over: which, and that they are what would be computed."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from frames import GroundMotion, Recording, lumped_mass
+from frames import Frame, GroundMotion, Recording, lumped_mass
 from frames.risk import Campaign, CampaignError, full_grid, open_campaign
 from frames.risk.campaign import batches
+from frames.risk.campaign.designs import with_parameters
 from tests.scenes import small_bearing
 
 pytest.importorskip("filelock")
@@ -22,8 +24,8 @@ PULSES = {
 
 def campaign(store: Path, motions: object, scales: list[float], **more: object) -> Campaign:
     given = {"sample": full_grid({"radius": [0.7, 0.9]}), "batch": 3} | more
-    model = lumped_mass(BEARING, 5e4)
-    return Campaign(model, motions, store=store, scales=scales, **given)  # type: ignore[arg-type]
+    models = given.pop("models", None) or lumped_mass(BEARING, 5e4)
+    return Campaign(models, motions, store=store, scales=scales, **given)  # type: ignore[arg-type]
 
 
 @pytest.fixture(scope="module")
@@ -85,11 +87,34 @@ def test_campaigns_are_merged(
     assert open_campaign(merged.store.path).digest() == whole.digest()
 
 
+def softer(given: dict[str, float]) -> Frame:
+    model = lumped_mass(BEARING, 5e4)
+    if given["radius"] > 0.8:  # beyond the first set another structure than before
+        given = given | {"friction": 0.05}
+    return with_parameters(model, given)
+
+
+@pytest.mark.parametrize(
+    ("more", "reused"),
+    [({"sample": full_grid({"radius": [0.8, 0.7]})}, 1), ({"models": {"lumped mass": softer}}, 1)],
+    ids=["another first set", "a function with the same first set"],
+)
+def test_a_run_is_known_by_its_own_structure(
+    first: Path, tmp_path: Path, more: dict[str, Any], reused: int
+) -> None:
+    alone = campaign(tmp_path / "alone", PULSES["small"], [0.5], **more)
+    alone.run(workers=1)
+    found = campaign(tmp_path / "runs", PULSES["small"], [0.5], **more)
+    found.run(workers=1, reuse=first)
+    assert found.status().reused == reused
+    assert found.digest() == alone.digest()
+
+
 def test_what_was_computed_otherwise_is_refused(first: Path, tmp_path: Path) -> None:
     for name, more, match in (
         ("step", {"dt": 0.005}, r"(?s)reuse.*options"),
-        ("parameters", {"sample": full_grid({"friction": [0.05]})}, "parameters were"),
-        ("set", {"sample": full_grid({"radius": [0.8, 0.7]})}, "no model is the same"),
+        ("parameters", {"sample": full_grid({"friction": [0.05]})}, "no run is the same"),
+        ("set", {"sample": full_grid({"radius": [0.8, 0.6]})}, "no run is the same"),
         ("histories", {"record": Recording()}, r"(?s)reuse.*record"),
     ):
         other = campaign(tmp_path / name, PULSES["small"], [0.5], **more)

@@ -6,11 +6,12 @@ import warnings
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames._fingerprint import fingerprint
+from frames._fingerprint import fingerprint, motion_digest
 from frames.batch.cases import NOT_BUILT
 from frames.batch.time_histories import time_histories
 from frames.frame import Frame
@@ -21,7 +22,7 @@ from frames.risk.campaign.measures import evaluate, with_room
 from lir_element.errors import AnalysisError, AnalysisWarning
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     import xarray as xr
 
@@ -40,7 +41,11 @@ _MOST_WARNINGS = 5
 
 Builder = Callable[[dict[str, float]], Frame]
 Told = Callable[["BatchProgress"], None]
-Known = Callable[[Sequence[int]], "Iterator[tuple[list[int], xr.Dataset]]"]
+Known = Mapping[str, tuple["xr.Dataset", int]]
+"""Runs that are there already: results and row by `CampaignJob.digest`."""
+
+DIGEST = "run_digest"
+"""Variable of results that holds `CampaignJob.digest` of each run."""
 
 
 class Batch(NamedTuple):
@@ -88,6 +93,27 @@ class CampaignJob:
             raise TypeError(msg)
         return frame
 
+    @cached_property
+    def _motions(self) -> dict[str, str]:
+        return {name: motion_digest(motion) for name, motion in self.motions.items()}
+
+    def digest(self, row: int, frame: str) -> str:
+        """Return a digest of what a run is of, by the fingerprint of its structure."""
+        run = self.plan.run(row)
+        return fingerprint([run.model, frame, self._motions[run.motion], run.scale])
+
+    def digests(self, rows: Iterable[int]) -> Iterator[str]:
+        """Yield the digest of each run; "" where its model cannot be built."""
+        last, frame = "", ""
+        for row in rows:
+            run = self.plan.run(row)
+            if last != (last := run.title):
+                try:
+                    frame = fingerprint(self.build(run.model, run.parameters))
+                except REFUSED:
+                    frame = ""
+            yield frame and self.digest(row, frame)
+
     def reference(self) -> TemplateRun:
         """Return of each model the first that can be set up, and what runs of these give."""
         motion = next(iter(self.motions.values()))
@@ -114,6 +140,7 @@ class CampaignJob:
                 raise CampaignError(msg)
             layout = _untimed(time_histories(found, motion, record=self.read, **brief))
             layout = with_room(layout, self.measures)
+            layout[DIGEST] = "run", [""] * layout.sizes["run"], {"long_name": "what each run is of"}
             return TemplateRun(found, layout.drop_dims(["time", "step"], errors="ignore"))
 
 
@@ -129,48 +156,58 @@ def compute(
     rows = work.plan.rows(batch)
     arrays = {str(name): _empty(layout[name], len(rows)) for name in layout.data_vars}
     histories = []
-    missing: Sequence[int] = rows
-    for places, there in known(rows) if known is not None else ():
-        _put(arrays, np.array(places) - rows.start, there, layout)
-        missing = sorted(set(missing) - set(places))
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always")
-        runs = _Runs(work, layout, workers, told)
-        for places, found in runs.of(missing):
+        runs = _Runs(work, layout, workers, told, known or {})
+        for places, found in runs.of(rows):
             at = np.array(places) - rows.start
             if isinstance(found, str):
                 arrays["status"][at], arrays["message"][at] = NOT_BUILT, found
             else:
-                _put(arrays, at, evaluate(found, work.measures, places), layout)
+                _put(arrays, at, found, layout)
                 if work.record is not None:
                     histories.append(_recorded(found, layout, places))
     texts = [str(w.message) for w in heard if not issubclass(w.category, AnalysisWarning)]
     said = [text for text, _ in Counter(texts).most_common(_MOST_WARNINGS)]
-    return Batch(arrays, histories, said, len(rows) - len(missing) + runs.repeated)
+    for digest, places in runs.same.items():
+        arrays[DIGEST][np.array(places) - rows.start] = digest
+    return Batch(arrays, histories, said, runs.reused)
 
 
 class _Runs:
     # The runs of a batch, in parts: whatever keeps others from running is a part of its own.
 
     def __init__(
-        self, work: CampaignJob, layout: xr.Dataset, workers: int | None, told: Told | None
+        self,
+        work: CampaignJob,
+        layout: xr.Dataset,
+        workers: int | None,
+        told: Told | None,
+        known: Known,
     ) -> None:
         self._work, self._layout, self._workers, self._told = work, layout, workers, told
-        self.repeated = 0  # rows that are the run of another one
+        self._known = known
+        self.same: dict[str, list[int]] = {}  # rows of each digest: they are one run
+        self.reused = 0  # rows that are known, or the run of another one
 
     def of(self, rows: Sequence[int]) -> Iterator[tuple[list[int], xr.Dataset | str]]:
         frames: dict[str, Frame] = {}
         whole: dict[str, list[int]] = {}
         for row in rows:
             run = self._work.plan.run(row)
-            whole.setdefault(f"{run.model}, set {run.parameters}", []).append(row)
+            whole.setdefault(run.title, []).append(row)
         for key, own in whole.items():
             run = self._work.plan.run(own[0])
             try:
                 frames[key] = self._work.build(run.model, run.parameters)
             except REFUSED as cause:
                 yield own, str(cause)
-        first, same = self._distinct(frames, {key: whole[key] for key in frames})
+        first = self._distinct(frames, {key: whole[key] for key in frames})
+        same = {own[0]: own for own in self.same.values()}
+        self.reused = sum(map(len, same.values())) - sum(map(len, first.values()))
+        for digest in [digest for digest in self.same if digest in self._known]:
+            data, row = self._known[digest]
+            yield self.same[digest], data.isel(run=[row] * len(self.same[digest]))
         for places, found in self._parts(frames, first):
             taken = sorted((row, k) for k, one in enumerate(places) for row in same[one])
             own = [row for row, _ in taken]
@@ -178,20 +215,16 @@ class _Runs:
 
     def _distinct(
         self, frames: dict[str, Frame], rows: dict[str, list[int]]
-    ) -> tuple[dict[str, list[int]], dict[int, list[int]]]:
-        # Rows to run, by model, and all rows that each is the run of: parameters that change
-        # nothing of a model, such as the interface of a plain DCFP, give one run.
+    ) -> dict[str, list[int]]:
+        # Rows to run, by model. Parameters that change nothing of a model, such as the interface
+        # of a plain DCFP, give one run.
         digests = {key: fingerprint(frame) for key, frame in frames.items()}
-        runs: dict[tuple[str, str, str, float], list[int]] = {}
         for key, own in rows.items():
             for row in own:
-                run = self._work.plan.run(row)
-                case = run.model, digests[key], run.motion, run.scale
-                runs.setdefault(case, []).append(row)
-        same = {own[0]: own for own in runs.values()}
-        first = {key: [row for row in own if row in same] for key, own in rows.items()}
-        self.repeated = sum(len(own) - 1 for own in same.values())
-        return {key: own for key, own in first.items() if own}, same
+                self.same.setdefault(self._work.digest(row, digests[key]), []).append(row)
+        first = {own[0] for digest, own in self.same.items() if digest not in self._known}
+        todo = {key: [row for row in own if row in first] for key, own in rows.items()}
+        return {key: own for key, own in todo.items() if own}
 
     def _parts(
         self, frames: dict[str, Frame], rows: dict[str, list[int]]
@@ -208,7 +241,7 @@ class _Runs:
         else:
             extra = _extra(data, self._layout)
             if not extra or len(rows) == 1:
-                yield places, extra or data
+                yield places, extra or evaluate(data, self._work.measures, places)
                 return
         for part in _split(rows):
             yield from self._parts(frames, part)

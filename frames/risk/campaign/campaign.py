@@ -21,7 +21,7 @@ from frames.risk.campaign.measures import Measure, checked_measures
 from frames.risk.campaign.packages import lacking_packages
 from frames.risk.campaign.plan import Plan
 from frames.risk.campaign.plan_description import described
-from frames.risk.campaign.reused import KnownRuns
+from frames.risk.campaign.reused import known_runs
 from frames.risk.campaign.rows import planned_rows
 from frames.risk.campaign.sampling import ParameterSample, whole
 from frames.risk.campaign.store import CampaignStatus, CampaignStore
@@ -240,7 +240,7 @@ class Campaign:
         reference = self._work.reference()
         plan = described(self._work, reference)
         stores = [reuse] if isinstance(reuse, (str, Path)) else list(reuse or ())
-        known = KnownRuns(stores, self._work, plan).of if stores else None
+        known = known_runs(stores, self._work, plan)
         if not self.store.exists:
             rows = planned_rows(self._work.plan, reference.layout)
             self.store.create(plan, rows, reference.layout)
@@ -260,11 +260,15 @@ class Campaign:
         counting: _Counting,
         client: Any,
         workers: int | None,
-        known: Known | None,
+        known: Known,
     ) -> Iterator[tuple[int, Batch]]:
         # A cluster computes the batches of which not all is known.
         layout, work, todo = reference.layout, self._work, counting.todo
-        here = todo if client is None else [k for k in todo if _is_known(work.plan.rows(k), known)]
+        here = [
+            batch
+            for batch in todo
+            if client is None or (known and {*work.digests(work.plan.rows(batch))} <= known.keys())
+        ]
         for number in here:
             batch = compute(work, layout, number, workers, counting.of_batch(), known)
             counting.add(batch)
@@ -347,11 +351,6 @@ class _Counting:
         status = batch.arrays["status"]
         self._done += len(status)
         self._failed += int((status != "ok").sum())
-
-
-def _is_known(rows: Sequence[int], known: Known | None) -> bool:
-    # Whether no run of a batch has to be computed.
-    return known is not None and sum(len(places) for places, _ in known(rows)) == len(rows)
 
 
 def _warn(status: CampaignStatus) -> None:

@@ -26,6 +26,11 @@ class PlannedRun(NamedTuple):
     motion: str
     scale: float
 
+    @property
+    def title(self) -> str:
+        """Its structure in words."""
+        return f"{self.model}, set {self.parameters}"
+
 
 @dataclass(frozen=True, eq=False)
 class Plan:

@@ -423,7 +423,7 @@ class CampaignStore:
         # The arrays of a chunk, which are as they were written.
         found = load_chunk(path, error=CampaignError)
         arrays = {str(name): own.to_numpy() for name, own in found.data_vars.items()}
-        if digest_of([arrays]) != marks_of(path, CampaignError)["digest"]:
+        if digest_of([arrays]) != found.encoding["digest"]:
             msg = f"{path} is not as it was written: remove it, and run again"
             raise CampaignError(msg)
         return arrays
