@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable
 from html import unescape
 
-from frames.design.report.words import Words, catalogue
+from frames.design.report.page import Words, catalogue
 
 UNITS = r"mm|MPa|GPa|kN/m|kN/mm|s/m|m/s2?²?|kg|kg/m[23²³]"
 WORDLESS = "|".join(

@@ -47,8 +47,7 @@ def compare(
     Writes compare.html, compare.csv and compare-motions.csv.
     """
     from frames.design.project.comparison import compare_project, compared_histories
-    from frames.design.report.comparison_page import write_comparison
-    from frames.design.report.comparison_words import verdicts
+    from frames.design.report.comparison_page import verdicts, write_comparison
     from frames.design.report.tables import rows_of
     from frames.results.storage import make_folder
     from lir_element.tables import text_table

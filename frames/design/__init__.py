@@ -53,9 +53,9 @@ from frames.design.histories.impacts import slips_of_events as slips_of_events
 from frames.design.histories.impacts import uplift_events as uplift_events
 from frames.design.histories.motions import motion_checks as motion_checks
 from frames.design.histories.motions import period_range as period_range
-from frames.design.histories.resultants import resultant_offsets as resultant_offsets
 from frames.design.histories.single_run import event_checks as event_checks
 from frames.design.histories.single_run import impact_checks as impact_checks
+from frames.design.histories.single_run import resultant_offsets as resultant_offsets
 from frames.design.project.check_register import RunToCheck as RunToCheck
 from frames.design.project.check_register import register_check as register_check
 from frames.design.project.check_register import unregister_check as unregister_check

@@ -11,7 +11,7 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -26,9 +26,6 @@ from frames.motion.number_text import (
 )
 from lir_element.argument_checks import require_positive, unreal
 from lir_element.units import STANDARD_GRAVITY, meant
-
-if TYPE_CHECKING:
-    pass
 
 PathLike: TypeAlias = str | os.PathLike[str]
 

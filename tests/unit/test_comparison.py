@@ -28,8 +28,7 @@ from frames.design.project.comparison import (
 )
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
-from frames.design.report.comparison_page import by_motion, write_comparison
-from frames.design.report.comparison_words import verdicts
+from frames.design.report.comparison_page import by_motion, verdicts, write_comparison
 from tests.unit.test_project import ASCE
 
 ONE = (

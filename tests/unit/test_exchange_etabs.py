@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError, ModelWarning
 from frames.demo import bearing_for
-from frames.design.report.words import Words
+from frames.design.report.page import Words
 from frames.exchange.etabs import read_etabs
 from frames.exchange.fields import Refusal, has, is_none_of, lacks
 from frames.exchange.tables import Row

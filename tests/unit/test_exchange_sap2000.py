@@ -16,7 +16,7 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError, ModelWarning, gravity
 from frames.demo import bearing_for
-from frames.design.report.words import Words
+from frames.design.report.page import Words
 from frames.exchange.building import Modifiers
 from frames.exchange.geometry import cardinal_shift, frame_axes
 from frames.exchange.links import equivalent_bearing

@@ -17,7 +17,7 @@ from frames.command.app import app
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
-from frames.design.report.words import Words
+from frames.design.report.page import Words
 from tests.spanish import untold
 from tests.unit.test_project import ASCE
 

@@ -23,7 +23,7 @@ from frames.design.project.moat_and_dampers import walls_of, with_devices
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.schema_bearing import MoatTable
-from frames.design.report.words import Words
+from frames.design.report.page import Words
 from tests.spanish import untold
 from tests.unit.test_accidental_eccentricity import PROJECT
 

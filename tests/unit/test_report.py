@@ -44,11 +44,10 @@ from frames.design.report.figures import (
     utilisation,
 )
 from frames.design.report.files import read_histories
-from frames.design.report.page import Table
+from frames.design.report.page import Table, Words
 from frames.design.report.printing import pages_of, print_report
 from frames.design.report.result_tables import device_table, mode_table, run_tables
 from frames.design.report.tables import in_parts
-from frames.design.report.words import Words
 from frames.design.report.writing import SECTIONS, report_in
 from lir_element import LIRBearing, VelocityFriction
 from tests.patience import patience

@@ -29,8 +29,8 @@ from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
 from frames.design.project.structure_statement import structure_rows
+from frames.design.report.page import LANGUAGES, Words, catalogue
 from frames.design.report.tables import Table
-from frames.design.report.words import LANGUAGES, Words, catalogue
 from frames.design.report.writing import SECTIONS
 from frames.plots import plot_style as ps
 from frames.results.findings import Findings, finding, findings_from

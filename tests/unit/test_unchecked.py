@@ -50,8 +50,8 @@ from frames.design.project.level_runs import project_runs
 from frames.design.project.preliminary import Preliminary, preliminary
 from frames.design.project.reading import read_project
 from frames.design.report.figures import VOID_TITLE, motions_figure
+from frames.design.report.page import Words
 from frames.design.report.result_tables import run_tables
-from frames.design.report.words import Words
 from frames.results.recorded import is_of_all_steps
 from tests.spanish import untold
 

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.design.calculation.check import Check
     from frames.design.project.design_run import ProjectRun
-    from frames.design.report.words import Words
+    from frames.design.report.page import Words
 
     Plan: TypeAlias = tuple[str, Callable[[], Figure | None]]
     """Title of a figure, and what draws it; None where there is nothing to draw."""

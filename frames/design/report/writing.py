@@ -20,7 +20,7 @@ from frames.design.report.cover import (
     what_governs,
 )
 from frames.design.report.figures import pictures
-from frames.design.report.page import Table, page_table, page_template
+from frames.design.report.page import Table, Words, page_table, page_template
 from frames.design.report.result_tables import (
     BY_MOTION,
     ECCENTRICITY,
@@ -32,7 +32,6 @@ from frames.design.report.result_tables import (
     model_table,
 )
 from frames.design.report.tables import in_mm_and_kn, in_parts
-from frames.design.report.words import Words
 from frames.design.testing.programme import OWN_RULES
 from frames.results.findings import findings_of
 from frames.results.quantities import JUDGED

@@ -17,12 +17,11 @@ from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.batches import CampaignJob, TemplateRun, compute
 from frames.risk.campaign.cluster import over_cluster
+from frames.risk.campaign.other_databases import known_runs
+from frames.risk.campaign.lock import lacking_packages
 from frames.risk.campaign.measures import Measure, checked_measures
-from frames.risk.campaign.packages import lacking_packages
-from frames.risk.campaign.plan import Plan
+from frames.risk.campaign.plan import Plan, planned_rows
 from frames.risk.campaign.plan_description import described
-from frames.risk.campaign.reused import known_runs
-from frames.risk.campaign.rows import planned_rows
 from frames.risk.campaign.sampling import ParameterSample, whole
 from frames.risk.campaign.store import CampaignStatus, CampaignStore
 from frames.risk.fragility.intensity import OWN, IntensityMeasure

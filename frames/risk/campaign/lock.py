@@ -1,4 +1,4 @@
-"""One campaign at a time on each results database: a lock that the system lets go of."""
+"""One campaign at a time on each results database: a lock of the extra `campaign`."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import os
 import socket
 from contextlib import contextmanager
 from datetime import UTC, datetime
+from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from frames.results.storage import write_whole
@@ -15,6 +16,14 @@ from frames.risk._errors import CampaignError
 if TYPE_CHECKING:
     from collections.abc import Generator
     from pathlib import Path
+
+
+def lacking_packages(*needed: str) -> str:
+    """Return what is missing and how to install it, in a sentence; nothing where all is there."""
+    missing = [name for name in needed or ("filelock",) if find_spec(name) is None]
+    if not missing:
+        return ""
+    return f"campaigns need {' and '.join(missing)}: pip install 'lir-dcfp[campaign]'"
 
 
 @contextmanager

@@ -20,9 +20,8 @@ from frames.results.chunks import ENDING, Rows, digest_of, load_chunk, marks_of,
 from frames.results.storage import make_folder, write_whole
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.lock import locked
-from frames.risk.campaign.plan import listed
+from frames.risk.campaign.plan import listed, run_table
 from frames.risk.campaign.plan_description import FORMAT, OLD, SOURCES, TAKEN_OVER, unlike
-from frames.risk.campaign.rows import run_table
 
 if TYPE_CHECKING:
     from collections.abc import Generator
