@@ -81,12 +81,10 @@ class AuditWarning(AnalysisWarning):
     Examples
     --------
     >>> import warnings
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
+    >>> from frames import time_history
+    >>> from frames.demo import example
     >>> from lir_element import Features
-    >>> pulse = GroundMotion(x=2.4 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(2.4)
     >>> with warnings.catch_warnings(record=True) as told:
     ...     warnings.simplefilter("always")
     ...     data = time_history(frame, pulse, features=Features(rims=False))

@@ -17,7 +17,9 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from frames.library.models import lumped_mass
 from frames.library.moment_frames import moment_frame
+from frames.library.shear_buildings import shear_building
 from frames.motion.ground_motion import GroundMotion
 from frames.results.findings import doubts_of
 from frames.results.peaks import peaks_of, summary
@@ -33,6 +35,8 @@ if TYPE_CHECKING:
 
     import xarray as xr
     from matplotlib.figure import Figure
+
+    from frames.frame import Frame
 
     Place: TypeAlias = tuple[int, int]
     """Place of a column in plan: its numbers along x and y."""
@@ -108,6 +112,16 @@ def bearing_for(load: float) -> LIRBearing:
         interface_friction=2 * 0.065,
         design_load=load,
     )
+
+
+def example(push: float = 2.0, storeys: int = 0) -> tuple[Frame, GroundMotion]:
+    """Return what examples are made of: a mass or storeys on a bearing, and a pulse [m/s2]."""
+    pulse = GroundMotion(x=push * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
+    if not storeys:
+        return lumped_mass(bearing_for(2000e3), mass=204e3), pulse
+    bearing = bearing_for(1000e3)
+    frame = shear_building(bearing, storeys=storeys, storey_mass=34e3, storey_stiffness=40e6)
+    return frame, pulse
 
 
 def design() -> dict[Place, LIRBearing]:

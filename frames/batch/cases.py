@@ -48,11 +48,9 @@ class BatchProgress(NamedTuple):
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_histories
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> from frames import time_histories
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
     >>> told = []
     >>> runs = time_histories(frame, {"pulse": pulse}, progress=told.append, workers=1)
     >>> told[-1].done, told[-1].total, told[-1].failed

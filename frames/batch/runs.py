@@ -52,12 +52,10 @@ class Runs(Rows):
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_histories
+    >>> from frames import time_histories
     >>> from frames.batch.runs import Runs
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
     >>> data = time_histories(frame, {"pulse": pulse}, scales=[0.5, 1.0], workers=1)
     >>> runs = Runs(data.assign_coords(bound=("run", ["lower", "upper"])))
     >>> len(runs), runs.where(bound="upper").of("scale").tolist()

@@ -116,11 +116,9 @@ def time_histories(
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_histories
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> from frames import time_histories
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
     >>> runs = time_histories(frame, {"pulse": pulse}, scales=[0.5, 1.0], workers=1)
     >>> runs["status"].values.tolist(), runs["scale"].values.tolist()
     (['ok', 'ok'], [0.5, 1.0])

@@ -145,12 +145,11 @@ def worst_bearing(data: xr.Dataset, variable: str = "interface_slip_size") -> st
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
+    >>> from frames import time_history
+    >>> from frames.demo import example
     >>> from frames.plots import worst_bearing
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> worst_bearing(data, "bearing_displacement")
     'bearing'
     """

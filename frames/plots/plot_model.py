@@ -146,12 +146,10 @@ def model_film(
     Examples
     --------
     >>> import tempfile
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
+    >>> from frames import time_history
+    >>> from frames.demo import example
     >>> from frames.plots import model_film
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example()
     >>> film = model_film(frame, time_history(frame, pulse), end=0.05)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     film.save(f"{folder}/model.gif", writer="pillow")

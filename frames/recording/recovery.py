@@ -131,12 +131,9 @@ def support_reactions(model: FrameData, data: xr.Dataset) -> xr.DataArray:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, shear_building, support_reactions, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
-    ...                        storey_stiffness=40e6)
+    >>> from frames import support_reactions, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example(1.0, storeys=2)
     >>> data = time_history(frame, pulse)
     >>> reactions = support_reactions(frame, data)
     >>> reactions.dims
@@ -173,12 +170,9 @@ def storey_forces(model: FrameData, data: xr.Dataset) -> xr.DataArray:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, shear_building, storey_forces, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
-    ...                        storey_stiffness=40e6)
+    >>> from frames import storey_forces, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example(1.0, storeys=2)
     >>> data = time_history(frame, pulse)
     >>> forces = storey_forces(frame, data)
     >>> forces["storey"].values.tolist(), forces["component"].values.tolist()
@@ -217,12 +211,9 @@ def force_tables(model: FrameData, data: xr.Dataset) -> dict[str, pd.DataFrame]:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, force_tables, shear_building, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
-    ...                        storey_stiffness=40e6)
+    >>> from frames import force_tables, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example(1.0, storeys=2)
     >>> data = time_history(frame, pulse)
     >>> sorted(force_tables(frame, data))
     ['storeys', 'supports']

@@ -94,11 +94,10 @@ def audit(data: xr.Dataset) -> Findings:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, audit, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import audit, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> [found.feature for found in audit(data) if found.mattered]
     ['velocity_dependence', 'yield_displacement']
     >>> audit(data)[0].sentence
@@ -136,11 +135,10 @@ def audit_report(data: xr.Dataset) -> str:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, audit_report, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import audit_report, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> audit_report(data).splitlines()[0]
     '  rims: not needed, reached 95 % of the displacement capacity'
     """

@@ -49,11 +49,10 @@ def envelope(values: xr.DataArray | xr.Dataset, variable: str | None = None) -> 
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, envelope, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import envelope, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> found = envelope(data, "axial_force").squeeze()
     >>> 1.0 < float(found["largest"] / data["weight"]) < 1.5
     True
@@ -122,11 +121,10 @@ def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:
     --------
     >>> import tempfile
     >>> from pathlib import Path
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, peaks, time_history, write_tables
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import peaks, time_history, write_tables
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     write_tables({"peaks": peaks(data)}, folder)
     ...     print([path.name for path in Path(folder).iterdir()])

@@ -46,11 +46,10 @@ class Finding:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, audit, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import audit, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> found = audit(data)[1]
     >>> found.feature, found.left_out, found.mattered
     ('interface', False, False)

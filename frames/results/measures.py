@@ -48,11 +48,10 @@ def energy_error(data: xr.Dataset) -> float:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, energy_error, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import energy_error, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> energy_error(data) < 1e-6
     True
     """
@@ -90,12 +89,9 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, shear_building, storey_drift, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
-    ...                        storey_stiffness=40e6)
+    >>> from frames import storey_drift, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example(1.0, storeys=2)
     >>> data = time_history(frame, pulse)
     >>> drift = storey_drift(data)
     >>> drift.dims, 1e-5 < float(abs(drift).max()) < 1e-2
@@ -128,12 +124,9 @@ def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, floor_acceleration, shear_building, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
-    ...                        storey_stiffness=40e6)
+    >>> from frames import floor_acceleration, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example(1.0, storeys=2)
     >>> data = time_history(frame, pulse)
     >>> floor_acceleration(data).sel(axis="x").dims
     ('time', 'level')
@@ -200,12 +193,9 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, drift_by_line, shear_building, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
-    ...                        storey_stiffness=40e6)
+    >>> from frames import drift_by_line, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example(1.0, storeys=2)
     >>> data = time_history(frame, pulse)
     >>> drift_by_line(data).dims
     ('time', 'line', 'axis')
@@ -281,12 +271,9 @@ def floor_spectrum(data: xr.Dataset, periods: npt.ArrayLike, damping: float = 0.
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, floor_spectrum, shear_building, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = shear_building(bearing_for(1000e3), storeys=2, storey_mass=34e3,
-    ...                        storey_stiffness=40e6)
+    >>> from frames import floor_spectrum, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example(1.0, storeys=2)
     >>> data = time_history(frame, pulse)
     >>> spectrum = floor_spectrum(data, periods=[0.1, 0.5, 1.0])
     >>> spectrum.dims
@@ -344,11 +331,10 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_history, uplift_gap
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import time_history, uplift_gap
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> float(uplift_gap(data).max())
     0.0
     """

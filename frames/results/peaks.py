@@ -69,11 +69,10 @@ def peaks(data: xr.Dataset) -> pd.DataFrame:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, peaks, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import peaks, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> row = peaks(data).loc["bearing displacement"]
     >>> round(float(row["value"]), 2), row["unit"], row["where"]
     (0.24, 'm', 'bearing')
@@ -110,11 +109,10 @@ def summary(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, summary, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import summary, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> table = summary({"as it is": data})
     >>> list(table), table.loc["status"].tolist()
     (['as it is'], ['ok'])

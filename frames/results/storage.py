@@ -49,11 +49,10 @@ def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
     Examples
     --------
     >>> import tempfile
-    >>> import numpy as np
-    >>> from frames import GroundMotion, load, lumped_mass, save, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import load, save, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     save(data, f"{folder}/run.nc", compress=True)
     ...     print(load(f"{folder}/run.nc").attrs["status"])
@@ -237,11 +236,10 @@ def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
     Examples
     --------
     >>> import tempfile
-    >>> import numpy as np
-    >>> from frames import GroundMotion, load, lumped_mass, save, time_history
-    >>> from frames.demo import bearing_for
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> data = time_history(lumped_mass(bearing_for(2000e3), mass=204e3), pulse)
+    >>> from frames import load, save, time_history
+    >>> from frames.demo import example
+    >>> frame, pulse = example()
+    >>> data = time_history(frame, pulse)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     save(data, f"{folder}/run.nc")
     ...     print(load(f"{folder}/run.nc").equals(data))

@@ -3,8 +3,8 @@
 from frames.risk._errors import CampaignError as CampaignError
 from frames.risk._errors import FragilityError as FragilityError
 from frames.risk.campaign.campaign import Campaign as Campaign
-from frames.risk.campaign.other_databases import convert_campaign as convert_campaign
 from frames.risk.campaign.measures import Measure as Measure
+from frames.risk.campaign.other_databases import convert_campaign as convert_campaign
 from frames.risk.campaign.sampling import ParameterSample as ParameterSample
 from frames.risk.campaign.sampling import full_grid as full_grid
 from frames.risk.campaign.sampling import latin_hypercube as latin_hypercube

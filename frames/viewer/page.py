@@ -80,12 +80,10 @@ def write_view(
     Examples
     --------
     >>> import tempfile
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
+    >>> from frames import time_history
+    >>> from frames.demo import example
     >>> from frames.viewer import write_view
-    >>> pulse = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example()
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     said = write_view(time_history(frame, pulse), frame, f"{folder}/view.html")
     >>> "view.html" in said, "401 of 401 steps" in said

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from frames import GroundMotion, Recording, moment_frame, time_histories
+from frames.batch.runs import Runs
 from frames.design import (
     HISTORY_RULES,
     PropertyBounds,
@@ -53,8 +54,8 @@ def runs(frame):
 
 def cases(runs, moved=None, rules=RULES):
     """Return runs by their bound as cases, those with moved masses at the lower one."""
-    beside = {"lower": moved}
-    return [Case(data, beside.get(at), rules, "MCE_R", at) for at, data in runs.items()]
+    beside = {"lower": [] if moved is None else [moved]}
+    return [Case(Runs(d, *beside.get(at, [])), rules, "MCE_R", at) for at, d in runs.items()]
 
 
 @pytest.fixture(scope="module")

@@ -11,6 +11,7 @@ pytest.importorskip("pydantic")
 pytest.importorskip("pint")
 
 from frames import Frame, GroundMotion, time_histories, time_history
+from frames.batch.runs import Runs
 from frames.design import HISTORY_RULES, ProjectError
 from frames.design.histories.demand_table import largest_of_links, link_demands
 from frames.design.histories.eccentricity import Case
@@ -139,7 +140,7 @@ def test_tables_of_links_are_by_the_runs(histories: tuple) -> None:
     data = time_histories(frame, motions, level="pendulum", dt=0.005)
     rules = HISTORY_RULES["ASCE 7-22"]
     lower, upper = (
-        Case(d, None, rules, bound=b) for d, b in ((data, "lower"), (data.isel(run=[1]), "upper"))
+        Case(Runs(d), rules, bound=b) for d, b in ((data, "lower"), (data.isel(run=[1]), "upper"))
     )
     table = link_demands([lower])
     assert set(table["statistic"]) == {"largest of 2 runs"}
@@ -152,7 +153,7 @@ def test_tables_of_links_are_by_the_runs(histories: tuple) -> None:
         assert rows.loc[str(link), "motion"] == "pulse"
     assert set(largest_of_links(link_demands([lower, upper]))["bound"]) == {"lower"}
     plain = data.drop_vars([name for name in data.data_vars if "link" in str(name)])
-    assert link_demands([Case(plain, None, rules)]).empty
+    assert link_demands([Case(Runs(plain), rules)]).empty
 
 
 @pytest.mark.meant("bearings go without walls")

@@ -803,7 +803,7 @@ def test_drifts_that_ask_for_p_delta_say_so() -> None:
     least = 0.010 / 1.875
     for drift, members, said in ((0.99, {}, ""), (1.01, {}, "springs do not"), (2, {1: 1}, "have")):
         made = BoundChecks(
-            case=Case(None, None, HISTORY_RULES["ASCE 7-22"], bound="lower"),
+            case=Case(None, HISTORY_RULES["ASCE 7-22"], bound="lower"),
             frame=SimpleNamespace(members=members),
             limits=None,
             equivalent=known,

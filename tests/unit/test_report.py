@@ -27,6 +27,7 @@ import xarray as xr
 from typer.testing import CliRunner, Result
 
 from frames import load, modes, moment_frame, save
+from frames.batch.runs import Runs
 from frames.command.app import app
 from frames.design import HISTORY_RULES, Check, code_named
 from frames.design._errors import ProjectError
@@ -746,7 +747,7 @@ def test_drifts_of_all_motions_over_the_height(storeys: int) -> None:
     )
     rules = HISTORY_RULES["ASCE 7-22"]
     level = rules.levels[0].name
-    run = SimpleNamespace(rules=rules, cases=[Case(data, None, rules, level, "lower")])
+    run = SimpleNamespace(rules=rules, cases=[Case(Runs(data), rules, level, "lower")])
     figure = profiles_figure(run)
     if storeys == 1:
         assert figure is None

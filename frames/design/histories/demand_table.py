@@ -9,7 +9,7 @@ import numpy as np
 
 from frames.batch.runs import MASS_SHIFT
 from frames.design.histories.eccentricity import levels_of, reached_by
-from frames.design.histories.suite import names_of, peaks_of_runs, run_named, suite_of
+from frames.design.histories.suite import names_of, run_named
 from frames.results.quantities import DEMANDS, JUDGED, Quantity
 from lir_element.errors import RunStatus
 from lir_element.texts import joined, worded
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     import pandas as pd
-    import xarray as xr
 
     from frames._types import FloatArray
     from frames.design.codes.history_rules import HistoryRules
@@ -213,10 +212,9 @@ def link_demands(cases: Sequence[Case]) -> pd.DataFrame:
         table = pd.DataFrame({"link": names_of(case.data, "link_force")})
         table = table.assign(bound=case.bound, statistic=said(case.suite))
         for title, name in _COLUMNS.items():  # the force is last
-            more, _ = case.added(lambda one, name=name: peaks_of_runs(one, name))  # type: ignore[misc]
-            each = case.all_runs(lambda one, name=name: peaks_of_runs(one, name))  # type: ignore[misc]
+            each = case.peaks(name)
             value, which = case.counted(each)
-            table[title] = value + more
+            table[title] = value + case.added(each)[0]
         table["motion"] = np.array(case.motions, dtype=object)[which]
         table["its force [N]"] = each[which, np.arange(len(which))]
         tables.append(table.assign(void=case.suite.void, level=case.level))
@@ -232,27 +230,26 @@ def largest_of_links(table: pd.DataFrame) -> pd.DataFrame:
     return rows.loc[force.groupby([rows["level"], rows["link"]]).idxmax()].sort_index()
 
 
-KEYS = ("level", "bound", "masses moved", "motion", "scale", "status", "failed")
-"""Columns that say of which run a row is."""
-
-
 def demands_by_motion(cases: Sequence[Case]) -> pd.DataFrame:
     """Return what each motion gave of each quantity that means or largest values are taken of."""
     import pandas as pd
 
     parts = []
     for case in cases:
-        there = [case.data, *([] if case.moved is None else [case.moved])]
+        ordered = case.runs.centred + case.runs.moved
         cells: dict[str, Sequence[object] | FloatArray] = {
-            key: [value for one in there for value in _key(one, key, case.rules)]
-            for key in KEYS[2:]
+            "masses moved": list(map(str, ordered.of(MASS_SHIFT))),
+            "motion": list(map(str, ordered.of("motion"))),
+            "scale": ordered.of("scale"),
+            "status": list(map(str, ordered.of("status"))),
+            "failed": ["no" if one is None else "yes" for one in case.failures],
         }
         for name, quantity in JUDGED.items():
             if not case.keeps(name):
                 continue
             title, unit, sign = quantity.heading, quantity.pure_unit, quantity.sign
             k = worst_place(case.design(name))
-            values = case.all_runs(lambda one, name=name: reached_by(one, name))  # type: ignore[misc]
+            values = np.concatenate([reached_by(one, name) for one in case.parts])
             cells[f"{title} [{unit}]"] = sign * values[:, k] + 0.0  # no -0
             where = names_of(case.data, name)
             if where != ("",):
@@ -269,16 +266,6 @@ def _farthest(values: FloatArray) -> FloatArray:
     # Of each run; NaN where nothing is known.
     known = np.where(np.isnan(values), -math.inf, values).max(axis=1)
     return np.where(np.isfinite(known), known, math.nan)
-
-
-def _key(data: xr.Dataset, key: str, rules: HistoryRules) -> Sequence[object]:
-    # A column that says of which run a row is.
-    if key == "masses moved":
-        own = data[MASS_SHIFT].to_numpy() if MASS_SHIFT in data.coords else [""] * data.sizes["run"]
-        return [str(way) for way in own]
-    if key == "failed":
-        return ["yes" if failed else "no" for failed in suite_of(data, rules).failed]
-    return list(data[key].to_numpy()) if key == "scale" else list(map(str, data[key].to_numpy()))
 
 
 _NAMED = 4

@@ -1,4 +1,4 @@
-"""Accidental eccentricity: how far runs with the floors' masses moved raise demands."""
+"""Runs of a level and bound as a code counts them, accidental eccentricity with them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from frames.results.recorded import PEAK
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Sequence
+    from collections.abc import Hashable, Sequence
 
     import pandas as pd
     import xarray as xr
@@ -56,28 +56,37 @@ _RAISED = sorted(
 
 class _Way(NamedTuple):
     # A way in which masses are moved: rows of the runs of the same motions where the masses are,
-    # and with moved masses, and how the code counts both.
+    # and with moved masses, among all runs of a case, and how the code counts both.
     name: str
     own: list[int]
     rows: list[int]
     here: RunSet
     there: RunSet
 
-    def both(self, own: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
-        # Values for design of all runs and of all with moved masses, (n_runs, ...).
-        return self.here.values(own[self.own]), self.there.values(moved[self.rows])
+    def both(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        # Values for design with masses where they are and moved, of those of all runs.
+        return self.here.values(values[self.own]), self.there.values(values[self.rows])
 
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """Runs of a level and bound, those with moved masses beside them, and how they count."""
+    """Runs of a level and bound, some of them with the floors' masses moved, as a code counts."""
 
-    data: xr.Dataset  # the runs
-    # runs of motions among these with the floors' masses moved: accidental eccentricity
-    moved: xr.Dataset | None
+    runs: Runs  # those with moved masses are of motions among the others
     rules: HistoryRules  # the code's
     level: str = ""  # of the seismic action, and of the properties
     bound: Bound = ""
+
+    @cached_property
+    def data(self) -> xr.Dataset:
+        """The runs with the masses where they are."""
+        return self.runs.centred.data
+
+    @cached_property
+    def moved(self) -> xr.Dataset | None:
+        """The runs with moved masses: accidental eccentricity."""
+        moved = self.runs.moved
+        return moved.data if len(moved) else None
 
     @cached_property
     def failures(self) -> list[Failure | None]:
@@ -91,9 +100,12 @@ class Case:
             return []
         found, count, names = [], self.data.sizes["run"], self.moved[MASS_SHIFT].to_numpy().tolist()
         for name in dict.fromkeys(names):
-            rows = [k for k, each in enumerate(names) if each == name]
-            own = [_place(self.data, self.moved, k) for k in rows]
-            failures = [[self.failures[k] for k in each] for each in (own, np.add(rows, count))]
+            places = [k for k, each in enumerate(names) if each == name]
+            own, rows = (
+                [_place(self.data, self.moved, k) for k in places],
+                [count + k for k in places],
+            )
+            failures = [[self.failures[k] for k in each] for each in (own, rows)]
             suites = (suite_of_failures(each, self.rules) for each in failures)
             found.append(_Way(str(name), own, rows, *suites))
         return found
@@ -115,7 +127,7 @@ class Case:
             if len(way.rows) != self.data.sizes["run"]:
                 motions = joined(*(motion_of(self.data, k) for k in way.own), by=", ")
             for name in raised:
-                centred, moved = map(_largest, way.both(*(_columns(p, name) for p in self.parts)))
+                centred, moved = map(_largest, way.both(_flat(self.peaks(name))))
                 if name != "rim_plastic" or centred or moved:
                     found[name, way.name] = _raise(way.name, centred, moved, motions, name)
         return found, joined(*dict.fromkeys(failed))
@@ -169,12 +181,12 @@ class Case:
             return np.full(columns.shape[1], math.nan)
         return self.suite.values(columns, name)
 
-    def all_runs(self, values_of: Callable[[xr.Dataset], FloatArray]) -> FloatArray:
-        """Return values of the runs, then of those with moved masses."""
-        return np.concatenate([values_of(one) for one in self.parts])
+    def peaks(self, name: str) -> FloatArray:
+        """Return what runs reached of a quantity, those with moved masses last, (n_runs, ...)."""
+        return np.concatenate([peaks_of_runs(one, name) for one in self.parts])
 
     def counted(self, values: FloatArray) -> tuple[FloatArray, IntArray]:
-        """Return the value for design of those of `all_runs`, and which that counts is farthest."""
+        """Return the value for design of those of all runs, and which that counts is farthest."""
         suite, own = self.suite, self.data.sizes["run"]
         counts: BoolArray = np.full(len(values), True)  # no moved run may fail
         if suite.is_usable:  # else those that failed count, too
@@ -183,39 +195,32 @@ class Case:
         which = np.asarray(np.nan_to_num(known, nan=-np.inf).argmax(axis=0))
         return suite.values(values[:own]), which
 
-    def added(
-        self, values_of: Callable[[xr.Dataset], FloatArray]
-    ) -> tuple[FloatArray, NDArray[np.object_]]:
-        """Return what moved masses add to many values, each by the way that adds most to it.
+    def added(self, values: FloatArray) -> tuple[FloatArray, NDArray[np.object_]]:
+        """Return what moved masses add to values, of those of all runs, and the way that adds most.
 
         Nothing where runs failed: then values are what runs reached.
         """
-        each = [values_of(one) for one in self.parts]
-        most, way_of = np.zeros(each[0].shape[1:]), np.full(each[0].shape[1:], "", dtype=object)
+        most, way_of = np.zeros(values.shape[1:]), np.full(values.shape[1:], "", dtype=object)
         for way in () if self.suite.void else self.ways:
-            here, there = way.both(*each)
+            here, there = way.both(values)
             larger = there - here > most
             most, way_of = np.where(larger, there - here, most), np.where(larger, way.name, way_of)
         return most, way_of
 
 
 def cases_of(runs: Runs, rules: HistoryRules) -> list[Case]:
-    """Return the runs of each level and bound, moved ones beside them."""
+    """Return the cases of each level and bound; runs that do not belong together are refused."""
     found = []
     for (level, bound), own in runs.by(HAZARD, BOUND).items():
-        moved = own.moved.data if len(own.moved) else None
-        found.append(case_of(own.centred.data, moved, rules, level, cast("Bound", bound)))
+        if not len(own.centred):
+            msg = f"moved has the bound {bound!r}, of which there are no runs: give those as well"
+            raise CheckError(msg)
+        case = Case(own, rules, level, cast("Bound", bound))
+        _refuse_runs(case.data, bound)
+        if case.moved is not None:
+            _refuse_unlike(case.data, case.moved, bound)
+        found.append(case)
     return found
-
-
-def case_of(
-    data: xr.Dataset, moved: xr.Dataset | None, rules: HistoryRules, level: str, bound: Bound
-) -> Case:
-    """Return the case of a level and bound; runs that do not belong together are refused."""
-    _refuse_runs(data, bound)
-    if moved is not None:
-        _refuse_unlike(data, moved, bound)
-    return Case(data, moved, rules, level, bound)
 
 
 def levels_of(cases: Sequence[Case]) -> dict[str, list[Case]]:
@@ -231,14 +236,13 @@ def reached_by(data: xr.Dataset, name: str) -> FloatArray:
 
     Shapes: result (n_runs, m).
     """
-    values = _columns(data, name).copy()
+    values = _flat(peaks_of_runs(data, name)).copy()
     if QUANTITIES[name].kind == "final":
         values[stopped_in(data)] = math.nan
     return values
 
 
-def _columns(data: xr.Dataset, name: str) -> FloatArray:
-    values = peaks_of_runs(data, name)
+def _flat(values: FloatArray) -> FloatArray:
     return values.reshape(len(values), -1)
 
 
@@ -318,9 +322,6 @@ def _raise(way: str, centred: float, moved: float, motions: str, name: str) -> T
 def _refuse_runs(data: xr.Dataset, bound: str) -> None:
     """Refuse runs that are not of one structure each, whole, each motion once."""
     what = f"runs at the bound {bound!r}" if bound else "runs"
-    if "run" not in data.dims or "status" not in data.variables:
-        msg = f"{what}: no dimension 'run': give the Dataset of time_histories"
-        raise CheckError(msg)
     if data.attrs.get("status", "ok") != "ok":
         msg = f"{what}: the batch was interrupted, runs are missing: run it again"
         raise CheckError(msg)
@@ -341,12 +342,9 @@ def _refuse_runs(data: xr.Dataset, bound: str) -> None:
 def _refuse_unlike(data: xr.Dataset, moved: xr.Dataset, bound: str) -> None:
     """Refuse runs with moved masses that do not belong to others."""
     what = f"moved at the bound {bound!r}" if bound else "moved"
-    if "run" not in moved.dims or MASS_SHIFT not in moved.coords:
-        msg = f"{what}: no coordinate {MASS_SHIFT!r} along 'run': name the way of each run, '+x'"
-        raise CheckError(msg)
     odd = {*map(str, np.unique(moved[MASS_SHIFT].to_numpy()))} - {*WAYS}
     if odd:
-        msg = f"{what}: mass_shift = {min(odd)!r} must be one of {', '.join(WAYS)}"
+        msg = f"{what}: {MASS_SHIFT} = {min(odd)!r} must be one of {', '.join(WAYS)}"
         raise CheckError(msg)
     if "peak_uplifts" not in moved.variables:
         msg = f"{what}: none could begin: {moved['message'].to_numpy()[0]}"

@@ -9,7 +9,7 @@ import numpy as np
 from frames.design._errors import CheckError
 from frames.design.histories.demand_table import said
 from frames.design.histories.eccentricity import Case, levels_of
-from frames.design.histories.suite import ShearFactor, peaks_of_runs
+from frames.design.histories.suite import ShearFactor
 from frames.results.recorded import PEAK
 from lir_element.texts import joined, worded
 
@@ -99,18 +99,16 @@ def _of_bound(case: Case, kind: _Kind, factors: FloatArray) -> pd.DataFrame:
     dims, six = tuple(kind.columns), kind.forces
     order = ("run", *dims, six, "extreme")
 
-    def outward(runs: xr.Dataset) -> FloatArray:
-        return np.asarray(np.einsum("rscwc->rscw", _acting(runs, kind)) * _SIGN)
-
     def at(runs: xr.Dataset) -> FloatArray:
         times = runs[f"{PEAK}{kind.variable}_at"].transpose(*order).to_numpy()
         return times.reshape(runs.sizes["run"], -1, 6, 2)
 
-    together, times = case.all_runs(lambda runs: _acting(runs, kind)), case.all_runs(at)
+    together = np.concatenate([_acting(runs, kind) for runs in case.parts])
+    times = np.concatenate([at(runs) for runs in case.parts])
     rest = data[f"{PEAK}{kind.variable}_at_rest"].transpose(*order[:-1]).to_numpy()[0]
     own = np.einsum("rscwc->rscw", together)
     value, which = case.counted(own * _SIGN)
-    added, ways = case.added(outward)
+    added, ways = case.added(own * _SIGN)
     value = (value + added) * _SIGN
     still = rest.reshape(-1, 6)[:, :, None]
     more = factors[:, None, None]
@@ -163,12 +161,9 @@ def _drifts(case: Case, factor: float) -> pd.DataFrame:
     data, suite = case.data, case.suite
     if not case.keeps("drift"):
         return pd.DataFrame()
-    each, times = (
-        case.all_runs(lambda runs, name=name: peaks_of_runs(runs, name))  # type: ignore[misc]
-        for name in ("drift", "drift_at")
-    )
+    each, times = (case.peaks(name) for name in ("drift", "drift_at"))
     value, which = case.counted(each)
-    added, ways = case.added(lambda runs: peaks_of_runs(runs, "drift"))
+    added, ways = case.added(each)
     table = pd.DataFrame({"storey": list(map(str, data["level"].to_numpy()[1:]))})
     table = table.assign(
         force="drift", extreme=EXTREMES[0], unit="1", value=factor * (value + added)

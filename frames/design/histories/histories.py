@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import xarray as xr
 
 from frames.batch.cases import named_motions
-from frames.batch.runs import Runs
+from frames.batch.runs import BOUND, HAZARD, MASS_SHIFT, Runs
 from frames.batch.time_histories import time_histories
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
@@ -18,7 +18,8 @@ from frames.design.codes.registry import code_named
 from frames.design.devices.limits import DesignLimits
 from frames.design.histories.bound_checks import BoundChecks
 from frames.design.histories.demand_table import demand_table
-from frames.design.histories.eccentricity import Case, case_of
+from frames.design.histories.eccentricity import Case, cases_of
+from frames.results.recorded import with_present_names
 from lir_element.argument_checks import require_choice
 
 if TYPE_CHECKING:
@@ -74,12 +75,9 @@ def bounded_histories(
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass
-    >>> from frames.demo import bearing_for
+    >>> from frames.demo import example
     >>> from frames.design import PropertyBounds, PropertyModificationFactors, bounded_histories
-    >>> pulse = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(1.5)
     >>> bounds = PropertyBounds(friction=PropertyModificationFactors(0.9, 1.1),
     ...                         interface=PropertyModificationFactors(1.0, 1.1))
     >>> runs = bounded_histories(frame, {"pulse": pulse}, bounds, workers=1)
@@ -157,13 +155,10 @@ def history_checks(
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass
-    >>> from frames.demo import bearing_for
+    >>> from frames.demo import example
     >>> from frames.design import PropertyBounds, PropertyModificationFactors
     >>> from frames.design import bounded_histories, history_checks
-    >>> pulse = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(1.5)
     >>> bounds = PropertyBounds(friction=PropertyModificationFactors(0.9, 1.1),
     ...                         interface=PropertyModificationFactors(1.0, 1.1))
     >>> runs = bounded_histories(frame, {"pulse": pulse}, bounds, workers=1)
@@ -237,13 +232,10 @@ def history_demands(
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass
-    >>> from frames.demo import bearing_for
+    >>> from frames.demo import example
     >>> from frames.design import PropertyBounds, PropertyModificationFactors
     >>> from frames.design import bounded_histories, history_demands
-    >>> pulse = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(1.5)
     >>> bounds = PropertyBounds(friction=PropertyModificationFactors(0.9, 1.1),
     ...                         interface=PropertyModificationFactors(1.0, 1.1))
     >>> runs = bounded_histories(frame, {"pulse": pulse}, bounds, workers=1)
@@ -263,19 +255,26 @@ def _cases(
     rules: HistoryRules,
     moved: xr.Dataset | Mapping[Bound, xr.Dataset] | None,
 ) -> list[Case]:
-    # By bound, runs with moved masses each beside runs at the same one.
-    own, beside = (_by_bound(each) for each in (runs, {} if moved is None else moved))
-    if not own:
+    # Each bound of the properties, with the runs with moved masses at the same one.
+    rows = Runs()
+    for given, tag in ((runs, "status"), ({} if moved is None else moved, MASS_SHIFT)):
+        for bound, one in {"": given}.items() if isinstance(given, xr.Dataset) else given.items():
+            require_choice("bound", bound, ("", *_BOUNDS), error=CheckError)
+            data = with_present_names(one)
+            if "run" not in data.dims or tag not in data.variables:
+                raise CheckError(_unlike_runs(tag, bound))
+            own = {BOUND: bound, HAZARD: ""} | ({} if tag == MASS_SHIFT else {MASS_SHIFT: ""})
+            count = data.sizes["run"]
+            rows += Runs(data.assign_coords({n: ("run", [v] * count) for n, v in own.items()}))
+    if not len(rows):
         msg = "runs is empty: give those of one bound at least"
         raise CheckError(msg)
-    for bound in own:
-        require_choice("bound", bound, ("", *_BOUNDS), error=CheckError)
-    for bound in beside:
-        if bound not in own:
-            msg = f"moved has the bound {bound!r}, of which there are no runs: give those as well"
-            raise CheckError(msg)
-    return [case_of(data, beside.get(bound), rules, "", bound) for bound, data in own.items()]
+    return cases_of(rows, rules)
 
 
-def _by_bound(runs: xr.Dataset | Mapping[Bound, xr.Dataset]) -> dict[Bound, xr.Dataset]:
-    return {"": runs} if isinstance(runs, xr.Dataset) else dict(runs)
+def _unlike_runs(tag: str, bound: str) -> str:
+    where = f" at the bound {bound!r}" if bound else ""
+    if tag == MASS_SHIFT:
+        lacking = f"no coordinate {tag!r} along 'run': name the way of each run, '+x'"
+        return f"moved{where}: {lacking}"
+    return f"runs{where}: no dimension 'run': give the Dataset of time_histories"

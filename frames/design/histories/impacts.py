@@ -45,12 +45,10 @@ def rim_engagement(data: xr.Dataset) -> pd.DataFrame:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
+    >>> from frames import time_history
+    >>> from frames.demo import example
     >>> from frames.design import rim_engagement
-    >>> pulse = GroundMotion(x=2.1 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(2.1)
     >>> data = time_history(frame, pulse)
     >>> met = rim_engagement(data)
     >>> met["surface"].tolist(), met["displacement"].round(2).tolist()
@@ -101,12 +99,10 @@ def impact_demand(data: xr.Dataset, after: float = 0.3) -> pd.DataFrame:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
+    >>> from frames import time_history
+    >>> from frames.demo import example
     >>> from frames.design import impact_demand
-    >>> pulse = GroundMotion(x=2.1 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(2.1)
     >>> data = time_history(frame, pulse)
     >>> bool(impact_demand(data).loc["base shear", "ratio"] > 1.0)
     True
@@ -150,12 +146,10 @@ def uplift_events(data: xr.Dataset, after: float = 0.1) -> pd.DataFrame:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
+    >>> from frames import time_history
+    >>> from frames.demo import example
     >>> from frames.design import uplift_events
-    >>> pulse = GroundMotion(x=2.1 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(2.1)
     >>> data = time_history(frame, pulse)
     >>> len(uplift_events(data))
     0
@@ -213,13 +207,11 @@ def slips_of_events(data: xr.Dataset, ends: tuple[float, ...]) -> pd.DataFrame:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
+    >>> from frames import time_history
+    >>> from frames.demo import example
     >>> from frames.design import repeated_motion, slips_of_events
-    >>> pulse = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame, pulse = example(1.5)
     >>> motion, ends = repeated_motion(pulse, 2, pause=3.0)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
     >>> data = time_history(frame, motion)
     >>> len(slips_of_events(data, ends))
     2

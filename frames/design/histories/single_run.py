@@ -149,13 +149,11 @@ def event_checks(
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from frames.demo import bearing_for
+    >>> from frames import time_history
+    >>> from frames.demo import example
     >>> from frames.design import event_checks, repeated_motion
-    >>> pulse = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016)
+    >>> frame, pulse = example(1.5)
     >>> motion, ends = repeated_motion(pulse, 2, pause=3.0)
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
     >>> data = time_history(frame, motion)
     >>> checks = event_checks(data, frame, ends)
     >>> checks[0].title, checks[0].passed

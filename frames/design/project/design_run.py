@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from frames.batch.runs import BOUND, HAZARD
 from frames.design.calculation.check import Checks
 from frames.design.codes.code_values import OF_BEARINGS, states_of
 from frames.design.codes.prototype_programme import ProgrammeDemands
@@ -129,15 +128,16 @@ class ProjectRun(RunToCheck):
         return failed_runs(self.cases)
 
     @cached_property
-    def by_file(self) -> dict[tuple[str, str], tuple[str, str, xr.Dataset]]:
-        """Level, bound and runs by the two words of their file's name."""
+    def by_file(self) -> dict[tuple[str, str], tuple[Case, xr.Dataset]]:
+        """Case and its runs of a file, by the two words of the file's name."""
+        several = len(levels_of(self.cases)) > 1
         found = {}
-        for word, rows in (("runs", self.runs.centred), ("moved", self.runs.moved)):
-            each = rows.by(HAZARD, BOUND)
-            several = len({level for level, _ in each}) > 1
-            for (level, bound), own in each.items():
-                label = f"{level}-{bound}" if several else bound
-                found[word, label] = level, bound, own.data
+        for word in ("runs", "moved"):
+            for case in self.cases:
+                data = case.data if word == "runs" else case.moved
+                label = f"{case.level}-{case.bound}" if several else case.bound
+                if data is not None:
+                    found[word, label] = case, data
         return found
 
     @property

@@ -46,7 +46,7 @@ def write_run(
     for stale in (folder / "run.json", of_before, *old, *cut):  # the first is written last
         stale.unlink(missing_ok=True)
     written = {}
-    for (word, label), (_, _, data) in run.by_file.items():
+    for (word, label), (_, data) in run.by_file.items():
         path = written[f"{word} {label}"] = folder / f"{word}-{label}.nc"
         save(data, path, compress=word == "runs" and data.sizes.get("time", 0) > _ENDS)
     for name, content in run.tables.items():
@@ -201,13 +201,13 @@ def _told_of(run: ProjectRun, word: str) -> dict[str, dict[str, object]]:
     # What run.json says of files of time histories, by the words that their names have.
     return {
         label: {
-            "level": level,
-            "bound": bound,
+            "level": case.level,
+            "bound": case.bound,
             "runs": data.sizes["run"],
             "not_ok": [str(s) for s in data["status"].to_numpy() if str(s) != "ok"],
             "seconds": float(data.attrs["seconds"]),
         }
-        for (first, label), (level, bound, data) in run.by_file.items()
+        for (first, label), (case, data) in run.by_file.items()
         if first == word
     }
 

@@ -17,9 +17,9 @@ from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.batches import CampaignJob, TemplateRun, compute
 from frames.risk.campaign.cluster import over_cluster
-from frames.risk.campaign.other_databases import known_runs
 from frames.risk.campaign.lock import lacking_packages
 from frames.risk.campaign.measures import Measure, checked_measures
+from frames.risk.campaign.other_databases import known_runs
 from frames.risk.campaign.plan import Plan, planned_rows
 from frames.risk.campaign.plan_description import described
 from frames.risk.campaign.sampling import ParameterSample, whole

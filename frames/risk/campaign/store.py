@@ -474,12 +474,9 @@ def open_campaign(path: str | Path) -> CampaignStore:
     Examples
     --------
     >>> import tempfile
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass
-    >>> from frames.demo import bearing_for
+    >>> from frames.demo import example
     >>> from frames.risk import Campaign, open_campaign
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(1.0)
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     data = Campaign(frame, pulse, store=f"{folder}/runs").run(workers=1)
     ...     print(open_campaign(f"{folder}/runs").status())

@@ -193,12 +193,9 @@ def multiple_stripes(
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass
-    >>> from frames.demo import bearing_for
+    >>> from frames.demo import example
     >>> from frames.risk import Intensity, multiple_stripes
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(1.0)
     >>> intensity = Intensity(kind="PGA", measure="x")
     >>> runs = multiple_stripes(frame, pulse, [0.5, 1.0], intensity=intensity, workers=1)
     >>> runs.table["im"].round(6).tolist(), runs.table["outcome"].tolist()
@@ -250,12 +247,9 @@ def cloud_analysis(
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass
-    >>> from frames.demo import bearing_for
+    >>> from frames.demo import example
     >>> from frames.risk import Intensity, cloud_analysis
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(1.0)
     >>> intensity = Intensity(kind="PGA", measure="x")
     >>> runs = cloud_analysis(frame, pulse, intensity=intensity, scales=(1.0, 1.5), workers=1)
     >>> runs.table["im"].round(6).tolist()

@@ -56,12 +56,9 @@ def fragility_of(
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass
-    >>> from frames.demo import bearing_for
+    >>> from frames.demo import example
     >>> from frames.risk import Intensity, LimitState, cloud_analysis, fragility_of
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
-    >>> frame = lumped_mass(bearing_for(2000e3), mass=204e3)
+    >>> frame, pulse = example(1.0)
     >>> intensity = Intensity(kind="PGA", measure="x")
     >>> motions = {f"pulse {k}": pulse.scaled(1.0 + 0.05 * k) for k in range(4)}
     >>> runs = cloud_analysis(frame, motions, intensity=intensity, scales=(0.8, 1.2), workers=1)
