@@ -30,7 +30,7 @@ from frames.risk import (
     open_campaign,
     sobol_sample,
 )
-from frames.risk.campaign import batches, packages, plan_description
+from frames.risk.campaign import batches, lock, plan_description
 from frames.risk.campaign.campaign import usual_batch
 from frames.risk.campaign.designs import with_parameters
 from frames.risk.campaign.lock import locked
@@ -399,7 +399,7 @@ def test_the_lock_of_a_process_that_was_killed_is_seized(tmp_path: Path) -> None
 def test_a_package_that_is_missing_is_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(packages, "find_spec", lambda n: None)
+    monkeypatch.setattr(lock, "find_spec", lambda n: None)
     with pytest.raises(ImportError, match="need zarr: pip install"):
         convert_campaign(tmp_path / "old", tmp_path / "new")
     with pytest.raises(ImportError, match=r"need filelock: pip install 'lir-dcfp\[campaign\]'"):

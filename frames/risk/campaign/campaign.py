@@ -24,6 +24,7 @@ from frames.risk.campaign.plan import Plan, planned_rows
 from frames.risk.campaign.plan_description import described
 from frames.risk.campaign.sampling import ParameterSample, whole
 from frames.risk.campaign.store import CampaignStatus, CampaignStore
+from frames.risk.campaign.store_writing import StoreWriter
 from frames.risk.fragility.intensity import OWN, IntensityMeasure
 from frames.risk.fragility.scaled_motions import at_one
 from lir_element.argument_checks import require_positive, require_type
@@ -143,7 +144,8 @@ class Campaign:
         one = {name: None for name in (next(iter(structures)),)}
         first = next(iter(grounds))
         factors = tuple(c.scale for c in grid(one, {first: None}, scales, None))
-        self.store = CampaignStore(store)
+        self._writer = StoreWriter(store)
+        self.store: CampaignStore = self._writer
         options = {
             "duration": duration,
             "dt": dt,
@@ -242,14 +244,14 @@ class Campaign:
         known = known_runs(stores, self._work, plan)
         if not self.store.exists:
             rows = planned_rows(self._work.plan, reference.layout)
-            self.store.create(plan, rows, reference.layout)
-        with self.store.owned():
-            self.store.require_plan(plan, accept_other_sources=accept_other_sources)
+            self._writer.create(plan, rows, reference.layout)
+        with self._writer.owned():
+            self._writer.require_plan(plan, accept_other_sources=accept_other_sources)
             done = set(self.store.batches_done())
             todo = [k for k in range(self._work.plan.batches) if k not in done]
             computed = _Counting(self._work.plan, todo, told)
             for number, batch in self._computed(reference, computed, client, workers, known):
-                self.store.write(number, batch)
+                self._writer.write(number, batch)
         _warn(self.store.status())
         return self.results()
 

@@ -17,6 +17,7 @@ from frames.risk.campaign.lock import lacking_packages
 from frames.risk.campaign.plan import differences, listed
 from frames.risk.campaign.plan_description import FORMAT, OLD
 from frames.risk.campaign.store import CampaignStore
+from frames.risk.campaign.store_writing import StoreWriter
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -59,7 +60,7 @@ def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
     """
     if lacking := lacking_packages("zarr"):
         raise ImportError(lacking)
-    folder, store = Path(old), CampaignStore(new)
+    folder, store = Path(old), StoreWriter(new)
     try:
         plan = json.loads((folder / "plan.json").read_text(encoding="utf-8"))
         is_old = plan["format"] in OLD

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import json
-import os
-import shutil
-import uuid
 from collections import Counter
 from collections.abc import Mapping
-from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -16,22 +12,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from frames.results.chunks import ENDING, Rows, digest_of, load_chunk, marks_of, write_chunk
-from frames.results.storage import make_folder, write_whole
+from frames.results.chunks import ENDING, Rows, digest_of, load_chunk, marks_of
 from frames.risk._errors import CampaignError
-from frames.risk.campaign.lock import locked
-from frames.risk.campaign.plan import listed, run_table
-from frames.risk.campaign.plan_description import FORMAT, OLD, SOURCES, TAKEN_OVER, unlike
+from frames.risk.campaign.plan import run_table
+from frames.risk.campaign.plan_description import FORMAT, OLD, TAKEN_OVER
 
 if TYPE_CHECKING:
-    from collections.abc import Generator
-
     import pandas as pd
 
-    from frames.risk.campaign.batches import Batch
 
-_PLAN, _RUNS, _HISTORIES, _LOCK = "plan.json", "runs", "histories", "lock"
-_ROWS, _LAYOUT = f"rows{ENDING}", f"layout{ENDING}"
+PLAN, RUNS, HISTORIES = "plan.json", "runs", "histories"
+ROWS, LAYOUT = f"rows{ENDING}", f"layout{ENDING}"
 
 
 class CampaignStatus(NamedTuple):
@@ -98,7 +89,7 @@ class CampaignStore:
     @property
     def exists(self) -> bool:
         """Whether there is a results database."""
-        return (self.path / _PLAN).is_file()
+        return (self.path / PLAN).is_file()
 
     def plan(self) -> dict[str, Any]:
         """Return what the results database was planned with.
@@ -114,13 +105,13 @@ class CampaignStore:
             If there is no results database, or one of another format.
         """
         try:
-            found = json.loads((self.path / _PLAN).read_text(encoding="utf-8"))
+            found = json.loads((self.path / PLAN).read_text(encoding="utf-8"))
         except FileNotFoundError as cause:
             msg = f"{self.path} holds no campaign: name the folder that one was run in"
             raise CampaignError(msg) from cause
         except ValueError as cause:
             msg = (
-                f"{self.path / _PLAN} is damaged ({cause}): restore it from a copy, or name "
+                f"{self.path / PLAN} is damaged ({cause}): restore it from a copy, or name "
                 "another store and run again"
             )
             raise CampaignError(msg) from cause
@@ -135,165 +126,16 @@ class CampaignStore:
             raise CampaignError(msg)
         return dict(found)
 
-    def create(self, described: Mapping[str, Any], rows: xr.Dataset, layout: xr.Dataset) -> None:
-        """Make the results database, in one move: there is a whole one, or none.
-
-        Parameters
-        ----------
-        described : mapping
-            What it is planned with.
-        rows : xarray.Dataset
-            What is planned of each run, along `run`.
-        layout : xarray.Dataset
-            Variables and labels of results.
-
-        Raises
-        ------
-        CampaignError
-            If something else stands there.
-        OSError
-            If it cannot be written.
-        """
-        if self.path.exists():
-            msg = f"{self.path} is there and holds no campaign: name another folder"
-            raise CampaignError(msg)
-        beside = self.path.with_name(f".{self.path.name}.{uuid.uuid4().hex}.part")
-        of_run = [name for name in layout.coords if "run" in layout[name].dims]
-        try:
-            (beside / _RUNS).mkdir(parents=True)
-            write_chunk(beside / _ROWS, rows, compress=True)
-            write_chunk(beside / _LAYOUT, layout.drop_vars(of_run).isel(run=slice(0)))
-            (beside / _PLAN).write_text(json.dumps(described, indent=1), encoding="utf-8")
-            beside.rename(self.path)
-        except OSError as cause:
-            if self.exists:
-                msg = f"{self.path} was made by another process just now: run again to resume it"
-                raise CampaignError(msg) from cause
-            why = os.strerror(cause.errno) if cause.errno else cause
-            msg = f"{self.path} could not be written: {why}: make room"
-            raise OSError(cause.errno, msg) from cause
-        finally:
-            shutil.rmtree(beside, ignore_errors=True)
-
-    def require_plan(
-        self, described: Mapping[str, Any], *, accept_other_sources: bool = False
-    ) -> None:
-        """Refuse to go on with another plan than that of the results database.
-
-        Parameters
-        ----------
-        described : mapping
-            What is given now.
-        accept_other_sources : bool
-            Whether the version of the package and its sources may be others than those that began
-            the results database; plan.json keeps which ones took over, and after how many runs.
-
-        Raises
-        ------
-        CampaignError
-            With a line for each difference.
-        """
-        stored, given = self.plan(), json.loads(json.dumps(described))
-        found, sources = unlike(stored, given)
-        if found:
-            msg = (
-                f"{self.path} was planned otherwise: name another store, or give what it was "
-                f"planned with\n{listed(found)}"
-            )
-            raise CampaignError(msg)
-        if sources and not accept_other_sources:
-            msg = (
-                f"{self.path} was computed by other sources of the package: its runs and new ones "
-                "might not belong together. Name another store; or, if the change does not touch "
-                "the numbers, run(accept_other_sources=True), which the results database keeps\n"
-                f"{listed(sources)}"
-            )
-            raise CampaignError(msg)
-        if sources:
-            taken = {"after runs": self.status().done, "provenance": given["provenance"]}
-            stored.setdefault(TAKEN_OVER, []).append(taken | {k: given[k] for k in SOURCES})
-            write_whole(self.path / _PLAN, json.dumps(stored, indent=1).encode())
-
-    @contextmanager
-    def owned(self) -> Generator[None, None, None]:
-        """Hold the results database alone.
-
-        Yields
-        ------
-        None
-            While it is held.
-
-        Raises
-        ------
-        CampaignError
-            If another process works on it.
-        """
-        with locked(self.path / _LOCK):
-            for cut in self.path.glob("*/.*.part"):  # of a process that was killed
-                cut.unlink(missing_ok=True)
-            yield
-
     def batches_done(self) -> list[int]:
         """Return the batches that are complete, in order."""
         return list(self._chunks())
 
     def _chunks(self) -> dict[int, Path]:
-        paths = (self.path / _RUNS).glob(f"*{ENDING}")
+        paths = (self.path / RUNS).glob(f"*{ENDING}")
         return dict(sorted((int(path.stem), path) for path in paths if path.stem.isdecimal()))
 
-    def write(self, number: int, batch: Batch) -> None:
-        """Write a batch: the histories that it keeps, then its chunk in one move.
-
-        Parameters
-        ----------
-        number : int
-            Which batch.
-        batch : Batch
-            What it gave.
-
-        Raises
-        ------
-        CampaignError
-            If the results database was laid out for other results.
-        OSError
-            If it cannot be written. The batch has no chunk then, and is run again.
-        """
-        dims = {str(name): variable.dims for name, variable in self._layout.data_vars.items()}
-        unknown = [name for name in batch.arrays if name not in dims]
-        if unknown:
-            msg = (
-                f"{self.path} has no room for {', '.join(unknown)}: another version of the package "
-                "began it; name another store"
-            )
-            raise CampaignError(msg)
-        runs = xr.Dataset({name: (dims[name], own) for name, own in batch.arrays.items()})
-        marks = {
-            "runs": runs.sizes["run"],
-            "statuses": dict(Counter(batch.arrays["status"].tolist())),
-            "doubtful": int((batch.arrays["doubts"] != "").sum()),
-            "warnings": batch.warnings,
-            "digest": digest_of([batch.arrays]),
-            "reused": batch.reused,
-        }
-        try:
-            for old in self._histories(number):
-                old.unlink()
-            for k, histories in enumerate(batch.histories):
-                where = make_folder(self.path / _HISTORIES) / f"{number:06d}-{k}{ENDING}"
-                write_chunk(where, histories, compress=True)
-            path = self.path / _RUNS / f"{number:06d}{ENDING}"
-            write_chunk(path, runs, compress=True, **marks)
-        except OSError as cause:
-            done = len(self.batches_done())
-            why = os.strerror(cause.errno) if cause.errno else cause
-            msg = (
-                f"{self.path}: batch {number} could not be written: {why}. "
-                f"The {done} batches before it are kept: make room, and run again to go on"
-            )
-            raise OSError(cause.errno, msg) from cause
-
     def _histories(self, number: int) -> list[Path]:
-        return sorted((self.path / _HISTORIES).glob(f"{number:06d}-*{ENDING}"))
+        return sorted((self.path / HISTORIES).glob(f"{number:06d}-*{ENDING}"))
 
     def status(self) -> CampaignStatus:
         """Return how far the campaign is, also while it runs.
@@ -336,7 +178,7 @@ class CampaignStore:
             If there is no store.
         """
         plan, layout, chunks = self.plan(), self._layout, self._chunks()
-        rows = self._description(_ROWS)
+        rows = self._description(ROWS)
         count = rows.sizes["run"]
         shown = {}
         for name, own in layout.data_vars.items():
@@ -429,7 +271,7 @@ class CampaignStore:
 
     @cached_property
     def _layout(self) -> xr.Dataset:
-        return self._description(_LAYOUT)
+        return self._description(LAYOUT)
 
     def _description(self, name: str) -> xr.Dataset:
         try:

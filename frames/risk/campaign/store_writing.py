@@ -1,0 +1,124 @@
+"""What writes the results database of a campaign: whole or not at all, one process at a time."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import uuid
+from collections import Counter
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import xarray as xr
+
+from frames.results.chunks import ENDING, digest_of, write_chunk
+from frames.results.storage import make_folder, write_whole
+from frames.risk._errors import CampaignError
+from frames.risk.campaign.lock import locked
+from frames.risk.campaign.plan import listed
+from frames.risk.campaign.plan_description import SOURCES, TAKEN_OVER, unlike
+from frames.risk.campaign.store import HISTORIES, LAYOUT, PLAN, ROWS, RUNS, CampaignStore
+
+if TYPE_CHECKING:
+    from collections.abc import Generator, Mapping
+
+    from frames.risk.campaign.batches import Batch
+
+_LOCK = "lock"
+
+
+class StoreWriter(CampaignStore):
+    """A results database that is made, held and written."""
+
+    def create(self, described: Mapping[str, Any], rows: xr.Dataset, layout: xr.Dataset) -> None:
+        """Make the results database, in one move: there is a whole one, or none."""
+        if self.path.exists():
+            msg = f"{self.path} is there and holds no campaign: name another folder"
+            raise CampaignError(msg)
+        beside = self.path.with_name(f".{self.path.name}.{uuid.uuid4().hex}.part")
+        of_run = [name for name in layout.coords if "run" in layout[name].dims]
+        try:
+            (beside / RUNS).mkdir(parents=True)
+            write_chunk(beside / ROWS, rows, compress=True)
+            write_chunk(beside / LAYOUT, layout.drop_vars(of_run).isel(run=slice(0)))
+            (beside / PLAN).write_text(json.dumps(described, indent=1), encoding="utf-8")
+            beside.rename(self.path)
+        except OSError as cause:
+            if self.exists:
+                msg = f"{self.path} was made by another process just now: run again to resume it"
+                raise CampaignError(msg) from cause
+            why = os.strerror(cause.errno) if cause.errno else cause
+            msg = f"{self.path} could not be written: {why}: make room"
+            raise OSError(cause.errno, msg) from cause
+        finally:
+            shutil.rmtree(beside, ignore_errors=True)
+
+    def require_plan(
+        self, described: Mapping[str, Any], *, accept_other_sources: bool = False
+    ) -> None:
+        """Refuse to go on with another plan than that of the results database."""
+        stored, given = self.plan(), json.loads(json.dumps(described))
+        found, sources = unlike(stored, given)
+        if found:
+            msg = (
+                f"{self.path} was planned otherwise: name another store, or give what it was "
+                f"planned with\n{listed(found)}"
+            )
+            raise CampaignError(msg)
+        if sources and not accept_other_sources:
+            msg = (
+                f"{self.path} was computed by other sources of the package: its runs and new ones "
+                "might not belong together. Name another store; or, if the change does not touch "
+                "the numbers, run(accept_other_sources=True), which the results database keeps\n"
+                f"{listed(sources)}"
+            )
+            raise CampaignError(msg)
+        if sources:
+            taken = {"after runs": self.status().done, "provenance": given["provenance"]}
+            stored.setdefault(TAKEN_OVER, []).append(taken | {k: given[k] for k in SOURCES})
+            write_whole(self.path / PLAN, json.dumps(stored, indent=1).encode())
+
+    @contextmanager
+    def owned(self) -> Generator[None, None, None]:
+        """Hold the results database alone."""
+        with locked(self.path / _LOCK):
+            for cut in self.path.glob("*/.*.part"):  # of a process that was killed
+                cut.unlink(missing_ok=True)
+            yield
+
+    def write(self, number: int, batch: Batch) -> None:
+        """Write a batch: the histories that it keeps, then its chunk in one move."""
+        dims = {str(name): variable.dims for name, variable in self._layout.data_vars.items()}
+        unknown = [name for name in batch.arrays if name not in dims]
+        if unknown:
+            msg = (
+                f"{self.path} has no room for {', '.join(unknown)}: another version of the package "
+                "began it; name another store"
+            )
+            raise CampaignError(msg)
+        runs = xr.Dataset({name: (dims[name], own) for name, own in batch.arrays.items()})
+        marks = {
+            "runs": runs.sizes["run"],
+            "statuses": dict(Counter(batch.arrays["status"].tolist())),
+            "doubtful": int((batch.arrays["doubts"] != "").sum()),
+            "warnings": batch.warnings,
+            "digest": digest_of([batch.arrays]),
+            "reused": batch.reused,
+        }
+        try:
+            for old in self._histories(number):
+                old.unlink()
+            for k, histories in enumerate(batch.histories):
+                where = make_folder(self.path / HISTORIES) / f"{number:06d}-{k}{ENDING}"
+                write_chunk(where, histories, compress=True)
+            path = self.path / RUNS / f"{number:06d}{ENDING}"
+            write_chunk(path, runs, compress=True, **marks)
+        except OSError as cause:
+            done = len(self.batches_done())
+            why = os.strerror(cause.errno) if cause.errno else cause
+            msg = (
+                f"{self.path}: batch {number} could not be written: {why}. "
+                f"The {done} batches before it are kept: make room, and run again to go on"
+            )
+            raise OSError(cause.errno, msg) from cause
