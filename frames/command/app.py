@@ -173,8 +173,7 @@ def report(
     """Judge a run again and write its report anew, with the limits that the file has now."""
     from frames.design.project.design_run import evaluate_run
     from frames.design.project.preliminary import inputs_of, preliminary
-    from frames.design.report.files import UNFINISHED, read_histories, write_judgement
-    from frames.design.report.printing import print_report
+    from frames.design.report.files import UNFINISHED, print_report, read_histories, write_judgement
     from frames.results.storage import refuse_links
 
     with exit_codes():

@@ -194,7 +194,7 @@ def test_files_are_written_by_one_function() -> None:
         if any(word in path.read_text(encoding="utf-8") for word in words)
     }
     assert found == {
-        "frames/design/report/printing.py",
+        "frames/design/report/files.py",
         "frames/results/envelopes.py",
         "frames/results/storage.py",
         "frames/risk/campaign/store.py",

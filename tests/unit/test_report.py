@@ -36,7 +36,7 @@ from frames.design.project.design_run import ProjectRun, evaluate_run
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.reading import read_project
-from frames.design.report import printing
+from frames.design.report import files as report_files
 from frames.design.report.cover import css_string, judged
 from frames.design.report.figures import (
     motions_figure,
@@ -44,9 +44,8 @@ from frames.design.report.figures import (
     typical_bearing,
     utilisation,
 )
-from frames.design.report.files import read_histories
+from frames.design.report.files import pages_of, print_report, read_histories
 from frames.design.report.page import Table, Words
-from frames.design.report.printing import pages_of, print_report
 from frames.design.report.result_tables import device_table, mode_table, run_tables
 from frames.design.report.tables import in_parts
 from frames.design.report.writing import SECTIONS, report_in
@@ -624,10 +623,10 @@ def test_prints_that_never_agree_are_told(
 ) -> None:
     pytest.importorskip("pypdf")
     prints = iter(range(100))
-    monkeypatch.setattr(printing, "_browser", lambda: "none")
-    monkeypatch.setattr(printing, "_print", lambda *_: None)
+    monkeypatch.setattr(report_files, "_browser", lambda: "none")
+    monkeypatch.setattr(report_files, "_print", lambda *_: None)
     monkeypatch.setattr("pypdf.PdfReader", lambda _: None)
-    monkeypatch.setattr(printing, "pages_of", lambda _: {"checks": next(prints)})
+    monkeypatch.setattr(report_files, "pages_of", lambda _: {"checks": next(prints)})
     with pytest.raises(ProjectError, match="after 4 prints the contents still name"):
         print_report(results / "report.html", tmp_path / "report.pdf")
     assert next(prints) == 4
