@@ -17,8 +17,8 @@ from frames.design import (
 )
 from frames.design._errors import CheckError
 from frames.design.histories.eccentricity import Case
-from frames.design.histories.force_demands import force_demands
-from frames.design.histories.suite import RunSet, ShearFactor
+from frames.design.histories.force_demands import ShearFactor, force_demands
+from frames.design.histories.suite import RunSet
 from frames.library.moved_masses import with_moved_masses
 from frames.model.axes import default_up, local_axes
 from tests.scenes import simple_bearing

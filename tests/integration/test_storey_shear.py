@@ -30,7 +30,7 @@ from frames.design import (
     history_demands,
 )
 from frames.design.codes.bounds import BoundName
-from frames.design.histories.suite import ShearFactor, raises_by_case
+from frames.design.histories.force_demands import ShearFactor, raises_by_case
 from frames.results.peak_response import largest
 from tests.scenes import full_sine, paper_bearing
 

@@ -19,15 +19,9 @@ from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.capacity import engagement_checks
 from frames.design.histories.bearing_demands import BearingDemands, devices_of
 from frames.design.histories.eccentricity import Case, named_by_way
+from frames.design.histories.force_demands import LEAST, raise_of, shear_checks
 from frames.design.histories.storey_checks import stability_checks, torsion_checks
-from frames.design.histories.suite import (
-    LEAST,
-    parted,
-    peaks_of_runs,
-    raise_of,
-    shear_checks,
-    stopped_runs,
-)
+from frames.design.histories.suite import parted, peaks_of_runs, stopped_runs
 from frames.design.histories.suite_notes import (
     audit_notes,
     contact_notes,
@@ -258,8 +252,7 @@ class BoundChecks:
             return []
         storey = self.frame.levels[1].name if len(self.frame.levels) > 1 else ""
         known = self.equivalent.bounds[self.case.bound]
-        case = self.case
-        return shear_checks(case.data, case.suite, case.rules, known, storey, self._note)
+        return shear_checks(self.case, known, storey, self._note)
 
     def _drift(self) -> list[Check]:
         # That of the code, and that of the project beside it.

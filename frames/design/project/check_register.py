@@ -84,8 +84,8 @@ def _of_histories(frame: Frame, case: Case, gap: float) -> list[Check]:
     judge = CheckBuilder(t, case.bound, PROJECT, void=case.suite.void)
     title = "clearance to the moat wall"
     every = case.every
-    told = _told_of_walls(frame, every)
-    note = joined(_AT_BEARINGS, told.holds)
+    model, holds = _told_of_walls(frame, every)
+    note = joined(_AT_BEARINGS, holds)
     first = judge(PROJECT_LIMIT, title, "D_d", "<=", "g_moat", note=note)
     largest = peaks_of_runs(every, "displacement").max(axis=1)
     k = int(largest.argmax())
@@ -93,19 +93,14 @@ def _of_histories(frame: Frame, case: Case, gap: float) -> list[Check]:
     t.given("D_max", float(largest[k]), "m", shown="mm", note=motion_of(every, k))
     judge = CheckBuilder(t, case.bound, PROJECT, void=stopped_runs(every))
     title = "moat wall is not met in any run"
-    return [first, judge(PROJECT_LIMIT, title, "D_max", "<=", "g_moat", note=told.model)]
+    return [first, judge(PROJECT_LIMIT, title, "D_max", "<=", "g_moat", note=model)]
 
 
-class _Told(NamedTuple):
-    # What notes say of walls: how they are modelled, and that they hold back what meets them.
-    model: str
-    holds: str
-
-
-def _told_of_walls(frame: Frame, every: xr.Dataset) -> _Told:
+def _told_of_walls(frame: Frame, every: xr.Dataset) -> tuple[str, str]:
+    # How walls are modelled, and that they hold back what meets them.
     walls = walls_of(frame)
     if walls is None:
-        return _Told("the wall is not modelled: where it is met, its force is in no result", "")
+        return "the wall is not modelled: where it is met, its force is in no result", ""
     gap, sides = 1e3 * walls.gap, ", ".join(walls.sides)
     which = [str(name) in walls.links for name in every["link"].to_numpy()]
     force = peaks_of_runs(every, "link_force")[:, which].max(axis=1)
@@ -116,7 +111,7 @@ def _told_of_walls(frame: Frame, every: xr.Dataset) -> _Told:
             gap=gap,
             sides=sides,
         )
-        return _Told(none, "")
+        return none, ""
     model = worded(
         "walls at {gap:.5g} mm along {sides} are modelled: met in {met} of {runs} runs, by up to "
         "{force:.4g} kN at a node",
@@ -132,7 +127,7 @@ def _told_of_walls(frame: Frame, every: xr.Dataset) -> _Told:
         met=len(met),
         runs=len(force),
     )
-    return _Told(joined(model, "their force is in the results (links.csv)"), holds)
+    return joined(model, "their force is in the results (links.csv)"), holds
 
 
 def _with_gap(gap: float) -> Trace:

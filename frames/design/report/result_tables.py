@@ -14,8 +14,8 @@ from frames.design.calculation.rendering import number as written
 from frames.design.codes.bounds import with_property_bounds
 from frames.design.histories.demand_table import demands_by_motion, link_demands
 from frames.design.histories.eccentricity import eccentricity_table
-from frames.design.histories.force_demands import force_demands
-from frames.design.histories.suite import peaks_of_runs, raises_by_case
+from frames.design.histories.force_demands import force_demands, raises_by_case
+from frames.design.histories.suite import peaks_of_runs
 from frames.design.report.page import Table
 from frames.design.report.tables import SHOWN
 from frames.library.building import ARM

@@ -41,18 +41,6 @@ if TYPE_CHECKING:
     from frames.risk.fragility.runs import IntensityRuns
 
 
-class Compared(NamedTuple):
-    """What the page says of devices."""
-
-    sizes: Table  # as the page has them
-    ratios: Table
-    margins: Table
-    collapse: str  # what counts as collapse, in words
-    considered: str  # the maximum considered earthquake, in words
-    pictures: list[Picture]  # a figure of curves and one of responses for each kind of rims
-    files: dict[str, pd.DataFrame]  # tables in SI units, by the end of their name
-
-
 class Fitted(NamedTuple):
     """Curves of a campaign."""
 
@@ -65,8 +53,8 @@ class Fitted(NamedTuple):
 
 def compared(
     comparison: DeviceComparison, fitted: Fitted, confidence: float, axis: str, *, figures: bool
-) -> Compared:
-    """Return what a campaign says of devices."""
+) -> dict[str, Any]:
+    """Return what a campaign says of devices, by the names that the page has for it."""
     name = comparison.collapse.name
     why = {device: str(fitted.table.loc[f"{device}, {name}", "no curve"]) for device in fitted.runs}
     sizes = comparison.sizes(fitted.runs)
@@ -87,15 +75,15 @@ def compared(
         by_factor = {device: fitted.by_factor[device] for device in devices}
         title = f"Responses and runs that failed, {rims}"
         pictures.append(picture(title, response_by_factor(by_factor, axis=axis)))
-    return Compared(
-        page_table(in_mm_and_kn(sizes), "device"),
-        _ratio_table(ratios),
-        _margin_table(margins),
-        _collapse(comparison.collapse),
-        _considered(comparison, fitted),
-        pictures,
-        {"devices": sizes, "ratios": ratios.set_index("limit state"), "margins": margins},
-    )
+    return {
+        "sizes": page_table(in_mm_and_kn(sizes), "device"),
+        "ratios": _ratio_table(ratios),
+        "margins": _margin_table(margins),
+        "collapse": _collapse(comparison.collapse),
+        "considered": _considered(comparison, fitted),
+        "pictures": pictures,
+        "files": {"devices": sizes, "ratios": ratios.set_index("limit state"), "margins": margins},
+    }
 
 
 def _ratio_table(ratios: pd.DataFrame) -> Table:
@@ -270,7 +258,7 @@ def write_page(
     if asked:
         tables["fragility"] = csv_of(fragility)
     if devices is not None:
-        tables |= {name: csv_of(table) for name, table in devices.files.items()}
+        tables |= {name: csv_of(table) for name, table in devices["files"].items()}
     texts = {path: page}
     texts |= {path.with_name(f"{path.stem}-{name}.csv"): text for name, text in tables.items()}
     for file, text in texts.items():
