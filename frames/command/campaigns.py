@@ -96,7 +96,7 @@ def campaign_status(
 
 def _require_packages() -> None:
     from frames.design._errors import ProjectError
-    from frames.risk.campaign.lock import lacking_packages
+    from frames.risk.campaign.store_writing import lacking_packages
 
     lacking = lacking_packages()
     if lacking:

@@ -30,12 +30,12 @@ from frames.risk import (
     open_campaign,
     sobol_sample,
 )
-from frames.risk.campaign import batches, lock, plan_description
+from frames.risk.campaign import batches, plan_description, store_writing
 from frames.risk.campaign.campaign import usual_batch
 from frames.risk.campaign.designs import with_parameters
-from frames.risk.campaign.lock import locked
 from frames.risk.campaign.plan import Plan, differences
 from frames.risk.campaign.plot_response import failure_table, response_table
+from frames.risk.campaign.store_writing import locked
 from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
 from tests.scenes import small_bearing
@@ -370,7 +370,7 @@ def test_two_campaigns_at_once_are_refused(store: Path) -> None:
 HOLDER = """
 import sys, time
 from pathlib import Path
-from frames.risk.campaign.lock import locked
+from frames.risk.campaign.store_writing import locked
 
 with locked(Path(sys.argv[1])):
     print("held", flush=True)
@@ -399,7 +399,7 @@ def test_the_lock_of_a_process_that_was_killed_is_seized(tmp_path: Path) -> None
 def test_a_package_that_is_missing_is_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(lock, "find_spec", lambda n: None)
+    monkeypatch.setattr(store_writing, "find_spec", lambda n: None)
     with pytest.raises(ImportError, match="need zarr: pip install"):
         convert_campaign(tmp_path / "old", tmp_path / "new")
     with pytest.raises(ImportError, match=r"need filelock: pip install 'lir-dcfp\[campaign\]'"):

@@ -57,13 +57,6 @@ class Batch(NamedTuple):
     reused: int = 0  # runs that were taken over, or are those of another row
 
 
-class TemplateRun(NamedTuple):
-    """What the results database is laid out by: the first model of each name that can be set up."""
-
-    frames: dict[str, Frame]
-    layout: xr.Dataset
-
-
 @dataclass(frozen=True, eq=False)
 class CampaignJob:
     """All that computes batches, wherever that is."""
@@ -114,8 +107,8 @@ class CampaignJob:
                     frame = ""
             yield frame and self.digest(row, frame)
 
-    def reference(self) -> TemplateRun:
-        """Return of each model the first that can be set up, and what runs of these give."""
+    def reference(self) -> tuple[dict[str, Frame], xr.Dataset]:
+        """Return of each model the first that can be set up, and the layout of their results."""
         motion = next(iter(self.motions.values()))
         brief = dict(self.options)
         brief["duration"] = min(motion.duration, _PROBE_STEPS * (brief["dt"] or motion.dt))
@@ -141,7 +134,7 @@ class CampaignJob:
             layout = _untimed(time_histories(found, motion, record=self.read, **brief))
             layout = with_room(layout, self.measures)
             layout[DIGEST] = "run", [""] * layout.sizes["run"], {"long_name": "what each run is of"}
-            return TemplateRun(found, layout.drop_dims(["time", "step"], errors="ignore"))
+            return found, layout.drop_dims(["time", "step"], errors="ignore")
 
 
 def compute(

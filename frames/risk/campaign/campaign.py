@@ -15,16 +15,15 @@ from frames.batch.cases import BatchProgress, grid, named_models, named_motions,
 from frames.frame import Frame
 from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
-from frames.risk.campaign.batches import CampaignJob, TemplateRun, compute
+from frames.risk.campaign.batches import CampaignJob, compute
 from frames.risk.campaign.cluster import over_cluster
-from frames.risk.campaign.lock import lacking_packages
 from frames.risk.campaign.measures import Measure, checked_measures
 from frames.risk.campaign.other_databases import known_runs
 from frames.risk.campaign.plan import Plan, planned_rows
 from frames.risk.campaign.plan_description import described
 from frames.risk.campaign.sampling import ParameterSample, whole
 from frames.risk.campaign.store import CampaignStatus, CampaignStore
-from frames.risk.campaign.store_writing import StoreWriter
+from frames.risk.campaign.store_writing import StoreWriter, lacking_packages
 from frames.risk.fragility.intensity import OWN, IntensityMeasure
 from frames.risk.fragility.scaled_motions import at_one
 from lir_element.argument_checks import require_positive, require_type
@@ -238,33 +237,32 @@ class Campaign:
             What was warned of while models were built and set up.
         """
         told = tell(progress)
-        reference = self._work.reference()
-        plan = described(self._work, reference)
+        frames, layout = self._work.reference()
+        plan = described(self._work, frames)
         stores = [reuse] if isinstance(reuse, (str, Path)) else list(reuse or ())
         known = known_runs(stores, self._work, plan)
         if not self.store.exists:
-            rows = planned_rows(self._work.plan, reference.layout)
-            self._writer.create(plan, rows, reference.layout)
+            self._writer.create(plan, planned_rows(self._work.plan, layout), layout)
         with self._writer.owned():
             self._writer.require_plan(plan, accept_other_sources=accept_other_sources)
             done = set(self.store.batches_done())
             todo = [k for k in range(self._work.plan.batches) if k not in done]
             computed = _Counting(self._work.plan, todo, told)
-            for number, batch in self._computed(reference, computed, client, workers, known):
+            for number, batch in self._computed(layout, computed, client, workers, known):
                 self._writer.write(number, batch)
         _warn(self.store.status())
         return self.results()
 
     def _computed(
         self,
-        reference: TemplateRun,
+        layout: xr.Dataset,
         counting: _Counting,
         client: Any,
         workers: int | None,
         known: Known,
     ) -> Iterator[tuple[int, Batch]]:
         # A cluster computes the batches of which not all is known.
-        layout, work, todo = reference.layout, self._work, counting.todo
+        work, todo = self._work, counting.todo
         here = [
             batch
             for batch in todo

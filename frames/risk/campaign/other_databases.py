@@ -13,11 +13,10 @@ from frames.results.chunks import digest_of
 from frames.results.recorded import with_present_names
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.batches import DIGEST, Batch
-from frames.risk.campaign.lock import lacking_packages
 from frames.risk.campaign.plan import differences, listed
 from frames.risk.campaign.plan_description import FORMAT, OLD
 from frames.risk.campaign.store import CampaignStore
-from frames.risk.campaign.store_writing import StoreWriter
+from frames.risk.campaign.store_writing import StoreWriter, lacking_packages
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from frames.frame import Frame
-    from frames.risk.campaign.batches import CampaignJob, TemplateRun
+    from frames.risk.campaign.batches import CampaignJob
     from lir_element import LIRBearing
 
 FORMAT = 4
@@ -34,7 +34,7 @@ TAKEN_OVER = "gone on with"
 _NOT_COMPARED = {*SOURCES, "provenance", TAKEN_OVER}
 
 
-def described(work: CampaignJob, reference: TemplateRun) -> dict[str, Any]:
+def described(work: CampaignJob, frames: Mapping[str, Frame]) -> dict[str, Any]:
     """Return what a campaign is planned with, as plan.json holds it."""
     plan = work.plan
     options = {name: value for name, value in work.options.items() if name != "features"}
@@ -43,7 +43,6 @@ def described(work: CampaignJob, reference: TemplateRun) -> dict[str, Any]:
     if plan.sample is not None:
         columns = zip(plan.sample.names, plan.sample.values.T, strict=True)
         sample = {name: fingerprint(values) for name, values in columns}
-    frames = reference.frames
     properties: dict[str, Any] = {}
     for name, frame in frames.items():
         properties |= bearing_properties(name, frame)

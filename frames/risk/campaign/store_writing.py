@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import socket
 import uuid
 from collections import Counter
 from contextlib import contextmanager
+from datetime import UTC, datetime
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 import xarray as xr
@@ -15,15 +18,60 @@ import xarray as xr
 from frames.results.chunks import ENDING, digest_of, write_chunk
 from frames.results.storage import make_folder, write_whole
 from frames.risk._errors import CampaignError
-from frames.risk.campaign.lock import locked
 from frames.risk.campaign.plan import listed
 from frames.risk.campaign.plan_description import SOURCES, TAKEN_OVER, unlike
 from frames.risk.campaign.store import HISTORIES, LAYOUT, PLAN, ROWS, RUNS, CampaignStore
 
 if TYPE_CHECKING:
     from collections.abc import Generator, Mapping
+    from pathlib import Path
 
     from frames.risk.campaign.batches import Batch
+
+
+def lacking_packages(*needed: str) -> str:
+    """Return what is missing and how to install it, in a sentence; nothing where all is there."""
+    missing = [name for name in needed or ("filelock",) if find_spec(name) is None]
+    if not missing:
+        return ""
+    return f"campaigns need {' and '.join(missing)}: pip install 'lir-dcfp[campaign]'"
+
+
+@contextmanager
+def locked(path: Path) -> Generator[None, None, None]:
+    """Hold a lock file; that of a process that has died is seized.
+
+    The system lets go of it when its process ends. Who holds it stands in a file beside it, which
+    others can read on every system.
+    """
+    from filelock import FileLock, Timeout
+
+    lock, note = FileLock(path), path.with_name(f"{path.name}-holder.json")
+    try:
+        lock.acquire(timeout=0)
+    except Timeout as cause:
+        msg = (
+            f"{path.parent} is in use by {_holder(note)}: wait until it has ended, or name another "
+            "folder"
+        )
+        raise CampaignError(msg) from cause
+    try:
+        began = datetime.now(UTC).isoformat(timespec="seconds")
+        known = {"pid": os.getpid(), "host": socket.gethostname(), "since": began}
+        write_whole(note, json.dumps(known).encode())
+        yield
+    finally:
+        note.unlink(missing_ok=True)
+        lock.release()
+
+
+def _holder(note: Path) -> str:
+    try:
+        known = json.loads(note.read_text(encoding="utf-8"))
+    except (OSError, json.JSONDecodeError):  # it has just begun, or just ended
+        return "another process"
+    return f"process {known['pid']} on {known['host']} since {known['since']}"
+
 
 _LOCK = "lock"
 
