@@ -48,11 +48,7 @@ _AT_BEARINGS = "at the bearings: what stands out past them moves more where the 
 
 
 def wall_checks(frame: Frame, cases: Sequence[Case], gap: float) -> list[Check]:
-    """Make the checks of the clear distance by time histories.
-
-    The displacement that they ask for with the code's factor, and the largest of all single runs.
-    Notes say whether the runs have the wall, and in how many of them it is met.
-    """
+    """Return the checks of the clear distance by histories as they count, and by single runs."""
     return [check for case in cases for check in _of_histories(frame, case, gap)]
 
 

@@ -47,38 +47,21 @@ BY_MOTION = {
 
 
 class RunCounts(NamedTuple):
-    """What came of the runs of a device.
+    """What came of the runs of a device."""
 
-    Attributes
-    ----------
-    runs, met, stopped, doubtful : int
-        All of them; those that met a rim, stopped before their end, and have a warning of the check
-        of modelling assumptions.
-    """
-
-    runs: int
-    met: int
+    runs: int  # all of them
+    met: int  # those that met a rim, and that stopped before their end
     stopped: int
-    doubtful: int
+    doubtful: int  # those with a warning of the check of modelling assumptions
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Comparison:
-    """Time histories of a project with its bearings, and with rigid sliders in them.
+    """Time histories of a project with its bearings, and with rigid sliders in them."""
 
-    Attributes
-    ----------
-    known : Preliminary
-        Structure, spectrum and motions.
-    runs : Runs
-        Those of both devices, by the tag "device": "LIR-DCFP" and "DCFP".
-    demands : mapping of str to pandas.DataFrame
-        By device: what the runs give for design (see `frames.design.history_demands`), raised by
-        what moved masses do to that device.
-    """
-
-    known: Preliminary
-    runs: Runs
+    known: Preliminary  # structure, spectrum and motions
+    runs: Runs  # those of both devices, by the tag "device": "LIR-DCFP" and "DCFP"
+    # by device: what the runs give for design, raised by what moved masses do to that device
     demands: Mapping[str, pd.DataFrame]
 
     def table(self) -> pd.DataFrame:

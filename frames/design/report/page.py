@@ -41,13 +41,7 @@ _IN_MATH = re.compile(r"(?<=<mn>)[^<]*|(?<=<mtext>)[^<]*")
 
 
 class Words:
-    """Says texts of a report in a language.
-
-    Raises
-    ------
-    ProjectError
-        If there is no such language.
-    """
+    """Says texts of a report in a language; one that is not there raises a ProjectError."""
 
     def __init__(self, language: str = "en", decimal: str = ".", names: Iterable[str] = ()) -> None:
         if language not in LANGUAGES:

@@ -40,25 +40,13 @@ class PlannedRun(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Rows of a campaign: models, sets of parameters, motions, scales, the last change first.
+    """Rows of a campaign: models, sets of parameters, motions, scales, the last change first."""
 
-    Parameters
-    ----------
-    models, motions : tuple of str
-        Names.
-    scales : tuple of float
-        Factors on the motions [-].
-    sample : ParameterSample or None
-        Sets of parameters, if any.
-    batch : int
-        Runs of a batch, which is a chunk of the results database.
-    """
-
-    models: tuple[str, ...]
+    models: tuple[str, ...]  # names
     motions: tuple[str, ...]
-    scales: tuple[float, ...]
-    sample: ParameterSample | None
-    batch: int
+    scales: tuple[float, ...]  # factors on the motions [-]
+    sample: ParameterSample | None  # sets of parameters, if any
+    batch: int  # runs of a batch, which is a chunk of the results database
 
     @property
     def sets(self) -> int:
