@@ -620,7 +620,7 @@ def test_a_governing_run_whose_peaks_are_chance_says_so(done, monkeypatch):
     parts = ProjectInputs(read_project(done / "small.toml"), done)
     known = preliminary(parts)
     runs = Runs(load(done / "out" / "runs-lower.nc"))
-    data = level_runs.governing_run(parts, known.frame, known.motions, runs)
+    data = level_runs.governing_run(parts, known, runs)
     [said] = level_runs.sensitivity_warnings(data)
     share = 100.0 * float(data.attrs["noise_displacement"])
     assert share > 5.0

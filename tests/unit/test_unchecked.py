@@ -174,7 +174,7 @@ def made(name: str, folder: Path) -> Any:
     parts, known = opened(folder, "EN 1998")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        data = project_runs(parts, known.frame, {}, known.motions, None).data
+        data = project_runs(parts, replace(known, moved={}), None).data
         governing = time_history(known.frame, known.motions["pulse"], level="pendulum")
     noise = {f"noise_{key}": 0.0 for key in ("displacement", "base_shear", "rim_force", "slip")}
     assert data["status"].to_numpy().tolist() == ["ok"]

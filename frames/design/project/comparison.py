@@ -128,9 +128,8 @@ def compare_project(
     known = preliminary(parts)
     parts.sources.require_unchanged()
     runs, demands = Runs(), {}
-    for device, frame in _frames_of(known.frame).items():
-        ways = {way: _frames_of(moved)[device] for way, moved in known.moved.items()}
-        own = project_runs(parts, frame, ways, known.motions, progress)
+    for device in (OURS, PLAIN):
+        own = project_runs(parts, _with(device, known), progress)
         demands[device] = demands_at_levels(cases_of(own, parts.rules()))
         runs += Runs(*(tagged(part, **{DEVICE: device}) for part in own.parts))
     known = replace(known, doubts=(*known.doubts, *parts.sources.warn_of_changes()))
@@ -145,16 +144,23 @@ def compared_histories(
     given, data = parts.file.analysis, {}
     with warnings.catch_warnings():  # as told of the same run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
-        for device, frame in _frames_of(found.known.frame).items():
-            model, motion = model_and_motion(parts, frame, found.known.motions, worst)
+        for device in (OURS, PLAIN):
+            model, motion = model_and_motion(parts, _with(device, found.known), worst)
             data[device] = time_history(model, motion, level=given.level, dt=given.dt)
     where = list(found.known.frame.bearings)[int(np.argmax(worst.of("peak_displacement")[0]))]
     return data, named_case(worst), where
 
 
-def _frames_of(frame: Frame) -> dict[str, Frame]:
-    plain = {name: link.bearing.as_dcfp() for name, link in frame.bearings.items()}
-    return {OURS: frame, PLAIN: frame.with_bearings(plain)}
+def _with(device: str, known: Preliminary) -> Preliminary:
+    # A project on its bearings, or on the same ones with rigid sliders.
+    if device == OURS:
+        return known
+
+    def plain(frame: Frame) -> Frame:
+        return frame.with_bearings({n: k.bearing.as_dcfp() for n, k in frame.bearings.items()})
+
+    moved = {way: plain(frame) for way, frame in known.moved.items()}
+    return replace(known, frame=plain(known.frame), moved=moved)
 
 
 def _largest(runs: Runs, name: str) -> FloatArray:

@@ -155,9 +155,8 @@ def run_project(
     """Run a project: equivalent-linear analysis, time histories at each level and bound, checks."""
     known = preliminary(parts)
     parts.sources.require_unchanged()
-    runs = project_runs(parts, known.frame, known.moved, known.motions, progress, resume)
-    governing = governing_run(parts, known.frame, known.motions, runs)
-    return evaluate_run(parts, known, runs, governing)
+    runs = project_runs(parts, known, progress, resume)
+    return evaluate_run(parts, known, runs, governing_run(parts, known, runs))
 
 
 @keeping_texts

@@ -12,8 +12,8 @@ from frames.batch.runs import BOUND, HAZARD, MASS_SHIFT, Runs, tagged
 from frames.batch.time_histories import time_histories
 from frames.design._errors import ProjectError
 from frames.design.codes.bounds import with_property_bounds
-from frames.design.histories.eccentricity import WAYS
-from frames.design.histories.suite import stopped_in, suite_of
+from frames.design.histories.eccentricity import WAYS, cases_of
+from frames.design.histories.suite import stopped_in
 from frames.recording.recording import Recording
 from frames.results.peak_response import largest
 from frames.results.quantities import QUANTITIES
@@ -31,9 +31,10 @@ if TYPE_CHECKING:
 
     from frames.batch.cases import BatchProgress
     from frames.design.codes.bounds import BoundName
-    from frames.design.codes.history_rules import HistoryRules
     from frames.design.hazard.motion_set import MotionSet
+    from frames.design.histories.eccentricity import Case
     from frames.design.project.inputs import ProjectInputs
+    from frames.design.project.preliminary import Preliminary
     from frames.frame import Frame
     from frames.motion.ground_motion import GroundMotion
 
@@ -43,9 +44,9 @@ _WATCHED = ("displacement", "base_shear", "rim_force", "slip")
 _ATTRIBUTE = "noise_"  # begins the attributes that keep the differences
 
 
-def governing_run(parts: ProjectInputs, frame: Frame, motions: MotionSet, runs: Runs) -> xr.Dataset:
+def governing_run(parts: ProjectInputs, known: Preliminary, runs: Runs) -> xr.Dataset:
     """Return the histories of the run that displaces a bearing most, run once more to keep them."""
-    model, motion = model_and_motion(parts, frame, motions, most_displaced(runs))
+    model, motion = model_and_motion(parts, known, most_displaced(runs))
     given = parts.file.analysis
     with warnings.catch_warnings():  # as told of the same run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
@@ -63,14 +64,14 @@ def governing_run(parts: ProjectInputs, frame: Frame, motions: MotionSet, runs: 
 
 
 def model_and_motion(
-    parts: ProjectInputs, frame: Frame, motions: MotionSet, one: Runs
+    parts: ProjectInputs, known: Preliminary, one: Runs
 ) -> tuple[Frame, GroundMotion]:
     """Return the structure at the bound of a run, and its motion at the level of that run."""
     level, bound, name = (str(one.of(tag)[0]) for tag in (HAZARD, BOUND, "motion"))
-    motion = motions[name].scaled(parts.rules().level(level).factor)
+    motion = known.motions[name].scaled(parts.rules().level(level).factor)
     if not bound:
-        return frame, motion
-    return with_property_bounds(frame, cast("BoundName", bound), parts.bounds()), motion
+        return known.frame, motion
+    return with_property_bounds(known.frame, cast("BoundName", bound), parts.bounds()), motion
 
 
 def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
@@ -123,30 +124,28 @@ MOVED = "moved"
 
 def project_runs(
     parts: ProjectInputs,
-    frame: Frame,
-    moved: Mapping[str, Frame],
-    motions: MotionSet,
+    known: Preliminary,
     progress: Callable[[BatchProgress], None] | bool | None,
     resume: Path | None = None,
 ) -> Runs:
     """Run a project's time histories at each level and bound, then those with moved masses."""
-    given, rules = parts.file.analysis, parts.rules()
+    given, rules, motions = parts.file.analysis, parts.rules(), known.motions
     own = [
         (level.name, bound, "", name)
         for level in rules.levels
         for bound in given.bounds
         for name in motions
     ]
-    runs = _of_all(parts, {"": frame}, motions, own, progress, resume)
-    if not moved:
+    runs = _of_all(parts, {"": known.frame}, motions, own, progress, resume)
+    if not known.moved:
         return runs
     rows = []
-    for (level, bound), each in runs.by(HAZARD, BOUND).items():
+    for case in cases_of(runs, rules):
         is_all = given.accidental_eccentricity_motions == "all"
-        names = list(motions) if is_all else [governing_motion(each.data, rules)]
-        rows += [(level, bound, way, name) for way in moved for name in names]
+        names = list(motions) if is_all else [governing_motion(case)]
+        rows += [(case.level, case.bound, way, name) for way in known.moved for name in names]
     kept = None if resume is None else resume / MOVED
-    return runs + _of_all(parts, moved, motions, rows, progress, kept)
+    return runs + _of_all(parts, known.moved, motions, rows, progress, kept)
 
 
 def _of_all(
@@ -188,12 +187,12 @@ def _of_all(
     return Runs(tagged(data, **{HAZARD: levels, BOUND: bounds, MASS_SHIFT: ways}))
 
 
-def governing_motion(data: xr.Dataset, rules: HistoryRules) -> str:
+def governing_motion(case: Case) -> str:
     """Return the motion that displaces a bearing most, of the runs that count if any do."""
-    reached = data["peak_displacement"].max("bearing").to_numpy()
-    failed = np.array(suite_of(data, rules).failed)
+    reached = case.data["peak_displacement"].max("bearing").to_numpy()
+    failed = np.array(case.suite.failed)
     counted = reached if failed.all() else np.where(failed, -np.inf, reached)
-    return str(data["motion"].to_numpy()[int(np.argmax(counted))])
+    return str(case.data["motion"].to_numpy()[int(np.argmax(counted))])
 
 
 def said_of_runs(parts: ProjectInputs, motions: MotionSet) -> str:
