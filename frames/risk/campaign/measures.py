@@ -138,21 +138,13 @@ def with_room(data: xr.Dataset, measures: Mapping[str, Measure]) -> xr.Dataset:
     if twice:
         msg = f'the measure "{twice[0]}" has the name of a quantity of frames.peaks: give another'
         raise CampaignError(msg)
-    count = len(measures)
-    found: dict[str, Any] = {}
-    for name, variable in data.variables.items():
-        if variable.dims[-1:] == ("quantity",) and name not in {"quantity", "unit"}:
-            is_text = variable.dtype.kind != "f"
-            room = np.full((*variable.shape[:-1], count), "" if is_text else np.nan)
-            values = variable.to_numpy()
-            room = room.astype(object) if is_text else room
-            found[str(name)] = (variable.dims, np.concatenate([values, room], -1), variable.attrs)
+    texts = {str(name): "" for name, own in data.variables.items() if own.dtype.kind != "f"}
+    found = data.reindex(quantity=[*names, *measures], fill_value=texts)
     units = [*map(str, data["unit"].to_numpy()), *(each.unit for each in measures.values())]
-    new = data.drop_dims("quantity").assign(found)
-    return new.assign_coords(
+    return found.assign_coords(
         quantity=np.array([*names, *measures]),
         unit=("quantity", np.array(units), data["unit"].attrs),
-    )[[*data.data_vars]]
+    )
 
 
 def evaluate(
