@@ -26,7 +26,7 @@ from scipy.optimize import brentq
 
 from frames import gravity, time_history
 from frames.design import bounded_histories, history_demands, pair_spectrum, with_property_bounds
-from frames.design.histories.demand_table import COUNTED, bounds_of
+from frames.design.histories.demand_table import COUNTED
 from frames.design.project.design_run import evaluate_run, run_project
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import preliminary
@@ -156,7 +156,8 @@ def demands_by_bound(table: pd.DataFrame) -> dict[str, dict[str, float]]:
     if "level" in table.columns:  # the first one, where there are two
         table = table[table["level"] == table["level"].iloc[0]]
     rows = [row for row in ROWS if row in table.index]
-    found = {c: {row: float(table[c][row]) for row in rows} for c in bounds_of(table)}
+    bounds = [name for name in ("lower", "nominal", "upper", "value") if name in table.columns]
+    found = {c: {row: float(table[c][row]) for row in rows} for c in bounds}
     worst = {row: float(table["worst"][row]) for row in rows if row in COUNTED}
     return found | {"envelope": {row: float(table["envelope"][row]) for row in rows} | worst}
 

@@ -27,8 +27,6 @@ if TYPE_CHECKING:
 COUNTED = {DEMANDS[name].demand for name in ("uplifts", "time_lifted", "gap")}
 """Rows of uplift, of which codes without uplift leave small gaps aside."""
 
-_ENDS = ("unit", "envelope", "where", "worst", "run", "note", "void", "level")
-
 
 def demand_table(cases: Sequence[Case]) -> pd.DataFrame:
     """Return what time histories give for design at each bound: see `history_demands`."""
@@ -186,11 +184,6 @@ def headed(table: pd.DataFrame) -> pd.DataFrame:
         "run": "in run",
     }
     return table.drop(columns="void").rename(columns=heads)
-
-
-def bounds_of(table: pd.DataFrame) -> list[str]:
-    """Return the columns of a table of demands that are of one bound each."""
-    return [str(name) for name in table.columns if name not in _ENDS]
 
 
 def envelope_said(table: pd.DataFrame) -> str:

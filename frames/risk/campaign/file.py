@@ -108,11 +108,6 @@ def _frame(file: CampaignFile, path: Path) -> Frame:
     return frame.combined(WEIGHS) if frame.load_cases else frame
 
 
-def workers_of(given: CampaignFile | str | Path) -> int | None:
-    """Return how many runs at a time a campaign's file asks for."""
-    return _read(given).analysis.workers
-
-
 def fragility_in(given: CampaignFile | str | Path) -> FragilityTable | None:
     """Return the limit states and the measure of intensity that a campaign's file asks for."""
     return _read(given).fragility
