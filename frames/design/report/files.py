@@ -71,17 +71,14 @@ def write_judgement(
     for stale in ("view.html", "report.pdf"):  # with the checks of before
         (folder / stale).unlink(missing_ok=True)
     tables = run_tables(run)
-    for name in TABLES_OF_FORCES:
+    for name in (*TABLES_OF_FORCES, ECCENTRICITY):
         if not len(tables.get(name, ())):  # those of an earlier run, of another structure
             (folder / f"{name}.csv").unlink(missing_ok=True)
             tables.pop(name, None)
-    indexed = {
-        name: table for name, table in tables.items() if name not in {ECCENTRICITY, BY_MOTION}
-    }
+    bare = {ECCENTRICITY, BY_MOTION}  # without an index
     texts = {
         "project.toml": source,
-        **{f"{name}.csv": csv_of(table) for name, table in indexed.items()},
-        f"{BY_MOTION}.csv": csv_of(tables[BY_MOTION], index=False),
+        **{f"{name}.csv": csv_of(table, index=name not in bare) for name, table in tables.items()},
         "equivalent-linear.csv": csv_of(run.equivalent.to_dataframe()),
         "demands.csv": csv_of(headed(run.demands).assign(void=run.demands["void"])),
         "provisions.csv": csv_of(pd.DataFrame(run.provisions), index=False),
@@ -89,17 +86,10 @@ def write_judgement(
         "checks.txt": calculations(run),
         "report.html": report_html(run, source, tables, figures=figures, language=language),
     }
-    if len(tables[ECCENTRICITY]):
-        texts[f"{ECCENTRICITY}.csv"] = csv_of(tables[ECCENTRICITY], index=False)
-    else:  # of an earlier run
-        (folder / f"{ECCENTRICITY}.csv").unlink(missing_ok=True)
     texts["run.json"] = json.dumps(_facts(run, folder), indent=2) + "\n"
-    written = []
     for name, text in texts.items():
-        path = folder / name
-        write_whole(path, text)
-        written.append(path)
-    return written
+        write_whole(folder / name, text)
+    return [folder / name for name in texts]
 
 
 def read_histories(folder: Path, inputs: Mapping[str, str]) -> tuple[Runs, xr.Dataset]:

@@ -134,7 +134,9 @@ def report_in(
             (level, said, fit(page_table(part, "quantity")))
             for level, said, part in tables_of_levels(run.demands)
         ],
-        raised=[words.table(part) for part in raised_tables(tables[ECCENTRICITY])],
+        raised=[
+            words.table(part) for part in raised_tables(tables.get(ECCENTRICITY, pd.DataFrame()))
+        ],
         eccentricity=eccentricity_said(run),
         by_motion=[words.table(part) for part in motion_tables(tables[BY_MOTION])],
         levels=_levels(run),
