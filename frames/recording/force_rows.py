@@ -16,7 +16,7 @@ from frames.assembly.members import at_ends
 from frames.assembly.system import element_dofs
 from frames.model.components import TaperedLoad
 from frames.model.load_combinations import SpanLoad, applied_loads
-from frames.recording.section_cuts import cuts, resultant
+from frames.recording.section_cuts import storey_feet
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -260,18 +260,11 @@ def _uniform(load: FloatArray, length: float) -> TaperedLoad:
 
 
 def _storey_rows(system: System, axial: FloatArray, levels: Sequence[Level]) -> _Rows:
-    # At the foot of each storey, about the middle of the nodes of the level below.
     bearings, deformations = len(system.bearings), system.parts.node_rows.shape[0]
     q = [sparse.csr_array((0, system.transform.shape[1]))]
     beyond = [sparse.csr_array((0, deformations))]
     under, rest = [sparse.csr_array((0, 12 * bearings))], [np.zeros(0)]
-    found = cuts(system, axial, [level.z for level in levels]) if levels else []
-    for k, cut in enumerate(found):
-        nodes = [system.node_names.index(name) for name in levels[max(k - 1, 0)].nodes]
-        middle = system.coordinates[nodes].mean(axis=0)
-        lower, upper = (
-            resultant(system.coordinates, middle, part) for part in (~cut.above, cut.above)
-        )
+    for cut, lower, upper in storey_feet(system, axial, levels):
         q.append(sparse.csr_array(-(lower @ cut.rows @ system.transform)))
         beyond.append(sparse.csr_array(-(lower @ system.parts.node_rows.T)))
         rest.append(-np.asarray(lower @ cut.constant))

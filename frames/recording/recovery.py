@@ -27,7 +27,7 @@ from frames.assembly.system import element_dofs
 from frames.model.axes import to_local
 from frames.model.components import DOFS
 from frames.recording.nonlinear_results import forces_beyond
-from frames.recording.section_cuts import cuts, resultant
+from frames.recording.section_cuts import storey_feet
 from frames.results.envelopes import envelope
 from frames.results.recorded import noted, require_recorded, require_steps
 from frames.statics.springs import first_displacement
@@ -358,12 +358,7 @@ def _support_reactions(found: _Structure) -> xr.DataArray:
 def _storey_forces(found: _Structure, levels: tuple[Level, ...]) -> xr.DataArray:
     system = found.system
     values = np.zeros((len(found.u), len(levels), 6))
-    for k, cut in enumerate(cuts(system, found.axial, [level.z for level in levels])):
-        nodes = [system.node_names.index(name) for name in levels[max(k - 1, 0)].nodes]
-        middle = system.coordinates[nodes].mean(axis=0)
-        lower, upper = (
-            resultant(system.coordinates, middle, part) for part in (~cut.above, cut.above)
-        )
+    for k, (cut, lower, upper) in enumerate(storey_feet(system, found.axial, levels)):
         values[:, k] = -np.asarray((lower @ cut.rows) @ found.u.T).T - lower @ cut.constant
         values[:, k] -= np.asarray((lower @ system.parts.node_rows.T) @ found.beyond.T).T
         upper_ends = np.column_stack([np.zeros_like(cut.crossed), cut.crossed])

@@ -12,10 +12,11 @@ from frames.assembly.assemble import scatter
 from frames.model.axes import matrix_to_global, to_global
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
     from frames.assembly.system import System
+    from frames.model.components import Level
 
 _LEVEL = 1e-6  # m: nodes that are no higher than this over a level are of it
 
@@ -69,6 +70,20 @@ def cuts(system: System, axial: FloatArray, heights: Sequence[float]) -> list[Se
         crossed = np.array([bool(above[b.j] and not above[b.i]) for b in system.bearings])
         found.append(SectionCut(above, rows, constant, crossed))
     return found
+
+
+def storey_feet(
+    system: System, axial: FloatArray, levels: Sequence[Level]
+) -> Iterator[tuple[SectionCut, SparseMatrix, SparseMatrix]]:
+    """Yield the cut at each storey's foot, and rows that sum up forces below and above it."""
+    # moments are about the middle of the nodes of the level below
+    for k, cut in enumerate(cuts(system, axial, [level.z for level in levels]) if levels else ()):
+        nodes = [system.node_names.index(name) for name in levels[max(k - 1, 0)].nodes]
+        middle = system.coordinates[nodes].mean(axis=0)
+        lower, upper = (
+            resultant(system.coordinates, middle, part) for part in (~cut.above, cut.above)
+        )
+        yield cut, lower, upper
 
 
 def storey_rows(system: System, axial: FloatArray, heights: Sequence[float]) -> StoreyRows:
