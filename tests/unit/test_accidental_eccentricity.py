@@ -225,6 +225,8 @@ def test_all_motions_are_compared_as_the_code_counts_them(ran: Path) -> None:
     ]
     beside = xr.concat(ways, "run", data_vars="minimal", coords="minimal", compat="override")
     table = history_demands(many, "ASCE 7-22", moved=beside)
+    old = beside.rename(mass_shift="masses_moved")  # of version 0.2
+    assert history_demands(many, "ASCE 7-22", moved=old).equals(table)
     steps = many.rename_dims(time="step").drop_vars("time")  # of runs whose steps are their own
     steps = steps.assign_coords(time=(("run", "step"), np.zeros((8, many.sizes["time"]))))
     assert history_demands(steps, "ASCE 7-22", moved=beside).equals(table)
