@@ -198,9 +198,15 @@ class _Runs:
         first = self._distinct(frames, {key: whole[key] for key in frames})
         same = {own[0]: own for own in self.same.values()}
         self.reused = sum(map(len, same.values())) - sum(map(len, first.values()))
-        for digest in [digest for digest in self.same if digest in self._known]:
-            data, row = self._known[digest]
-            yield self.same[digest], data.isel(run=[row] * len(self.same[digest]))
+        there: dict[int, tuple[xr.Dataset, list[int], list[int]]] = {}  # by database
+        for digest, own in self.same.items():
+            if digest in self._known:
+                data, row = self._known[digest]
+                _, places, rows_there = there.setdefault(id(data), (data, [], []))
+                places += own
+                rows_there += [row] * len(own)
+        for data, places, rows_there in there.values():
+            yield places, data.isel(run=rows_there)
         for places, found in self._parts(frames, first):
             taken = sorted((row, k) for k, one in enumerate(places) for row in same[one])
             own = [row for row, _ in taken]
