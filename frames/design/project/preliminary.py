@@ -18,8 +18,8 @@ from frames.design.codes.analysis import equivalent_linear
 from frames.design.hazard.motion_collection import factor_doubts, twins
 from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
-from frames.design.project.check_register import clearance_checks
 from frames.design.project.inputs import in_section
+from frames.design.project.moat_checks import clearance_checks
 from frames.design.project.sanity_checks import file_doubts, value_doubts, wind_doubts
 from frames.design.project.schema_structure import ImportedModel, OpenSeesModel
 from frames.library.moved_masses import with_moved_masses
