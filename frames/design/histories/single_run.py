@@ -83,12 +83,10 @@ def impact_checks(
 
     Examples
     --------
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from lir_element import CoulombFriction, LIRBearing
-    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.1, capacity=0.175,
-    ...                      friction=CoulombFriction(0.066), interface_friction=0.15)
-    >>> pulse = GroundMotion(x=[0.0, 2.0, 0.0, -2.0, 0.0], dt=0.2)
-    >>> frame = lumped_mass(bearing, 15e3)
+    >>> from frames import time_history
+    >>> from frames.demo import example
+    >>> from frames.design import impact_checks
+    >>> frame, pulse = example(0.5)
     >>> impact_checks(time_history(frame, pulse), frame).passed
     True
     """
@@ -307,12 +305,11 @@ def resultant_offsets(
 
     Examples
     --------
-    >>> from frames import GroundMotion, lumped_mass, time_history
-    >>> from lir_element import CoulombFriction, LIRBearing
-    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.1, capacity=0.175,
-    ...                      friction=CoulombFriction(0.066), interface_friction=0.15)
-    >>> pulse = GroundMotion(x=[0.0, 2.0, 0.0, -2.0, 0.0], dt=0.2)
-    >>> table = resultant_offsets(time_history(lumped_mass(bearing, 15e3), pulse))
+    >>> from frames import time_history
+    >>> from frames.demo import example
+    >>> from frames.design import resultant_offsets
+    >>> frame, pulse = example(0.5)
+    >>> table = resultant_offsets(time_history(frame, pulse))
     >>> table["rims"].tolist(), float(table["time_above"][0])
     (['none'], 0.0)
     """

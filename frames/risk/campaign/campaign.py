@@ -97,16 +97,11 @@ class Campaign:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames import GroundMotion, lumped_mass
+    >>> from frames.demo import example
     >>> from frames.risk import Campaign, full_grid
-    >>> from lir_element import CoulombFriction, LIRBearing
-    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-    ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
-    >>> pulse = GroundMotion(x=np.sin(np.linspace(0.0, 6.28, 101)), dt=0.01, name="pulse")
-    >>> campaign = Campaign(lumped_mass(bearing, 1e5), pulse, store="runs", scales=[1.0, 2.0],
-    ...                     sample=full_grid({"friction": [0.05, 0.06]}))
-    >>> campaign
+    >>> frame, pulse = example(1.0)
+    >>> sample = full_grid({"friction": [0.05, 0.06]})
+    >>> Campaign(frame, pulse, store="runs", scales=[1.0, 2.0], sample=sample)
     Campaign('runs': 4 runs = 1 models x 2 sets of parameters x 1 motions x 2 scales)
     """
 
