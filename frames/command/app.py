@@ -112,7 +112,7 @@ def check(file: File = FILE) -> None:
         ground = preliminary(parts)
         say(parts.code().cited)
         say(text_table(structure_rows(parts.file, ground.frame, ground.spectrum), left=2))
-        for kind, columns in columns_by_type(ground.types).items():
+        for kind, columns in columns_by_type(ground.kinds).items():
             say(f"type {kind}: {', '.join(columns)}")
         say(str(ground.frame.check()))
         _frame_table("Motions", ground.motions.table())

@@ -39,6 +39,7 @@ from frames.design.codes.code_values import (
     not_checked,
     states_of,
 )
+from frames.design.project.check_register import Preliminary
 from frames.design.project.design_run import (
     ProjectRun,
     evaluate_run,
@@ -47,7 +48,7 @@ from frames.design.project.design_run import (
 )
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.level_runs import project_runs
-from frames.design.project.preliminary import Preliminary, preliminary
+from frames.design.project.preliminary import preliminary
 from frames.design.project.reading import read_project
 from frames.design.report.figures import VOID_TITLE, motions_figure
 from frames.design.report.page import Words

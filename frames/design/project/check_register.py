@@ -55,7 +55,27 @@ class TypeOfBearing(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class RunToCheck:
+class Preliminary:
+    """What is known of a project before its time histories."""
+
+    frame: Frame  # on its bearings, friction nominal, under the average combination of loads
+    system: IsolationSystem  # the bearings with their places, and their loads in all combinations
+    spectrum: Spectrum  # the design spectrum
+    superstructure: Superstructure | None  # what stands on the bearings
+    equivalent: EquivalentLinear  # equivalent-linear analysis at both bounds
+    motions: MotionSet  # scaled as the file asks
+    # the structure with its floors' masses moved, by the way; none where accidental
+    # eccentricity is left out
+    moved: Mapping[str, Frame] = field(default_factory=dict)
+    kinds: Mapping[str, str] = field(default_factory=dict)  # type of each bearing of the frame
+    # what was warned of on the way: of the file, the bearing and the motions
+    doubts: tuple[str, ...] = ()
+    # those of the equivalent-linear analysis, and of the clear distance to walls by it
+    checks: Checks = field(default_factory=Checks)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RunToCheck(Preliminary):
     """All that is known of a project when its checks are made.
 
     Attributes
@@ -93,6 +113,10 @@ class RunToCheck:
         What the time histories ask of the bearings.
     types : mapping of str to TypeOfBearing
         Types of bearings, with what the time histories ask of each.
+    moved, kinds : mapping of str to Frame, of str to str
+        The structure with its masses moved, by the way; the type of each of its bearings.
+    doubts, checks : tuple of str, Checks
+        What of the input was warned of; checks that need no time history.
 
     Examples
     --------
@@ -100,13 +124,7 @@ class RunToCheck:
     """
 
     code: DesignCode
-    frame: Frame
     bearing: LIRBearing
-    system: IsolationSystem
-    superstructure: Superstructure | None
-    spectrum: Spectrum
-    motions: MotionSet
-    equivalent: EquivalentLinear
     runs: Runs
     cases: list[Case]
     demands: pd.DataFrame

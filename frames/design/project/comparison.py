@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.batch.cases import BatchProgress
+    from frames.design.project.check_register import Preliminary
     from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.preliminary import Preliminary
     from frames.frame import Frame
 
 OURS, PLAIN = "LIR-DCFP", "DCFP"

@@ -45,8 +45,8 @@ if TYPE_CHECKING:
     from frames.design.calculation.check import Check
     from frames.design.codes.code_values import ProvisionState
     from frames.design.codes.registry import DesignCode
+    from frames.design.project.check_register import Preliminary
     from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.preliminary import Preliminary
     from frames.design.project.schema import ProjectTable
     from frames.statics.model_check import ModelCheck
 
@@ -96,8 +96,7 @@ def from_memory(code: DesignCode) -> tuple[str, ...]:
 class ProjectRun(RunToCheck):
     """What a project's run gives: all that its checks are made of, and what comes of it."""
 
-    # of the time histories, the bearing, and the equivalent-linear analysis they do not replace
-    checks: Checks
+    # its checks are all that were made, its doubts those of the governing run as well
     model: ModelCheck  # totals of the structure
     governing: xr.Dataset  # histories of the run that displaces a bearing most
     # digests of what the time histories depend on, by section of the file
@@ -105,7 +104,6 @@ class ProjectRun(RunToCheck):
     programme: pd.DataFrame  # tests that prove the bearings
     # ``[project]`` of the file: name, client, engineer, checker, revision, date
     about: ProjectTable
-    doubts: tuple[str, ...] = ()  # what of the input was warned of
     structure: tuple[tuple[str, str], ...] = ()  # what the structure is, in words
     # provisions of the code: checked, not checked and why, or the engineer's
     provisions: tuple[ProvisionState, ...] = ()
@@ -140,11 +138,6 @@ class ProjectRun(RunToCheck):
                     found[word, label] = case, data
         return found
 
-    @property
-    def kinds(self) -> dict[str, str]:
-        """Type of each bearing by its name: "standard", or of ``[bearings.<type>]``."""
-        return {name: key for key, each in self.types.items() for name in each.columns}
-
 
 def run_project(
     parts: ProjectInputs,
@@ -169,14 +162,9 @@ def evaluate_run(
     types = _types(parts, known, levels_of(cases)[rules.bearing_level])
     asked = _of_all(types)
     run = RunToCheck(
+        **vars(known),
         code=parts.code(),
-        frame=known.frame,
         bearing=parts.bearing(),
-        system=known.system,
-        superstructure=known.superstructure,
-        spectrum=known.spectrum,
-        motions=known.motions,
-        equivalent=known.equivalent,
         runs=runs,
         cases=cases,
         demands=demands_at_levels(cases),
@@ -187,19 +175,14 @@ def evaluate_run(
         types=types,
     )
     checks = Checks(checks_of(run))
+    heard = (*sensitivity_warnings(governing), *parts.sources.warn_of_changes())
     return ProjectRun(
-        **vars(run),
-        checks=checks,
+        **(vars(run) | {"checks": checks, "doubts": (*known.doubts, *heard)}),
         model=run.frame.check(),
         governing=governing,
         inputs=inputs_of(parts, known),
         programme=_programme(parts, known, governing, asked),
         about=parts.file.project,
-        doubts=(
-            *known.doubts,
-            *sensitivity_warnings(governing),
-            *parts.sources.warn_of_changes(),
-        ),
         structure=tuple(structure_rows(parts.file, run.frame, known.spectrum)),
         provisions=provisions_of(parts, known, checks),
         tables=parts.sources.tables,
@@ -226,7 +209,7 @@ def _types(
         ]
     )
     for kind, bearing in parts.devices().items():
-        columns = tuple(name for name, each in known.types.items() if each == kind)
+        columns = tuple(name for name, each in known.kinds.items() if each == kind)
         places = [k for k, name in enumerate(known.frame.bearings) if name in columns]
         if not places:
             continue

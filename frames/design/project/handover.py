@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from frames.design.codes.bounds import BoundName
     from frames.design.codes.outcome import BoundResult
+    from frames.design.project.check_register import Preliminary
     from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.preliminary import Preliminary
     from frames.frame import Frame
 
 Program = Literal["etabs", "sap2000"]
@@ -86,7 +86,7 @@ def _links(known: Preliminary, frame: Frame, result: BoundResult) -> list[dict[s
         found = pendulum_link(link.bearing, loads[name], d)
         numbers = {head: getattr(found, key) for key, head in _LINK.items()}
         rows.append(
-            {"bearing": name, "type": known.types.get(name, ""), "bound": result.bound}
+            {"bearing": name, "type": known.kinds.get(name, ""), "bound": result.bound}
             | {"load [N]": loads[name], "displacement [m]": d}
             | numbers
             | {"damping ratio [-]": 2.0 * found.fast * loads[name] / (np.pi * found.effective * d)}

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from frames.design.codes.bounds import BoundName
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.histories.eccentricity import Case
+    from frames.design.project.check_register import Preliminary
     from frames.design.project.inputs import ProjectInputs
-    from frames.design.project.preliminary import Preliminary
     from frames.frame import Frame
     from frames.motion.ground_motion import GroundMotion
 

@@ -6,18 +6,17 @@ import hashlib
 import json
 import math
 import warnings
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
 from frames._errors import ModelError, ModelWarning, MotionWarning, without_numbers
 from frames.design._errors import ProjectError
-from frames.design.calculation.check import Checks
 from frames.design.codes.analysis import equivalent_linear
 from frames.design.hazard.motion_collection import factor_doubts, twins
 from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
+from frames.design.project.check_register import Preliminary
 from frames.design.project.inputs import in_section
 from frames.design.project.moat_checks import clearance_checks
 from frames.design.project.sanity_checks import file_doubts, value_doubts, wind_doubts
@@ -28,33 +27,11 @@ from lir_element._version import package_version
 from lir_element.texts import worded
 
 if TYPE_CHECKING:
-    from frames.design.codes.isolation import IsolationSystem
     from frames.design.codes.outcome import EquivalentLinear
-    from frames.design.codes.superstructure import Superstructure
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
     from frames.frame import Frame
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Preliminary:
-    """What is known of a project before its time histories."""
-
-    frame: Frame  # on its bearings, friction nominal, under the average combination of loads
-    system: IsolationSystem  # the bearings with their places, and their loads in all combinations
-    spectrum: Spectrum  # the design spectrum
-    superstructure: Superstructure | None  # what stands on the bearings
-    equivalent: EquivalentLinear  # equivalent-linear analysis at both bounds
-    motions: MotionSet  # scaled as the file asks
-    # the structure with its floors' masses moved, by the way; none where accidental
-    # eccentricity is left out
-    moved: Mapping[str, Frame] = field(default_factory=dict)
-    types: Mapping[str, str] = field(default_factory=dict)  # type of each bearing of the frame
-    # what was warned of on the way: of the file, the bearing and the motions
-    doubts: tuple[str, ...] = ()
-    # those of the equivalent-linear analysis, and of the clear distance to walls by it
-    checks: Checks = field(default_factory=Checks)
 
 
 def preliminary(parts: ProjectInputs) -> Preliminary:
@@ -95,8 +72,8 @@ def _made(parts: ProjectInputs) -> Preliminary:
         superstructure=above,
         code=parts.analysis(),
     )
-    types = parts.types()
-    _warn(value_doubts(parts.file, system, equivalent, parts.devices(), types))
+    kinds = parts.types()
+    _warn(value_doubts(parts.file, system, equivalent, parts.devices(), kinds))
     motions = scaled_motions(parts, spectrum, equivalent)
     _refuse_steps(parts, motions)
     room = clearance_checks(parts.code(), equivalent, parts.limits(), frame)
@@ -108,7 +85,7 @@ def _made(parts: ProjectInputs) -> Preliminary:
         equivalent=equivalent,
         motions=motions,
         moved=moved_frames(parts, frame),
-        types=types,
+        kinds=kinds,
         checks=equivalent.checks + room,
     )
 
