@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from frames.design import MotionSet
     from frames.design.codes.bounds import BoundName
     from frames.design.codes.outcome import BoundResult
-    from frames.design.project.preliminary import Preliminary
+    from frames.design.project.check_register import Preliminary
 
 NAME = "worked_building"
 GUIDE = FOLDER.parent / "design_guide.md"
