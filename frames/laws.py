@@ -8,14 +8,6 @@ from frames.model.laws import Pinching as Pinching
 from frames.model.laws import PlasticHinge as PlasticHinge
 from frames.model.laws import Tie as Tie
 from frames.model.laws import ViscousDamper as ViscousDamper
+from lir_element import _lazy
 
-__all__ = [
-    "Bilinear",
-    "BoucWen",
-    "Gap",
-    "HertzGap",
-    "Pinching",
-    "PlasticHinge",
-    "Tie",
-    "ViscousDamper",
-]
+__all__ = _lazy.listed(__file__)

@@ -24,25 +24,4 @@ if TYPE_CHECKING:
 if not TYPE_CHECKING:  # noqa: RUF067  # a checker of types would take any name for one of these
     from lir_element._lazy import lazily
 
-    __getattr__, __dir__ = lazily(__name__, __file__)
-
-
-__all__ = [
-    "AnalysisError",
-    "AnalysisInterrupted",
-    "AnalysisWarning",
-    "BackupSupport",
-    "CoulombFriction",
-    "DesignWarning",
-    "Element",
-    "Features",
-    "FrictionHeating",
-    "FrictionLaw",
-    "LIRBearing",
-    "MeasuredFriction",
-    "PressureDependence",
-    "RunStatus",
-    "VelocityFriction",
-    "cyclic_test",
-    "ring_strength",
-]
+    __getattr__, __dir__, __all__ = lazily(__name__, __file__)

@@ -1,7 +1,7 @@
-"""Names of a package that are imported when they are first asked for: it starts without the rest.
+"""Names that a package has for others: each stands once, as an import "from m import a as a".
 
-They stand in its ``__init__.py`` as imports under ``if TYPE_CHECKING:``, where checkers of types
-and readers find them; nothing names them twice.
+Under ``if TYPE_CHECKING:``, where checkers of types and readers find them, they are imported when
+they are first used: the package starts without the rest.
 """
 
 from __future__ import annotations
@@ -17,9 +17,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
-def lazily(package: str, file: str) -> tuple[Callable[[str], Any], Callable[[], list[str]]]:
-    """Return what a package takes as its `__getattr__` and `__dir__`."""
-    homes = _listed(Path(file).read_text(encoding="utf-8"))
+def lazily(
+    package: str, file: str
+) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+    """Return what a package takes as its `__getattr__`, `__dir__` and `__all__`."""
+    homes = _homes(file)
     module = sys.modules[package]
 
     def look_up(name: str) -> Any:
@@ -32,17 +34,16 @@ def lazily(package: str, file: str) -> tuple[Callable[[str], Any], Callable[[], 
         msg = f"module {package!r} has no attribute {name!r}"
         raise AttributeError(msg)
 
-    return look_up, lambda: sorted({*vars(module), *homes})
+    return look_up, lambda: sorted({*vars(module), *homes}), sorted(homes)
 
 
-def _listed(source: str) -> dict[str, str]:
-    # Modules by the names imported from them under `if TYPE_CHECKING:`.
-    blocks = [
-        node
-        for node in ast.parse(source).body
-        if isinstance(node, ast.If)
-        and isinstance(node.test, ast.Name)
-        and node.test.id == "TYPE_CHECKING"
-    ]
-    imports = [each for block in blocks for each in block.body if isinstance(each, ast.ImportFrom)]
-    return {alias.name: str(each.module) for each in imports for alias in each.names}
+def listed(file: str) -> list[str]:
+    """Return the names that a module imports for others, as its `__all__`."""
+    return sorted(_homes(file))
+
+
+def _homes(file: str) -> dict[str, str]:
+    # Modules by the names that a file imports as themselves, "from m import a as a".
+    source = ast.parse(Path(file).read_text(encoding="utf-8"))
+    imports = [each for each in ast.walk(source) if isinstance(each, ast.ImportFrom)]
+    return {a.name: str(i.module) for i in imports for a in i.names if a.asname == a.name}

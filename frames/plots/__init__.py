@@ -26,22 +26,6 @@ from frames.plots.plot_parts import link_loops as link_loops
 from frames.plots.plot_summaries import energy as energy
 from frames.plots.plot_summaries import floor_spectra as floor_spectra
 from frames.plots.plot_summaries import storey_profiles as storey_profiles
+from lir_element import _lazy
 
-__all__ = [
-    "QUANTITIES",
-    "bearing_dimensions",
-    "bearing_plan",
-    "bearing_sections",
-    "energy",
-    "floor_spectra",
-    "hinge_map",
-    "histories",
-    "hysteresis",
-    "link_loops",
-    "mode_shapes",
-    "model_film",
-    "model_view",
-    "orbits",
-    "storey_profiles",
-    "worst_bearing",
-]
+__all__ = _lazy.listed(__file__)

@@ -5,11 +5,6 @@ from frames.risk.fragility.plot_fragility import risk_deaggregation as risk_deag
 from frames.risk.fragility.plot_fragility import tornado_chart as tornado_chart
 from frames.risk.fragility.plot_ida import ida_curves as ida_curves
 from frames.risk.fragility.plot_ida import stripes as stripes
+from lir_element import _lazy
 
-__all__ = [
-    "fragility_curves",
-    "ida_curves",
-    "risk_deaggregation",
-    "stripes",
-    "tornado_chart",
-]
+__all__ = _lazy.listed(__file__)

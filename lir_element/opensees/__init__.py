@@ -1,5 +1,6 @@
 """The bearing inside OpenSeesPy models."""
 
+from lir_element import _lazy
 from lir_element.opensees.compare.builtin import builtin_commands as builtin_commands
 from lir_element.opensees.compare.builtin import builtin_element as builtin_element
 from lir_element.opensees.compare.builtin_mapping import BuiltinValues as BuiltinValues
@@ -20,24 +21,4 @@ from lir_element.opensees.plugin import bearing_tags as bearing_tags
 from lir_element.opensees.recording import BearingRecording as BearingRecording
 from lir_element.opensees.recording import record_bearings as record_bearings
 
-__all__ = [
-    "BUILTIN_KINDS",
-    "BearingRecording",
-    "BuiltinValues",
-    "Isolation",
-    "IsolationWarning",
-    "MacroModel",
-    "PlacementWarning",
-    "RouteWarning",
-    "ServerError",
-    "bearing_element",
-    "bearing_response",
-    "bearing_tags",
-    "builtin_commands",
-    "builtin_element",
-    "builtin_values",
-    "isolate",
-    "macro_model",
-    "opensees",
-    "record_bearings",
-]
+__all__ = _lazy.listed(__file__)
