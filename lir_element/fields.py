@@ -58,11 +58,16 @@ def unit_of(kind: type, name: str) -> str:
 
 
 def check_numbers(
-    made: Any, *, error: type[ValueError] = ValueError, places: tuple[str, ...] = ()
+    made: Any,
+    *,
+    error: type[ValueError] = ValueError,
+    places: tuple[str, ...] = (),
+    owner: str = "",
 ) -> None:
     """Refuse numbers of a dataclass that are out of the bounds of their fields.
 
-    None is left alone where it is the default, or one of a pair; `places` name what pairs are of.
+    None is left alone where it is the default, or one of a pair; `places` name what pairs are of,
+    and `owner` begins the names in messages.
     """
     for each in fields(made):
         given, said = getattr(made, each.name), each.metadata
@@ -70,7 +75,7 @@ def check_numbers(
             continue
         for name, value in _numbered(each.name, given, places):
             require_within(
-                name,
+                owner + name,
                 value,
                 said["within"],
                 said["unit"],

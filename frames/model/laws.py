@@ -8,32 +8,30 @@ stops, ties) are put in afterwards: their deformation counts from the state unde
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from frames._errors import ModelError
-from lir_element.argument_checks import (
-    require_between,
-    require_non_negative,
-    require_positive,
-    require_type,
-)
+from lir_element.argument_checks import require_positive, require_type, require_within
+from lir_element.fields import check_numbers, number
 
-_TOP = 1.0 - 1e-9
-
-
-def _positive(law: object, name: str, unit: str) -> None:
-    what = f"{type(law).__name__}: {name} [{unit}]"
-    require_positive(what, getattr(law, name), error=ModelError)
+_STIFFNESS = number("N/m", "(0, inf)")
+_FORCE = number("N", "(0, inf)")
+_ENDLESS = number("N/m", "(0, inf]")
+_SHARE = number("-", "[0, 0.999999999)")  # below 1
+_GROWTH = number("-", "[0, inf)")
+_LENGTH = number("m", "[0, inf)")
 
 
-def _share(law: object, name: str, high: float, low: float = 0.0) -> None:
-    what = f"{type(law).__name__}: {name}"
-    require_between(what, getattr(law, name), low, high, "-", error=ModelError)
+class _Checked:
+    """A law whose numbers stay in the bounds of their fields."""
+
+    def __post_init__(self) -> None:
+        check_numbers(self, error=ModelError, owner=f"{type(self).__name__}: ")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bilinear:
+class Bilinear(_Checked):
     """Elastic-plastic law with linear kinematic hardening: a yielding storey, a brace that yields.
 
     Attributes
@@ -52,15 +50,9 @@ class Bilinear:
     5.0
     """
 
-    stiffness: float
-    yield_force: float
-    hardening: float = 0.0
-
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        _positive(self, "stiffness", "N/m")
-        _positive(self, "yield_force", "N")
-        _share(self, "hardening", _TOP)
+    stiffness: float = field(metadata=_STIFFNESS)
+    yield_force: float = field(metadata=_FORCE)
+    hardening: float = field(default=0.0, metadata=_SHARE)
 
     @property
     def yield_deformation(self) -> float:
@@ -69,7 +61,7 @@ class Bilinear:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Pinching:
+class Pinching(_Checked):
     """Pinching of a Bouc-Wen law, after Baber and Noori (1985) and Foliente (1995); all in [-].
 
     Attributes
@@ -95,25 +87,16 @@ class Pinching:
     0.2
     """
 
-    slip: float = 0.9
-    rate: float = 0.5
-    place: float = 0.1
-    width: float = 0.2
-    spreading: float = 0.005
-    severity: float = 0.1
-
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        _share(self, "slip", _TOP)
-        for name in ("rate", "spreading"):
-            require_non_negative(f"Pinching: {name} [-]", getattr(self, name), error=ModelError)
-        _share(self, "place", 1.0)
-        for name in ("width", "severity"):
-            _positive(self, name, "-")
+    slip: float = field(default=0.9, metadata=_SHARE)
+    rate: float = field(default=0.5, metadata=_GROWTH)
+    place: float = field(default=0.1, metadata=_SHARE)
+    width: float = field(default=0.2, metadata=number("-", "(0, inf)"))
+    spreading: float = field(default=0.005, metadata=_GROWTH)
+    severity: float = field(default=0.1, metadata=number("-", "(0, inf)"))
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoucWen:
+class BoucWen(_Checked):
     """Smooth hysteresis that may lose strength and stiffness and pinch: concrete, timber, steel.
 
     ``f = r k d + (1 - r) k u_y z``, with ``dz = h (1 - nu |z|^n (beta sgn(z dd) + 1 - beta))
@@ -146,24 +129,18 @@ class BoucWen:
     0.9
     """
 
-    stiffness: float
-    yield_force: float
-    hardening: float = 0.0
-    exponent: float = 2.0
-    shape: float = 0.5
-    strength_loss: float = 0.0
-    stiffness_loss: float = 0.0
+    stiffness: float = field(metadata=_STIFFNESS)
+    yield_force: float = field(metadata=_FORCE)
+    hardening: float = field(default=0.0, metadata=_SHARE)
+    exponent: float = field(default=2.0, metadata=number("-", "[1, 20)"))
+    shape: float = field(default=0.5, metadata=number("-", "[1e-6, 1]"))
+    strength_loss: float = field(default=0.0, metadata=_GROWTH)
+    stiffness_loss: float = field(default=0.0, metadata=_GROWTH)
     pinching: Pinching | None = None
 
     def __post_init__(self) -> None:
-        """Check the numbers."""
-        _positive(self, "stiffness", "N/m")
-        _positive(self, "yield_force", "N")
-        _share(self, "hardening", _TOP)
-        _share(self, "exponent", 20.0, 1.0)
-        _share(self, "shape", 1.0, 1e-6)
-        for name in ("strength_loss", "stiffness_loss"):
-            require_non_negative(f"BoucWen: {name} [-]", getattr(self, name), error=ModelError)
+        """Check the numbers, and that the pinching is one."""
+        super().__post_init__()
         require_type(
             "BoucWen: pinching", self.pinching, (Pinching, type(None)), "a Pinching or None"
         )
@@ -175,7 +152,7 @@ class BoucWen:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Tie:
+class Tie(_Checked):
     """A slender brace, rod or cable: it pulls only, yields, and is slack by what it yielded.
 
     Attributes
@@ -195,18 +172,10 @@ class Tie:
     Tie(stiffness=20000000.0, yield_force=150000.0, hardening=0.0, slack=0.0)
     """
 
-    stiffness: float
-    yield_force: float = math.inf
-    hardening: float = 0.0
-    slack: float = 0.0
-
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        _positive(self, "stiffness", "N/m")
-        if self.yield_force != math.inf:
-            _positive(self, "yield_force", "N")
-        _share(self, "hardening", _TOP)
-        require_non_negative("Tie: slack [m]", self.slack, error=ModelError)
+    stiffness: float = field(metadata=_STIFFNESS)
+    yield_force: float = field(default=math.inf, metadata=number("N", "(0, inf]"))
+    hardening: float = field(default=0.0, metadata=_SHARE)
+    slack: float = field(default=0.0, metadata=_LENGTH)
 
     @property
     def yield_deformation(self) -> float:
@@ -215,7 +184,7 @@ class Tie:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ViscousDamper:
+class ViscousDamper(_Checked):
     """A fluid damper, ``f = c |v|^exponent sgn(v)``; with a stiffness in series (Maxwell).
 
     Attributes
@@ -236,22 +205,14 @@ class ViscousDamper:
     247
     """
 
-    coefficient: float
-    exponent: float = 1.0
-    stiffness: float = math.inf
-    linear_below: float = 1e-3
-
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        _positive(self, "coefficient", "N (s/m)^exponent")
-        _share(self, "exponent", 2.0, 0.1)
-        if self.stiffness != math.inf:
-            _positive(self, "stiffness", "N/m")
-        _positive(self, "linear_below", "m/s")
+    coefficient: float = field(metadata=number("N (s/m)^exponent", "(0, inf)"))
+    exponent: float = field(default=1.0, metadata=number("-", "[0.1, 2]"))
+    stiffness: float = field(default=math.inf, metadata=_ENDLESS)
+    linear_below: float = field(default=1e-3, metadata=number("m/s", "(0, inf)"))
 
 
 @dataclass(frozen=True, kw_only=True)
-class Gap:
+class Gap(_Checked):
     """A wall or buffer behind a gap, with linear stiffness and damping (Kelvin-Voigt).
 
     It pushes only, ``f = k x + c v`` for a penetration x > 0, and never pulls. So that the force
@@ -277,17 +238,10 @@ class Gap:
     >>> frame.add_moat("moat", ["mass"], Gap(gap=0.3, stiffness=500e6))
     """
 
-    gap: float
-    stiffness: float
-    damping: float = 0.0
-    soft: float = 1e-4
-
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        require_non_negative("Gap: gap [m]", self.gap, error=ModelError)
-        _positive(self, "stiffness", "N/m")
-        require_non_negative("Gap: damping [N s/m]", self.damping, error=ModelError)
-        _positive(self, "soft", "m")
+    gap: float = field(metadata=_LENGTH)
+    stiffness: float = field(metadata=_STIFFNESS)
+    damping: float = field(default=0.0, metadata=number("N s/m", "[0, inf)"))
+    soft: float = field(default=1e-4, metadata=number("m", "(0, inf)"))
 
     @staticmethod
     def damping_for(restitution: float, stiffness: float, mass: float) -> float:
@@ -310,7 +264,7 @@ class Gap:
             (Schwager and Poeschel 2007, eq. 12).
         """
         what = "Gap.damping_for: restitution"
-        e = require_between(what, restitution, 0.15, 1.0, "-", error=ModelError)
+        e = require_within(what, restitution, "[0.15, 1]", "-", error=ModelError)
         k = require_positive("Gap.damping_for: stiffness [N/m]", stiffness, error=ModelError)
         m = require_positive("Gap.damping_for: mass [kg]", mass, error=ModelError)
 
@@ -326,7 +280,7 @@ class Gap:
 
 
 @dataclass(frozen=True, kw_only=True)
-class HertzGap:
+class HertzGap(_Checked):
     """A wall behind a gap with Hertz' contact and damping: pounding of bodies.
 
     ``f = k x^n (1 + a v / v_0)`` for a penetration x > 0, v_0 the speed of approach (Hunt and
@@ -353,17 +307,10 @@ class HertzGap:
     >>> frame.add_moat("moat", ["mass"], HertzGap(gap=0.3, stiffness=2e9, restitution=0.6))
     """
 
-    gap: float
-    stiffness: float
-    restitution: float = 0.7
-    exponent: float = 1.5
-
-    def __post_init__(self) -> None:
-        """Check the numbers."""
-        require_non_negative("HertzGap: gap [m]", self.gap, error=ModelError)
-        _positive(self, "stiffness", "N/m^exponent")
-        _share(self, "restitution", 1.0, 0.05)
-        _share(self, "exponent", 3.0, 1.0)
+    gap: float = field(metadata=_LENGTH)
+    stiffness: float = field(metadata=number("N/m^exponent", "(0, inf)"))
+    restitution: float = field(default=0.7, metadata=number("-", "[0.05, 1]"))
+    exponent: float = field(default=1.5, metadata=number("-", "[1, 3]"))
 
     @property
     def damping(self) -> float:
@@ -381,7 +328,7 @@ class HertzGap:
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlasticHinge:
+class PlasticHinge(_Checked):
     """A plastic hinge at a member's end with interaction of axial force and both moments.
 
     It is rigid until ``m + |n|^axial_exponent = 1`` with ``m^2 = (My/moment_y)^2 +
@@ -402,7 +349,7 @@ class PlasticHinge:
         rectangles and of concrete.
     hardening : float
         Stiffness of the hinged member in double curvature after yielding over the elastic one [-],
-        in [0, 1); steel beams 0.03 (ASCE/SEI 41-17, 9.4.2.2).
+        in [0, 0.9); steel beams 0.03 (ASCE/SEI 41-17, 9.4.2.2).
 
     Examples
     --------
@@ -414,32 +361,28 @@ class PlasticHinge:
     8
     """
 
-    moment_y: float = math.inf
-    moment_z: float = math.inf
-    axial: float = math.inf
-    axial_centre: float = 0.0
-    axial_exponent: float = 2.0
-    hardening: float = 0.01
+    moment_y: float = field(default=math.inf, metadata=number("N m", "(0, inf]"))
+    moment_z: float = field(default=math.inf, metadata=number("N m", "(0, inf]"))
+    axial: float = field(default=math.inf, metadata=number("N", "(0, inf]"))
+    axial_centre: float = field(default=0.0, metadata=number("N"))
+    axial_exponent: float = field(default=2.0, metadata=number("-", "[1, 4]"))
+    hardening: float = field(default=0.01, metadata=number("-", "[0, 0.9)"))
 
     def __post_init__(self) -> None:
-        """Check the numbers."""
-        for name in ("moment_y", "moment_z", "axial"):
-            if getattr(self, name) != math.inf:
-                _positive(self, name, "N m" if name != "axial" else "N")
+        """Check the numbers, and that they go together."""
+        super().__post_init__()
         if self.moment_y == self.moment_z == math.inf:
             msg = "PlasticHinge: moment_y and moment_z are both infinite: give a plastic moment"
             raise ModelError(msg)
-        if not math.isfinite(self.axial_centre) or abs(self.axial_centre) >= self.axial:
+        if abs(self.axial_centre) >= self.axial:
             msg = (
-                f"PlasticHinge: axial_centre = {self.axial_centre!r} N must be finite and smaller "
-                f"than axial = {self.axial!r} N"
+                f"PlasticHinge: axial_centre = {self.axial_centre!r} N must be smaller than "
+                f"axial = {self.axial!r} N"
             )
             raise ModelError(msg)
         if self.axial == math.inf and abs(self.axial_centre) > 0.0:
             msg = "PlasticHinge: axial_centre without axial: give the axial force without moment"
             raise ModelError(msg)
-        _share(self, "axial_exponent", 4.0, 1.0)
-        _share(self, "hardening", 0.9)
 
 
 Law: TypeAlias = Bilinear | BoucWen | Tie | ViscousDamper | Gap | HertzGap

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Self
 
 from frames._errors import ModelError
 from frames.model.names import likely
 from lir_element.argument_checks import require_finite, require_non_negative, require_positive
+from lir_element.fields import check_numbers, number
 from lir_element.tables import html_table
 from lir_element.units import meant
 
@@ -99,58 +100,33 @@ def i_shape_constants(
 SOFTEST, LARGEST_AREA = 1e6, 500.0
 """Elastic modulus [Pa] below, and area [m2] above which no member is."""
 
-UNITS = {
-    "area": "m2",
-    "inertia_y": "m4",
-    "inertia_z": "m4",
-    "torsion_constant": "m4",
-    "elastic_modulus": "Pa",
-    "shear_modulus": "Pa",
-    "density": "kg/m3",
-    "shear_area_y": "m2",
-    "shear_area_z": "m2",
-}
+_NEEDED = "a member needs every stiffness; give SI units"
+_SHEARED = "give m2, or leave it out (infinity) to neglect the shear deformation"
+_INERTIA = number("m4", "(0, inf)", remedy=_NEEDED)
+_MODULUS = number("Pa", "(0, inf)", remedy=_NEEDED)
+_SHEAR_AREA = number("m2", "(0, inf]", remedy=_SHEARED)
+_DENSITY = number("kg/m3", "[0, inf)", remedy="give kg/m3, or 0 for a member without mass")
 
 
 @dataclass(frozen=True)
 class SectionConstants:
-    """What `Section` is made of; its docstring has the meaning and the unit of each."""
+    """What `Section` is made of; its docstring has the meaning of each."""
 
-    area: float
-    inertia_y: float
-    inertia_z: float
-    torsion_constant: float
-    elastic_modulus: float
-    shear_modulus: float
-    density: float = 0.0
-    shear_area_y: float = math.inf
-    shear_area_z: float = math.inf
+    area: float = field(metadata=number("m2", "(0, inf)", remedy=_NEEDED))
+    inertia_y: float = field(metadata=_INERTIA)
+    inertia_z: float = field(metadata=_INERTIA)
+    torsion_constant: float = field(metadata=_INERTIA)
+    elastic_modulus: float = field(metadata=_MODULUS)
+    shear_modulus: float = field(metadata=_MODULUS)
+    density: float = field(default=0.0, metadata=_DENSITY)
+    shear_area_y: float = field(default=math.inf, metadata=_SHEAR_AREA)
+    shear_area_z: float = field(default=math.inf, metadata=_SHEAR_AREA)
 
     def __post_init__(self) -> None:
         """Check every number."""
-        for field in fields(self):
-            value = getattr(self, field.name)
-            what = f"Section.{field.name}"
-            if field.name == "density":
-                number = require_non_negative(
-                    what,
-                    value,
-                    remedy="give kg/m3, or 0 for a member without mass",
-                    error=ModelError,
-                )
-            elif field.name.startswith("shear_area"):
-                remedy = "give m2, or leave it out (infinity) to neglect the shear deformation"
-                number = require_positive(
-                    what, value, infinite=True, remedy=remedy, error=ModelError
-                )
-            else:
-                number = require_positive(
-                    what,
-                    value,
-                    remedy="a member needs every stiffness; give SI units",
-                    error=ModelError,
-                )
-            object.__setattr__(self, field.name, number)
+        check_numbers(self, error=ModelError, owner="Section.")
+        for each in fields(self):
+            object.__setattr__(self, each.name, float(getattr(self, each.name)))
         self._refuse_units()
 
     def _refuse_units(self) -> None:
@@ -175,7 +151,7 @@ class SectionConstants:
             return "not counted" if math.isinf(value) else f"{value:.4g}"
 
         rows = [
-            (f.name.replace("_", " "), text(getattr(self, f.name)), UNITS[f.name])
+            (f.name.replace("_", " "), text(getattr(self, f.name)), f.metadata["unit"])
             for f in fields(self)
         ]
         return html_table("Section", rows)

@@ -327,14 +327,14 @@ def test_box_and_i_shape_and_rectangle() -> None:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"area": 0.0}, r"Section.area = 0 must be positive"),
-        ({"inertia_y": -1e-4}, r"Section.inertia_y = -0.0001 must be positive"),
+        ({"area": 0.0}, r"Section.area = 0 \[m2\] must be positive"),
+        ({"inertia_y": -1e-4}, r"Section.inertia_y = -0.0001 \[m4\] must be positive"),
         (
             {"elastic_modulus": math.inf},
-            r"Section.elastic_modulus = inf must be positive and finite",
+            r"Section.elastic_modulus = inf \[Pa\] must be positive and finite",
         ),
-        ({"density": -1.0}, r"Section.density = -1 must be at least 0 and finite"),
-        ({"shear_area_z": math.nan}, r"Section.shear_area_z = nan must be positive"),
+        ({"density": -1.0}, r"Section.density = -1 \[kg/m3\] must be at least 0 and finite"),
+        ({"shear_area_z": math.nan}, r"Section.shear_area_z = nan \[m2\] must be positive"),
     ],
 )
 def test_section_refuses(changes: dict[str, float], words: str) -> None:

@@ -14,7 +14,7 @@ from frames import ModelError
 from frames.assembly.nonlinear import _law
 from frames.assembly.system import STATE_SIZE
 from frames.kernels.laws import uniaxial
-from frames.laws import Bilinear, BoucWen, Gap, HertzGap, Pinching, Tie, ViscousDamper
+from frames.laws import Bilinear, BoucWen, Gap, HertzGap, Pinching, PlasticHinge, Tie, ViscousDamper
 
 LAWS = {
     "bilinear": Bilinear(stiffness=2e6, yield_force=1e4, hardening=0.05),
@@ -266,7 +266,10 @@ def test_walls_give_back_the_speed_that_was_asked_for(restitution):
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Bilinear(stiffness=0.0, yield_force=1.0), r"Bilinear: stiffness \[N/m\] = 0"),
+        (
+            lambda: Bilinear(stiffness=0.0, yield_force=1.0),
+            r"Bilinear: stiffness = 0 \[N/m\] must be positive",
+        ),
         (lambda: Bilinear(stiffness=1.0, yield_force=-1.0), "Bilinear: yield_force"),
         (lambda: Bilinear(stiffness=1.0, yield_force=1.0, hardening=1.0), "Bilinear: hardening"),
         (lambda: BoucWen(stiffness=1.0, yield_force=1.0, exponent=0.5), "BoucWen: exponent"),
@@ -285,3 +288,21 @@ def test_walls_give_back_the_speed_that_was_asked_for(restitution):
 def test_numbers_out_of_bounds_are_refused(make, message):
     with pytest.raises(ModelError, match=message):
         make()
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: BoucWen(stiffness=1.0, yield_force=1.0, shape=1.0),
+        lambda: ViscousDamper(coefficient=1.0, exponent=2.0),
+        lambda: HertzGap(gap=0.1, stiffness=1.0, restitution=1.0, exponent=3.0),
+        lambda: PlasticHinge(moment_y=1.0, axial_exponent=4.0),
+    ],
+)
+def test_ends_of_documented_intervals_are_taken(make):
+    make()
+
+
+def test_a_stop_that_gives_all_speed_back_does_not_damp():
+    assert Gap.damping_for(1.0, 1.0, 1.0) == 0.0
+    assert HertzGap(gap=0.0, stiffness=1.0, restitution=1.0).damping == 0.0
