@@ -149,8 +149,10 @@ def _table_of(
         if each.default_factory is not MISSING or (names and each.name not in names):
             continue
         default = ... if each.default is MISSING else each.default
+        endless = isinstance(default, float) and math.isinf(default)
         held = _kind(hints[each.name], unit_of(kind, each.name), laws)
-        keys[each.name] = (key_of(kind, each.name) if names else held, Field(default))
+        key = Field(default, json_schema_extra=_without_default if endless else None)
+        keys[each.name] = (key_of(kind, each.name) if names else held, key)
     if issubclass(kind, FrictionLaw):
         if LAW in keys:
             msg = f'{kind.__name__}: its field "{LAW}" is the key that names a law: rename it'
@@ -161,6 +163,11 @@ def _table_of(
     table = create_model(kind.__name__, __base__=DerivedTable, __doc__=said, **keys)
     table.made_of = kind
     return table
+
+
+def _without_default(schema: dict[str, Any]) -> None:
+    # JSON has no infinity.
+    schema.pop("default", None)
 
 
 def _made(value: object) -> object:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import math
 import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
     from frames.design.project.schema_sections import (
         CrackedTable,
         MaterialTable,
-        PropertiesTable,
         SectionTable,
     )
 
@@ -94,11 +92,8 @@ class NamedSection(NamedTuple):
 def named_section(given: SectionTable, *, column: bool) -> NamedSection:
     """Return the section that a table describes."""
     material = material_of(given.material)
-    keys = {
-        "elastic_modulus": material.elastic_modulus,
-        "poisson_ratio": material.poisson_ratio,
-        "density": material.density,
-    }
+    elastic = {"elastic_modulus": material.elastic_modulus, "density": material.density}
+    keys = elastic | {"poisson_ratio": material.poisson_ratio}
     if given.section is not None:
         section, shape = Section.catalogue(given.section, **keys), given.section
     elif given.box is not None:
@@ -119,8 +114,9 @@ def named_section(given: SectionTable, *, column: bool) -> NamedSection:
     elif given.i_shape is not None:
         section = Section.i_shape(*given.i_shape, **keys)
         shape = worded("I {size} mm", size=_mm(*given.i_shape))
-    else:
-        section, shape = _by_properties(given.properties, material), "given constants"
+    elif given.properties is not None:
+        section = given.properties.made(shear_modulus=material.shear_modulus, **elastic)
+        shape = "given constants"
     section, cracked = cracked_said(section, given.cracked)
     up = (0.0, 1.0, 0.0) if given.depth_along == "y" else None
     return NamedSection(section, up, joined(shape, of_material(material), cracked, by=", "))
@@ -169,23 +165,6 @@ def storeys_of(given: tuple[int, int] | None, count: int) -> range:
 
 def _mm(*lengths: float) -> str:
     return " x ".join(f"{1e3 * length:.5g}" for length in lengths)
-
-
-def _by_properties(given: PropertiesTable | None, material: Material) -> Section:
-    if given is None:  # the schema has one way
-        msg = "no section is given"
-        raise ProjectError(msg)
-    known = given.model_dump()
-    areas = {key: math.inf if known[key] is None else known[key] for key in _SHEAR_AREAS}
-    return Section(
-        **(known | areas),
-        elastic_modulus=material.elastic_modulus,
-        shear_modulus=material.shear_modulus,
-        density=material.density,
-    )
-
-
-_SHEAR_AREAS = ("shear_area_y", "shear_area_z")
 
 
 def by_storey(given: Sequence[T], storeys: int, direction: str | None = None) -> list[T]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from frames._errors import ModelError
@@ -180,8 +181,6 @@ def walls_of(frame: Frame) -> Walls | None:
 def law_of(given: DamperTable) -> ViscousDamper:
     """Return the law of dampers: the coefficient that gives their force at their speed."""
     coefficient = given.force / given.speed**given.exponent
-    if given.stiffness is None:
-        return ViscousDamper(coefficient=coefficient, exponent=given.exponent)
     return ViscousDamper(
         coefficient=coefficient, exponent=given.exponent, stiffness=given.stiffness
     )
@@ -240,7 +239,7 @@ def device_rows(
             speed=given.speed,
             exponent=given.exponent,
         )
-        if given.stiffness is not None:
+        if math.isfinite(given.stiffness):
             series = worded("{stiffness:.5g} kN/mm in series", stiffness=1e-6 * given.stiffness)
             made = joined(made, series, by=", ")
         if given.between is None:

@@ -11,13 +11,12 @@ from frames.design.project.derived import DerivedTable, Table, table_of
 from frames.design.project.quantities import (
     Force,
     Length,
-    NotNegative,
     Positive,
     Ratio,
-    Stiffness,
     quantity,
 )
 from frames.design.project.schema_sections import Count
+from frames.laws import Gap, ViscousDamper
 from lir_element import LIRBearing
 
 Side = Literal["x+", "x-", "y+", "y-"]
@@ -27,22 +26,18 @@ SIDES: tuple[Side, ...] = get_args(Side)
 """All of them."""
 
 
-class MoatTable(Table):
+class MoatTable(table_of(Gap, "stiffness", "damping")):  # type: ignore[misc]  # its keys
     """``[moat]``: walls around the base as springs behind a gap."""
 
     gap: Annotated[Length, Positive]
-    stiffness: Annotated[Stiffness, Positive]
-    damping: Annotated[quantity("N s/m"), NotNegative] = 0.0  # type: ignore[valid-type]  # made
     sides: tuple[Side, ...] = Field(default=SIDES, min_length=1)
 
 
-class DamperTable(Table):
+class DamperTable(table_of(ViscousDamper, "exponent", "stiffness")):  # type: ignore[misc]  # keys
     """``[dampers.<name>]``: fluid dampers of one kind, at the base or in storeys."""
 
     force: Annotated[Force, Positive]
     speed: Annotated[quantity("m/s"), Positive]  # type: ignore[valid-type]  # made
-    exponent: Annotated[Ratio, Field(ge=0.1, le=2.0)] = 1.0
-    stiffness: Annotated[Stiffness, Positive] | None = None
     columns: tuple[str | int, ...] = ()
     directions: tuple[Literal["x", "y"], ...] = Field(default=("x", "y"), min_length=1)
     between: tuple[str, str] | None = None

@@ -6,16 +6,15 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 
-from frames.design.project.derived import Table
+from frames.design.project.derived import Table, table_of
 from frames.design.project.quantities import (
-    Area,
     Density,
-    Inertia,
     Length,
     Positive,
     Pressure,
     Ratio,
 )
+from frames.model.sections import Section
 
 Size = Annotated[Length, Positive]
 Count = Annotated[int, Field(ge=1)]
@@ -79,15 +78,13 @@ Cracked = Annotated[
 """One factor on bending, torsion and shear, or one for each."""
 
 
-class PropertiesTable(Table):
-    """A cross-section by its constants, as `frames.Section` names them."""
+_AREAS = ("area", "shear_area_y", "shear_area_z")
 
-    area: Annotated[Area, Positive]
-    inertia_y: Annotated[Inertia, Positive]
-    inertia_z: Annotated[Inertia, Positive]
-    torsion_constant: Annotated[Inertia, Positive]
-    shear_area_y: Annotated[Area, Positive] | None = None
-    shear_area_z: Annotated[Area, Positive] | None = None
+
+class PropertiesTable(
+    table_of(Section, *_AREAS, "inertia_y", "inertia_z", "torsion_constant")  # type: ignore[misc]
+):
+    """A cross-section by its constants, as `frames.Section` names them."""
 
 
 class SectionTable(Table):
