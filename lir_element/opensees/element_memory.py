@@ -30,9 +30,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from types import ModuleType
 
-    from lir_element.device.bearing import LIRBearing
     from lir_element.layout import Floats, Records
-    from lir_element.opensees.placement import BearingTransform
+    from lir_element.opensees.placement import PlacedBearing
 
 _C = ctypes.cdll.msvcrt if sys.platform == "win32" else ctypes.CDLL(None)
 _C.free.argtypes = [ctypes.c_void_p]
@@ -44,16 +43,8 @@ class ElementMemory:
 
     Parameters
     ----------
-    tag : int
-        Of the element, for messages.
-    bearing : LIRBearing
-        The device.
-    level : {"pendulum", "contact"}
-        Level of fidelity.
-    placement : Placement
-        How the model's degrees of freedom lead to its axes.
-    symmetric : bool
-        Whether its tangent is made symmetric.
+    placed : PlacedBearing
+        The bearing.
 
     Attributes
     ----------
@@ -61,28 +52,18 @@ class ElementMemory:
         What compiled code reads and writes (`layout.HOST`).
     """
 
-    def __init__(
-        self,
-        tag: int,
-        bearing: LIRBearing,
-        level: str,
-        placement: BearingTransform,
-        symmetric: bool = False,
-    ) -> None:
-        self.tag = tag
-        self.bearing = bearing
-        self.level = level
-        self.placement = placement
+    def __init__(self, placed: PlacedBearing) -> None:
+        self.placed = placed
         self.block = np.zeros(1, dtype=HOST)
-        self.block["symmetric"] = symmetric
-        self.block["design_load"] = load = bearing.resolved()["design_load"]
-        self.messages = bearing_messages(tag, load, placement)
-        self._responses = host_responses(placement)
-        self._props = bearing.to_record()
+        self.block["symmetric"] = placed.symmetric
+        self.block["design_load"] = placed.device.resolved()["design_load"]
+        self.messages = bearing_messages(placed)
+        self._responses = host_responses(placed.placement)
+        self._props = placed.device.to_record()
         self._old = initial_state(self._props)
         self._kept: list[Any] = []
         self.address = int(self.block.ctypes.data)
-        count = placement.dofs
+        count = placed.placement.dofs
         self._u: Floats = self.block["host_u"][0, :count]
         self._v: Floats = self.block["host_v"][0, :count]
         self._force: Floats = self.block["force"][0, :count]
@@ -90,7 +71,7 @@ class ElementMemory:
         self._initial: Floats = self.block["initial"][0, : count * count]
         self._clock = self.block["committed_time"]
         self._telling = self.block["telling"]
-        self._trial, self._tangent, self._commit = _functions(level)
+        self._trial, self._tangent, self._commit = _functions(placed.level)
         weakref.finalize(self, _free_records, self.block)
         self._set_map()
         self._set_records()
@@ -176,7 +157,8 @@ class ElementMemory:
         Shapes: time, velocity, states, bodies (n,).
         """
         if self.block["record_every"][0] < 0:
-            msg = f"bearing element {self.tag}: no memory for more states, record fewer (every=)"
+            who = f"bearing element {self.placed.tag}"
+            msg = f"{who}: no memory for more states, record fewer (every=)"
             raise MemoryError(msg)
         count = int(self.block["record_count"][0])
         if count == 0:
@@ -190,7 +172,7 @@ class ElementMemory:
         return head[:, 0], head[:, 1:], states, bodies
 
     def _set_map(self) -> None:
-        matrix = self.placement.matrix
+        matrix = self.placed.placement.matrix
         entries = 0
         for row in range(12):
             columns = np.flatnonzero(matrix[row])
@@ -199,8 +181,8 @@ class ElementMemory:
                 self.block["values"][0, entries] = matrix[row, column]
                 entries += 1
             self.block["start"][0, row + 1] = entries
-        self.block["dofs"] = self.placement.dofs
-        self.block["force_factor"] = self.placement.force_factor
+        self.block["dofs"] = self.placed.placement.dofs
+        self.block["force_factor"] = self.placed.placement.force_factor
 
     def _set_records(self) -> None:
         self._keep("props", self._props)
@@ -210,9 +192,9 @@ class ElementMemory:
         self._keep("work", np.zeros(1, dtype=WORK))
         self._keep("heat", np.zeros((1, 3, HEAT_PARTS)))
         self.block["realloc"] = ctypes.cast(_C.realloc, ctypes.c_void_p).value
-        if self.level != "contact":
+        if self.placed.level != "contact":
             return
-        bundle = contact_arrays([self.bearing], [True], STANDARD_GRAVITY)
+        bundle = contact_arrays([self.placed.device], [True], STANDARD_GRAVITY)
         self.block["point_count"] = bundle.points.shape[1]
         for name in (
             "row",
@@ -228,7 +210,7 @@ class ElementMemory:
         ):
             self._keep(name, getattr(bundle, name))
         self._keep("bodies_first", initial_bodies(1))
-        self._keep("touch_first", face_records(self.bearing)[1])
+        self._keep("touch_first", face_records(self.placed.device)[1])
 
     def _keep(self, name: str, array: Records) -> None:
         self._kept.append(array)
@@ -236,11 +218,13 @@ class ElementMemory:
 
     def _set_initial(self) -> None:
         # Stiffness at rest: undeformed and sticking under the design load; then unloaded again.
-        options = self.bearing.resolved()
-        count = self.placement.dofs
+        options = self.placed.device.resolved()
+        count = self.placed.placement.dofs
         u = np.zeros(12)
         u[8] = -options["design_load"] / options["axial_stiffness"]
-        host = np.asarray(np.linalg.lstsq(self.placement.matrix, u, rcond=None)[0], np.float64)
+        host = np.asarray(
+            np.linalg.lstsq(self.placed.placement.matrix, u, rcond=None)[0], np.float64
+        )
         self.trial(host, np.zeros(count), 0.0)
         self._initial[:] = self.tangent_by_columns()
         self.trial(np.zeros(count), np.zeros(count), 0.0)

@@ -59,6 +59,25 @@ class BearingTransform(NamedTuple):
     """The model's unit of force [N]."""
 
 
+class PlacedBearing(NamedTuple):
+    """A bearing in a model: what each coupling is made from."""
+
+    tag: int
+    """Of its element."""
+    device: LIRBearing
+    level: str
+    """Level of fidelity."""
+    placement: BearingTransform
+    symmetric: bool = False
+    """Whether its tangent is made symmetric."""
+
+    def printed(self, route: str) -> dict[str, Any]:
+        """Return the element's line in a printed model."""
+        nodes = [int(node) for node in self.placement.nodes]
+        said = {"name": self.tag, "type": "LIRBearing", "nodes": nodes}
+        return said | {"level": self.level, "route": route}
+
+
 def place(
     ops: Any,
     i: int,

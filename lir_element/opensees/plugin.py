@@ -27,7 +27,7 @@ from lir_element.opensees.out_of_process.remote import (
     ServerError,
 )
 from lir_element.opensees.out_of_process.responses import HostOverrides
-from lir_element.opensees.placement import BearingTransform, place
+from lir_element.opensees.placement import PlacedBearing, place
 
 Route = Literal["auto", "fast", "portable"]
 ROUTES = ("auto", "fast", "portable")
@@ -188,12 +188,13 @@ def bearing_element(
         raise ValueError(msg)
     _SESSION.sweep()
     placement = place(ops, i, j, bearing, orient, length_unit, force_unit)
+    placed = PlacedBearing(tag, bearing, level, placement, tangent == "symmetric")
     chosen = _choose(route)
     add = _add_fast if chosen == "fast" else _add_portable
     if chosen == "fast":
         entries_of(level)  # compiles on first use, which Ctrl-C may end
     with signals_held():
-        _SESSION.bearings[tag] = add(ops, tag, bearing, level, placement, tangent == "symmetric")
+        _SESSION.bearings[tag] = add(ops, placed)
     return chosen
 
 
@@ -315,43 +316,28 @@ def _choose(route: str) -> str:
     return "portable"
 
 
-def _add_fast(
-    ops: Any,
-    tag: int,
-    bearing: LIRBearing,
-    level: str,
-    placement: BearingTransform,
-    symmetric: bool,
-) -> InProcessElement:
-    hosted = ElementMemory(tag, bearing, level, placement, symmetric)
-    connection = add_host_element(ops, tag, placement)
+def _add_fast(ops: Any, placed: PlacedBearing) -> InProcessElement:
+    hosted = ElementMemory(placed)
+    connection = add_host_element(ops, placed.tag, placed.placement)
     try:
         return InProcessElement(hosted, connection)
     except NotPossibleError:
-        ops.remove("element", tag)
+        ops.remove("element", placed.tag)
         connection.close()
         raise
 
 
-def _add_portable(
-    ops: Any,
-    tag: int,
-    bearing: LIRBearing,
-    level: str,
-    placement: BearingTransform,
-    symmetric: bool,
-) -> Remote:
-    server = _SESSION.running_server()
-    remote = Remote(server, tag, bearing, level, placement, symmetric)
-    connection = add_host_element(ops, tag, placement)
+def _add_portable(ops: Any, placed: PlacedBearing) -> Remote:
+    remote = Remote(_SESSION.running_server(), placed)
+    connection = add_host_element(ops, placed.tag, placed.placement)
     try:
         remote.connect(connection)
         if not why_not_fast():
-            remote.override(HostOverrides(tag, bearing, level, placement))
+            remote.override(HostOverrides(placed))
         else:
             restart_reads(restart=True)
     except (ServerError, ValueError, NotPossibleError):
-        ops.remove("element", tag)
+        ops.remove("element", placed.tag)
         remote.release()
         connection.close()
         raise

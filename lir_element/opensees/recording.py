@@ -83,7 +83,7 @@ class BearingRecording:
         velocity = np.stack([part[1][:count] for part in parts], axis=1)
         states = np.stack([part[2][:count] for part in parts], axis=1)
         bodies = np.stack([part[3][:count] for part in parts], axis=1)
-        props = np.concatenate([bearing.device.to_record() for bearing in self._bearings])
+        props = np.concatenate([bearing.placed.device.to_record() for bearing in self._bearings])
         variables = bearing_variables("time", states, velocity) | device_variables(props)
         variables["interface_eccentricity"] = labelled(
             ("time", "bearing"),
@@ -95,12 +95,13 @@ class BearingRecording:
             ("bearing",), self._loads, "N", "axial force when the recording began"
         )
         variables |= optional_variables("time", states, props)
-        with_points = np.array([bearing.level == "contact" for bearing in self._bearings])
+        with_points = np.array([bearing.placed.level == "contact" for bearing in self._bearings])
         if with_points.any():
             place = np.where(with_points, np.arange(len(parts)), -1)
             variables |= some_bodies("time", place, states, bodies)
-        first = self._bearings[0].placement.matrix
-        if all(np.array_equal(bearing.placement.matrix, first) for bearing in self._bearings):
+        first = self._bearings[0].placed.placement.matrix
+        others = (bearing.placed.placement.matrix for bearing in self._bearings)
+        if all(np.array_equal(matrix, first) for matrix in others):
             variables["base_shear"] = labelled(
                 ("time", "axis"),
                 states["force"][:, :, 6:9].sum(axis=1),
@@ -129,7 +130,7 @@ class BearingRecording:
             "message": message,
             "lir_dcfp_version": package_version(),
             "opensees_version": opensees().version(),
-            "level": ", ".join(sorted({bearing.level for bearing in self._bearings})),
+            "level": ", ".join(sorted({bearing.placed.level for bearing in self._bearings})),
             "route": ", ".join(sorted({bearing.route for bearing in self._bearings})),
             "record_every": self._every,
             "seconds": time.perf_counter() - self._started,

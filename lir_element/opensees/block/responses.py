@@ -25,7 +25,7 @@ from lir_element.opensees.block.layout import (
 
 if TYPE_CHECKING:
     from lir_element.layout import Floats
-    from lir_element.opensees.placement import BearingTransform
+    from lir_element.opensees.placement import BearingTransform, PlacedBearing
 
 _LOCAL = [2, 0, 1]  # the bearing's axes as local x, y, z
 _NAMES = {
@@ -92,9 +92,10 @@ HINTED = np.zeros(1, dtype=np.int64)
 """1 once a failed step of this process was explained."""
 
 
-def bearing_messages(tag: int, design_load: float, placement: BearingTransform) -> dict[int, str]:
+def bearing_messages(placed: PlacedBearing) -> dict[int, str]:
     """Return the messages of a bearing."""
-    who = f"bearing element {tag}"
+    who, placement = f"bearing element {placed.tag}", placed.placement
+    design_load = placed.device.resolved()["design_load"]
     load = f"its design load, {design_load:g} N ({design_load / placement.force_unit:g} of the"
     units = (
         "What to try: check the model's loads and units (length_unit, force_unit of "

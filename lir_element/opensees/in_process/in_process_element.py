@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lir_element.layout import STATE, STATE_FIELDS
 from lir_element.opensees.block.layout import MOST_DOFS, offset_of
-from lir_element.opensees.block.responses import host_responses
 from lir_element.opensees.in_process.vtable_patch import VTablePatch, address_of, common_functions
 
 if TYPE_CHECKING:
@@ -41,42 +40,18 @@ class InProcessElement:
 
     def __init__(self, hosted: ElementMemory, farewell: socket.socket) -> None:
         self.hosted = hosted
-        self.device = hosted.bearing
-        self.level = hosted.level
-        self.placement = hosted.placement
+        self.placed = hosted.placed
+        self.response, self.recorded = hosted.response, hosted.recorded
+        self.start_recording, self.outcome = hosted.start_recording, hosted.outcome
         self._farewell = farewell
-        self._graft = VTablePatch(hosted.tag, hosted.placement, hosted.block, hosted.messages)
+        self._graft = VTablePatch(self.placed, hosted.block, self.route, _state_words())
         self._set_objects()
-        self._graft.set_responses(host_responses(hosted.placement), _state_words())
-        self._graft.set_printed(
-            name=hosted.tag,
-            type="LIRBearing",
-            nodes=[int(n) for n in hosted.placement.nodes],
-            level=hosted.level,
-            route=self.route,
-        )
-        self._graft.replace(_callbacks(hosted.level))
+        self._graft.replace(_callbacks(self.placed.level))
 
     @property
     def alive(self) -> bool:
         """Whether OpenSees still has the element."""
         return self._graft.alive
-
-    def response(self, name: str) -> Any:
-        """Return a response of the committed state by name."""
-        return self.hosted.response(name)
-
-    def start_recording(self, every: int) -> None:
-        """Record every so many commits from now on; 0: none."""
-        self.hosted.start_recording(every)
-
-    def recorded(self) -> tuple[Any, ...]:
-        """Return what `ElementMemory.recorded` does."""
-        return self.hosted.recorded()
-
-    def outcome(self) -> tuple[int, bool, float]:
-        """Return what `ElementMemory.outcome` does."""
-        return self.hosted.outcome()
 
     def detach(self) -> None:
         """Give the element its own functions back: ours end with Python, before OpenSees does."""
@@ -89,7 +64,7 @@ class InProcessElement:
         self._farewell.close()
 
     def _set_objects(self) -> None:
-        block, count, graft = self.hosted.block, self.hosted.placement.dofs, self._graft
+        block, count, graft = self.hosted.block, self.placed.placement.dofs, self._graft
         zeros = graft.keep(np.zeros(MOST_DOFS * MOST_DOFS))
         block["force_vector"] = graft.vector(address_of(block, "force"), count)
         block["tangent_matrix"] = graft.matrix(address_of(block, "tangent"), count)

@@ -29,7 +29,7 @@ from lir_element.opensees.element_memory import ElementMemory
 from lir_element.opensees.in_process.in_process_element import InProcessElement
 from lir_element.opensees.in_process.symbols import NotPossibleError, addresses, library_path
 from lir_element.opensees.library import child_environment, opensees
-from lir_element.opensees.placement import place
+from lir_element.opensees.placement import PlacedBearing, place
 
 _LONGEST = 900.0
 """How long the self-test may take [s]; it compiles the kernels the first time."""
@@ -136,7 +136,7 @@ def _run(bearing: LIRBearing | None) -> np.ndarray[Any, Any]:
         ops.element("zeroLength", 7, 1, 2, "-mat", 1, "-dir", 3)
     else:
         placement = place(ops, 1, 2, bearing, None, 1.0, 1.0)
-        hosted = ElementMemory(7, bearing, "pendulum", placement)
+        hosted = ElementMemory(PlacedBearing(7, bearing, "pendulum", placement))
         grafted = InProcessElement(hosted, add_host_element(ops, 7, placement))
     moves = [*_settle(ops), *_shake(ops)]
     force = ops.eleForce(7, 9)

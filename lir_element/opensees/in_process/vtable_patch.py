@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lir_element.opensees.block.layout import CONSTANT, RESPONSE, offset_of
-from lir_element.opensees.block.responses import HINTED
+from lir_element.opensees.block.responses import HINTED, bearing_messages, host_responses
 from lir_element.opensees.in_process.symbols import (
     OPTIONAL,
     REPLACED,
@@ -30,11 +30,11 @@ from lir_element.opensees.in_process.symbols import (
 from lir_element.opensees.kernels.motion import HASH_FACTOR, HASH_START
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Sequence
 
     from lir_element.layout import Records
     from lir_element.opensees.block.responses import HostResponse
-    from lir_element.opensees.placement import BearingTransform
+    from lir_element.opensees.placement import PlacedBearing
 
 _WORDS = 62
 """Of the host's virtual tables together, after the first one's two words of head."""
@@ -51,14 +51,14 @@ class VTablePatch:
 
     Parameters
     ----------
-    tag : int
-        Of the element.
-    placement : Placement
-        Its nodes and degrees of freedom.
+    placed : PlacedBearing
+        The bearing.
     block : record array, (1,)
         Of the bearing (`layout.HOST`).
-    messages : dict of int to str
-        What it tells.
+    route : str
+        Name of the coupling.
+    words : sequence of (str, int, int, bool)
+        Words of its state that recorders can have, too: name, place, size, whether integers.
 
     Raises
     ------
@@ -67,9 +67,14 @@ class VTablePatch:
     """
 
     def __init__(
-        self, tag: int, placement: BearingTransform, block: Records, messages: dict[int, str]
+        self,
+        placed: PlacedBearing,
+        block: Records,
+        route: str,
+        words: Sequence[tuple[str, int, int, bool]] = (),
     ) -> None:
         self.block = block
+        tag, placement = placed.tag, placed.placement
         self._kept: list[Any] = [block]
         where = addresses()
         domain = _call("get_domain")
@@ -103,7 +108,10 @@ class VTablePatch:
         block["write"] = ctypes.cast(ctypes.CDLL(None).write, ctypes.c_void_p).value
         block["hinted"] = HINTED.ctypes.data
         block["type_name"] = _TYPE.ctypes.data
-        self._set_messages(messages)
+        self._set_messages(bearing_messages(placed))
+        self._set_responses(host_responses(placement), words)
+        line = "\t\t\t" + json.dumps(placed.printed(route))
+        self.block["json"] = self.keep(np.frombuffer(line.encode() + b"\0", np.uint8)).ctypes.data
 
     @property
     def alive(self) -> bool:
@@ -129,11 +137,11 @@ class VTablePatch:
                 own = addresses()["table"] + 8 * first
                 ctypes.c_int64.from_address(self._element + place).value = own
 
-    def set_responses(
-        self, given: dict[str, HostResponse], words: Iterable[tuple[str, int, int, bool]] = ()
+    def _set_responses(
+        self, given: dict[str, HostResponse], words: Sequence[tuple[str, int, int, bool]]
     ) -> None:
-        """Set what recorders can ask for."""
-        table = self.keep(np.zeros(len(given) + len(list(words)), dtype=RESPONSE))
+        # What recorders can ask for.
+        table = self.keep(np.zeros(len(given) + len(words), dtype=RESPONSE))
         rows: list[tuple[str, int, int, bool, Any]] = [
             (name, each.source, len(each.matrix), False, each.matrix)
             for name, each in given.items()
@@ -149,11 +157,6 @@ class VTablePatch:
             table["vector"][k] = self.vector(address_of(table[k : k + 1], "values"), size)
         self.block["responses"] = table.ctypes.data
         self.block["response_count"] = len(rows)
-
-    def set_printed(self, **entries: Any) -> None:
-        """Set the element's line in a printed model."""
-        line = "\t\t\t" + json.dumps(entries)
-        self.block["json"] = self.keep(np.frombuffer(line.encode() + b"\0", np.uint8)).ctypes.data
 
     def vector(self, data: int, count: int) -> int:
         """Return the address of a new Vector over memory of ours."""

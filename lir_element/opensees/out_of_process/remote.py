@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from lir_element.device.bearing import LIRBearing
     from lir_element.opensees.out_of_process.responses import HostOverrides
-    from lir_element.opensees.placement import BearingTransform
+    from lir_element.opensees.placement import PlacedBearing
 
 
 class ServerError(RuntimeError):
@@ -72,43 +72,25 @@ class Remote:
     ----------
     server : Server
         The process.
-    tag : int
-        Of the element.
-    bearing : LIRBearing
-        The device.
-    level : str
-        Level of fidelity.
-    placement : Placement
-        How the model's degrees of freedom lead to its axes.
-    symmetric : bool
-        Whether its tangent is made symmetric.
+    placed : PlacedBearing
+        The bearing.
     """
 
     route = "portable"
 
-    def __init__(
-        self,
-        server: Server,
-        tag: int,
-        bearing: LIRBearing,
-        level: str,
-        placement: BearingTransform,
-        symmetric: bool = False,
-    ) -> None:
+    def __init__(self, server: Server, placed: PlacedBearing) -> None:
         self._server = server
         self._key = server.new_key()
-        self._words = vector_length(placement.dofs)
+        self._words = vector_length(placed.placement.dofs)
         self._sock: socket.socket | None = None
-        self.device = bearing
-        self.level = level
-        self.placement = placement
+        self.placed = placed
         self._records: tuple[Any, ...] | None = None
         self._outcome = (0, False, 0.0)
         self._recording = False
         self._overrides: HostOverrides | None = None
-        self._tag, self._warned = tag, False
-        sent = _without_classes(bearing)
-        server.ask("prepare", self._key, tag, sent, level, placement, symmetric)
+        self._warned = False
+        sent = placed._replace(device=_without_classes(placed.device))
+        server.ask("prepare", self._key, sent)
 
     def connect(self, sock: socket.socket) -> None:
         """Hand the host element's connection over, and guard it."""
@@ -205,9 +187,9 @@ class Remote:
         if _SAME_CLOCK * step < away < (1.0 - _SAME_CLOCK) * step:
             self._warned = True
             msg = (
-                f"bearing element {self._tag}: the integrator tries states at {committed:g} s that "
-                f"it commits {away:g} s apart, and this build of OpenSees does not let the bearing "
-                "see that: rates of sliding are wrong. Take integrator Newmark or TRBDF2"
+                f"bearing element {self.placed.tag}: the integrator tries states at {committed:g} "
+                f"s that it commits {away:g} s apart, and this build of OpenSees does not let the "
+                "bearing see that: rates of sliding are wrong. Take integrator Newmark or TRBDF2"
             )
             warnings.warn(msg, RouteWarning, stacklevel=4)
 

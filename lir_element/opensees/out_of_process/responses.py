@@ -14,13 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lir_element.opensees.block.layout import HOST, MOST_DOFS
-from lir_element.opensees.block.responses import bearing_messages, host_responses
 from lir_element.opensees.in_process.symbols import addresses
 from lir_element.opensees.in_process.vtable_patch import VTablePatch, common_functions
 
 if TYPE_CHECKING:
-    from lir_element.device.bearing import LIRBearing
-    from lir_element.opensees.placement import BearingTransform
+    from lir_element.opensees.placement import PlacedBearing
 
 _HOST = {"tangent": "tangent_stiff", "initial": "initial_stiff", "commit": "commit_state"}
 _OWN = {
@@ -43,14 +41,8 @@ class HostOverrides:
 
     Parameters
     ----------
-    tag : int
-        Of the element.
-    bearing : LIRBearing
-        The device.
-    level : str
-        Level of fidelity.
-    placement : Placement
-        Its nodes and axes.
+    placed : PlacedBearing
+        The bearing.
 
     Raises
     ------
@@ -58,13 +50,11 @@ class HostOverrides:
         If the element is not what it was in the self-test.
     """
 
-    def __init__(
-        self, tag: int, bearing: LIRBearing, level: str, placement: BearingTransform
-    ) -> None:
+    def __init__(self, placed: PlacedBearing) -> None:
         from lir_element.opensees.kernels import callbacks
 
         block = np.zeros(1, dtype=HOST)
-        block["dofs"] = placement.dofs
+        block["dofs"] = dofs = placed.placement.dofs
         block["remote"] = 1
         block["all_signals"] = -1
         block["mask_mode"] = signal.SIG_SETMASK
@@ -72,18 +62,9 @@ class HostOverrides:
         where = addresses()
         for name in ("update", "tangent", "initial", "commit"):
             block[f"host_{name}"] = where[_HOST.get(name, name)]
-        load = bearing.resolved()["design_load"]
-        self._graft = VTablePatch(tag, placement, block, bearing_messages(tag, load, placement))
-        self._graft.set_responses(host_responses(placement))
-        self._graft.set_printed(
-            name=tag,
-            type="LIRBearing",
-            nodes=[int(node) for node in placement.nodes],
-            level=level,
-            route="portable",
-        )
+        self._graft = VTablePatch(placed, block, "portable")
         zeros = self._graft.keep(np.zeros(MOST_DOFS * MOST_DOFS))
-        block["zero_matrix"] = self._graft.matrix(zeros.ctypes.data, placement.dofs)
+        block["zero_matrix"] = self._graft.matrix(zeros.ctypes.data, dofs)
         own = {name: getattr(callbacks, each).address for name, each in _OWN.items()}
         self._graft.replace(common_functions() | own)
 

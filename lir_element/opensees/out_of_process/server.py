@@ -29,6 +29,8 @@ from lir_element.opensees.element_memory import ElementMemory
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
+    from lir_element.opensees.placement import PlacedBearing
+
 _QUICK = getattr(socket, "TCP_QUICKACK", None)  # Linux: without it small messages wait some 40 ms
 _NO_FORCE = np.full(MOST_DOFS * MOST_DOFS, -1).view(np.float64)
 """The protocol knows no failure; no test accepts this, from whichever byte on it is read."""
@@ -47,7 +49,7 @@ class Channel:
     def __init__(self, sock: socket.socket, hosted: ElementMemory) -> None:
         self.sock = sock
         self.hosted = hosted
-        count = hosted.placement.dofs
+        count = hosted.placed.placement.dofs
         size = protocol.vector_length(count)
         self._inbox = np.zeros(size)
         self._view = memoryview(self._inbox.view(np.uint8).data)
@@ -194,8 +196,8 @@ class Service:
         else:
             self._pipe.send((True, result))
 
-    def _do_prepare(self, key: int, *arguments: Any) -> None:
-        self._hosted[key] = ElementMemory(*arguments)
+    def _do_prepare(self, key: int, placed: PlacedBearing) -> None:
+        self._hosted[key] = ElementMemory(placed)
 
     def _do_connect(self, key: int, sock: socket.socket) -> None:
         channel = Channel(sock, self._hosted[key])
