@@ -101,6 +101,58 @@ def yours(clause: str, what: str, why: str, only: str = "") -> Provision:
 NO_CODE = "no code"
 """Clause of provisions that no code has."""
 
+_CHECKED: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "rims are not met at D_TM": (("no restrainer contact at the total displacement",), ()),
+    "share of D_TM from which rims may be met": (("displacement where a rim engages",), ()),
+    "restoring force": (("restoring force",), ()),
+    "storey drift, equivalent-linear": (("storey drift",), ("superstructure", "storey stiffness")),
+    "storey drift of time histories": (("storey drift ratio",), ("storeys",)),
+    "overturning of the whole structure": (
+        ("overturning of the whole structure",),
+        ("superstructure",),
+    ),
+    "uplift by the combinations": (("no uplift",), ("superstructure", "combinations")),
+    "sliding under wind": (("sliding under wind",), ("wind",)),
+    "separation to walls and neighbours": (
+        ("clearance to the moat wall, equivalent-linear",),
+        ("room",),
+    ),
+    "number and scaling of motions": (
+        ("number of motions", "pairs of motions", "mean spectrum of the motions"),
+        (),
+    ),
+    "runs that failed": (("runs that failed",), ()),
+    "accidental eccentricity of time histories": (
+        ("runs with moved masses that failed",),
+        ("moved",),
+    ),
+    "displacement of time histories": (("isolator displacement",), ()),
+    "uplift in time histories": (("uplift duration",), ()),
+}
+"""Provisions that several codes have alike, with checks and needs of each."""
+
+_UNCHECKED = {
+    "overstrength of members and connections": "since no force with overstrength is formed",
+    "vertical earthquake in the combinations": "since the combinations have none",
+}
+_YOURS = {
+    "parts that cross the isolation interface": "they must follow the total displacement",
+    "review of the design": "by a reviewer of the project",
+    "tests of the bearings": (
+        "the programme is in the report; acceptance_checks judges loops that were measured"
+    ),
+}
+"""The same of which no check is made, and why; and that the engineer shows, and how."""
+
+
+def common(clause: str, what: str) -> Provision:
+    """Return a provision that several codes have alike, with the clause of one of them."""
+    if what in _YOURS:
+        return yours(clause, what, _YOURS[what])
+    checks, needs = _CHECKED.get(what, ((), ()))
+    return Provision(clause, what, checks, needs, "" if checks else _UNCHECKED[what])
+
+
 OF_BEARINGS = (
     Provision(
         NO_CODE,

@@ -13,6 +13,7 @@ from frames.design.codes.code_values import (
     USGS,
     CodeValue,
     Provision,
+    common,
     yours,
 )
 from frames.design.codes.factor_sources import factors_of_asce7
@@ -118,17 +119,9 @@ VALUES = {
 """By name; of what no text was compared it is from memory."""
 
 PROVISIONS = (
-    Provision(
-        f"{NAME} 17.2.4.5, 17.4.1",
-        "rims are not met at D_TM",
-        ("no restrainer contact at the total displacement",),
-    ),
-    Provision(
-        f"{NAME} 17.2.4.5",
-        "share of D_TM from which rims may be met",
-        ("displacement where a rim engages",),
-    ),
-    Provision(f"{NAME} 17.2.4.4", "restoring force", ("restoring force",)),
+    common(f"{NAME} 17.2.4.5, 17.4.1", "rims are not met at D_TM"),
+    common(f"{NAME} 17.2.4.5", "share of D_TM from which rims may be met"),
+    common(f"{NAME} 17.2.4.4", "restoring force"),
     Provision(
         f"{NAME} 17.4.1",
         "limits of the procedure: T_M, beta_M, stiffness",
@@ -151,76 +144,38 @@ PROVISIONS = (
         "weak and soft storeys",
         "the strength and stiffness of each storey over that above",
     ),
-    Provision(
-        f"{NAME} 17.5.6",
-        "storey drift, equivalent-linear",
-        ("storey drift",),
-        ("superstructure", "storey stiffness"),
-    ),
-    Provision(
-        f"{NAME} 17.6.4.4",
-        "storey drift of time histories",
-        ("storey drift ratio",),
-        ("storeys",),
-    ),
+    common(f"{NAME} 17.5.6", "storey drift, equivalent-linear"),
+    common(f"{NAME} 17.6.4.4", "storey drift of time histories"),
     Provision(
         f"{NAME} 12.8.7, 17.6.4.4",
         "P-Delta: coefficient of the storeys, and whether the analysis has it",
         ("P-Delta coefficient of a storey",),
         ("storeys",),
     ),
-    Provision(
-        f"{NAME} 17.2.4.7",
-        "overturning of the whole structure",
-        ("overturning of the whole structure",),
-        ("superstructure",),
-    ),
-    Provision(
-        f"{NAME} 17.2.4.6, 17.2.4.7",
-        "uplift by the combinations",
-        ("no uplift",),
-        ("superstructure", "combinations"),
-    ),
+    common(f"{NAME} 17.2.4.7", "overturning of the whole structure"),
+    common(f"{NAME} 17.2.4.6, 17.2.4.7", "uplift by the combinations"),
     Provision(
         f"{NAME} 17.2.4.7", "uplift in time histories", ("maximum uplift over the rim height",)
     ),
-    Provision(f"{NAME} 17.2.4.2", "sliding under wind", ("sliding under wind",), ("wind",)),
-    Provision(
-        f"{NAME} 17.2.5.2",
-        "separation to walls and neighbours",
-        ("clearance to the moat wall, equivalent-linear",),
-        ("room",),
-    ),
-    Provision(
-        f"{NAME} 17.3.3",
-        "number and scaling of motions",
-        ("number of motions", "pairs of motions", "mean spectrum of the motions"),
-    ),
+    common(f"{NAME} 17.2.4.2", "sliding under wind"),
+    common(f"{NAME} 17.2.5.2", "separation to walls and neighbours"),
+    common(f"{NAME} 17.3.3", "number and scaling of motions"),
     Provision(
         f"{NAME} 17.3.3",
         "near-fault pairs in the axes of the fault",
         ("near-fault pairs that are not turned to the fault",),
         ("near fault",),
     ),
-    Provision(f"{NAME} 17.3.3", "runs that failed", ("runs that failed",)),
-    Provision(
-        f"{NAME} 17.6.2.1",
-        "accidental eccentricity of time histories",
-        ("runs with moved masses that failed",),
-        ("moved",),
-    ),
-    Provision(f"{NAME} 17.6.4", "displacement of time histories", ("isolator displacement",)),
+    common(f"{NAME} 17.3.3", "runs that failed"),
+    common(f"{NAME} 17.6.2.1", "accidental eccentricity of time histories"),
+    common(f"{NAME} 17.6.4", "displacement of time histories"),
     Provision(
         f"{NAME} 17.6.4",
         "least shears of time histories",
         ("base shear of time histories", "storey shear of time histories"),
         ("superstructure", "storeys", "bounds"),
     ),
-    Provision(
-        f"{NAME} 12.4.3, 17.5.4",
-        "overstrength of members and connections",
-        why="since no force with overstrength is formed",
-    ),
+    common(f"{NAME} 12.4.3, 17.5.4", "overstrength of members and connections"),
     Provision(
         f"{NAME} 17.2.5.1",
         "diaphragm that brings forces to the bearings",
@@ -237,17 +192,9 @@ PROVISIONS = (
         "inspection, replacement and quality control",
         "state it in the specification",
     ),
-    yours(
-        f"{NAME} 17.2.6",
-        "parts that cross the isolation interface",
-        "they must follow the total displacement",
-    ),
-    yours(f"{NAME} 17.7", "review of the design", "by a reviewer of the project"),
-    yours(
-        f"{NAME} 17.8",
-        "tests of the bearings",
-        "the programme is in the report; acceptance_checks judges loops that were measured",
-    ),
+    common(f"{NAME} 17.2.6", "parts that cross the isolation interface"),
+    common(f"{NAME} 17.7", "review of the design"),
+    common(f"{NAME} 17.8", "tests of the bearings"),
 )
 """Provisions of chapter 17, checked or not; `OF_BEARINGS` has those beside the code."""
 

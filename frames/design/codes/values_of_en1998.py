@@ -5,7 +5,15 @@ from __future__ import annotations
 import math
 from typing import Any, Literal
 
-from frames.design.codes.code_values import NO_CODE, NTC, NTC_SLIDERS, CodeValue, Provision, yours
+from frames.design.codes.code_values import (
+    NO_CODE,
+    NTC,
+    NTC_SLIDERS,
+    CodeValue,
+    Provision,
+    common,
+    yours,
+)
 from frames.design.codes.factor_sources import factors_of_en1998
 from frames.design.codes.history_rules import HistoryRules, LoadRule, fixed_combinations
 from frames.design.codes.prototype_programme import AcceptanceRule
@@ -142,18 +150,8 @@ PROVISIONS = (
         "displacement left by earlier events",
         ("capacity with accumulated displacement",),
     ),
-    Provision(
-        "EN 1998-1 4.4.3.2",
-        "storey drift, equivalent-linear",
-        ("storey drift",),
-        ("superstructure", "storey stiffness"),
-    ),
-    Provision(
-        "EN 1998-1 4.4.3.2",
-        "storey drift of time histories",
-        ("storey drift ratio",),
-        ("storeys",),
-    ),
+    common("EN 1998-1 4.4.3.2", "storey drift, equivalent-linear"),
+    common("EN 1998-1 4.4.3.2", "storey drift of time histories"),
     Provision(
         "EN 1998-1 4.4.2.2",
         "second-order effects: theta of the storeys, and whether the analysis has them",
@@ -165,31 +163,12 @@ PROVISIONS = (
         "regularity in plan and height",
         "the model is spatial; 4.2.3.1(7) reduces q if the elevation is irregular",
     ),
-    Provision(
-        "EN 1998-1 4.4.2.4",
-        "overturning of the whole structure",
-        ("overturning of the whole structure",),
-        ("superstructure",),
-    ),
-    Provision(
-        "EN 15129 8.3, EN 1998-1 10.10",
-        "uplift by the combinations",
-        ("no uplift",),
-        ("superstructure", "combinations"),
-    ),
-    Provision("EN 1998-1 10.10", "uplift in time histories", ("uplift duration",)),
-    Provision(
-        "EN 1998-1 4.3.3.5.2, 10.6",
-        "vertical earthquake in the combinations",
-        why="since the combinations have none",
-    ),
-    Provision(NO_CODE, "sliding under wind", ("sliding under wind",), ("wind",)),
-    Provision(
-        "EN 1998-1 10.5.4",
-        "separation to walls and neighbours",
-        ("clearance to the moat wall, equivalent-linear",),
-        ("room",),
-    ),
+    common("EN 1998-1 4.4.2.4", "overturning of the whole structure"),
+    common("EN 15129 8.3, EN 1998-1 10.10", "uplift by the combinations"),
+    common("EN 1998-1 10.10", "uplift in time histories"),
+    common("EN 1998-1 4.3.3.5.2, 10.6", "vertical earthquake in the combinations"),
+    common(NO_CODE, "sliding under wind"),
+    common("EN 1998-1 10.5.4", "separation to walls and neighbours"),
     Provision(
         "EN 1998-1 3.2.3.1.2",
         "number and scaling of motions",
@@ -200,14 +179,9 @@ PROVISIONS = (
             "mean spectrum of the motions at the period 0",
         ),
     ),
-    Provision("EN 1998-1 4.3.3.4.3(3)", "runs that failed", ("runs that failed",)),
-    Provision(
-        "EN 1998-1 4.3.2",
-        "accidental eccentricity of time histories",
-        ("runs with moved masses that failed",),
-        ("moved",),
-    ),
-    Provision("EN 1998-1 10.3(2)", "displacement of time histories", ("isolator displacement",)),
+    common("EN 1998-1 4.3.3.4.3(3)", "runs that failed"),
+    common("EN 1998-1 4.3.2", "accidental eccentricity of time histories"),
+    common("EN 1998-1 10.3(2)", "displacement of time histories"),
     Provision(
         "EN 1998-1 4.4.2.3, 4.4.2.6",
         "capacity design and overstrength",
@@ -229,11 +203,7 @@ PROVISIONS = (
         "they must follow the total displacement",
     ),
     yours("EN 1998-1 4.3.5", "non-structural elements", "floor accelerations are in demands.csv"),
-    yours(
-        "EN 15129 8.3.4",
-        "tests of the bearings",
-        "the programme is in the report; acceptance_checks judges loops that were measured",
-    ),
+    common("EN 15129 8.3.4", "tests of the bearings"),
     yours("EN 15129 4.4, 10", "durability, fire, replacement", "state it in the specification"),
 )
 """Provisions of EN 1998 and EN 15129, checked or not; `OF_BEARINGS` has those beside them."""

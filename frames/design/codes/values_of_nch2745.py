@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from frames.design.codes.code_values import NO_CODE, CodeValue, Provision, yours
+from frames.design.codes.code_values import NO_CODE, CodeValue, Provision, common, yours
 from frames.design.codes.history_rules import (
     DESIGN,
     MAXIMUM,
@@ -81,17 +81,9 @@ VALUES = {
 """By name; of what no text was compared it is from memory."""
 
 PROVISIONS = (
-    Provision(
-        "NCh2745 7.3",
-        "rims are not met at D_TM",
-        ("no restrainer contact at the total displacement",),
-    ),
-    Provision(
-        "NCh2745 7.3",
-        "share of D_TM from which rims may be met",
-        ("displacement where a rim engages",),
-    ),
-    Provision("NCh2745 10.2", "restoring force", ("restoring force",)),
+    common("NCh2745 7.3", "rims are not met at D_TM"),
+    common("NCh2745 7.3", "share of D_TM from which rims may be met"),
+    common("NCh2745 10.2", "restoring force"),
     Provision(
         "NCh2745 10.2",
         "capacity of 3 D_TD where the restoring force is less",
@@ -112,74 +104,27 @@ PROVISIONS = (
         "regularity in plan and height, torsion",
         why="since 0.001 h between edge and centre (5.9.3) is of buildings on a fixed base",
     ),
-    Provision(
-        "NCh2745 7.6",
-        "storey drift, equivalent-linear",
-        ("storey drift",),
-        ("superstructure", "storey stiffness"),
-    ),
-    Provision(
-        "NCh2745 8.8", "storey drift of time histories", ("storey drift ratio",), ("storeys",)
-    ),
-    Provision(
-        "NCh2745 6.2",
-        "overturning of the whole structure",
-        ("overturning of the whole structure",),
-        ("superstructure",),
-    ),
-    Provision(
-        "NCh2745 6.2",
-        "uplift by the combinations",
-        ("no uplift",),
-        ("superstructure", "combinations"),
-    ),
-    Provision("NCh2745 8", "uplift in time histories", ("uplift duration",)),
-    Provision(
-        "NCh2745 6.2",
-        "vertical earthquake in the combinations",
-        why="since the combinations have none",
-    ),
-    Provision(NO_CODE, "sliding under wind", ("sliding under wind",), ("wind",)),
-    Provision(
-        NO_CODE,
-        "separation to walls and neighbours",
-        ("clearance to the moat wall, equivalent-linear",),
-        ("room",),
-    ),
-    Provision(
-        "NCh2745 8.4",
-        "number and scaling of motions",
-        ("number of motions", "pairs of motions", "mean spectrum of the motions"),
-    ),
-    Provision("NCh2745 8.4", "runs that failed", ("runs that failed",)),
-    Provision(
-        "NCh2745 8.3",
-        "accidental eccentricity of time histories",
-        ("runs with moved masses that failed",),
-        ("moved",),
-    ),
-    Provision("NCh2745 8", "displacement of time histories", ("isolator displacement",)),
-    Provision(
-        "NCh2745 7.4",
-        "overstrength of members and connections",
-        why="since no force with overstrength is formed",
-    ),
+    common("NCh2745 7.6", "storey drift, equivalent-linear"),
+    common("NCh2745 8.8", "storey drift of time histories"),
+    common("NCh2745 6.2", "overturning of the whole structure"),
+    common("NCh2745 6.2", "uplift by the combinations"),
+    common("NCh2745 8", "uplift in time histories"),
+    common("NCh2745 6.2", "vertical earthquake in the combinations"),
+    common(NO_CODE, "sliding under wind"),
+    common(NO_CODE, "separation to walls and neighbours"),
+    common("NCh2745 8.4", "number and scaling of motions"),
+    common("NCh2745 8.4", "runs that failed"),
+    common("NCh2745 8.3", "accidental eccentricity of time histories"),
+    common("NCh2745 8", "displacement of time histories"),
+    common("NCh2745 7.4", "overstrength of members and connections"),
     yours(
         "NCh433 6.2.3",
         "edition that is in force",
         "of NCh433 with DS61, and of NCh2745: confirm both",
     ),
-    yours("NCh2745 13", "review of the design", "by a reviewer of the project"),
-    yours(
-        "NCh2745 14",
-        "tests of the bearings",
-        "the programme is in the report; acceptance_checks judges loops that were measured",
-    ),
-    yours(
-        "NCh2745 9",
-        "parts that cross the isolation interface",
-        "they must follow the total displacement",
-    ),
+    common("NCh2745 13", "review of the design"),
+    common("NCh2745 14", "tests of the bearings"),
+    common("NCh2745 9", "parts that cross the isolation interface"),
     yours(
         "NCh2745 6",
         "environment, fire, inspection and replacement",
