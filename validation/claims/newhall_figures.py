@@ -9,20 +9,9 @@ import numpy as np
 from matplotlib.animation import PillowWriter
 from matplotlib.lines import Line2D
 
+from frames.plots import plot_style as ps
 from frames.plots.bearing_drawing import draw_section
 from frames.plots.bearing_geometry import outlines, posture
-from frames.plots.plot_style import (
-    GREY,
-    LINES,
-    PALETTE,
-    SMALL,
-    WIDTHS,
-    add_legend,
-    caption,
-    grid_of,
-    new_figure,
-    style,
-)
 from validation.body_motion import BODIES, body_motion
 
 if TYPE_CHECKING:
@@ -48,8 +37,8 @@ BODY_WIDTHS = (2.2, 1.0, 1.2)  # pt; so that equal curves show both
 
 def motions(found: Mapping[str, xr.Dataset], bearing: LIRBearing, contact: float) -> Figure:
     """Draw displacements and rotations of the bodies over time, after Fig. 6."""
-    drawn = new_figure(5.6)
-    panels = [row[0] for row in grid_of(drawn, 3, 1, share_x=True)]
+    drawn = ps.new_figure(5.6)
+    panels = [row[0] for row in ps.grid_of(drawn, 3, 1, share_x=True)]
     for k, data in enumerate(found.values()):
         motion = body_motion(data, bearing, NAME).sel(time=slice(0.0, SHOWN))
         lateral = 1e3 * motion["position"].sel(axis="x")
@@ -60,8 +49,8 @@ def motions(found: Mapping[str, xr.Dataset], bearing: LIRBearing, contact: float
                 panel.plot(
                     motion["time"],
                     values.sel(body=body),
-                    color=PALETTE[b],
-                    linestyle=LINES[k],
+                    color=ps.PALETTE[b],
+                    linestyle=ps.LINES[k],
                     linewidth=BODY_WIDTHS[b],
                 )
     for panel, text in zip(
@@ -69,41 +58,41 @@ def motions(found: Mapping[str, xr.Dataset], bearing: LIRBearing, contact: float
         ("lateral\ndisplacement [mm]", "vertical\ndisplacement [mm]", "rotation about y\n[mrad]"),
         strict=True,
     ):
-        panel.axvline(contact, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
-        caption(panel, y=text)
+        panel.axvline(contact, color=ps.GREY, linewidth=0.8, linestyle=(0, (4, 3)))
+        ps.caption(panel, y=text)
     panels[0].text(
         contact - 0.1,
         0.97,
         "impact",
-        fontsize=SMALL,
-        color=GREY,
+        fontsize=ps.SMALL,
+        color=ps.GREY,
         ha="right",
         va="top",
         transform=panels[0].get_xaxis_transform(),
     )
     panels[0].set_xlim(0.0, SHOWN)
-    caption(panels[-1], x="time [s]")
+    ps.caption(panels[-1], x="time [s]")
     drawn.align_ylabels()
     handles = [
-        Line2D([], [], color=PALETTE[b], linewidth=BODY_WIDTHS[b], label=body.replace("_", " "))
+        Line2D([], [], color=ps.PALETTE[b], linewidth=BODY_WIDTHS[b], label=body.replace("_", " "))
         for b, body in enumerate(BODIES)
     ] + _levels(found)
-    add_legend(drawn, handles, columns=3, title="Motion of the bodies, Newhall 360")
+    ps.add_legend(drawn, handles, columns=3, title="Motion of the bodies, Newhall 360")
     return drawn
 
 
 def forces(found: Mapping[str, xr.Dataset], limit: float, contact: float) -> Figure:
     """Draw lateral force and moment over time and the loop, after Fig. 8."""
-    drawn = new_figure(4.6)
-    grid = grid_of(drawn, 2, 2)
+    drawn = ps.new_figure(4.6)
+    grid = ps.grid_of(drawn, 2, 2)
     force_panel, loop, moment, zoom = grid[0][0], grid[0][1], grid[1][0], grid[1][1]
     for k, data in enumerate(found.values()):
         chosen = data.sel(bearing=NAME)
         until = chosen.sel(time=slice(0.0, SHOWN))
         look: dict[str, Any] = {
-            "color": PALETTE[k],
-            "linestyle": LINES[k],
-            "linewidth": 0.75 * WIDTHS[k],
+            "color": ps.PALETTE[k],
+            "linestyle": ps.LINES[k],
+            "linewidth": 0.75 * ps.WIDTHS[k],
         }
         force = until["bearing_force"].sel(axis="x") / data["weight"]
         force_panel.plot(until["time"], force, **look)
@@ -115,33 +104,33 @@ def forces(found: Mapping[str, xr.Dataset], limit: float, contact: float) -> Fig
             **look,
         )
     for panel in (force_panel, moment, zoom):
-        panel.axvline(contact, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
-        caption(panel, x="time [s]")
+        panel.axvline(contact, color=ps.GREY, linewidth=0.8, linestyle=(0, (4, 3)))
+        ps.caption(panel, x="time [s]")
     for panel in (force_panel, moment):
         panel.set_xlim(0.0, SHOWN)
     for panel in (force_panel, zoom, loop):
         panel.set_ylim(-1.2 * limit, 1.25 * limit)
         for sign in (-1.0, 1.0):
-            panel.axhline(sign * limit, color=GREY, linewidth=0.8, linestyle=(0, (1, 2)))
-        caption(panel, y="force / weight [-]")
+            panel.axhline(sign * limit, color=ps.GREY, linewidth=0.8, linestyle=(0, (1, 2)))
+        ps.caption(panel, y="force / weight [-]")
     zoom.set_xlim(contact - 0.5, contact + 0.5)
-    caption(force_panel, title="lateral force")
-    caption(zoom, title="lateral force around the impact")
-    caption(moment, y="moment about y [kN m]", title="moment on the superstructure")
-    caption(loop, x="displacement [mm]", title="loops")
+    ps.caption(force_panel, title="lateral force")
+    ps.caption(zoom, title="lateral force around the impact")
+    ps.caption(moment, y="moment about y [kN m]", title="moment on the superstructure")
+    ps.caption(loop, x="displacement [mm]", title="loops")
     handles = [
-        Line2D([], [], color=GREY, linewidth=0.8, linestyle=(0, (4, 3)), label="impact"),
+        Line2D([], [], color=ps.GREY, linewidth=0.8, linestyle=(0, (4, 3)), label="impact"),
         Line2D(
             [],
             [],
-            color=GREY,
+            color=ps.GREY,
             linewidth=0.8,
             linestyle=(0, (1, 2)),
             label="limit, static: tan(θ + atan μ$_h$)",
         ),
         *_levels(found, colours=True),
     ]
-    add_legend(drawn, handles, title="Forces that the bearing passes on, Newhall 360")
+    ps.add_legend(drawn, handles, title="Forces that the bearing passes on, Newhall 360")
     return drawn
 
 
@@ -152,7 +141,7 @@ def film(data: xr.Dataset, bearing: LIRBearing, path: Path) -> None:
     still = [posture(data, bearing, NAME, float(time), along) for time in times]
     points = np.vstack([o for now in still for o in outlines(bearing, now).values()])
     low, high = points.min(axis=0) - 0.01, points.max(axis=0) + 0.01
-    drawn = new_figure(2.35, 8.2)
+    drawn = ps.new_figure(2.35, 8.2)
     drawn.set_layout_engine("none")
     section = drawn.add_axes((0.005, 0.02, 0.60, 0.86))
     loop = drawn.add_axes((0.70, 0.20, 0.285, 0.68))
@@ -170,7 +159,7 @@ def film(data: xr.Dataset, bearing: LIRBearing, path: Path) -> None:
             rim = float(data["rim_force"].sel(time=time, method="nearest").max()) > 0.0
             words = f"t = {time:.2f} s, slip {1e3 * abs(now.slip):.0f} mm"
             section.set_title(
-                words + (", rim contact" if rim else ""), fontsize=SMALL + 1.5, loc="left"
+                words + (", rim contact" if rim else ""), fontsize=ps.SMALL + 1.5, loc="left"
             )
             _loop(loop, u, force, int(np.searchsorted(clock, time, side="right")))
             writer.grab_frame()
@@ -178,12 +167,14 @@ def film(data: xr.Dataset, bearing: LIRBearing, path: Path) -> None:
 
 def _loop(panel: Axes, u: FloatArray, force: FloatArray, count: int) -> None:
     panel.clear()
-    style(panel)
-    panel.plot(u[:count], force[:count], color=PALETTE[0], linewidth=1.2)
-    panel.plot(u[count - 1 : count], force[count - 1 : count], "o", color=PALETTE[1], markersize=4)
+    ps.style(panel)
+    panel.plot(u[:count], force[:count], color=ps.PALETTE[0], linewidth=1.2)
+    panel.plot(
+        u[count - 1 : count], force[count - 1 : count], "o", color=ps.PALETTE[1], markersize=4
+    )
     panel.set_xlim(1.08 * u.min(), 1.08 * u.max())
     panel.set_ylim(1.15 * force.min(), 1.15 * force.max())
-    caption(panel, x="displacement [mm]", y="force / weight [-]")
+    ps.caption(panel, x="displacement [mm]", y="force / weight [-]")
 
 
 def _levels(found: Mapping[str, xr.Dataset], *, colours: bool = False) -> list[Line2D]:
@@ -191,8 +182,8 @@ def _levels(found: Mapping[str, xr.Dataset], *, colours: bool = False) -> list[L
         Line2D(
             [],
             [],
-            color=PALETTE[k] if colours else "black",
-            linestyle=LINES[k],
+            color=ps.PALETTE[k] if colours else "black",
+            linestyle=ps.LINES[k],
             linewidth=WIDTH,
             label=f"level {level}",
         )

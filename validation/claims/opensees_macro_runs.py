@@ -11,17 +11,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from frames import time_history
-from frames.plots.plot_style import (
-    GREY,
-    LINES,
-    PALETTE,
-    SMALL,
-    WIDTHS,
-    add_legend,
-    caption,
-    grid_of,
-    new_figure,
-)
+from frames.plots import plot_style as ps
 from lir_element import AnalysisWarning
 from validation.claims.static_test import REACH, STEP
 from validation.opensees.trials import PLAIN, ROBUST, Shaken, Steps, macro, shake
@@ -174,13 +164,13 @@ class Rim:
 
 def look(k: int) -> dict[str, Any]:
     """Return colour and line of the k-th curve."""
-    return {"color": PALETTE[k], "linestyle": LINES[k], "linewidth": WIDTHS[k]}
+    return {"color": ps.PALETTE[k], "linestyle": ps.LINES[k], "linewidth": ps.WIDTHS[k]}
 
 
 def draw_loops(found: Mapping[str, Loop]) -> Figure:
     """Draw the loops of the static test, and their way back through zero enlarged."""
-    drawn = new_figure(3.3)
-    left, right = grid_of(drawn, 1, 2)[0]
+    drawn = ps.new_figure(3.3)
+    left, right = ps.grid_of(drawn, 1, 2)[0]
     handles = []
     for k, (name, loop) in enumerate(found.items()):
         for panel in (left, right):
@@ -188,9 +178,9 @@ def draw_loops(found: Mapping[str, Loop]) -> Figure:
         handles.append(Line2D([], [], label=name, **look(k)))
     right.set_xlim(-45.0, 45.0)
     right.set_ylim(-0.115, -0.025)
-    caption(left, x="displacement [mm]", y="lateral force / axial load [-]", title="loops")
-    caption(right, x="displacement [mm]", title="ways back through zero, enlarged")
-    add_legend(drawn, handles, columns=4, title="Static cyclic test, two cycles of 185 mm")
+    ps.caption(left, x="displacement [mm]", y="lateral force / axial load [-]", title="loops")
+    ps.caption(right, x="displacement [mm]", title="ways back through zero, enlarged")
+    ps.add_legend(drawn, handles, columns=4, title="Static cyclic test, two cycles of 185 mm")
     return drawn
 
 
@@ -199,8 +189,8 @@ def draw_rims(found: Mapping[str, Rim], orbits: Mapping[str, Floats], capacity: 
 
     Shapes: orbits (n, 2).
     """
-    drawn = new_figure(3.7)
-    left, right = grid_of(drawn, 1, 2)[0]
+    drawn = ps.new_figure(3.7)
+    left, right = ps.grid_of(drawn, 1, 2)[0]
     handles = []
     for k, rim in enumerate(found.values()):
         x, y = (1e3 * rim.reach * f(rim.angles) for f in (np.cos, np.sin))
@@ -213,7 +203,7 @@ def draw_rims(found: Mapping[str, Rim], orbits: Mapping[str, Floats], capacity: 
     right.plot(
         1e3 * capacity * np.cos(turn),
         1e3 * capacity * np.sin(turn),
-        color=GREY,
+        color=ps.GREY,
         linewidth=0.8,
         linestyle=(0, (4, 3)),
     )
@@ -225,15 +215,15 @@ def draw_rims(found: Mapping[str, Rim], orbits: Mapping[str, Floats], capacity: 
         1e3 * near.mean(axis=0) * capacity / np.linalg.norm(near.mean(axis=0)),
         (-24.0, -24.0),
         textcoords="offset points",
-        fontsize=SMALL,
-        color=GREY,
-        arrowprops={"arrowstyle": "->", "linewidth": 0.6, "color": GREY},
+        fontsize=ps.SMALL,
+        color=ps.GREY,
+        arrowprops={"arrowstyle": "->", "linewidth": 0.6, "color": ps.GREY},
     )
     for panel in (left, right):
         panel.set_aspect("equal")
     left.set_xlim(left=0.0)
     left.set_ylim(bottom=0.0)
-    caption(left, x="x [mm]", y="y [mm]", title="displacement at the first slip")
-    caption(right, x="x [mm]", y="y [mm]", title="displacement less slip, a contact")
-    add_legend(drawn, handles, columns=4, title="Oblique contact with the rims")
+    ps.caption(left, x="x [mm]", y="y [mm]", title="displacement at the first slip")
+    ps.caption(right, x="x [mm]", y="y [mm]", title="displacement less slip, a contact")
+    ps.add_legend(drawn, handles, columns=4, title="Oblique contact with the rims")
     return drawn

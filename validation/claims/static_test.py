@@ -14,17 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.lines import Line2D
 
-from frames.plots.plot_style import (
-    GREY,
-    LINES,
-    PALETTE,
-    SMALL,
-    WIDTHS,
-    add_legend,
-    caption,
-    grid_of,
-    new_figure,
-)
+from frames.plots import plot_style as ps
 from lir_element import cyclic_test
 from validation.page import Check, Claim, Page, render, run, stated
 from validation.scenes import LEVELS_STATIC, REACH, static_bearing, static_path
@@ -94,19 +84,23 @@ def checks(data: xr.Dataset, level: str) -> list[Check]:
 
 def draw(found: dict[str, xr.Dataset]) -> Figure:
     """Draw the normalised loops, after the paper's Fig. 4, and the slip of the interface."""
-    drawn = new_figure(3.1)
-    left, right = grid_of(drawn, 1, 2)[0]
+    drawn = ps.new_figure(3.1)
+    left, right = ps.grid_of(drawn, 1, 2)[0]
     way, limit = 1e3 * static_path(), static_bearing().force_limit(1.0)
     handles = []
     for k, (level, data) in enumerate(found.items()):
-        look: dict[str, Any] = {"color": PALETTE[k], "linestyle": LINES[k], "linewidth": WIDTHS[k]}
+        look: dict[str, Any] = {
+            "color": ps.PALETTE[k],
+            "linestyle": ps.LINES[k],
+            "linewidth": ps.WIDTHS[k],
+        }
         reached = way[: data.sizes["step"]]
         left.plot(reached, data["bearing_force"].sel(axis="x")[:, 0] / LOAD, **look)
         right.plot(reached, 1e3 * data["interface_slip"].sel(axis="x")[:, 0], **look)
         handles.append(Line2D([], [], label=f"level {level}", **look))
     for sign in (-1.0, 1.0):
-        left.axhline(sign * limit, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
-    left.text(-190.0, limit + 0.008, "tan(θ + atan μ$_h$)", fontsize=SMALL, color=GREY)
+        left.axhline(sign * limit, color=ps.GREY, linewidth=0.8, linestyle=(0, (4, 3)))
+    left.text(-190.0, limit + 0.008, "tan(θ + atan μ$_h$)", fontsize=ps.SMALL, color=ps.GREY)
     notes = (
         ("1st slide: +175 mm", (175.0, 0.2), (20.0, 0.225), left),
         ("2nd slide: −165 mm", (-165.0, -0.2), (-20.0, -0.225), left),
@@ -116,15 +110,15 @@ def draw(found: dict[str, xr.Dataset]) -> Figure:
             text,
             point,
             place,
-            fontsize=SMALL,
+            fontsize=ps.SMALL,
             va="center",
             ha="right" if point[0] > 0.0 else "left",
             arrowprops={"arrowstyle": "->", "linewidth": 0.6, "shrinkB": 2.0},
         )
     left.set_ylim(-0.31, 0.31)
-    caption(left, x="displacement [mm]", y="lateral force / axial load [-]", title="loops")
-    caption(right, x="displacement [mm]", y="interface slip [mm]", title="slip of the interface")
-    add_legend(drawn, handles, title="Static cyclic test, two cycles of 185 mm")
+    ps.caption(left, x="displacement [mm]", y="lateral force / axial load [-]", title="loops")
+    ps.caption(right, x="displacement [mm]", y="interface slip [mm]", title="slip of the interface")
+    ps.add_legend(drawn, handles, title="Static cyclic test, two cycles of 185 mm")
     return drawn
 
 
