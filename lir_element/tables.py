@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from html import escape
 
@@ -36,3 +37,19 @@ def html_table(title: str, rows: Rows, head: Sequence[str] = (), notes: Sequence
     below = "".join(f"<li>{escape(note)}</li>" for note in notes)
     listed = f"<ul>{below}</ul>" if notes else ""
     return f"<div><b>{escape(title)}</b><table>{top}{body}</table>{listed}</div>"
+
+
+class Shown(ABC):
+    """What has a few rows to show."""
+
+    @abstractmethod
+    def _rows(self) -> list[tuple[str, str]]:
+        """Return what is shown: what it is, and its value."""
+
+    def __repr__(self) -> str:
+        """Return it on one line."""
+        return f"{type(self).__name__}({', '.join(f'{k}: {v}' for k, v in self._rows() if v)})"
+
+    def _repr_html_(self) -> str:
+        """Return a table for notebooks."""
+        return html_table(type(self).__name__, [row for row in self._rows() if row[1]])

@@ -14,7 +14,7 @@ import threading
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from lir_element.opensees.block.protocol import vector_length
+from lir_element.opensees.block.layout import vector_length
 
 if TYPE_CHECKING:
     from collections.abc import Generator

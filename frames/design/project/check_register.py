@@ -14,7 +14,7 @@ from frames.design.devices.device import device_checks
 from frames.design.histories.eccentricity import levels_of
 from frames.design.histories.histories import case_checks
 from frames.design.histories.motions import motion_checks
-from frames.design.project.moat_checks import clearance_checks, wall_checks
+from frames.design.project.moat_and_dampers import clearance_checks, wall_checks
 from lir_element.argument_checks import require_type
 from lir_element.texts import joined
 

@@ -18,7 +18,7 @@ from frames.design.histories.eccentricity import WAYS
 from frames.design.histories.motions import period_range
 from frames.design.project.check_register import Preliminary
 from frames.design.project.inputs import in_section
-from frames.design.project.moat_checks import clearance_checks
+from frames.design.project.moat_and_dampers import clearance_checks
 from frames.design.project.sanity_checks import file_doubts, value_doubts, wind_doubts
 from frames.design.project.schema_structure import ImportedModel, OpenSeesModel
 from frames.library.moved_masses import with_moved_masses

@@ -12,9 +12,9 @@ from frames.risk._errors import FragilityError
 from frames.risk.fragility.curve import CollapseFragility, Fragility, checked_confidence
 from frames.risk.fragility.hazard_curve import HazardCurve
 from frames.risk.fragility.intensity import require_one_measure
-from frames.risk.fragility.notebook import Shown
 from frames.risk.fragility.risk import mean_annual_frequency
 from lir_element.argument_checks import require_type
+from lir_element.tables import Shown
 
 
 @dataclass(frozen=True, eq=False, repr=False)

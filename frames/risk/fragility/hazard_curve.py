@@ -10,8 +10,8 @@ import pandas as pd
 
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.intensity import IntensityMeasure, unit_of
-from frames.risk.fragility.notebook import Shown
 from lir_element.argument_checks import require_positive
+from lir_element.tables import Shown
 
 if TYPE_CHECKING:
     import numpy.typing as npt

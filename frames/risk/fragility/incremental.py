@@ -12,8 +12,8 @@ import pandas as pd
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.hunt_fill import HuntFill
 from frames.risk.fragility.limit_state import LimitState
-from frames.risk.fragility.notebook import Shown
 from frames.risk.fragility.runs import GIVEN, HUNT, IntensityRuns
+from lir_element.tables import Shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

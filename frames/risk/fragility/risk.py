@@ -14,8 +14,8 @@ from frames.risk._errors import FragilityError
 from frames.risk.fragility.curve import CollapseFragility, Estimate, Fragility, checked_confidence
 from frames.risk.fragility.hazard_curve import HazardCurve
 from frames.risk.fragility.intensity import IntensityMeasure, require_one_measure
-from frames.risk.fragility.notebook import Shown
 from lir_element.argument_checks import require_non_negative, require_positive, require_type
+from lir_element.tables import Shown
 
 POINTS = 2000
 """Intensities of the integration, equally spaced in their logarithms; and those of the hazard."""

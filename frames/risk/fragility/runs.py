@@ -15,11 +15,11 @@ from frames.batch.runs import Rows
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.intensity import OWN, IntensityMeasure, is_same
 from frames.risk.fragility.limit_state import LimitState
-from frames.risk.fragility.notebook import Shown
 from frames.risk.fragility.reading import Sets, motions_of, rows_of
 from frames.risk.fragility.scaled_motions import values_of
 from lir_element.argument_checks import require_choice, require_type
 from lir_element.errors import RunStatus
+from lir_element.tables import Shown
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -178,3 +178,55 @@ Host: TypeAlias = Any
 
 Response: TypeAlias = Any
 """One record of dtype RESPONSE."""
+
+MOST_CHANNELS = 1024
+"""Bearings that can be served at a time by out-of-process coupling."""
+
+GUARD_FIELDS = (
+    Field("pipe", "-", "", "file descriptor of the pipe to the server; -1: none", (), "i8"),
+    Field("stop", "-", "", "file descriptor that ends the thread when written to", (), "i8"),
+    Field("channels", "-", "", "descriptors, and words of an answer", (MOST_CHANNELS, 2), "i8"),
+    Field("polled", "-", "", "what `poll` reads and writes", (MOST_CHANNELS + 1,), "i8"),
+    Field("answer", "-", "", "an answer: not a number", (MOST_DOFS * MOST_DOFS,)),
+    Field("inbox", "-", "", "what is thrown away", (MOST_DOFS * MOST_DOFS,)),
+    Field("message", "", "", "address of what the user is told", (), "i8"),
+    Field("message_size", "-", "", "its length", (), "i8"),
+    Field(
+        "hinted", "", "", "address of a word: 1 keeps a failed step from being explained", (), "i8"
+    ),
+    Field("receive_flags", "-", "", "of `recv`: do not wait", (), "i8"),
+    Field("send_flags", "-", "", "of `send`: do not wait, no signal", (), "i8"),
+    Field("poll", "", "", "addresses of the system's functions", (), "i8"),
+    Field("recv", "", "", "", (), "i8"),
+    Field("send", "", "", "", (), "i8"),
+    Field("write", "", "", "", (), "i8"),
+)
+
+GUARD = dtype_of(GUARD_FIELDS)
+
+GuardBlock: TypeAlias = Any
+"""One record of dtype GUARD."""
+
+# Messages of a `genericClient` are vectors of float64 whose first entry names the action. Source:
+# OpenSees documentation of the element, OpenFresco's remote test protocol, and what the stock
+# builds send (the header first: eleven int32, the first the number of degrees of freedom, the last
+# the length of all vectors).
+SET_TRIAL = 3
+COMMIT = 5
+GET_FORCE = 10
+GET_INITIAL = 12
+GET_TANGENT = 13
+GET_DAMPING = 14
+GET_MASS = 15
+END = 99
+
+ANSWERED = frozenset({GET_FORCE, GET_INITIAL, GET_TANGENT, GET_DAMPING, GET_MASS})
+"""Actions that are answered by one vector."""
+
+HEADER_BYTES = 44
+HEADER_WORDS = 11
+
+
+def vector_length(dofs: int) -> int:
+    """Return the length of all vectors: a matrix by columns, or action, motion and time."""
+    return max(dofs * dofs, 3 * dofs + 2)

@@ -8,13 +8,11 @@ from numba import carray
 
 from lir_element._compile.jit import entry_point
 from lir_element._compile.jit import with_refcounts as kernel
-from lir_element.opensees.block.guard_layout import GUARD
-from lir_element.opensees.block.layout import WORDS
+from lir_element.opensees.block.layout import END, GUARD, WORDS
 from lir_element.opensees.block.pointers import call_poll, call_transfer, call_write, pointer
-from lir_element.opensees.block.protocol import END
 
 if TYPE_CHECKING:
-    from lir_element.opensees.block.guard_layout import GuardBlock
+    from lir_element.opensees.block.layout import GuardBlock
 
 _STDERR = 2
 _READABLE = 1  # POLLIN, the same on all systems

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lir_element.opensees.block.guard_layout import GUARD, MOST_CHANNELS
+from lir_element.opensees.block.layout import GUARD, MOST_CHANNELS
 from lir_element.opensees.block.responses import HINTED
 
 if TYPE_CHECKING:

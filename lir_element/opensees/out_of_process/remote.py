@@ -14,7 +14,7 @@ from multiprocessing import Pipe, reduction
 from typing import TYPE_CHECKING, Any
 
 from lir_element.device.friction import without_class
-from lir_element.opensees.block.protocol import vector_length
+from lir_element.opensees.block.layout import vector_length
 from lir_element.opensees.connection import own_connections, signals_held
 from lir_element.opensees.library import child_environment, opensees
 from lir_element.opensees.out_of_process.guard import Guard

@@ -22,8 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lir_element.errors import RunStatus
-from lir_element.opensees.block import protocol
-from lir_element.opensees.block.layout import MOST_DOFS
+from lir_element.opensees.block import layout
 from lir_element.opensees.element_memory import ElementMemory
 
 if TYPE_CHECKING:
@@ -32,7 +31,7 @@ if TYPE_CHECKING:
     from lir_element.opensees.placement import PlacedBearing
 
 _QUICK = getattr(socket, "TCP_QUICKACK", None)  # Linux: without it small messages wait some 40 ms
-_NO_FORCE = np.full(MOST_DOFS * MOST_DOFS, -1).view(np.float64)
+_NO_FORCE = np.full(layout.MOST_DOFS * layout.MOST_DOFS, -1).view(np.float64)
 """The protocol knows no failure; no test accepts this, from whichever byte on it is read."""
 _GRACE = 1e-3
 """How long a message may be on its way, in another stream than a request sent after it [s]."""
@@ -50,7 +49,7 @@ class Channel:
         self.sock = sock
         self.hosted = hosted
         count = hosted.placed.placement.dofs
-        size = protocol.vector_length(count)
+        size = layout.vector_length(count)
         self._inbox = np.zeros(size)
         self._view = memoryview(self._inbox.view(np.uint8).data)
         self._motion = self._inbox[1 : 1 + count], self._inbox[1 + count : 1 + 2 * count]
@@ -59,9 +58,9 @@ class Channel:
         self._out = np.zeros(size)
         self._status = RunStatus.OK
         self.is_open = True
-        if not self._read(protocol.HEADER_BYTES):
+        if not self._read(layout.HEADER_BYTES):
             return
-        header = self._inbox.view(np.int32)[: protocol.HEADER_WORDS]
+        header = self._inbox.view(np.int32)[: layout.HEADER_WORDS]
         if (header[0], header[-1]) != (count, size):
             msg = (
                 f"host element of {header[0]} DOFs and {header[-1]} words: {count}, {size} expected"
@@ -78,23 +77,23 @@ class Channel:
         if not self._read(self._inbox.nbytes):
             return False
         action = int(self._inbox[0])
-        if action == protocol.SET_TRIAL:
+        if action == layout.SET_TRIAL:
             self._trial()
-        elif action == protocol.COMMIT:
+        elif action == layout.COMMIT:
             self.hosted.commit()
-        elif action == protocol.GET_FORCE:
+        elif action == layout.GET_FORCE:
             good = self._status is RunStatus.OK
             self._send(self.hosted.force if good else _NO_FORCE[: len(self._out)])
-        elif action == protocol.GET_TANGENT:
+        elif action == layout.GET_TANGENT:
             self._send(self.hosted.tangent_by_columns())
-        elif action == protocol.GET_INITIAL:
+        elif action == layout.GET_INITIAL:
             self._send(self.hosted.initial)
-        elif action in protocol.ANSWERED:  # damping and mass: none
+        elif action in layout.ANSWERED:  # damping and mass: none
             self.sock.sendall(self._zeros)
-        elif action != protocol.END:
+        elif action != layout.END:
             msg = f"{self._inbox[0]:g} is no action of a host element: its messages are out of step"
             raise ValueError(msg)
-        return action != protocol.END
+        return action != layout.END
 
     def _trial(self) -> None:
         hosted = self.hosted
