@@ -58,8 +58,9 @@ def opensees() -> Any:
 
 def child_environment() -> dict[str, str]:
     """Return the environment in which a child process finds the modules that this one finds."""
-    here = os.getcwd()  # last, so that no file in it stands for a module of others
-    paths = [path for path in sys.path if path and path != here]
+    # Last, so that no file in it stands for a module of others; in place if it has these packages.
+    here, own = os.getcwd(), str(Path(__file__).parents[2])
+    paths = [path for path in sys.path if path and (path != here or here == own)]
     paths += [here] if len(paths) < len(sys.path) else []
     return {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
 

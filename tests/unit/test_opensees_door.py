@@ -1,8 +1,10 @@
 """What a bearing in OpenSees is checked for: messages name value, bound and remedy."""
 
+import os
 import sys
 import warnings
 from collections.abc import Iterator
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -16,7 +18,7 @@ pytest.importorskip("openseespy")
 pytest.importorskip("psutil")
 
 import lir_element.opensees as package
-from lir_element.opensees import PlacementWarning, bearing_element, bearing_tags, opensees
+from lir_element.opensees import PlacementWarning, bearing_element, bearing_tags, library, opensees
 from lir_element.opensees.connection import own_connections
 from lir_element.opensees.placement import bearing_axes, place
 
@@ -181,3 +183,15 @@ def test_what_is_not_installed_is_named_with_its_extra(monkeypatch: pytest.Monke
     refused(ImportError, said % " \\(xara is, in which .* not tried\\)", opensees)
     known.clear()
     refused(ImportError, said % "", opensees)
+
+
+def test_a_child_imports_the_packages_of_its_parent(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A folder with these packages keeps its place before another installation of them."""
+    own = str(Path(library.__file__).parents[2])
+    monkeypatch.setattr(sys, "path", [own, "/elsewhere/site-packages"])
+    monkeypatch.chdir(own)
+    paths = library.child_environment()["PYTHONPATH"].split(os.pathsep)
+    assert paths[0] == own
+    monkeypatch.chdir("/")
+    monkeypatch.setattr(sys, "path", ["/", own])
+    assert library.child_environment()["PYTHONPATH"].split(os.pathsep) == [own, "/"]
