@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -194,9 +193,8 @@ def walls_of(frame: Frame) -> Walls | None:
 def law_of(given: DamperTable) -> ViscousDamper:
     """Return the law of dampers: the coefficient that gives their force at their speed."""
     coefficient = given.force / given.speed**given.exponent
-    return ViscousDamper(
-        coefficient=coefficient, exponent=given.exponent, stiffness=given.stiffness
-    )
+    series = {} if given.stiffness is None else {"stiffness": given.stiffness}
+    return ViscousDamper(coefficient=coefficient, exponent=given.exponent, **series)
 
 
 def _add_at_base(frame: Frame, name: str, given: DamperTable) -> None:
@@ -252,7 +250,7 @@ def device_rows(
             speed=given.speed,
             exponent=given.exponent,
         )
-        if math.isfinite(given.stiffness):
+        if given.stiffness is not None:
             series = worded("{stiffness:.5g} kN/mm in series", stiffness=1e-6 * given.stiffness)
             made = joined(made, series, by=", ")
         if given.between is None:

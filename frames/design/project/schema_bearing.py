@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self, get_args
 
 from pydantic import Discriminator, Field, Tag, create_model, model_validator
 
-from frames.design.project.derived import DerivedTable, Table, table_of
+from frames.design.project.derived import DerivedTable, Table, key_of, table_of
 from frames.design.project.quantities import (
     Force,
     Length,
@@ -26,18 +26,20 @@ SIDES: tuple[Side, ...] = get_args(Side)
 """All of them."""
 
 
-class MoatTable(table_of(Gap, "stiffness", "damping")):  # type: ignore[misc]  # its keys
+class MoatTable(table_of(Gap, "gap", "stiffness", "damping")):  # type: ignore[misc]  # its keys
     """``[moat]``: walls around the base as springs behind a gap."""
 
     gap: Annotated[Length, Positive]
     sides: tuple[Side, ...] = Field(default=SIDES, min_length=1)
 
 
-class DamperTable(table_of(ViscousDamper, "exponent", "stiffness")):  # type: ignore[misc]  # keys
+class DamperTable(Table):
     """``[dampers.<name>]``: fluid dampers of one kind, at the base or in storeys."""
 
     force: Annotated[Force, Positive]
     speed: Annotated[quantity("m/s"), Positive]  # type: ignore[valid-type]  # made
+    exponent: key_of(ViscousDamper, "exponent") = 1.0  # type: ignore[valid-type]  # made
+    stiffness: key_of(ViscousDamper, "stiffness") | None = None  # type: ignore[valid-type]  # made
     columns: tuple[str | int, ...] = ()
     directions: tuple[Literal["x", "y"], ...] = Field(default=("x", "y"), min_length=1)
     between: tuple[str, str] | None = None

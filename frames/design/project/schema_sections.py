@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 
-from frames.design.project.derived import Table, table_of
+from frames.design.project.derived import Table, key_of, table_of
 from frames.design.project.quantities import (
     Density,
     Length,
@@ -78,13 +78,14 @@ Cracked = Annotated[
 """One factor on bending, torsion and shear, or one for each."""
 
 
-_AREAS = ("area", "shear_area_y", "shear_area_z")
+_CONSTANTS = ("area", "inertia_y", "inertia_z", "torsion_constant", "shear_area_y", "shear_area_z")
 
 
-class PropertiesTable(
-    table_of(Section, *_AREAS, "inertia_y", "inertia_z", "torsion_constant")  # type: ignore[misc]
-):
+class PropertiesTable(table_of(Section, *_CONSTANTS)):  # type: ignore[misc]  # its keys
     """A cross-section by its constants, as `frames.Section` names them."""
+
+    shear_area_y: key_of(Section, "shear_area_y") | None = None  # type: ignore[valid-type]  # made
+    shear_area_z: key_of(Section, "shear_area_z") | None = None  # type: ignore[valid-type]  # made
 
 
 class SectionTable(Table):
