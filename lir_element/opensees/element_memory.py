@@ -41,15 +41,7 @@ _STATUS = {int(status): status for status in RunStatus}
 class ElementMemory:
     """A bearing whose state other compiled code determines.
 
-    Parameters
-    ----------
-    placed : PlacedBearing
-        The bearing.
-
-    Attributes
-    ----------
-    block : record array, (1,)
-        What compiled code reads and writes (`layout.HOST`).
+    That code reads and writes its `block` (1,) (`layout.HOST`).
     """
 
     def __init__(self, placed: PlacedBearing) -> None:

@@ -57,7 +57,7 @@ class _Session:
     def running_server(self) -> Server:
         """Return the server, started if there is none."""
         if self.server is not None and not self.server.alive:
-            if any(each.is_served_by(self.server) for each in self._remotes()):
+            if any(each.server is self.server for each in self._remotes()):
                 raise ServerError(self.server.end_message())
             self.server.close()
             self.server = None

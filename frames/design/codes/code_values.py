@@ -258,8 +258,7 @@ def _state(
     lacking = next((NEEDS[name] for name in one.needs if name not in facts), "")
     found = checks_of_provision(one, made)
     clause = found[0].cited if found else standing.cited(one.clause)
-    blind = next((check for check in found if not _is_made(check)), None)
-    if blind is not None:
+    for blind in (c for c in found if NOT_EVALUATED in c.title or c.verdict == "no limit"):
         why = first_of(blind.note) if NOT_EVALUATED in blind.title else "it has no limit"
         return ProvisionState(clause, one.what, "not checked", worded("since {why}", why=why))
     whole = all(any(_begins(check, title) for check in found) for title in one.checks)
@@ -270,10 +269,6 @@ def _state(
         return ProvisionState(clause, one.what, "checked", RUN)
     why = one.why or (worded("since {why}", why=lacking) if lacking else NO_CHECK)
     return ProvisionState(clause, one.what, "not checked", why)
-
-
-def _is_made(check: Check) -> bool:
-    return NOT_EVALUATED not in check.title and check.verdict != "no limit"
 
 
 def not_checked(states: Iterable[ProvisionState]) -> list[str]:

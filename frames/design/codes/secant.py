@@ -116,10 +116,6 @@ def _alike(one: Check, other: Check) -> bool:
     return all(math.isclose(a, b, rel_tol=_ALIKE) for a, b in pairs)
 
 
-def _severity(check: Check) -> tuple[float, float]:
-    return check.ratio, abs(check.limit) - abs(check.demand)
-
-
 @dataclass(frozen=True)
 class CheckBuilder:
     """Makes checks from what a calculation holds."""
@@ -180,7 +176,7 @@ class CheckBuilder:
             self._made(clause, title, pair, relation, note=note, k=k, subject=subject)
             for k, subject in enumerate(subjects)
         ]
-        worst = max(found, key=_severity)
+        worst = max(found, key=lambda c: (c.ratio, abs(c.limit) - abs(c.demand)))
         # of those that differ by round-off alone the first: the processor decides no names
         return next(c for c in found if c is worst or _alike(c, worst))
 

@@ -65,7 +65,8 @@ class BoundChecks:
             found += self._of_bearings()
         if self.level.judges_structure:
             found += [*self._base_shear(), *self._least_shears]
-            found += [*self._drift(), *self._storeys(), *self._acceleration()]
+            found += [*self._drift(), *self._storeys()]
+            found += self._bearings.against("floor_plan") if self.frame.levels else []
         return [replace(check, level=self.level.name) for check in found]
 
     def _of_bearings(self) -> list[Check]:
@@ -354,9 +355,6 @@ class BoundChecks:
         found = torsion_checks(self.case, makes, self.frame, clause, known)
         clause, known = self._clause(rules.stability_clause), self._known("stability", "stability")
         return [*found, *stability_checks(self.case, makes, self.frame, clause, known)]
-
-    def _acceleration(self) -> list[Check]:
-        return self._bearings.against("floor_plan") if self.frame.levels else []
 
     def _least(self, symbol: str) -> float:
         # A minimum of the equivalent-linear analysis at this bound, 0 where there is none.

@@ -48,11 +48,6 @@ RESULT_FILES = frozenset(
 """Files of fixed names; time histories are ``runs-<bound>.nc`` and ``moved-<bound>.nc`` besides."""
 
 
-def is_result(name: str) -> bool:
-    """Return whether a file of a name would be written over, on any system."""
-    return name.lower() in RESULT_FILES
-
-
 _PRESSURE = re.compile(r"N\s*/\s*m|Pa|lbf|psf|kip")
 
 
@@ -128,7 +123,7 @@ class IrregularFrame(BuildingTable):
     @field_validator("columns_table", "beams_table")
     @classmethod
     def _is_no_result(cls, given: Path) -> Path:
-        if is_result(given.name):
+        if given.name.lower() in RESULT_FILES:  # would be written over, on any system
             msg = (
                 "has the name of a file of the results, among which the table is kept: give it "
                 "another name"

@@ -67,7 +67,7 @@ def design_candidates(
     looks = _looks(candidates)
     figure = ps.new_figure(3.9)
     left, right = ps.grid_of(figure, 1, 2, share_y=True)[0]
-    for panel, of in ((left, _base_shear), (right, _plan_diameter)):
+    for panel, of in ((left, _base_shear), (right, lambda one: 1e3 * one.plan_diameter)):
         for place in places:
             _mark(panel, place, of(place.candidate), looks, named=panel is left)
     ps.caption(left, x="base shear / weight [%]", y="displacement to allow, without rims [mm]")
@@ -80,10 +80,6 @@ def design_candidates(
 
 def _base_shear(one: Candidate) -> float:
     return 100.0 * one.base_shear
-
-
-def _plan_diameter(one: Candidate) -> float:
-    return 1e3 * one.plan_diameter
 
 
 def _looks(candidates: Sequence[Candidate]) -> dict[str, tuple[str, str]]:

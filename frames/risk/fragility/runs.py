@@ -193,7 +193,7 @@ class IntensityRuns(Rows, Shown):
             {
                 "motion": used,
                 "scale": scale,
-                "im": [_round(im[run]) for run in runs],
+                "im": [float(f"{im[run]:.10g}") for run in runs],  # one of all runs of a stripe
                 "outcome": [outcome_of(s) for s in status],
                 "status": status,
                 "message": [str(m) for m in own["message"].to_numpy()],
@@ -296,8 +296,3 @@ class IntensityRuns(Rows, Shown):
     def to_dataframe(self) -> pd.DataFrame:
         """Return a copy of the table."""
         return self.table.copy()
-
-
-def _round(im: float) -> float:
-    # So that runs of one stripe have one intensity.
-    return float(f"{im:.10g}")

@@ -23,17 +23,8 @@ _HOST_RESPONSES = {"force"}
 class InProcessElement:
     """A bearing in the place of a host element of the current model.
 
-    Parameters
-    ----------
-    hosted : ElementMemory
-        The bearing.
-    farewell : socket
-        The host element's connection, which its destructor writes to.
-
-    Raises
-    ------
-    NotPossibleError
-        If the element is not what it was in the self-test.
+    To the connection, `farewell`, the host element's destructor writes. A NotPossibleError says
+    that the element is not what it was in the self-test.
     """
 
     route = "fast"

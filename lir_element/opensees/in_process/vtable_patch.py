@@ -49,21 +49,9 @@ _TYPE = np.frombuffer(b"LIRBearing\0", dtype=np.uint8)
 class VTablePatch:
     """Callbacks in an element of the current model, and the block that they read.
 
-    Parameters
-    ----------
-    placed : PlacedBearing
-        The bearing.
-    block : record array, (1,)
-        Of the bearing (`layout.HOST`).
-    route : str
-        Name of the coupling.
-    words : sequence of (str, int, int, bool)
-        Words of its state that recorders can have, too: name, place, size, whether integers.
-
-    Raises
-    ------
-    NotPossibleError
-        If the element is not what it was in the self-test.
+    `block` (1,) is that of the bearing (`layout.HOST`), `words` are those of its state that
+    recorders can have, too: name, place, size, whether integers. A NotPossibleError says that the
+    element is not what it was in the self-test.
     """
 
     def __init__(

@@ -66,20 +66,12 @@ def _without_classes(bearing: LIRBearing) -> LIRBearing:
 
 
 class Remote:
-    """A bearing whose state the server determines.
-
-    Parameters
-    ----------
-    server : Server
-        The process.
-    placed : PlacedBearing
-        The bearing.
-    """
+    """A bearing whose state the server determines."""
 
     route = "portable"
 
     def __init__(self, server: Server, placed: PlacedBearing) -> None:
-        self._server = server
+        self.server = server
         self._key = server.new_key()
         self._words = vector_length(placed.placement.dofs)
         self._sock: socket.socket | None = None
@@ -94,9 +86,9 @@ class Remote:
 
     def connect(self, sock: socket.socket) -> None:
         """Hand the host element's connection over, and guard it."""
-        self._server.guard.add(sock, self._words)
+        self.server.guard.add(sock, self._words)
         self._sock = sock
-        self._server.ask("connect", self._key, sock=sock)
+        self.server.ask("connect", self._key, sock=sock)
 
     def override(self, overrides: HostOverrides) -> None:
         """Keep what the element does otherwise than its host."""
@@ -106,50 +98,46 @@ class Remote:
     def alive(self) -> bool:
         """Whether OpenSees still has the element, as far as can be told."""
         try:
-            return bool(self._server.ask("is_open", self._key))
+            return bool(self.server.ask("is_open", self._key))
         except ServerError:
             return self._is_connected()
 
-    def is_served_by(self, server: Server) -> bool:
-        """Return whether its states are with this server."""
-        return self._server is server
-
     def response(self, name: str) -> Any:
         """Return a response of the committed state by name."""
-        answer = self._server.ask("response", self._key, name)
+        answer = self.server.ask("response", self._key, name)
         self._compare_clocks()
         return answer
 
     def start_recording(self, every: int) -> None:
         """Record every so many commits from now on; 0: none."""
-        self._server.ask("record", self._key, every)
+        self.server.ask("start_recording", self._key, every)
         self._recording = every > 0
 
     def recorded(self) -> tuple[Any, ...]:
         """Return what `ElementMemory.recorded` does."""
         if self._records is not None:  # the element is gone, its records were kept
             return self._records
-        answer = tuple(self._server.ask("recorded", self._key))
+        answer = tuple(self.server.ask("recorded", self._key))
         self._compare_clocks()
         return answer
 
     def outcome(self) -> tuple[int, bool, float]:
         """Return what `ElementMemory.outcome` does."""
         if self._records is None:
-            self._outcome = self._server.ask("outcome", self._key)
+            self._outcome = self.server.ask("outcome", self._key)
         return self._outcome
 
     def release(self) -> None:
         """Give up the connection, once the element is gone."""
         if self._sock is not None:
-            self._server.guard.drop(self._sock)
+            self.server.guard.drop(self._sock)
             self._sock.close()
             self._sock = None
-        if self._server.alive:
+        if self.server.alive:
             if self._recording:
                 self.outcome()
                 self._records = self.recorded()
-            self._server.ask("forget", self._key)
+            self.server.ask("forget", self._key)
 
     def detach(self) -> None:
         """Guard the connection no more, and leave it open for the farewell of OpenSees' exit.
@@ -158,7 +146,7 @@ class Remote:
         """
         self._undo()
         if self._sock is not None:
-            self._server.guard.drop(self._sock)
+            self.server.guard.drop(self._sock)
             self._sock.detach()
             self._sock = None
 
@@ -182,7 +170,7 @@ class Remote:
         # The element says what it commits (`HostOverrides`), or the last trial stands for it.
         if self._overrides is not None or self._warned:
             return
-        committed, step = self._server.ask("clock", self._key)
+        committed, step = self.server.ask("clock", self._key)
         away = abs(opensees().getTime() - committed)
         if _SAME_CLOCK * step < away < (1.0 - _SAME_CLOCK) * step:
             self._warned = True

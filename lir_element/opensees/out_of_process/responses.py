@@ -39,15 +39,7 @@ _OWN = {
 class HostOverrides:
     """Some functions of ours in an element of the out-of-process coupling.
 
-    Parameters
-    ----------
-    placed : PlacedBearing
-        The bearing.
-
-    Raises
-    ------
-    NotPossibleError
-        If the element is not what it was in the self-test.
+    A NotPossibleError says that the element is not what it was in the self-test.
     """
 
     def __init__(self, placed: PlacedBearing) -> None:

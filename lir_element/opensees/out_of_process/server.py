@@ -127,15 +127,7 @@ class Channel:
 
 
 class Service:
-    """All bearings of one model's process.
-
-    Parameters
-    ----------
-    pipe : Connection
-        To the model's process.
-    parent : int
-        Its process id.
-    """
+    """All bearings of one model's process, at the other end of the pipe."""
 
     def __init__(self, pipe: Connection, parent: int) -> None:
         self._pipe = pipe
@@ -188,8 +180,12 @@ class Service:
             self._bell.send(b"!")
 
     def _answer(self, what: str, key: int, *arguments: Any) -> None:
+        own = getattr(self, f"_do_{what}", None)
         try:
-            result = getattr(self, f"_do_{what}")(key, *arguments)
+            if own is None:
+                result = getattr(self._hosted[key], what)(*arguments)
+            else:
+                result = own(key, *arguments)
         except (KeyError, ValueError, ArithmeticError, MemoryError) as error:
             self._pipe.send((False, error))
         else:
@@ -205,18 +201,6 @@ class Service:
 
     def _do_is_open(self, key: int) -> bool:
         return key in self._channels and self._channels[key].is_open
-
-    def _do_response(self, key: int, name: str) -> Any:
-        return self._hosted[key].response(name)
-
-    def _do_record(self, key: int, every: int) -> None:
-        self._hosted[key].start_recording(every)
-
-    def _do_recorded(self, key: int) -> Any:
-        return self._hosted[key].recorded()
-
-    def _do_outcome(self, key: int) -> Any:
-        return self._hosted[key].outcome()
 
     def _do_clock(self, key: int) -> tuple[float, float]:
         block = self._hosted[key].block
