@@ -53,20 +53,9 @@ class AcceptanceLimits:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from frames.design import PropertyBounds, PropertyModificationFactors, PrototypeTest
-    >>> from frames.design import acceptance_checks
-    >>> from lir_element import LIRBearing
-    >>> turns = np.linspace(0.0, 3.0, 1501)
-    >>> path = 0.2 * np.sin(2.0 * np.pi * turns)
-    >>> force = 1e6 * (path / 2.7 + 0.06 * np.sign(np.cos(2.0 * np.pi * turns)))
-    >>> test = PrototypeTest(name="1 D_M", displacement=path, force=force, load=1e6)
-    >>> bearing = LIRBearing(radius=1.5, slider_height=0.3, slider_radius=0.2, capacity=0.45,
-    ...                      friction=0.06, interface_friction=0.25)
-    >>> bounds = PropertyBounds(PropertyModificationFactors(0.8, 1.2))
     >>> limits = AcceptanceLimits(spread=0.10)
-    >>> acceptance_checks([test], bearing, "ASCE 7-22", bounds=bounds, limits=limits).passed
-    True
+    >>> limits.spread, limits.drop
+    (0.1, 0.2)
     """
 
     spread: float = field(default=0.15, metadata=number("-", "[0, 1)"))

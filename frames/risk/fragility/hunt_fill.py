@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from frames.risk._errors import FragilityError
-from lir_element.argument_checks import (
-    require_between,
-    require_non_negative,
-    require_positive,
-    require_type,
-)
+from lir_element.argument_checks import require_type
+from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -64,24 +60,17 @@ class HuntFill:
     (2.5,)
     """
 
-    first: float
-    step: float | None = None
-    growth: float | None = None
-    resolution: float = 0.1
-    runs: int = 12
-    highest: float = math.inf
+    first: float = field(metadata=number("", "(0, inf)"))
+    step: float | None = field(default=None, metadata=number("", "(0, inf)"))
+    growth: float | None = field(default=None, metadata=number("", "[0, inf)"))
+    resolution: float = field(default=0.1, metadata=number("-", "[1e-6, 1)"))
+    runs: int = field(default=12, metadata=number("", "[2, 1000)"))
+    highest: float = field(default=math.inf, metadata=number("", "(0, inf]"))
 
     def __post_init__(self) -> None:
         """Check."""
-        require_positive("first", self.first, error=FragilityError)
-        if self.step is not None:
-            require_positive("step", self.step, error=FragilityError)
-        if self.growth is not None:
-            require_non_negative("growth", self.growth, error=FragilityError)
-        require_between("resolution", self.resolution, 1e-6, 1.0, "-", error=FragilityError)
+        check_numbers(self, error=FragilityError)
         require_type("runs", self.runs, int, "a whole number")
-        require_between("runs", self.runs, 2, 1000, error=FragilityError)
-        require_positive("highest", self.highest, infinite=True, error=FragilityError)
         if self.highest < self.first:
             msg = f"highest = {self.highest:g} is below first = {self.first:g}: raise it"
             raise FragilityError(msg)
