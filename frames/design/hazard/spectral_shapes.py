@@ -156,12 +156,11 @@ SHAPES = {
 """Families of spectra by name."""
 
 
-def smooth_parameters(
-    points: Points, largest: float, *, low: float = 0.2, high: float = 5.0, part: float = 0.9
-) -> tuple[float, float]:
+def smooth_parameters(points: Points, largest: float) -> tuple[float, float]:
     """Return S_MS and S_M1 of a multi-period spectrum (ASCE/SEI 7-22, 21.4; to be confirmed)."""
+    part = 0.9
     period, level = np.array(points).T
-    plateau = level[(period >= low) & (period <= high)]
+    plateau = level[(period >= 0.2) & (period <= 5.0)]
     moving = (period >= 1.0) & (period <= largest)
     at_one = float(np.interp(1.0, period, level))
     s_m1 = max(part * float((period * level)[moving].max(initial=at_one)), at_one)

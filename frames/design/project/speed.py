@@ -45,17 +45,15 @@ def ways_to_run(
     model: FrameData,
     motion: GroundMotion,
     *,
-    steps: Sequence[float] = STEPS,
     levels: Sequence[Literal["pendulum", "contact"]] = ("pendulum",),
-    repeats: int = REPEATS,
 ) -> Iterator[Way]:
     """Run a model with several steps, the finest first, with which the others are compared."""
-    finest = min(steps) / 2.0
+    finest = min(STEPS) / 2.0
     time_history(model, motion, min(motion.duration, 4.0 * finest), dt=finest)  # loads the kernels
     reference = _peaks(_run(model, motion, finest, levels[0]))
     for level in levels:
-        for dt in (finest, None, *steps) if level == levels[0] else (None, *steps):
-            count = 1 if dt == finest else repeats
+        for dt in (finest, None, *STEPS) if level == levels[0] else (None, *STEPS):
+            count = 1 if dt == finest else REPEATS
             runs = [_run(model, motion, dt, level) for _ in range(count)]
             yield _way(runs, motion, dt, level, reference)
 

@@ -39,9 +39,7 @@ UNFINISHED = "unfinished"
 _ENDS = 2  # steps of a run that keeps its first and its last one alone
 
 
-def write_run(
-    run: ProjectRun, folder: Path, source: str, *, figures: bool = True, language: str = ""
-) -> list[Path]:
+def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = True) -> list[Path]:
     """Write what a run gave."""
     make_folder(folder)
     old = (*folder.glob("runs-*.nc"), *folder.glob("moved-*.nc"))
@@ -58,7 +56,7 @@ def write_run(
         write_whole(written[name], content)
     governing = folder / "governing.nc"
     save(run.governing, governing, compress=True)
-    judged = write_judgement(run, folder, source, figures=figures, language=language)
+    judged = write_judgement(run, folder, source, figures=figures)
     kept = [*judged, *written.values(), governing]
     shutil.rmtree(folder / UNFINISHED, ignore_errors=True)
     return kept

@@ -69,13 +69,13 @@ _GAP = 3  # letters between two columns
 _WRAPPED = 26  # letters: words that are longer are broken into lines
 
 
-def in_parts(table: Table, width: int = PAGE, *, keep: int = 1) -> list[Table]:
+def in_parts(table: Table, *, keep: int = 1) -> list[Table]:
     """Return a table in parts that fit a page, each with the first columns."""
     sizes = [_size(table, k) for k in range(len(table.head))]
     keep = min(keep, len(table.head))
     kept, count = tuple(range(keep)), 1
     while (groups := _grouped(sizes, keep, count)) and any(
-        sum(sizes[:keep]) + sum(sizes[k] for k in group) > width and len(group) > 1
+        sum(sizes[:keep]) + sum(sizes[k] for k in group) > PAGE and len(group) > 1
         for group in groups
     ):
         count += 1
