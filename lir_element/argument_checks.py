@@ -6,21 +6,17 @@ that the caller passes as `error`.
 
 from __future__ import annotations
 
-import difflib
 import math
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple, TypedDict, TypeVar, cast
 
 import numpy as np
 
-from frames._errors import ModelError
-
 if TYPE_CHECKING:
     from typing import Unpack
 
     from numpy.typing import ArrayLike, NDArray
-
 
 T = TypeVar("T")
 
@@ -243,32 +239,3 @@ def as_pair(name: str, value: T | tuple[T, T]) -> tuple[T, T]:
             raise ValueError(msg)
         return (value[0], value[1])
     return (value, value)
-
-
-def new_name(name: str, taken: Collection[str], kind: str) -> str:
-    """Accept a name that is not empty and not taken."""
-    require_type(f"name of a {kind}", name, str, "a string: write it in quotes")
-    if not name.strip():
-        message = f"the name of a {kind} is empty: give it at least one visible character"
-        raise ModelError(message)
-    if name in taken:
-        message = f'a {kind} "{name}" exists already: names are unique, choose another one'
-        raise ModelError(message)
-    return name
-
-
-def likely(name: object, known: Collection[str]) -> str:
-    """Return what the caller may have meant instead of `name`; empty where nothing is known."""
-    close = difflib.get_close_matches(str(name), list(known), n=3)
-    if close:
-        return "did you mean " + " or ".join(f'"{other}"' for other in close) + "?"
-    return f'{len(known)} exist, the first is "{next(iter(known))}"' if known else ""
-
-
-def known_name(name: object, known: Collection[str], kind: str) -> str:
-    """Accept a name that exists."""
-    if isinstance(name, str) and name in known:
-        return name
-    hint = likely(name, known) or f"the model has no {kind} yet"
-    message = f'there is no {kind} "{name}": add it before it is used ({hint})'
-    raise ModelError(message)

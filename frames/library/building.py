@@ -12,8 +12,9 @@ from frames._errors import ModelError
 from frames.frame import Frame
 from frames.library.building_plan import BuildingPlan, level_name, wall_node
 from frames.model.damping import ModalDamping
+from frames.model.names import likely
 from frames.model.plane_faces import fields_of
-from lir_element.argument_checks import likely, require_positive, shown
+from lir_element.argument_checks import require_positive, shown
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

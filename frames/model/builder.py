@@ -20,9 +20,10 @@ from frames.model.geometry_checks import (
     require_two_nodes,
 )
 from frames.model.loading import FrameLoader
+from frames.model.names import known_name, new_name
 from frames.model.sections import Section
 from frames.model.superelement import superelement
-from lir_element.argument_checks import known_name, new_name, require_type, require_vector
+from lir_element.argument_checks import require_type, require_vector
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, MatrixLike

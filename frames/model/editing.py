@@ -15,13 +15,8 @@ from frames.model.components import DEFAULT_CASE, DOFS, BearingLink, Link, beari
 from frames.model.geometry_checks import fits, require_bearing_place, require_two_nodes
 from frames.model.laws import LAWS, Gap, HertzGap, Law, PlasticHinge
 from frames.model.load_combinations import combination, factor_all, factor_loads
-from lir_element.argument_checks import (
-    known_name,
-    new_name,
-    require_choice,
-    require_type,
-    require_vector,
-)
+from frames.model.names import known_name, new_name
+from lir_element.argument_checks import require_choice, require_type, require_vector
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

@@ -23,8 +23,9 @@ from frames.model.components import (
 )
 from frames.model.damping import Damping
 from frames.model.laws import PlasticHinge
+from frames.model.names import new_name
 from frames.model.superelement import Superelement
-from lir_element.argument_checks import new_name, require_non_negative
+from lir_element.argument_checks import require_non_negative
 from lir_element.tables import html_table
 from lir_element.units import STANDARD_GRAVITY
 

@@ -19,7 +19,8 @@ from frames.model.components import (
     Vector,
     bearing_height,
 )
-from lir_element.argument_checks import known_name, require_finite, require_type, require_vector
+from frames.model.names import known_name
+from lir_element.argument_checks import require_finite, require_type, require_vector
 from lir_element.elevations import SAME_PLACE
 from lir_element.units import OTHER_UNITS, meant
 

@@ -12,9 +12,8 @@ from frames.model.components import DEFAULT_CASE, FloorLoad, TaperedLoad
 from frames.model.floors import floor_panel, members_at, panel_loads
 from frames.model.frame_data import FrameData, frozen
 from frames.model.geometry_checks import member_span
+from frames.model.names import known_name, new_name
 from lir_element.argument_checks import (
-    known_name,
-    new_name,
     require_non_negative,
     require_positive,
     require_type,

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Self
 
 from frames._errors import ModelError
+from frames.model.names import likely
 from lir_element.argument_checks import (
-    likely,
     require_finite,
     require_non_negative,
     require_positive,

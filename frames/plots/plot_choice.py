@@ -10,10 +10,10 @@ import numpy as np
 import xarray as xr
 from matplotlib.lines import Line2D
 
+from frames.model.names import likely
 from frames.plots.plot_style import PALETTE, line_of
 from frames.results.findings import doubts_of
 from frames.results.recorded import largest_kept, require_steps
-from lir_element.argument_checks import likely
 from lir_element.errors import RunStatus
 from lir_element.texts import joined, worded
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Self
 
 from frames.bundles.nonlinear_data import part_sizes
+from frames.model.names import likely
 from frames.results.recorded import ENDS, EVERY_STEP
-from lir_element.argument_checks import likely, require_non_negative, require_positive, require_type
+from lir_element.argument_checks import require_non_negative, require_positive, require_type
 from lir_element.layout import BODIES, STATE
 from lir_element.units import meant
 
