@@ -21,10 +21,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames.model.axes import local_axes
-from frames.model.sections import Section
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
+    from frames.model.sections import Section
 
 
 def rigid_arms(arms: FloatArray) -> FloatArray:
