@@ -40,9 +40,7 @@ def newhall_bearing() -> LIRBearing:
 def pulse() -> Callable[..., np.ndarray]:
     """Make a sine that grows and fades smoothly, then rest; (n,) [m/s2]."""
 
-    def make(
-        peak: float, period: float, dt: float = 0.005, cycles: float = 2.0, rest: float = 1.0
-    ) -> np.ndarray:
+    def make(peak, period, dt=0.005, cycles=2.0, rest=1.0):
         length = cycles * period
         t = np.arange(0.0, length + dt, dt)
         window = np.sin(np.pi * np.minimum(t / length, 1.0))

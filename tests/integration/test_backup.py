@@ -10,27 +10,14 @@ import pytest
 from frames import GroundMotion, lumped_mass, moment_frame, peaks, time_histories, time_history
 from frames.demo import bearing_for
 from frames.risk import Intensity, IntensityRuns, LimitState
-from lir_element import (
-    AnalysisError,
-    BackupSupport,
-    CoulombFriction,
-    Element,
-    LIRBearing,
-    RunStatus,
-)
+from lir_element import AnalysisError, BackupSupport, Element, RunStatus
 from lir_element.units import STANDARD_GRAVITY
 from tests.refusals import refused
+from tests.scenes import small_bearing
 
 LOAD = 150e3
-BEARING = LIRBearing(
-    radius=0.75,
-    slider_height=0.085,
-    slider_radius=0.08,
-    capacity=0.12,
-    friction=CoulombFriction(0.05),
-    interface_friction=0.12,
-    slip_capacity=0.03,
-    design_load=LOAD,
+BEARING = small_bearing(
+    capacity=0.12, friction=0.05, interface_friction=0.12, slip_capacity=0.03, design_load=LOAD
 )
 DROP, FRICTION = 0.02, 0.3
 BACKED = replace(BEARING, backup=BackupSupport(drop=DROP, friction=FRICTION))

@@ -1,28 +1,22 @@
 """Many histories at once are the single ones: the same numbers, for any number of workers."""
 
 import pickle  # of what this test has made  # noqa: S403
-import warnings
 from collections.abc import Callable
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from frames import (
-    AuditWarning,
     BatchProgress,
     Frame,
     GroundMotion,
     ModelWarning,
     Recording,
     floor_acceleration,
-    load,
     lumped_mass,
     moment_frame,
     peaks,
-    save,
     shear_building,
     time_histories,
     time_history,
@@ -32,17 +26,11 @@ from frames.laws import Bilinear, PlasticHinge
 from frames.results.findings import findings_by_run, findings_of
 from frames.results.recorded import is_of_all_steps
 from lir_element import AnalysisInterrupted, AnalysisWarning, Features, LIRBearing
+from tests.scenes import quietly
 
 ROUND_OFF = 1e-9  # sums in another order; of accelerations, parts of modes cancel
+pytestmark = pytest.mark.filterwarnings("ignore::frames.ModelWarning")
 TIMED = ("seconds_loop", "seconds of the time loop")
-
-
-def quietly(analyse: Callable[..., xr.Dataset], *given: Any, **options: Any) -> xr.Dataset:
-    """Analyse without the warnings of runs that stop or are doubtful."""
-    with warnings.catch_warnings():
-        for kind in (AnalysisWarning, AuditWarning, ModelWarning):
-            warnings.simplefilter("ignore", kind)
-        return analyse(*given, **options)
 
 
 def untimed(data: xr.Dataset) -> xr.Dataset:
@@ -162,9 +150,7 @@ def test_any_number_of_workers_gives_the_same_bits(grid, motions, workers):
     assert untimed(again).identical(untimed(data))
 
 
-def test_a_row_does_not_depend_on_those_before(
-    building: Frame, motions: dict[str, GroundMotion]
-) -> None:
+def test_a_row_does_not_depend_on_those_before(building, motions):
     # steps of other sizes, failures: arrays that are used again keep nothing of them
     cases = [("frame", name, s) for name, s in (("near", 3.5), ("far", 1.0), ("near", 1.0))]
     run = {"models": building, "motions": motions, "workers": 1}
@@ -306,12 +292,6 @@ def test_a_structure_without_equilibrium_is_a_row(building, device, motions):
     assert list(data["status"].to_numpy()) == ["uplifted", "ok"]
     assert float(data["failed_at"][0]) == 0.0
     assert np.isnan(data["peak"].isel(run=0)).all()
-
-
-def test_saved_and_loaded(grid: tuple[dict[str, Frame], xr.Dataset], tmp_path: Path) -> None:
-    _, data = grid
-    save(data, tmp_path / "many.nc")
-    xr.testing.assert_equal(load(tmp_path / "many.nc"), data)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from frames import Frame, GroundMotion, Section, gravity, lumped_mass
 from frames.model.components import DOFS
-from lir_element import CoulombFriction, LIRBearing
+from lir_element import CoulombFriction
 from lir_element.kernels.rotation import rotate
 from tests.scenes import uneven_bearing
 
@@ -31,9 +31,7 @@ def column(factor: float = 1.0, area: float = 0.04) -> Section:
 device = partial(uneven_bearing, friction=0.05)
 
 
-def pier(
-    bearing: LIRBearing, factor: float = 1.0, area: float = 0.04, head_mass: float = 2e3
-) -> Frame:
+def pier(bearing, factor=1.0, area=0.04, head_mass=2e3):
     """Build a deck that stays level on one bearing on one column."""
     frame = Frame("pier")
     frame.add_node("foot", 0.0, 0.0, -HEIGHT)
@@ -134,16 +132,6 @@ def test_tilt_of_the_head_moves_the_deck():
     assert_allclose(tilt, expected, rtol=4e-2)
 
 
-def test_permanent_weight_bends_an_eccentric_head():
-    frame = pier(device())
-    frame.add_load("head", (0.0, 0.0, 0.0, 0.0, 2e4, 0.0))
-    state = gravity(frame)
-    place = dict(zip(state.system.dof_labels, state.displacement, strict=True))
-    assert place["head ry"] > 1e-5
-    assert place["head ux"] > 0.0
-    assert_allclose(state.axial_forces, MASS * G, rtol=1e-3)  # inclined string
-
-
 def test_stiff_columns_are_rigid_ground(run, motion):
     rigid = run(lumped_mass(device(), MASS), motion, dt=DT)
     gaps = []
@@ -156,11 +144,3 @@ def test_stiff_columns_are_rigid_ground(run, motion):
     assert gaps[0] < 0.05
     assert gaps[1] < 2e-3
     assert gaps[1] < 0.1 * gaps[0]  # in proportion to the flexibility
-
-
-def test_soft_columns_are_not(run, motion, history):
-    rigid = run(lumped_mass(device(), MASS), motion, dt=DT)
-    gap = float(np.abs(history["node_displacement"].sel(node="head", dof="ux")).max())
-    assert gap > 0.01
-    change = history["bearing_displacement"] - rigid["bearing_displacement"]
-    assert float(np.abs(change).max()) > 0.01

@@ -4,17 +4,14 @@ import math
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
 
 from frames import (
     GroundMotion,
     Recording,
     ductility,
-    load,
     lumped_mass,
     moment_frame,
     peaks,
-    save,
     shear_building,
     storey_drift,
     storey_ductility,
@@ -173,15 +170,6 @@ def test_a_run_that_stopped_leaves_nothing():
     table = ductility(data)
     assert table["residual"].isna().all()
     assert table["largest"].max() > 0.0
-
-
-@pytest.mark.parametrize("model", ["storeys", "hinged"])
-def test_after_saving(model, request, tmp_path):
-    data = request.getfixturevalue(model)
-    save(data, tmp_path / "run.nc")
-    again = load(tmp_path / "run.nc")
-    numbers = ductility(data).drop(columns="kind"), ductility(again).drop(columns="kind")
-    assert_allclose(*(table.to_numpy(dtype=float) for table in numbers))
 
 
 def test_a_recording_without_the_histories_keeps_the_table(storeys):

@@ -20,7 +20,6 @@ from frames import (
     moment_frame,
     shear_building,
     step_sensitivity,
-    time_histories,
 )
 from frames.results.findings import doubts_of
 from frames.solve import run as run_module
@@ -128,15 +127,6 @@ def test_a_floors_mean_is_that_of_its_masses(run):
     assert float(data["node_mass"].sel(node=["g0", "g1"]).max()) == 0.0
 
 
-def test_campaigns_keep_the_same_accelerations(run):
-    frame = with_middles()
-    kept = time_histories({"a": frame}, {"m": MOTION})
-    alone = np.abs(floor_acceleration(run(frame, MOTION)))
-    for name, axes in (("floor_plan", ["x", "y"]), ("floor_vertical", ["z"])):
-        expected = np.linalg.norm(alone.sel(axis=axes), axis=-1).max(axis=0)
-        assert_allclose(kept[f"peak_{name}"].isel(run=0), expected, rtol=1e-9)
-
-
 SCENES = {
     "mass": lambda: lumped_mass(device(), 2e5),
     "impacts": lambda: lumped_mass(device(capacity=0.05), 2e5),
@@ -161,18 +151,6 @@ def test_forces_and_accelerations_of_one_instant_balance(run, scene, integrator)
     gaps = np.abs(data["imbalance"].to_numpy()).max(axis=0)
     assert_allclose(np.abs(left).max(axis=0) / weight, gaps[:3], atol=1e-9)
     assert gaps[np.isfinite(gaps)].max() < 2e-4  # moments too
-
-
-def test_only_what_is_recorded_changes_with_the_balance(run, monkeypatch):
-    options = {"integrator": "generalised-alpha", "dt": 0.005}
-    balanced = run(SCENES["stick"](), MOTION, **options)
-    plain = run(SCENES["stick"](), MOTION, dt=0.005)
-    for data in (balanced, plain):
-        assert data.attrs["status"] == "ok"
-    size = float(np.abs(plain["base_shear"]).max())
-    assert_allclose(balanced["base_shear"], plain["base_shear"], atol=0.05 * size)
-    a, b = (floor_acceleration(each).sel(axis="x") for each in (balanced, plain))
-    assert float(np.abs(a - b).max()) < 0.1 * float(np.abs(b).max())
 
 
 def test_the_audit_names_forces_that_do_not_balance(run):

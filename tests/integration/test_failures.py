@@ -17,19 +17,15 @@ from frames import (
     time_history,
 )
 from lir_element import (
-    AnalysisError,
     AnalysisWarning,
-    CoulombFriction,
     Features,
     LIRBearing,
-    RunStatus,
 )
 from tests.refusals import refused
-from tests.scenes import wide_bearing
+from tests.scenes import simple_bearing, wide_bearing
 
 MASS, DT = 1e5, 0.005
-SHAPE = {"radius": 1.0, "slider_height": 0.1, "slider_radius": 0.1}
-FUSED = {**SHAPE, "friction": CoulombFriction(0.05), "interface_friction": math.inf}
+FUSED = {**simple_bearing.keywords, "interface_friction": math.inf}
 
 CASES = {
     "rim_overrun": (
@@ -106,22 +102,6 @@ def test_failure_is_reported_and_the_rows_before_it_are_kept(case, dt):
         assert float(data[name].max()) <= limit  # what failed is not in the rows
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_on_failure_raise_carries_the_same_data(case):
-    with pytest.raises(AnalysisError) as caught:
-        failing(case, on_failure="raise")
-    error = caught.value
-    with pytest.warns(AnalysisWarning):
-        data = failing(case)
-    assert error.status is RunStatus[case.upper()]
-    assert error.where == 'bearing "bearing"'
-    assert error.time == data.attrs["failed_at"]
-    assert str(error) == error.data.attrs["message"] == data.attrs["message"]
-    assert_allclose(
-        error.data["bearing_force"], data["bearing_force"], rtol=0.0, atol=0.0
-    )  # the same run
-
-
 def test_rows_before_a_failure_are_those_of_a_run_that_goes_on():
     with pytest.warns(AnalysisWarning):
         short = failing("rim_overrun", dt=DT)
@@ -153,28 +133,6 @@ def test_failure_exactly_on_a_base_step_keeps_no_empty_row():
     assert on_step > 0
 
 
-@pytest.mark.parametrize("every", [3, 10])
-def test_failure_with_thinned_rows(every):
-    with pytest.warns(AnalysisWarning):
-        data = failing("rim_overrun", dt=DT, record_every=every)
-    with pytest.warns(AnalysisWarning):
-        full = failing("rim_overrun", dt=DT)
-    check_rows(data, DT, every)
-    assert data.attrs["failed_at"] == full.attrs["failed_at"]
-    assert_allclose(
-        data["energy"], full["energy"].isel(time=slice(None, None, every)), rtol=0.0, atol=0.0
-    )  # the same steps
-
-
-def test_failure_in_a_chunk_of_a_run_with_progress():
-    seen: list[float] = []
-    with pytest.warns(AnalysisWarning):
-        data = failing("rim_overrun", dt=DT, progress=seen.append)
-    check_rows(data, DT)
-    assert seen
-    assert seen[-1] < 1.0
-
-
 def test_failure_names_the_bearing_that_fails():
     given, peak, _ = CASES["rim_overrun"]
     weak, strong = LIRBearing(**given), LIRBearing(**{**given, "rim_overrun": 0.1})
@@ -200,11 +158,6 @@ def test_not_finite_input_is_refused_at_the_door(value):
 
 
 BAD = [
-    (
-        {"level": "atomic"},
-        ValueError,
-        r"level = 'atomic': choose one of \('pendulum', 'contact', 'rigid_body', 'auto'\)",
-    ),
     ({"features": {"rims": False}}, TypeError, "features = .* must be a Features"),
     ({"features": Features(rims=False), "level": "auto"}, ValueError, "leave features out"),
     ({"method": "magic"}, ValueError, "method = 'magic': choose one of"),
@@ -259,7 +212,7 @@ def test_bounds_of_the_spectral_radius_are_allowed(run, pulse, radius):
 def test_runs_without_end_are_refused(options, words):
     motion = GroundMotion(x=np.ones(100), dt=DT)
     with pytest.raises(ValueError, match=words):
-        time_history(lumped_mass(LIRBearing(**FUSED, capacity=0.1), MASS), motion, **options)
+        time_history(lumped_mass(LIRBearing(**FUSED), MASS), motion, **options)
 
 
 def test_plates_without_inertia_are_named_where_they_find_no_equilibrium():

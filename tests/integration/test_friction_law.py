@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.interpolate import CubicHermiteSpline
 
@@ -192,37 +191,6 @@ def test_measured_points_give_their_isotonic_fit() -> None:
     with pytest.raises(ValueError, match="1 speeds and 2 coefficients: give one of each"):
         MeasuredFriction([0.1], [0.05, 0.06])
     refused(ValueError, r"coefficients\[0\] = 6.* below 1", MeasuredFriction, [0.1], [6.0])
-
-
-@pytest.mark.parametrize("level", ["pendulum", "contact"])
-def test_points_of_the_exponential_act_as_the_exponential(level: Any) -> None:
-    exact = VelocityFriction(0.065, 0.0325, 15.0)
-    speeds = [0.0, *np.geomspace(1e-3, 1.0, 40)]
-    measured = MeasuredFriction(speeds, [exact.at_speed(v) for v in speeds])
-    assert measured.misfit < 1e-4 * exact.f_max
-    path = 0.1 * np.sin(np.linspace(0.0, 2.0 * np.pi, 200))
-    forces = [
-        cyclic_test(device(law), path, axial_load=LOAD, velocity=0.1, level=level)["bearing_force"]
-        for law in (exact, measured)
-    ]
-    assert float(abs(forces[0] - forces[1]).max()) < 1e-3 * 0.065 * LOAD
-
-
-@pytest.mark.parametrize("level", ["pendulum", "contact"])
-def test_histories_by_table_are_those_of_the_exponential(run: Any, level: str) -> None:
-    laws = VelocityFriction(0.066, 0.033, 20.0), ExponentialByTable(0.066, 0.033, 20.0)
-    motion = shaking(end=1.0 if level == "contact" else 1.8)
-    one, two = (run(lumped_mass(device(law), 1e5), motion, dt=0.005, level=level) for law in laws)
-    moved = one["bearing_displacement"]
-    assert float(np.abs(moved).max()) > 0.03
-    assert float(np.abs(moved - two["bearing_displacement"]).max()) < 1e-6 * float(
-        np.abs(moved).max()
-    )
-    assert "friction_table" not in one
-    assert two["friction_table"].dims == ("bearing", "surface", "knot")
-    lower = [float(summed(data, "sliding_work_lower")) for data in (one, two)]
-    assert lower[1] == pytest.approx(lower[0], rel=1e-5)
-    assert lower[0] > 0.0
 
 
 @pytest.mark.parametrize("level", ["pendulum", "contact"])
@@ -569,10 +537,3 @@ def test_parameters_are_fields_of_the_law() -> None:
         laws(plain, half_speed=0.05)
     with pytest.raises(CampaignError, match="rate: the bearing has HalvingFriction; give it Velo"):
         laws(frame, rate=50.0)
-
-
-def test_results_can_be_kept(run: Any, tmp_path: Path) -> None:
-    data = run(lumped_mass(device(), 1e5), shaking(end=0.4), dt=0.005)
-    data.to_netcdf(tmp_path / "run.nc", engine="netcdf4")
-    with xr.open_dataset(tmp_path / "run.nc", engine="netcdf4") as kept:
-        assert_array_equal(kept["friction_table"], data["friction_table"])

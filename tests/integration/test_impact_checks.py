@@ -37,19 +37,14 @@ from frames.design import (
     slips_of_events,
     uplift_events,
 )
-from lir_element import CoulombFriction, Features, LIRBearing
-from tests.scenes import full_sine, quietly
+from lir_element import Features, LIRBearing
+from tests.scenes import full_sine, paper_bearing, quietly
 
 
 def device(**other: Any) -> LIRBearing:
-    given = {"capacity": 0.2} | other if "rims" not in other else other
-    return LIRBearing(
-        radius=1.185,
-        slider_height=0.12,
-        slider_radius=0.15,
-        friction=CoulombFriction(0.06),
-        interface_friction=0.14,
-        **given,
+    capacity = None if "rims" in other else 0.2
+    return paper_bearing(
+        **{"capacity": capacity, "friction": 0.06, "interface_friction": 0.14} | other
     )
 
 

@@ -140,9 +140,7 @@ def test_answered_and_kept(level: str, options: dict[str, object], child: Child)
     assert statistics.median(waited) < PROMPT * start, (waited, start)
 
 
-def check(
-    kind: str, status: str, count: str, end: str, stopped: str, finite: str, turn: str
-) -> int:
+def check(kind, status, count, end, stopped, finite, turn):
     """Check what the child says of one interrupted run; returns the number of steps recorded."""
     assert (kind, status, finite, turn) == ("AnalysisInterrupted", "interrupted", "True", "0")
     assert 0.0 <= float(end) <= float(stopped)

@@ -25,11 +25,11 @@ from frames.batch import completed_runs
 from frames.batch.batch_dataset import RunResult
 from frames.batch.batch_run import Worker
 from lir_element import AnalysisInterrupted, CoulombFriction, LIRBearing
+from tests.integration.test_batch import untimed
 from tests.scenes import small_bearing
 
 SCALES = [0.1, 0.2, 0.3, 0.8]  # the interface fails under the last one
 pytestmark = pytest.mark.filterwarnings("ignore::lir_element.AnalysisWarning")
-TIMED = ("seconds_loop", "seconds of the time loop")
 
 
 def bearing(friction: float = 0.05) -> LIRBearing:
@@ -48,11 +48,6 @@ def motions() -> dict[str, GroundMotion]:
         wave = 3.0 * np.sin(2.0 * np.pi * t / 1.5) * np.sin(np.pi * t / t[-1])
         found[name] = GroundMotion(x=wave, y=0.4 * wave[::-1], dt=dt)
     return found
-
-
-def untimed(data: xr.Dataset) -> xr.Dataset:
-    data = data.drop_vars(TIMED[0]).drop_sel(quantity=TIMED[1])
-    return data.assign_attrs(seconds=0.0)
 
 
 def stopped_in_the_sixth(monkeypatch: pytest.MonkeyPatch) -> Callable[[BatchProgress], None]:

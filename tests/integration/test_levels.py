@@ -102,7 +102,7 @@ def test_levels_agree_in_the_rig(case: str) -> None:
         assert error < DISSIPATED[level] * dissipated(one).max()
         # the actuator holds W on the top plate
         load = -two["bearing_force"][:, 0, 2].to_numpy()
-        assert_allclose(load, W, rtol=1e-6 if level == "contact" else 5e-3, atol=0.0)
+        assert_allclose(load, W, rtol=1e-6 if level == "contact" else 5e-3)
         error = two["bearing_displacement"] - one["bearing_displacement"]
         assert float(np.abs(error).max()) < 5e-6
         for name in ("body_position", "body_rotation"):
@@ -135,19 +135,6 @@ def test_sliders_in_the_rig_follow_the_string() -> None:
         assert tilt == 0.0
 
 
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_direction_does_not_matter_in_the_rig(sign: float) -> None:
-    path = np.array([0.1, 0.185, 0.0])
-    for level in ("contact", "rigid_body"):
-        one = cyclic_test(bearing(), path, W, 0.05, level=level)["bearing_force"]
-        way = np.column_stack([0.0 * path, sign * path])
-        two = cyclic_test(bearing(), way, W, 0.05, level=level)["bearing_force"]
-        scale = float(np.abs(one[:, 0, 0]).max())
-        error = two[:, 0, 1].to_numpy() - sign * one[:, 0, 0].to_numpy()
-        # the step control of the level 'rigid_body' does not see the sign
-        assert_allclose(error / scale, 0.0, rtol=0.0, atol=1e-6)
-
-
 @pytest.mark.parametrize("level", ["contact", "rigid_body"])
 def test_varying_load_in_the_rig(level: str) -> None:
     loads = np.array([1.0, 1.4, 0.6, 1.0]) * W
@@ -155,7 +142,7 @@ def test_varying_load_in_the_rig(level: str) -> None:
     one = cyclic_test(bearing(), path, loads, 0.05)
     two = cyclic_test(bearing(), path, loads, 0.05, level=level)
     force = one["bearing_force"][:, 0].to_numpy()
-    assert_allclose(-force[:, 2], loads, rtol=1e-6, atol=0.0)
+    assert_allclose(-force[:, 2], loads, rtol=1e-6)
     error = np.abs(two["bearing_force"][:, 0].to_numpy() - force)
     assert error[:, 0].max() < 3e-3 * np.abs(force[:, 0]).max()
     assert error[:, 2].max() < 5e-3 * W
@@ -201,8 +188,8 @@ def test_levels_agree_under_a_pulse(shaken: dict[str, xr.Dataset]) -> None:
         two = shaken[level]
         other = np.linalg.norm(two["bearing_displacement"][:, 0, :2], axis=1).max()
         # the sliders rock on the rim: 0.7 mm of 0.18 m
-        assert_allclose(other, peak, rtol=5e-3, atol=0.0)
-        assert_allclose(two["interface_slip_size"].max(), slip, rtol=0.06, atol=0.0)
+        assert_allclose(other, peak, rtol=5e-3)
+        assert_allclose(two["interface_slip_size"].max(), slip, rtol=0.06)
         moves = np.abs(two["bearing_displacement"] - one["bearing_displacement"])[:, 0, :2]
         assert float(moves.max()) < 0.01 * peak
         assert two.attrs["level"] == level
@@ -255,14 +242,6 @@ def test_pendulum_runs_have_no_bodies(shaken: dict[str, xr.Dataset]) -> None:
     assert not {"body_position", "body_rotation", "body"} & set(shaken["pendulum"].variables)
 
 
-@pytest.mark.parametrize("level", ["contact", "rigid_body"])
-def test_round_trip_to_a_file(level: str, shaken: dict[str, xr.Dataset], tmp_path: Path) -> None:
-    save(shaken[level], tmp_path / "run.nc")
-    again = load(tmp_path / "run.nc")
-    xr.testing.assert_equal(again, shaken[level])
-    assert again.attrs["level"] == level
-
-
 def building() -> Frame:
     device = bearing(slider_radius=0.12, capacity=0.12)
     return moment_frame((1, 1), 1, bearing=device)
@@ -297,7 +276,7 @@ def test_levels_by_name_in_a_building(pulse: Callable[..., np.ndarray], tmp_path
 
 REST = GroundMotion(x=np.zeros(5), dt=0.005)
 BAD: list[tuple[dict[str, Any], str]] = [
-    ({"level": "atomic"}, r"level = 'atomic': choose one of"),
+    ({"level": "atomic"}, r"level = 'atomic': choose one of \('pendulum', 'contact', 'rigid_body'"),
     ({"level": {"bearing": "atomic"}}, r"level of a bearing = 'atomic': choose one of"),
     ({"level": {"other": "contact"}}, 'level names "other": the model has the bearings bearing'),
     ({"level": {"bearing": "rigid_body"}}, r"level of a bearing = 'rigid_body': choose one of"),
@@ -338,7 +317,7 @@ def test_failed_run_keeps_what_was_computed(level: str, pulse: Callable[..., np.
     assert data.attrs["status"] == "slip_exceeded"
     assert data.attrs["failed_where"] == 'bearing "bearing"'
     time = data["time"].to_numpy()
-    assert_allclose(time, 0.005 * np.arange(len(time)), rtol=1e-12, atol=0.0)
+    assert_allclose(time, 0.005 * np.arange(len(time)), rtol=1e-12)
     assert 0.0 < data.attrs["failed_at"] - time[-1] <= 0.005 * (1.0 + 1e-9)
     assert len(time) > 100
     assert float(data["interface_slip_size"].max()) <= 0.02

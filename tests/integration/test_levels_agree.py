@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from frames import GroundMotion, lumped_mass, time_history
-from lir_element import CoulombFriction, LIRBearing
+from lir_element import CoulombFriction
+from tests.scenes import simple_bearing
 from validation.measurements.speed_error import GOALS
 from validation.measurements.speed_runs import history
 from validation.measures import errors
@@ -85,10 +86,8 @@ def test_errors_are_those_of_a_scaled_response(reference):
 
 
 def test_sliders_rock_on_surfaces_of_unlike_friction() -> None:
-    device = LIRBearing(
-        radius=1.0,
+    device = simple_bearing(
         slider_height=0.12,
-        slider_radius=0.1,
         capacity=0.25,
         friction=(CoulombFriction(0.02), CoulombFriction(0.1)),
         interface_friction=0.14,

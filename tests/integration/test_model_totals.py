@@ -30,9 +30,7 @@ PAPER = small_bearing()
 LOAD = 30e6 * math.pi * 0.08**2
 
 
-def storey(
-    *, held: bool, base_mass: float = 4e3, floor: float = 800e3, support: tuple[str, ...] = ("uz",)
-) -> Frame:
+def storey(*, held, base_mass=4000.0, floor=800000.0, support=("uz",)):
     """One storey on four bearings, its mass at the held master of its diaphragm, or at columns."""
     frame = Frame("storey")
     section = Section.box(0.4, 0.4, 0.02, density=0.0)
@@ -163,16 +161,8 @@ def test_usual_models_pass(build: Any) -> None:
 WRONG = {
     "mass in t": (lambda: lumped_mass(PAPER, 1e-3 * LOAD / G), "0.03 MPa", "t for kg"),
     "weight for mass": (lambda: lumped_mass(PAPER, LOAD), "294 MPa", "N for kg"),
-    "weight for mass, light pressure": (
-        lambda: lumped_mass(bearing_for(2e6), 2e6),
-        "9.81 times their design_load",
-        "N for kg",
-    ),
-    "mass in t, slender load": (
-        lambda: lumped_mass(bearing_for(2e6), 204.0),
-        "0.001 times their design_load",
-        "t or N",
-    ),
+    "light pressure": (lambda: lumped_mass(bearing_for(2e6), 2e6), "9.81 times their", "N for kg"),
+    "slender load": (lambda: lumped_mass(bearing_for(2e6), 204.0), "0.001 times their", "t or N"),
     "floors in t": (
         lambda: storey(held=False, base_mass=4.0, floor=800.0),
         "kg/m3 (buildings have 100 to 600)",
@@ -183,21 +173,9 @@ WRONG = {
         "kg/m3 (buildings have 100 to 600)",
         "a weight in N for a mass in kg?",
     ),
-    "storey stiffness in kN/mm": (
-        lambda: shear_building(PAPER, 15e3, 40.0, storeys=3),
-        "has a period of",
-        "kN/mm for N/m",
-    ),
-    "storey stiffness in kN/m": (
-        lambda: shear_building(PAPER, 15e3, 40e3, storeys=3),
-        "has a period of",
-        "kN/m",
-    ),
-    "masses in t, stiffness in kN/m": (
-        lambda: shear_building(PAPER, 15.0, 40e3, storeys=3),
-        "MPa under permanent",
-        "t for kg",
-    ),
+    "kN/mm": (lambda: shear_building(PAPER, 15e3, 40.0, storeys=3), "a period of", "kN/mm for N/m"),
+    "kN/m": (lambda: shear_building(PAPER, 15e3, 40e3, storeys=3), "has a period of", "kN/m"),
+    "t, kN/m": (lambda: shear_building(PAPER, 15.0, 40e3, storeys=3), "MPa under", "t for kg"),
     "soft seat": (
         lambda: lumped_mass(small_bearing(design_load=1e5, axial_stiffness=6e6), LOAD / G),
         "% of its slider's height",

@@ -2,10 +2,8 @@
 
 import math
 import warnings
-from types import SimpleNamespace
 
 import numpy as np
-import pandas as pd
 import pytest
 import xarray as xr
 
@@ -20,11 +18,9 @@ from frames import (
     time_histories,
     time_history,
 )
-from frames.batch.runs import Runs
 from frames.demo import table_of
 from frames.design import HISTORY_RULES, history_demands
 from frames.design.histories.suite import names_of, peaks_of_runs
-from frames.design.report.result_tables import bearing_table
 from frames.plots import storey_profiles
 from frames.results.quantities import DEMANDS
 from lir_element import AnalysisWarning
@@ -90,18 +86,6 @@ def test_demands_of_one_run_are_its_peaks(data: xr.Dataset, batch: xr.Dataset, c
         for column in ("value", "envelope", "worst"):
             value = demands.loc[row, column]
             assert value == pytest.approx(table[quantity], rel=1e-9, abs=1e-12), (row, column)
-
-
-def test_the_report_s_bearings_have_the_peaks(frame, data, batch):
-    types = dict.fromkeys(frame.bearings, "standard")
-    run = SimpleNamespace(frame=frame, loads=np.ones(4), runs=Runs(batch), kinds=types)
-    table: pd.DataFrame = bearing_table(run)  # type: ignore[arg-type]
-    known = peaks(data)["value"]
-    assert table["displacement [m]"].max() == pytest.approx(known["bearing displacement"])
-    assert table["slip [m]"].max() == pytest.approx(known["interface slip"])
-    assert table["rim force [N]"].max() == pytest.approx(known["rim force"])
-    assert table["largest load [N]"].max() == pytest.approx(known["axial force"])
-    assert table["least load [N]"].min() == pytest.approx(known["minimum axial force"])
 
 
 def test_the_figure_of_storeys_has_the_peaks(data: xr.Dataset) -> None:

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from typing import Any
@@ -11,7 +10,7 @@ import numpy as np
 import pytest
 
 from frames import GroundMotion, lumped_mass, time_history
-from lir_element import CoulombFriction, Features, LIRBearing, VelocityFriction
+from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from tests.refusals import refused
 from tests.scenes import plain_pendulum
 
@@ -24,10 +23,8 @@ from lir_element.opensees import (
     builtin_values,
     opensees,
 )
-from tests.patience import fresh, patience
 from validation.opensees.model import (
     gravity_analysis,
-    ground_motion,
     lead,
     solver,
     stand,
@@ -216,36 +213,6 @@ def test_millimetres_and_tags_of_numpy(ops: Any) -> None:
         builtin_element("singleFPBearing", 1.5, 1, 2, plain())  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("kind", BUILTIN_KINDS)
-def test_rayleigh_damping_of_the_domain(kind: str) -> None:
-    """It damps two of the elements unless they are made after it; a region does not help."""
-    bearing, moved = plain(), {}
-    for case in ("none", "before", "after", "region"):
-        with stand(bearing.height, MASS) as ops:
-            if case == "before":
-                ops.rayleigh(0.0, 0.0, 2e-3, 0.0)
-            builtin_element(kind, 1, 1, 2, bearing, LOAD)
-            if case in {"after", "region"}:
-                ops.rayleigh(0.0, 0.0, 2e-3, 0.0)
-            if case == "region":
-                ops.region(1, "-ele", 1, "-rayleigh", 0.0, 0.0, 0.0, 0.0)
-            weigh(ops)
-            times = np.arange(0.0, 3.0, 0.01)
-            ground_motion(ops, GroundMotion(x=2.0 * np.sin(2.0 * np.pi * times / 1.4), dt=0.01))
-            solver(ops, 1e-7)
-            transient_steps(ops)
-            assert ops.analyze(100, 0.01) == 0
-            moved[case] = ops.nodeDisp(2, 1)
-    assert moved["before"] == moved["none"]
-    assert moved["region"] == moved["after"]
-    apart = abs(moved["after"] / moved["none"] - 1.0)
-    expected = {
-        "TripleFrictionPendulum": pytest.approx(0.52, abs=0.02),
-        "TFP": pytest.approx(0.04, abs=0.01),
-    }
-    assert apart == expected.get(kind, 0.0)
-
-
 def test_shear_acts_at_half_height(ops: Any) -> None:
     """The option is not swallowed: the moment above is half the shear times the height."""
     bearing = plain()
@@ -259,19 +226,6 @@ def test_shear_acts_at_half_height(ops: Any) -> None:
     force = ops.eleResponse(1, "force")
     assert force[10] == pytest.approx(-0.5 * force[6] * bearing.height, rel=1e-9)
     assert force[4] == pytest.approx(force[10] - LOAD * 0.05, rel=1e-9)  # N U on node i alone
-
-
-def test_zero_friction_would_end_the_process() -> None:
-    """Why a coefficient of zero is refused; in a process of its own."""
-    script = (
-        "from lir_element.opensees import opensees\n"
-        "ops = opensees()\n"
-        "ops.model('basic', '-ndm', 3, '-ndf', 6)\n"
-        "ops.frictionModel('Coulomb', 1, 0.0)\n"
-        "print('still here')\n"
-    )
-    done = fresh(script, timeout=patience(), check=False)
-    assert "still here" not in done.stdout
 
 
 def small_motion() -> GroundMotion:
@@ -298,20 +252,3 @@ def test_small_motions_agree(kind: str) -> None:
     peak = np.hypot(*moved[:, :2].T).max()
     assert peak > 5e-3
     assert away < 0.01 * peak
-
-
-def test_velocity_dependence_agrees() -> None:
-    friction = VelocityFriction(f_max=0.008, f_min=0.004, rate=60.0)
-    bearing = plain(friction=friction, yield_displacement=0.005e-3)
-    motion = replace(small_motion(), z=None)
-    features = Features(vertical_coupling=False)
-    ours = time_history(lumped_mass(bearing, MASS), motion, dt=0.0025, features=features)
-    moved = ours["bearing_displacement"].isel(bearing=0).to_numpy()
-    for kind in ("singleFPBearing", "FPBearingPTV"):
-
-        def place(tag: int, i: int, j: int, kind: str = kind) -> None:
-            builtin_element(kind, tag, i, j, bearing, LOAD)
-
-        track = lumped(place, bearing.height, MASS, motion, 0.0025)
-        away = np.hypot(*(moved - track.displacement)[:, :2].T).max()
-        assert away < 0.015 * np.hypot(*moved[:, :2].T).max(), kind

@@ -24,18 +24,15 @@ from validation.claims.opensees_macro_model import (
     static_checks,
 )
 from validation.claims.opensees_macro_runs import Loop
-from validation.measurements.hard_scenes import impact, vertical
+from validation.measurements.hard_scenes import impact
 from validation.measurements.opensees_hard_cases import cases, energies, kinds
 from validation.opensees.model import ABOVE, BELOW, stand
 from validation.opensees.trials import (
     DEVICES,
-    PLAIN,
-    ROBUST,
     load_down,
     macro,
     pull,
     shake,
-    take_back,
 )
 from validation.opensees.worker import Worker
 from validation.scenes import MASS, static_path
@@ -211,37 +208,6 @@ def test_refuses_nodes_of_three_degrees_of_freedom():
 def worker():
     with Worker(limit=30.0) as started:
         yield started
-
-
-def test_a_failed_step_leaves_a_trace_in_singlefpbearing(worker):
-    status, force = worker.run(
-        take_back, make=DEVICES["singleFPBearing"], bearing=bearing().as_dcfp(rims=False), load=LOAD
-    )
-    assert status == "ok"
-    assert abs(force) > 0.9
-    status, force = worker.run(
-        take_back, make=DEVICES["TripleFrictionPendulum"], bearing=bearing().as_dcfp(), load=LOAD
-    )
-    assert status == "ok"
-    assert abs(force) < 0.01
-
-
-@pytest.mark.parametrize(("algorithms", "status"), [(PLAIN, "algorithm"), (ROBUST, "ok")])
-def test_uplift_stops_newton_and_not_the_fallback(worker, algorithms, status):
-    case = vertical("uplift", 20.0, 0.3, 8.0)
-    kind = kinds()[2]
-    how, done = worker.run(
-        shake,
-        make=macro,
-        bearing=kind.bearing,
-        mass=MASS,
-        motion=case.motion,
-        duration=1.2,
-        dt=1e-3,
-        algorithms=algorithms,
-    )
-    assert how == "ok"
-    assert done.status == status
 
 
 def test_balance_and_energy_of_an_impact(worker):

@@ -103,22 +103,6 @@ def test_responses_are_in_the_models_units(stand: Any) -> None:
     assert np.array(stand.ops.eleResponse(1, "deformation")) * per == pytest.approx(moved, rel=1e-9)
 
 
-def test_recorders_write_the_same(stand: Any, tmp_path: Path) -> None:
-    beside_a_single_pendulum(stand)
-    names = ("localForce", "basicForce", "deformation", "localDisplacement", "globalForce")
-    for name in names:
-        path = str(tmp_path / f"{name}.txt")
-        stand.ops.recorder("Element", "-file", path, "-precision", 16, "-ele", 1, 2, name)
-    stand.ops.record()
-    expected = {name: bearing_response(1, name) for name in names}
-    stand.ops.wipe()
-    for name in names:
-        row = np.loadtxt(tmp_path / f"{name}.txt")
-        count = len(expected[name])
-        assert row.size == 2 * count, name
-        assert row[:count] == pytest.approx(expected[name], rel=1e-9, abs=1e-9), name
-
-
 def test_the_plane_has_three_basic_forces(stand: Any) -> None:
     ops = stand.ops
     stand.begin(ndm=2)

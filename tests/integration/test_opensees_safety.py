@@ -22,7 +22,6 @@ pytest.importorskip("openseespy")
 
 import psutil
 
-from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import ServerError, bearing_response, bearing_tags
 from lir_element.opensees.block.responses import HINTED
 from lir_element.opensees.in_process.selftest import why_not_fast
@@ -30,6 +29,7 @@ from lir_element.opensees.plugin import _SESSION
 from tests.integration.stand import advance, begin, listening
 from tests.integration.test_opensees_analyses import push_through
 from tests.patience import patience
+from tests.scenes import small_bearing
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="kills processes by signals")
@@ -320,9 +320,7 @@ def test_exit_without_wipe_is_clean() -> None:
     assert "Traceback" not in errors
 
 
-def test_only_our_own_process_is_connected_with(
-    stand: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_only_our_own_process_is_connected_with(stand, monkeypatch):
     """A stranger who connects first is turned away; no connection leaves no element."""
     own, strangers, element = listening(), [], stand.ops.element
 
@@ -413,24 +411,14 @@ LIMITS = [
 
 def shaken(stand: Any, changes: dict[str, Any]) -> None:
     """Shake a bearing beyond a limit that it has."""
-    options: dict[str, Any] = {
-        "radius": 0.75,
-        "slider_height": 0.085,
-        "slider_radius": 0.08,
-        "capacity": 0.175,
-        "friction": CoulombFriction(0.05),
-        "interface_friction": 0.126,
-    }
     stand.watch_server()
-    stand.build(LIRBearing(**(options | changes)))
+    stand.build(small_bearing(friction=0.05, **changes))
     stand.gravity()
     stand.shaking(2.8)
 
 
 @pytest.mark.parametrize(("changes", "message", "code"), LIMITS)
-def test_beyond_a_limit_the_next_step_fails(
-    stand: Any, capfd: Any, changes: dict[str, Any], message: str, code: int
-) -> None:
+def test_beyond_a_limit_the_next_step_fails(stand, capfd, changes, message, code):
     shaken(stand, changes)
     stand.errors(capfd)
     for _ in range(400):
@@ -470,9 +458,7 @@ def test_what_is_not_a_number_is_never_committed(stand: Any, capfd: Any) -> None
 
 
 @pytest.mark.parametrize(("changes", "message", "code"), LIMITS)
-def test_variable_steps_end_where_the_bearing_does(
-    stand: Any, capfd: Any, changes: dict[str, Any], message: str, code: int
-) -> None:
+def test_variable_steps_end_where_the_bearing_does(stand, capfd, changes, message, code):
     shaken(stand, changes)
     stand.ops.analysis("VariableTransient")
     assert stand.ops.analyze(400, 0.005, 1e-5, 0.01, 10) == -3

@@ -55,11 +55,10 @@ from lir_element import (
     AnalysisError,
     AnalysisInterrupted,
     AnalysisWarning,
-    CoulombFriction,
     Features,
-    LIRBearing,
     VelocityFriction,
 )
+from tests.scenes import simple_bearing as device
 
 DT = 0.005
 TIME = np.arange(0.0, 4.0, DT)
@@ -67,18 +66,6 @@ BELL = np.exp(-(((TIME - 1.5) / 0.9) ** 2))
 WAVE = 1.7 * BELL * np.sin(2 * np.pi * TIME / 1.4)
 SIDE = BELL * np.sin(2 * np.pi * TIME / 0.8)
 UP = 6.0 * np.exp(-((TIME - 2.0) ** 2)) * np.sin(12.0 * TIME)
-
-
-def device(**changes) -> LIRBearing:
-    options = {
-        "radius": 1.0,
-        "slider_height": 0.1,
-        "slider_radius": 0.1,
-        "capacity": 0.12,
-        "friction": CoulombFriction(0.05),
-        "interface_friction": 0.13,
-    }
-    return LIRBearing(**(options | changes))
 
 
 def building():

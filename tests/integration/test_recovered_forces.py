@@ -9,13 +9,10 @@ from numpy.testing import assert_allclose
 from frames import (
     Frame,
     ModelError,
-    Section,
     force_tables,
-    load,
     lumped_mass,
     member_forces,
     moment_frame,
-    save,
     storey_forces,
     support_reactions,
     time_history,
@@ -135,23 +132,6 @@ def test_columns_of_a_storey_carry_its_shear(building):
     assert_allclose(data["storey_shear"].sel(storey=frame.levels[2].name), total, atol=1e-3)
 
 
-def test_ends_of_a_member_balance(building):
-    """Along it, about it, and with its uniform load across it."""
-    frame, data = building
-    ends = member_forces(frame, data, ["beam-x-floor-1-0-0"])
-    both = ends.sum("end").isel(member=0)
-    scale = float(np.abs(ends).max())
-    for component in ("N", "T"):
-        assert float(np.abs(both.sel(component=component)).max()) < 1e-9 * scale
-
-
-def test_a_saved_run_gives_the_same(building, tmp_path):
-    frame, data = building
-    save(data, tmp_path / "run.nc")
-    again = load(tmp_path / "run.nc")
-    assert_allclose(storey_forces(frame, again), storey_forces(frame, data), rtol=1e-12)
-
-
 def test_bearings_made_of_bodies_are_in_equilibrium_too(building):
     frame, _ = building
     some = {name: "contact" for name in list(frame.bearings)[:2]}
@@ -232,27 +212,3 @@ def test_end_forces_are_those_of_opensees():
         scale = np.abs(other).reshape(*mine.shape[:2], -1, 2, 3)
         for kind in range(2):  # forces, moments
             assert apart[..., kind, :].max() < 1e-3 * scale[..., kind, :].max()
-
-
-def test_a_braced_building_is_in_equilibrium_too():
-    """Struts between hinges take most of a storey's shear."""
-    frame = moment_frame((1, 1), 2, bearing=bearing(), damping=None)
-    strut = Section.circle(0.2, 0.01, density=0.0)
-    pinned = {"i": ("My", "Mz"), "j": ("My", "Mz")}
-    for storey, (low, high) in enumerate((("base", "floor-1"), ("floor-1", "floor-2"))):
-        for row in (0, 1):
-            ends = (f"{low}-0-{row}", f"{high}-1-{row}")
-            frame.add_member(f"brace-{storey}-{row}", *ends, strut, releases=pinned)
-    data = time_history(frame, MOTION, 2.0, dt=0.005)
-    assert data.attrs["status"] == "ok"
-    found = storey_forces(frame, data).sel(storey="floor-2", component=["Vx", "Vy"])
-    masses, _, _ = parts_above(frame, frame.levels[1].z + 1e-3)
-    inertia = -np.einsum("na,tna->ta", masses, acceleration(data))[:, :2]
-    assert_allclose(found, inertia, rtol=0.0, atol=5e-6 * np.abs(inertia).max())
-    braces = member_forces(frame, data, ["brace-1-0", "brace-1-1"])
-    assert float(np.abs(braces.sel(component=["My", "Mz"])).max()) < 1e-6
-    along = 6.0 / np.hypot(6.0, 3.5)
-    taken = -along * braces.sel(end="i", component="N").sum("member").to_numpy()
-    shear = found.sel(component="Vx").to_numpy()
-    k = int(np.abs(shear).argmax())
-    assert 0.5 < abs(taken[k] / shear[k]) < 1.0

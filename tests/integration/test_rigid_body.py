@@ -13,11 +13,10 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from frames import Frame, GroundMotion, energy_error, gravity, lumped_mass, time_history
-from lir_element import CoulombFriction, LIRBearing
 from lir_element.bundles.rigid_data import rigid_input, rigid_run, rigid_setup
 from lir_element.device.sliders import slider_record
 from lir_element.kernels.rigid_body.integrate import integrate_bodies, start
-from tests.scenes import small_bearing
+from tests.scenes import plain_pendulum, small_bearing
 
 # Such bearings are meant here.
 pytestmark = pytest.mark.meant("slider_density")
@@ -43,22 +42,13 @@ def test_gravity_carries_the_sliders(masses: tuple[float, float] | None) -> None
     state = gravity(lumped_mass(device, MASS), level="contact")
     force = state.run.old["force"][0]
     own = slider_record(device)["mass"][0].sum() * G
-    assert_allclose(force[8], -MASS * G, rtol=1e-8, atol=0.0)
-    assert_allclose(force[2], MASS * G + own, rtol=1e-8, atol=0.0)
+    assert_allclose(force[8], -MASS * G, rtol=1e-8)
+    assert_allclose(force[2], MASS * G + own, rtol=1e-8)
     data = rigid(lumped_mass(device, MASS), GroundMotion(x=np.zeros(20), dt=0.005))
-    assert_allclose(data["axial_force"], MASS * G, rtol=5e-3, atol=0.0)
+    assert_allclose(data["axial_force"], MASS * G, rtol=5e-3)
     # it starts in equilibrium and stays: nothing moves but by Newton's tolerance
     assert float(np.abs(data["node_displacement"] - data["node_displacement"][0]).max()) < 1e-9
     assert float(np.abs(data["energy"]).max()) < 1e-4
-
-
-def test_gravity_is_the_same_at_both_levels() -> None:
-    model = lumped_mass(bearing(), MASS)
-    one, two = gravity(model), gravity(model, level={"bearing": "contact"})
-    assert one.contacts is None
-    assert two.contacts is not None
-    # the axis' contact is shared by points inclined by up to a / R
-    assert_allclose(two.displacement, one.displacement, rtol=1e-2, atol=1e-12)
 
 
 @pytest.mark.parametrize("level", ["contact", "rigid_body"])
@@ -86,12 +76,12 @@ def test_flight_follows_the_parabola(level: str) -> None:
     for begin, end, curvature in ((first + 2, 16, G), (18, last, -G)):
         t, y = time[begin:end] - time[begin], rise[begin:end]
         a, _, _ = np.polyfit(t, y, 2)
-        assert_allclose(2.0 * a, curvature, rtol=1e-5, atol=0.0)
+        assert_allclose(2.0 * a, curvature, rtol=1e-5)
         assert_allclose(np.polyval(np.polyfit(t, y, 2), t), y, rtol=0.0, atol=1e-8)
     landed = axial[last : last + 20].max()
     assert landed > 5.0 * MASS * G
     assert (axial >= 0.0).all()
-    assert_allclose(axial[-100:].mean(), MASS * G, rtol=0.02, atol=0.0)
+    assert_allclose(axial[-100:].mean(), MASS * G, rtol=0.02)
     assert np.abs(rise[-1] - rise[0]) < 1e-3
 
 
@@ -168,7 +158,7 @@ def test_numerical_share_of_the_ledger(pulse: Callable[..., np.ndarray]) -> None
     u = data["bearing_displacement"][:, 0, 0].to_numpy()
     a = data["ground_acceleration"][:, 0].to_numpy()
     expected = -MASS * np.sum(0.5 * (a[1:] + a[:-1]) * np.diff(u))
-    assert_allclose(energy.sel(term="input")[-1], expected, rtol=2e-3, atol=0.0)
+    assert_allclose(energy.sel(term="input")[-1], expected, rtol=2e-3)
     lifted = (
         MASS * G * (data["bearing_displacement"][:, 0, 2] - data["bearing_displacement"][0, 0, 2])
     )
@@ -180,24 +170,15 @@ def test_numerical_share_of_the_ledger(pulse: Callable[..., np.ndarray]) -> None
     assert np.median(error) < 0.01 * kinetic.max()
 
 
-STIFFNESS = 1e10
-
-
-def pendulum(**changes: object) -> LIRBearing:
-    return LIRBearing(
-        **{
-            "radius": (0.9, 0.7),
-            "slider_height": 0.1,
-            "slider_radius": 0.05,
-            "capacity": math.inf,
-            "friction": CoulombFriction(0.0),
-            "interface_friction": math.inf,
-            "axial_stiffness": STIFFNESS,
-            "axial_damping": 1e5,
-            "slider_density": 1.0,
-        }
-        | changes
-    )
+pendulum = partial(
+    plain_pendulum,
+    radius=(0.9, 0.7),
+    slider_radius=0.05,
+    friction=0.0,
+    axial_stiffness=1e10,
+    axial_damping=1e5,
+    slider_density=1.0,
+)
 
 
 def exact(ground: np.ndarray, dt: float, times: np.ndarray) -> np.ndarray:
@@ -333,7 +314,7 @@ def test_spinning_plate_in_flight() -> None:
         momentum / scale, np.broadcast_to(momentum[0] / scale, momentum.shape), rtol=0.0, atol=1e-3
     )
     energy = 0.5 * np.einsum("ti,ti->t", momentum, bodies["spin"][:, 2])
-    assert_allclose(energy, energy[0], rtol=5e-4, atol=0.0)
+    assert_allclose(energy, energy[0], rtol=5e-4)
 
     # Euler's equations, integrated apart
     def rates(_: float, y: np.ndarray) -> np.ndarray:
@@ -358,7 +339,7 @@ def test_outputs_and_chunks(pulse: Callable[..., np.ndarray]) -> None:
     motion = GroundMotion(x=pulse(1.5, 0.6, cycles=1.0, rest=0.1), dt=0.01)
     model = lumped_mass(bearing(), MASS)
     one = rigid(model, motion)
-    assert_allclose(np.diff(one["time"]), 0.005, rtol=1e-9, atol=0.0)  # at most 5 ms
+    assert_allclose(np.diff(one["time"]), 0.005, rtol=1e-9)  # at most 5 ms
     seen: list[float] = []
     two = rigid(model, motion, record_every=4, progress=seen.append)
     assert_allclose(two["time"], one["time"][::4], rtol=0.0, atol=1e-12)
@@ -369,17 +350,4 @@ def test_outputs_and_chunks(pulse: Callable[..., np.ndarray]) -> None:
     error = np.abs(two["bearing_displacement"] - one["bearing_displacement"][::4])
     assert float(error.max()) < 1e-3 * scale
     three = rigid(model, motion, dt=0.002)
-    assert_allclose(np.diff(three["time"]), 0.002, rtol=1e-9, atol=0.0)
-
-
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_direction_does_not_matter(sign: float, pulse: Callable[..., np.ndarray]) -> None:
-    x = pulse(2.4, 1.5, cycles=1.0, rest=0.1)
-    one = rigid(lumped_mass(bearing(), MASS), GroundMotion(x=x, dt=0.005))
-    two = rigid(lumped_mass(bearing(), MASS), GroundMotion(y=sign * x, dt=0.005))
-    for name in ("bearing_displacement", "bearing_force", "interface_slip"):
-        expected = sign * one[name][:, 0, 0].to_numpy()
-        scale = np.abs(expected).max()
-        found = two[name][:, 0, 1].to_numpy()
-        assert_allclose(found / scale, expected / scale, rtol=0.0, atol=1e-6)
-        assert np.abs(two[name][:, 0, 0]).max() < 1e-6 * scale
+    assert_allclose(np.diff(three["time"]), 0.002, rtol=1e-9)

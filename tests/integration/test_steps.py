@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from scipy import linalg
 
 from frames import GroundMotion, RayleighDamping, gravity, lumped_mass, moment_frame, shear_building
-from lir_element import CoulombFriction, Element, LIRBearing
+from lir_element import Element
 from tests.scenes import plain_pendulum
 from validation.measurements.performance import near_fault
 
@@ -231,17 +231,8 @@ def test_peak_of_an_impact_converges(run, pulse, newhall_bearing):
 @pytest.mark.parametrize("oblique", [0.0, 0.6])
 def test_undamped_rims_never_make_energy(run, pulse, dt, oblique):
     """Bounce without friction and damping: what is stored afterwards stays what it is."""
-    bearing = LIRBearing(
-        radius=(1.0, 0.8),
-        slider_height=0.1,
-        slider_radius=0.1,
-        capacity=0.1,
-        friction=CoulombFriction(0.0),
-        interface_friction=math.inf,
-        rim_damping=0.0,
-        axial_damping=0.0,
-        rim_overrun=1.0,
-    )
+    undamped = {"friction": 0.0, "rim_damping": 0.0, "axial_damping": 0.0, "rim_overrun": 1.0}
+    bearing = plain_pendulum(radius=(1.0, 0.8), capacity=0.1, **undamped)
     x = pulse(2.0, 1.5, 0.01, cycles=1.0, rest=0.0)
     motion = GroundMotion(x=x, y=oblique * np.roll(x, 30), dt=0.01)
     data = run(lumped_mass(bearing, 1e5), motion, dt=dt, duration=15.0)

@@ -74,11 +74,3 @@ def test_axial_forces_swing_as_those_of_a_frame(share: tuple[float, float]) -> N
     assert np.abs(of_stick[:, 4]).max() < 0.25 * least
     assert stick_twist < 2e-3
     assert frame_twist < 2e-3
-
-
-def test_a_base_that_is_held_level_swings_by_differences_of_rise() -> None:
-    """What tilt undoes: bearings that rise unlike each other on a plane that cannot follow."""
-    frame = moment_frame((2, 2), 3, bearing=BEARING, bay_width=WIDTH, storey_height=HEIGHT)
-    of_stick, _ = swings(alike(frame))
-    held, _ = swings(alike(frame, overturning=False))
-    assert np.abs(held).max() > 5.0 * np.abs(of_stick).max()

@@ -1,6 +1,5 @@
-"""The study of buildings: members, loads and devices as stated; its page is that of its numbers."""
+"""The study of buildings: members, loads and devices as stated."""
 
-import json
 import math
 
 import numpy as np
@@ -10,14 +9,10 @@ import pytest
 from frames.risk import IntensityRuns
 from frames.risk.campaign.comparison import dish_diameter
 from validation.measurements.yielding_runs import LIR
-from validation.page import FOLDER
 from validation.study.buildings_numbers import DEFINITIONS, facts_of
-from validation.study.buildings_page import NAME, csv_tables, page
 from validation.study.buildings_runs import (
-    ALL_RECORDS,
     BUILDINGS,
     FRAMES,
-    SCALES,
     WALLED,
     WALLS,
     Building,
@@ -26,8 +21,7 @@ from validation.study.buildings_runs import (
     wall_hinge,
     yield_rotations,
 )
-from validation.study.paired import DEVICES, FACTOR, LIMITS, OTHERS, devices_of, on_devices
-from validation.study.records_runs import COLLAPSE, considered
+from validation.study.paired import DEVICES, FACTOR, OTHERS, devices_of, on_devices
 
 buildings = pytest.mark.parametrize("one", BUILDINGS, ids=lambda one: one.name)
 LOW = Building(3, FRAMES)
@@ -157,32 +151,3 @@ def test_definitions_judge_as_they_say():
 def test_devices_are_called_by_building_and_device():
     names = {name: frame.name for name, frame in on_devices(building(LOW)).items()}
     assert names == {name: f"3 storeys, frames, {name}" for name in DEVICES}
-
-
-def test_the_page_is_that_of_its_numbers():
-    stored = json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8"))
-    assert (FOLDER / f"{NAME}.md").read_text(encoding="utf-8") == page(stored)
-    for name, text in csv_tables(stored).items():
-        assert (FOLDER / "tables" / name).read_text(encoding="utf-8") == text
-    assert stored["considered"] == pytest.approx(considered(), rel=1e-4)
-    total = 0
-    for one in BUILDINGS:
-        own = stored["buildings"][one.name]
-        assert own["records"] == stored["records"] // (1 if one in ALL_RECORDS else 2)
-        runs = own["records"] * len(SCALES)
-        total += len(DEVICES) * runs
-        assert tuple(own["statuses"]) == DEVICES
-        assert own["facts"]["strength"] == pytest.approx(strength(one), rel=1e-4)
-        for device in DEVICES:
-            assert sum(own["statuses"][device].values()) == runs
-            failed = own["unharmed"][device][0]
-            for limit in LIMITS:
-                shares = own["limits"][limit.name]["shares"][device]
-                assert sum(row[2] for row in shares) == failed
-                assert sum(row[3] + row[4] for row in shares) == runs
-                assert all(row[2] <= row[1] <= row[3] for row in shares)
-            collapse = own["limits"][COLLAPSE.name]["shares"][device]
-            counted = own["definitions"]["ductility 9 or a bearing"]["counts"][device]
-            assert counted[0] == sum(row[1] for row in collapse)
-    assert stored["cost"]["runs"] == total
-    assert len(stored["halved"]) == 2 * len(BUILDINGS)

@@ -15,15 +15,12 @@ from frames.risk.fragility.runs import COMPLETE, FAILURE
 from lir_element import CoulombFriction, cyclic_test
 from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
-from validation.study import device, device_cost, device_numbers, device_page, device_search
+from validation.study import device_cost, device_numbers, device_page, device_search
 from validation.study.device_figures import winner
 from validation.study.device_runs import (
     COMPARED,
-    OTHERS,
     REFERENCE,
-    SEARCHED,
     SOFT,
-    STRIPES,
     Device,
     bearing_of,
     best_devices,
@@ -35,10 +32,8 @@ from validation.study.device_runs import (
     shape_of,
     soft_device,
 )
-from validation.study.records_runs import COLLAPSE, considered
 from validation.study.rims_runs import KINDS, MORE
 from validation.study.rims_runs import devices as rims_devices
-from validation.study.rounded import csv_of
 
 
 def bearings_on(one):
@@ -267,56 +262,6 @@ def test_margins_at_equal_cost_are_interpolated_within_both():
 # The page
 
 
-def test_the_page_is_that_of_its_numbers(stored):
-    text = (FOLDER / f"{device_page.NAME}.md").read_text(encoding="utf-8")
-    assert text == device_page.page(stored)
-    assert stored["considered"] == pytest.approx(considered(), rel=1e-5)
-    assert [plan["plan"] for plan in stored["plans"]] == pytest.approx(
-        [plan_of(more) for more in COMPARED], rel=1e-5
-    )
-    for plan in stored["plans"]:
-        for kept in plan["devices"].values():
-            median = kept["limits"][COLLAPSE.name].get("median")
-            if median:
-                assert kept["margin"][0] == pytest.approx(median[0] / considered(), rel=1e-5)
-            assert sum(kept["statuses"].values()) == stored["records"] * len(STRIPES)
-            assert all(c >= f for c, f in zip(kept["collapse"], kept["failed"], strict=True))
-
-
-def test_ratios_and_costs_of_the_page_are_those_of_its_devices(stored):
-    for plan in stored["plans"]:
-        own = plan["devices"][LIR]
-        for other in OTHERS:
-            kept, pair = plan["devices"][other], plan["pairs"][other]
-            ratio = pair["ratios"][COLLAPSE.name]
-            if ratio:
-                medians = [each["limits"][COLLAPSE.name]["median"][0] for each in (own, kept)]
-                assert ratio[0] == pytest.approx(medians[0] / medians[1], rel=1e-4)
-            for cell, shares in zip(
-                pair["collapse"], zip(own["collapse"], kept["collapse"], strict=True), strict=True
-            ):
-                assert cell[:2] == pytest.approx(shares)
-            if other != OTHERS[-1]:
-                one = Device(**kept["device"])
-                cost = device_cost.cost_of(bearings_on(one), one.strength)
-                assert kept["cost"] == pytest.approx(cost, rel=1e-4)
-
-
-def test_the_best_device_is_the_better_of_those_tried_at_its_plan(stored):
-    for plan in stored["plans"][: len(SEARCHED)]:
-        tried = [
-            row
-            for row in stored["search"]
-            if row["stage"] == "second" and row["plan"] == pytest.approx(plan["plan"], rel=1e-5)
-        ]
-        best = max(tried, key=lambda row: row["median"])
-        assert plan["devices"][LIR]["device"]["least"] == pytest.approx(best["least"], rel=1e-5)
-        assert plan["devices"][LIR]["device"]["interface"] == pytest.approx(best["interface"])
-    largest = stored["plans"][-1]
-    named = device_search.device_at(plan_of(COMPARED[-1]), *device_search.EDGE)
-    assert Device(**largest["devices"][LIR]["device"]).least == pytest.approx(named.least, rel=1e-5)
-
-
 def test_the_device_that_other_parts_take_is_that_of_the_page(stored):
     (found,) = (
         plan["devices"][LIR]["device"]
@@ -327,13 +272,3 @@ def test_the_device_that_other_parts_take_is_that_of_the_page(stored):
     assert taken.least == pytest.approx(found["least"], rel=1e-3)
     assert 0.0 <= found["interface"] - taken.interface < 0.01
     assert taken.strength == found["strength"]
-
-
-def test_the_table_of_devices_is_that_of_the_page(stored):
-    rows = device.table_rows(stored)
-    assert len(rows) == len(COMPARED) * (1 + len(OTHERS))
-    kept = FOLDER / "tables" / f"{device_page.NAME}-devices.csv"
-    assert kept.read_text(encoding="utf-8") == csv_of(rows)
-    table = pd.read_csv(kept)
-    assert table["plan [m]"].nunique() == len(COMPARED)
-    assert table.filter(like="failed bearing").le(1.0).all(axis=None)

@@ -1,6 +1,5 @@
-"""The study of loss: by hand and by other routes, and its page."""
+"""The study of loss, by hand and by other routes."""
 
-import json
 import math
 
 import numpy as np
@@ -11,15 +10,12 @@ from scipy import stats
 from frames.risk import HazardCurve, IntensityRuns, LimitState
 from frames.risk.campaign.comparison import dish_diameter
 from lir_element.units import STANDARD_GRAVITY
-from validation.page import FOLDER
-from validation.study import loss
 from validation.study.capacities import bounds_of, fitted
 from validation.study.consequences import AREA, COMPONENTS, REPLACEMENT, STOREYS, repair
 from validation.study.hazards import CONSIDERED_PERIOD, L_AQUILA, italian, sites
-from validation.study.loss import page
-from validation.study.loss_runs import TARGET, annual
+from validation.study.loss_runs import annual
 from validation.study.pairs import BY_LOAD, NAMES, OTHERS, OURS, device
-from validation.study.records_runs import COLLAPSE, INTENSITY, considered
+from validation.study.records_runs import INTENSITY
 
 
 def test_devices_share_the_dish_under_the_centre():
@@ -132,42 +128,3 @@ def test_annual_loss_under_a_power_law():
 
 
 # Pages
-
-
-def test_the_page_is_that_of_its_numbers():
-    stored = json.loads((FOLDER / f"{loss.NAME}.json").read_text(encoding="utf-8"))
-    assert (FOLDER / f"{loss.NAME}.md").read_text(encoding="utf-8") == page(stored)
-    assert (FOLDER / f"{loss.NAME}.json").stat().st_size < 300_000
-    tables = list((FOLDER / "tables").glob(f"{loss.NAME}-*.csv"))
-    assert len(tables) == 2
-    assert all(len(pd.read_csv(each)) > 3 for each in tables)
-
-
-def test_numbers_of_the_page_of_loss_hang_together():
-    stored = json.loads((FOLDER / f"{loss.NAME}.json").read_text(encoding="utf-8"))
-    assert stored["considered"] == pytest.approx(considered(), rel=1e-4)
-    assert stored["cost"]["runs"] == len(NAMES) * stored["records"] * len(stored["loss"]["im"])
-    assert stored["shape"]["target"] == pytest.approx(TARGET, rel=1e-4)
-    for name, curve in stored["loss"]["curves"].items():
-        parts = np.sum([*curve["parts"].values()], axis=0)
-        np.testing.assert_allclose(parts, curve["mean"], atol=2e-4)
-        stripes = stored["stripes"][COLLAPSE.name][name]
-        shares = [row[1] / row[2] for row in stripes]
-        np.testing.assert_allclose(curve["parts"]["collapse"], shares, atol=1e-4)
-        known = sum(row[2] for row in stripes)
-        assert known + stored["statuses"][name]["unknown"] == 22 * len(stripes)
-    for key, each in stored["rates"].items():
-        for rows in each.values():
-            for name, row in rows.items():
-                low, high = row["rate"][1:]
-                assert low <= row["rate"][0] <= high, (key, name)
-    for key, each in stored["without"].items():
-        for name, row in each.items():
-            whole = stored["loss"]["annual"][key][name]
-            assert row["collapse"] == whole["collapse"]
-            assert row["collapse"] <= row["loss"][0] <= whole["loss"][0]
-    site = {each.name: each for each in sites()}["L'Aquila"]
-    at = np.array(stored["loss"]["im"])
-    again = float(annual(np.array(stored["loss"]["curves"][OURS]["mean"]), at, site.curve))
-    told = stored["loss"]["annual"]["L'Aquila, as it is"][OURS]["loss"][0]
-    assert told == pytest.approx(again, rel=1e-3)

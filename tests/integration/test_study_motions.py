@@ -1,6 +1,5 @@
-"""The study of motions: what is run and counted is as stated; its page is that of its numbers."""
+"""The study of motions: what is run and counted is as stated."""
 
-import json
 import math
 import warnings
 
@@ -12,18 +11,11 @@ from frames import GroundMotion, time_histories
 from frames.risk import Intensity
 from lir_element.errors import AnalysisWarning
 from validation.measurements.yielding_runs import LIR
-from validation.page import FOLDER
-from validation.study.buildings_runs import BUILDINGS, SCALES, building
+from validation.study.buildings_runs import BUILDINGS, building
 from validation.study.motions import first_over, of_seconds
-from validation.study.motions_page import NAME, csv_tables, page
 from validation.study.motions_runs import (
-    ANGLE_SCALES,
-    ANGLES,
-    MAIN_SCALES,
-    PULSE_SCALES,
     PULSES,
     SECONDS,
-    TRIED,
     After,
     Pulse,
     followed,
@@ -34,7 +26,7 @@ from validation.study.motions_runs import (
     vertical_over_horizontal,
     without_vertical,
 )
-from validation.study.paired import LIMITS, WEAK, on_devices
+from validation.study.paired import on_devices
 from validation.study.records_runs import INTENSITY
 
 
@@ -137,34 +129,3 @@ def test_only_survivors_of_the_first_shock_count():
     assert row["intact"] == [0, 2]  # of b and c the next records, c and d, are survived alone
     assert row["residual interface slip"] == pytest.approx([0.015, 0.055])
     assert row["residual bearing displacement"] == pytest.approx([0.03, 0.11])
-
-
-def test_the_page_is_that_of_its_numbers():
-    stored = json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8"))
-    assert (FOLDER / f"{NAME}.md").read_text(encoding="utf-8") == page(stored)
-    for name, text in csv_tables(stored).items():
-        assert (FOLDER / "tables" / name).read_text(encoding="utf-8") == text
-    records, devices = stored["records"], len(TRIED)
-    assert stored["cost"]["runs"] == (
-        records * devices * len(SCALES)
-        + records * devices * (len(ANGLES) - 1) * len(ANGLE_SCALES)
-        + records * devices * len(SECONDS) * len(MAIN_SCALES)
-        + devices * len(PULSES) * len(PULSE_SCALES)
-        + 2 * devices * sum(row[3] + row[4] for row in _flat(stored))
-    )
-    for limit in LIMITS:
-        for own in stored["angles"]["limits"][limit.name].values():
-            for name in TRIED:
-                known = sum(row[3] + row[4] for row in own["shares"][name])
-                assert known == records * len(ANGLE_SCALES)
-    for own in stored["seconds"].values():
-        for rows in own.values():
-            for row in rows:
-                assert row["bearing"] <= row["collapsed"] <= row["known"] <= row["survived"]
-    same = stored["seconds"][After(False, 1.0).name]
-    assert {name for own in stored["seconds"].values() for name in own} == {LIR, WEAK}
-    assert all(row["intact"][0] == 0 for rows in same.values() for row in rows)
-
-
-def _flat(stored):
-    return stored["vertical"]["devices"][LIR]["shares"][0]

@@ -1,15 +1,12 @@
-"""The study of rims that yield: its devices are of equal plan, its page is that of its numbers."""
+"""The study of rims that yield: its devices are of equal plan."""
 
-import json
 import math
 
 import pytest
 
 from frames.risk.campaign.comparison import dish_diameter
-from validation.page import FOLDER
-from validation.study.records_runs import COLLAPSE, considered
-from validation.study.rims import NAME, OURS, PLAINS, page
-from validation.study.rims_runs import ENDLESS, KINDS, LIMITS, MORE, devices
+from validation.study.rims import OURS, PLAINS
+from validation.study.rims_runs import ENDLESS, KINDS, MORE, devices
 
 
 @pytest.fixture(scope="module")
@@ -49,20 +46,3 @@ def test_rims_are_as_strong_as_they_are_called(every, kind):
             other = every[OURS[False][0].name].bearings
             sliders = {round(each.bearing.slider_radius, 6) for each in other.values()}
             assert round(bearing.slider_radius - MORE * kind.wider_sliders, 6) in sliders
-
-
-def test_the_page_is_that_of_its_numbers():
-    stored = json.loads((FOLDER / f"{NAME}.json").read_text(encoding="utf-8"))
-    text = (FOLDER / f"{NAME}.md").read_text(encoding="utf-8")
-    assert text == page(stored)
-    assert stored["considered"] == pytest.approx(considered())
-    assert stored["cost"]["runs"] == len(KINDS) * stored["records"] * 8
-    for kind in KINDS:
-        assert sum(stored["statuses"][kind.name].values()) == stored["records"] * 8
-        curve = stored["limits"][COLLAPSE.name][kind.name]
-        if "median" in curve:
-            ratio = curve["median"][0] / stored["considered"]
-            assert stored["margins"][kind.name][0] == pytest.approx(ratio)
-            assert f"| {ratio:.2f} (" in text
-    for limit in LIMITS:
-        assert limit.name in text

@@ -1,15 +1,63 @@
-"""The study in one paper: its page is that of the numbers of the parts, which agree."""
+"""The study's pages are those of their numbers; its parts, which agree, in one paper."""
+
+import json
 
 import pytest
 
 from validation.page import FOLDER
 from validation.study import __main__ as whole
+from validation.study import (
+    after,
+    buildings_page,
+    device,
+    device_page,
+    loss,
+    motions_page,
+    records_page,
+    rims,
+    uncertainty_page,
+)
+from validation.study.records_runs import considered
+from validation.study.rounded import csv_of
 from validation.study.summary import LIMITS, NAME, READ, comparisons, page, parts_of
+
+PAGES = {
+    "study": records_page.page,
+    "study_after": after.page,
+    "study_buildings": buildings_page.page,
+    "study_device": device_page.page,
+    "study_loss": loss.page,
+    "study_motions": motions_page.page,
+    "study_rims": rims.page,
+    "study_uncertainty": uncertainty_page.page,
+}
+
+
+def text_of(name):
+    return (FOLDER / name).read_text(encoding="utf-8")
+
+
+def stored(name):
+    return json.loads(text_of(f"{name}.json"))
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_is_that_of_its_numbers(name):
+    numbers = stored(name)
+    assert text_of(f"{name}.md") == PAGES[name](numbers)
+    assert numbers.get("considered", considered()) == pytest.approx(considered(), rel=1e-4)
+
+
+def test_tables_are_those_of_the_numbers():
+    given, rows = stored(device_page.NAME), f"{device_page.NAME}-devices.csv"
+    tables = {rows: csv_of(device.table_rows(given))}
+    for part in (buildings_page, motions_page):
+        tables |= part.csv_tables(stored(part.NAME))
+    assert {name: text_of(f"tables/{name}") for name in tables} == tables
 
 
 def test_the_page_is_that_of_the_numbers_of_the_parts():
-    parts = parts_of()
-    assert (FOLDER / f"{NAME}.md").read_text(encoding="utf-8") == page(parts)
+    assert text_of(f"{NAME}.md") == page(parts_of())
     assert set(READ) | {"records", "summary"} == set(whole.PARTS)
 
 

@@ -1,21 +1,15 @@
-"""The study of uncertainty: its sets, its numbers by other routes, and its page."""
+"""The study of uncertainty: its sets, and its numbers by other routes."""
 
-import json
 from dataclasses import replace
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from frames.risk import sobol_indices
-from validation.page import FOLDER
-from validation.study import uncertainty
 from validation.study.pairs import BY_LOAD, OURS, UNBREAKABLE, device
 from validation.study.uncertainty import effects_of, shares_of
-from validation.study.uncertainty_page import KINDS, page, shares_of_kind
 from validation.study.uncertainty_runs import (
     BEST,
-    LEVELS,
     RECORD,
     SAMPLES,
     SPREADS,
@@ -105,18 +99,3 @@ def test_shares_and_effects_of_a_known_result():
     assert effects["damping"][0] == pytest.approx(0.68)
     assert effects["interface"][0] == pytest.approx(0.0, abs=1e-9)
     assert RECORD not in effects
-
-
-def test_the_page_is_that_of_its_numbers():
-    stored = json.loads((FOLDER / f"{uncertainty.NAME}.json").read_text(encoding="utf-8"))
-    assert (FOLDER / f"{uncertainty.NAME}.md").read_text(encoding="utf-8") == page(stored)
-    assert (FOLDER / f"{uncertainty.NAME}.json").stat().st_size < 300_000
-    tables = list((FOLDER / "tables").glob(f"{uncertainty.NAME}-*.csv"))
-    assert len(tables) == 2
-    assert all(len(pd.read_csv(each)) > 3 for each in tables)
-    points = sum(len(shares_of_kind(kind)) for kind in KINDS)
-    assert len(stored["stiffness"]["margins"]) == points
-    sets = 2 * SAMPLES * (len(SPREADS) + 2)
-    assert stored["cost"]["runs"] == sets + points * len(LEVELS) * stored["records"]
-    for key, values in stored["stiffness"]["margins"].items():
-        assert values[1] <= values[0] <= values[2], key

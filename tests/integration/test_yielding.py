@@ -15,17 +15,13 @@ from frames import (
     GroundMotion,
     ModalDamping,
     ModelError,
-    Recording,
     Section,
     audit,
-    load,
     lumped_mass,
     member_forces,
     moment_frame,
-    save,
     shear_building,
     storey_forces,
-    support_reactions,
     time_histories,
     time_history,
 )
@@ -306,23 +302,6 @@ def test_a_column_that_turns_in_a_hinge_bears_its_moment():
     leaning = data["node_displacement"].isel(time=-1)
     drift = (leaning.sel(node="top") - leaning.sel(node=base)).to_numpy()[:2]
     assert np.linalg.norm(drift) == pytest.approx(height * np.linalg.norm(turned), rel=0.3)
-
-
-def test_results_are_kept_and_read(hinged, tmp_path):
-    frame, data = hinged
-    save(data, tmp_path / "run.nc")
-    again = load(tmp_path / "run.nc")
-    assert_allclose(member_forces(frame, again), member_forces(frame, data), rtol=1e-12)
-    assert_allclose(support_reactions(frame, again), support_reactions(frame, data), rtol=1e-12)
-
-
-def test_thinned_recordings_have_the_same_rows(stack):
-    frame, data = stack
-    thin = time_history(frame, waves(), dt=DT, recording=Recording(every=10))
-    for name in ("link_deformation", "link_force", "link_work"):
-        assert_allclose(thin[name], data[name][::10], rtol=0.0, atol=0.0)
-    few = time_history(frame, waves(), dt=DT, recording=Recording(channels=["node_displacement"]))
-    refused(ValueError, "data has no link_deformation", storey_forces, frame, few)
 
 
 def test_auto_chooses_with_parts_too():

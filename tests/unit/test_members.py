@@ -22,7 +22,7 @@ from frames.assembly.members import (
     member_arrays,
     spring_stiffness,
 )
-from frames.model.axes import default_up, local_axes, matrix_to_global, to_global, to_local
+from frames.model.axes import default_up, local_axes, matrix_to_global, to_global
 from frames.model.sections import Section
 from tests.refusals import refused
 
@@ -63,9 +63,9 @@ def test_cantilever_bends_as_the_closed_form(section, dof, inertia, shear_area, 
     shear = section.shear_modulus * getattr(section, shear_area)
     deflection = force * length**3 / (3.0 * flexural) + force * length / shear
     slope = force * length**2 / (2.0 * flexural)
-    assert_allclose(u[dof], deflection, rtol=ROUND_OFF, atol=0.0)
+    assert_allclose(u[dof], deflection, rtol=ROUND_OFF)
     turn = u[5] if dof == 1 else -u[4]  # dv/dx = rz, dw/dx = -ry
-    assert_allclose(turn, slope, rtol=ROUND_OFF, atol=0.0)
+    assert_allclose(turn, slope, rtol=ROUND_OFF)
 
 
 def test_bar_stretches_and_twists_as_the_closed_form() -> None:
@@ -74,7 +74,7 @@ def test_bar_stretches_and_twists_as_the_closed_form() -> None:
     u = np.linalg.solve(tip, [1e5, 0.0, 0.0, 1e3, 0.0, 0.0])
     stretch = 1e5 * length / (BEAM.elastic_modulus * BEAM.area)
     twist = 1e3 * length / (BEAM.shear_modulus * BEAM.torsion_constant)
-    assert_allclose(u[[0, 3]], [stretch, twist], rtol=ROUND_OFF, atol=0.0)
+    assert_allclose(u[[0, 3]], [stretch, twist], rtol=ROUND_OFF)
     assert_allclose(u[[1, 2, 4, 5]], 0.0, rtol=0.0, atol=1e-18)  # uncoupled, exact zeros
 
 
@@ -87,10 +87,10 @@ def test_propped_beam_under_uniform_load() -> None:
     u = np.zeros(12)
     u[10] = -fixed[10] / stiffness[10, 10]
     forces = stiffness @ u + fixed
-    assert_allclose(forces[8], -3.0 / 8.0 * q * length, rtol=ROUND_OFF, atol=0.0)
-    assert_allclose(forces[2], -5.0 / 8.0 * q * length, rtol=ROUND_OFF, atol=0.0)
+    assert_allclose(forces[8], -3.0 / 8.0 * q * length, rtol=ROUND_OFF)
+    assert_allclose(forces[2], -5.0 / 8.0 * q * length, rtol=ROUND_OFF)
     # Sagging load clamps with a hogging moment: -M about local y at the left end.
-    assert_allclose(forces[4], q * length**2 / 8.0, rtol=ROUND_OFF, atol=0.0)
+    assert_allclose(forces[4], q * length**2 / 8.0, rtol=ROUND_OFF)
     assert_allclose(forces[10], 0.0, rtol=0.0, atol=1e-9 * abs(q) * length)
 
 
@@ -183,8 +183,8 @@ def test_column_with_shear_buckles_at_the_engesser_load() -> None:
     # that is left is of fourth order, (pi/16)^4 / 720 = 2e-6 times a factor of order 1.
     loads = {count: buckling_load(BEAM, length, count) for count in (16, 32)}
     errors = {count: load / engesser - 1.0 for count, load in loads.items()}
-    assert_allclose(errors[16] / errors[32], 4.0, rtol=0.02, atol=0.0)
-    assert_allclose((4.0 * loads[32] - loads[16]) / 3.0, engesser, rtol=1e-6, atol=0.0)
+    assert_allclose(errors[16] / errors[32], 4.0, rtol=0.02)
+    assert_allclose((4.0 * loads[32] - loads[16]) / 3.0, engesser, rtol=1e-6)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -229,21 +229,10 @@ def test_rigid_motions_meet_no_elastic_force() -> None:
             assert_allclose(forces, 0.0, rtol=0.0, atol=ROUND_OFF * np.abs(matrix).max())
 
 
-def test_axial_force_follows_a_rigid_rotation() -> None:
-    beam = along_x(BEAM, 2.0)
-    axial = -3e5
-    motions = rigid_motions(np.zeros(3), np.array([2.0, 0.0, 0.0]))
-    forces = local_geometric_stiffness(beam, np.array([axial]))[0] @ motions
-    # Turned by a small angle about z, the pull on end j gains axial * angle along y.
-    assert_allclose(forces[[1, 7], 5], [-axial, axial], rtol=ROUND_OFF, atol=0.0)
-    assert_allclose(forces[[2, 8], 4], [axial, -axial], rtol=ROUND_OFF, atol=0.0)
-    assert_allclose(forces[[3, 4, 5, 9, 10, 11]], 0.0, rtol=0.0, atol=1e-9 * abs(axial))
-
-
 def test_spring_acts_at_node_j() -> None:
     matrix = spring_stiffness(np.array([[0.0, 0.0, 2.0]]), np.array([[5.0, 0, 0, 0, 0, 0]]))[0]
     forces = matrix @ np.eye(12)[6]  # node j moves by 1 along x
-    assert_allclose(forces[[0, 4, 6]], [-5.0, -10.0, 5.0], rtol=1e-15, atol=0.0)
+    assert_allclose(forces[[0, 4, 6]], [-5.0, -10.0, 5.0], rtol=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -260,7 +249,7 @@ def test_default_local_axes(end, rows):
     start, tip = np.zeros((1, 3)), np.array([end])
     axes, length = local_axes(start, tip, default_up(start, tip))
     assert_allclose(axes[0], rows, rtol=0.0, atol=1e-15)
-    assert_allclose(length, 4.0, rtol=1e-15, atol=0.0)
+    assert_allclose(length, 4.0, rtol=1e-15)
 
 
 def test_local_axes_refuse_a_parallel_up_vector() -> None:
@@ -268,13 +257,6 @@ def test_local_axes_refuse_a_parallel_up_vector() -> None:
     with pytest.raises(ModelError, match=r"parallel to its axis"):
         local_axes(start, end, np.array([[0.0, -1.0, 0.0]]))
     refused(ModelError, r"length 0 m", local_axes, start, start, np.array([[0.0, 0.0, 1.0]]))
-
-
-def test_turning_there_and_back() -> None:
-    members, _, _, _ = random_members(5)
-    vectors = np.random.default_rng(0).normal(size=(4, 6, 12))
-    back = to_global(to_local(vectors, members.axes), members.axes)
-    assert_allclose(back, vectors, rtol=0.0, atol=1e-14)
 
 
 def test_bar_loses_its_torsional_stiffness_at_the_wagner_load() -> None:
@@ -290,38 +272,36 @@ def test_bar_loses_its_torsional_stiffness_at_the_wagner_load() -> None:
 def test_torsion_constants_and_shear_areas_of_shapes() -> None:
     # Square tube: Bredt gives t (b - t)^3; two walls carry each shear force.
     tube = Section.box(0.3, 0.3, 0.01)
-    assert_allclose(tube.torsion_constant, 0.01 * 0.29**3, rtol=1e-14, atol=0.0)
+    assert_allclose(tube.torsion_constant, 0.01 * 0.29**3, rtol=1e-14)
     areas = [tube.shear_area_y, tube.shear_area_z]
-    assert_allclose(areas, 2 * 0.01 * 0.29, rtol=1e-14, atol=0.0)
+    assert_allclose(areas, 2 * 0.01 * 0.29, rtol=1e-14)
     # I shape: two flanges 0.2 x 0.02, web 0.012 over 0.48 between the flange centre lines.
     thin = (2 * 0.2 * 0.02**3 + 0.48 * 0.012**3) / 3.0
-    assert_allclose(BEAM.torsion_constant, thin, rtol=1e-14, atol=0.0)
+    assert_allclose(BEAM.torsion_constant, thin, rtol=1e-14)
     areas = [BEAM.shear_area_y, BEAM.shear_area_z]
-    assert_allclose(areas, [5 / 6 * 0.008, 0.48 * 0.012], rtol=1e-14, atol=0.0)
+    assert_allclose(areas, [5 / 6 * 0.008, 0.48 * 0.012], rtol=1e-14)
     solid = Section.rectangle(0.2, 0.3)
-    assert_allclose([solid.shear_area_y, solid.shear_area_z], 0.05, rtol=1e-14, atol=0.0)
+    assert_allclose([solid.shear_area_y, solid.shear_area_z], 0.05, rtol=1e-14)
 
 
 def test_box_and_i_shape_and_rectangle() -> None:
     box = Section.box(0.3, 0.4, 0.01)
-    assert_allclose(box.area, 0.3 * 0.4 - 0.28 * 0.38, rtol=1e-14, atol=0.0)
-    assert_allclose(box.inertia_y, (0.3 * 0.4**3 - 0.28 * 0.38**3) / 12, rtol=1e-14, atol=0.0)
+    assert_allclose(box.area, 0.3 * 0.4 - 0.28 * 0.38, rtol=1e-14)
+    assert_allclose(box.inertia_y, (0.3 * 0.4**3 - 0.28 * 0.38**3) / 12, rtol=1e-14)
     # IPE 300 without fillets; the table's values with fillets are 53.8 cm2, 8356 and 604 cm4.
     ipe = Section.i_shape(0.300, 0.150, 0.0107, 0.0071)
-    assert_allclose(
-        [ipe.area, ipe.inertia_y, ipe.inertia_z], [53.8e-4, 8356e-8, 604e-8], rtol=0.05, atol=0.0
-    )
+    assert_allclose([ipe.area, ipe.inertia_y, ipe.inertia_z], [53.8e-4, 8356e-8, 604e-8], rtol=0.05)
     # BEAM from its three plates: I 0.5 x 0.2 m, flanges 0.02, web 0.012.
     strong = 2 * (0.2 * 0.02**3 / 12 + 0.2 * 0.02 * 0.24**2) + 0.012 * 0.46**3 / 12
     weak = 2 * 0.02 * 0.2**3 / 12 + 0.46 * 0.012**3 / 12
-    assert_allclose([BEAM.inertia_y, BEAM.inertia_z], [strong, weak], rtol=1e-13, atol=0.0)
+    assert_allclose([BEAM.inertia_y, BEAM.inertia_z], [strong, weak], rtol=1e-13)
     # Saint-Venant constants of a square and of a 2:1 rectangle [Timoshenko & Goodier, art. 109].
     square, oblong = Section.rectangle(0.2, 0.2), Section.rectangle(0.4, 0.2)
-    assert_allclose(square.torsion_constant, 0.1406 * 0.2**4, rtol=5e-4, atol=0.0)
-    assert_allclose(oblong.torsion_constant, 0.229 * 0.4 * 0.2**3, rtol=2e-3, atol=0.0)
-    assert_allclose(oblong.inertia_z, 0.2 * 0.4**3 / 12.0, rtol=1e-14, atol=0.0)
+    assert_allclose(square.torsion_constant, 0.1406 * 0.2**4, rtol=5e-4)
+    assert_allclose(oblong.torsion_constant, 0.229 * 0.4 * 0.2**3, rtol=2e-3)
+    assert_allclose(oblong.inertia_z, 0.2 * 0.4**3 / 12.0, rtol=1e-14)
     # Steel: G = E / 2.6.
-    assert_allclose(square.shear_modulus, 200e9 / 2.6, rtol=1e-14, atol=0.0)
+    assert_allclose(square.shear_modulus, 200e9 / 2.6, rtol=1e-14)
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,7 @@ import pytest
 
 from tests.scenes import wide_bearing
 
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
+pytest.importorskip("typer")
 
 from frames import GroundMotion, shear_building, time_histories
 from frames.batch.runs import Runs, tagged

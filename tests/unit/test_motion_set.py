@@ -11,7 +11,6 @@ import pytest
 
 from frames import GroundMotion, MotionError, MotionWarning
 from frames.design import MotionSet, Spectrum, motion_measures, pair_spectrum
-from frames.design.hazard.motion_measures import MEASURES
 from lir_element.units import STANDARD_GRAVITY as G
 from tests.refusals import refused
 
@@ -60,48 +59,6 @@ def test_rotd_is_that_of_the_rotated_motion() -> None:
         "arithmetic mean": 0.5 * (x + y),
     }.items():
         np.testing.assert_allclose(pair_spectrum(motion, PERIODS, 0.10, measure), value, rtol=1e-12)
-
-
-def test_measures_of_a_motion_on_one_line() -> None:
-    """Both components alike, as 3 to 4: RotD100 is their root of squares, in one direction."""
-    wave = shaken(2).x
-    line = GroundMotion(x=0.6 * wave, y=0.8 * wave, dt=DT)
-    alone = GroundMotion(x=wave, dt=DT)
-    whole = alone.response_spectrum(PERIODS)["pseudo_acceleration"]
-    for measure in ("RotD100", "SRSS"):
-        np.testing.assert_allclose(pair_spectrum(line, PERIODS, measure=measure), whole, rtol=1e-9)
-    # |cos| over half a turn has the median cos(45 degrees)
-    median = pair_spectrum(line, PERIODS, measure="RotD50")
-    np.testing.assert_allclose(median, whole * math.sqrt(0.5), rtol=0.02)
-    np.testing.assert_allclose(pair_spectrum(alone, PERIODS, measure="x"), whole, rtol=1e-12)
-    refused(MotionError, "component y", pair_spectrum, alone, PERIODS)
-    refused(MotionError, "periods hold -1", pair_spectrum, line, [-1.0])
-    assert set(MEASURES) == {
-        "RotD100",
-        "RotD50",
-        "SRSS",
-        "geometric mean",
-        "arithmetic mean",
-        "x",
-        "y",
-    }
-
-
-def test_measures_of_a_constant_and_of_a_sine() -> None:
-    """Closed forms: a constant a over 10 s, and 20 cycles of a sine of 0.5 s."""
-    steady = motion_measures(np.full(1001, 2.0), 0.01)
-    assert steady["Arias [m/s]"] == pytest.approx(math.pi / (2.0 * G) * 4.0 * 10.0)
-    assert steady["CAV [m/s]"] == pytest.approx(20.0)
-    assert steady["D5-95 [s]"] == pytest.approx(9.0)
-    assert steady["D5-75 [s]"] == pytest.approx(7.0)
-    assert steady["PGV [m/s]"] == pytest.approx(20.0)
-    assert steady["PGD [m]"] == pytest.approx(100.0)
-    time = np.arange(0.0, 10.0, 0.005)
-    sine = motion_measures(3.0 * np.sin(2.0 * np.pi * time / 0.5), 0.005)
-    assert sine["PGA [m/s2]"] == pytest.approx(3.0)
-    assert sine["CAV [m/s]"] == pytest.approx(30.0 * 2.0 / math.pi, rel=1e-3)
-    for period in ("Tp [s]", "Tm [s]", "T pulse [s]"):
-        assert sine[period] == pytest.approx(0.5, rel=0.03), period
 
 
 def test_a_pulse_has_its_period() -> None:
@@ -154,23 +111,6 @@ def test_the_mean_touches_what_the_code_asks(rule, measure, part, how):
     for name, motion in scaled.items():
         np.testing.assert_allclose(motion.components, factors[name] * SEVEN[name].components)
     assert (len(set(factors.values())) == 1) == (how == "common")
-
-
-def test_amplitudes_fit_the_shape_of_the_target() -> None:
-    """Motions of one shape and other strengths are alike once scaled: factors undo strengths."""
-    strengths = (1.0, 2.0, 4.0)
-    alike = MotionSet({str(s): shaken(5, s) for s in strengths})
-    with pytest.warns(MotionWarning, match="identical or proportional"):
-        scaled = alike.scaled_to(
-            Spectrum.nch2745("II"),
-            rule="NCh2745",
-            periods=(1.0, 3.0),
-            limits=(0.01, 100.0),
-            least=3,
-        )
-    assert scaled.scaling is not None
-    products = [scaled.scaling.factors[str(s)] * s for s in strengths]
-    assert products == pytest.approx([products[0]] * 3)
 
 
 def test_en1998_holds_at_the_period_zero_as_well() -> None:
@@ -346,6 +286,8 @@ TARGET = Spectrum.asce7(1.0, 0.6)
         ),
         (lambda: MotionSet.from_folder("nowhere"), "is no file"),
         (lambda: MotionSet.fema_p695("far"), "kind"),
+        (lambda: pair_spectrum(GroundMotion(x=np.ones(9), dt=DT), PERIODS), "component y"),
+        (lambda: pair_spectrum(shaken(1), [-1.0]), "periods hold -1"),
     ],
 )
 def test_what_makes_no_sense_is_refused(make: object, words: str) -> None:

@@ -10,8 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
 pytest.importorskip("typer")
 
 import pandas as pd

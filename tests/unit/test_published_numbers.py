@@ -17,7 +17,6 @@ from frames.design import (
     Superstructure,
     equivalent_linear,
 )
-from frames.design.codes.outcome import BoundResult
 from lir_element import CoulombFriction, LIRBearing
 
 KIP, INCH = 4.4482216152605e3, 0.0254
@@ -30,13 +29,7 @@ def alike(found: float, printed: float) -> None:
     assert found == pytest.approx(printed, abs=0.5000001 * 10.0**-digits)
 
 
-def on_pendulums(
-    spectrum: Spectrum,
-    radius: float,
-    friction: float,
-    weight: float,
-    above: Superstructure | None = None,
-) -> BoundResult:
+def on_pendulums(spectrum, radius, friction, weight, above=None, code=None):
     """Return the analysis of a building on 30 like pendulums, six by five."""
     places = tuple((6.0 * i - 15.0, 6.0 * j - 12.0) for i in range(6) for j in range(5))
     system = IsolationSystem(
@@ -45,7 +38,7 @@ def on_pendulums(
         loads=(weight / 30.0,) * 30,
         plan=(30.0, 24.0),
     )
-    found = equivalent_linear(system, spectrum, bounds=NOMINAL, superstructure=above)
+    found = equivalent_linear(system, spectrum, bounds=NOMINAL, superstructure=above, code=code)
     return found["lower"]
 
 
@@ -137,16 +130,7 @@ def test_a_template_of_the_peruvian_standard() -> None:
         storey_heights=(3.0,),
         R=8.0,
     )
-    places = tuple((6.0 * i - 15.0, 6.0 * j - 12.0) for i in range(6) for j in range(5))
-    system = IsolationSystem(
-        bearings=(FrictionPendulum((1.6,), (0.055,)),) * 30,
-        positions=places,
-        loads=(weight / 30.0,) * 30,
-        plan=(30.0, 24.0),
-    )
-    code = ASCE7(exponent=2.5)
-    found = equivalent_linear(system, PERU, bounds=NOMINAL, superstructure=above, code=code)
-    t = found["lower"].trace
+    t = on_pendulums(PERU, 1.6, 0.055, weight, above, ASCE7(exponent=2.5)).trace
     alike(1e-3 * t.value("V_b"), 8990.6)
     alike(1e-3 * t.value("V_st"), 7732.0)
     alike(t.value("k_v"), 0.927)

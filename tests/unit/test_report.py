@@ -17,8 +17,6 @@ from types import SimpleNamespace
 
 import pytest
 
-pytest.importorskip("jinja2")
-pytest.importorskip("pydantic")
 pytest.importorskip("typer")
 
 import numpy as np
@@ -29,7 +27,7 @@ from typer.testing import CliRunner, Result
 from frames import load, modes, moment_frame, save
 from frames.batch.runs import Runs
 from frames.command.app import app
-from frames.design import HISTORY_RULES, Check, code_named
+from frames.design import HISTORY_RULES, Check
 from frames.design._errors import ProjectError
 from frames.design.histories.eccentricity import Case
 from frames.design.project.design_run import ProjectRun, evaluate_run
@@ -145,56 +143,6 @@ def columns(part: str, first: str) -> dict[str, str]:
     return found
 
 
-def test_the_numbers_are_those_of_the_results(results: Path, page: str) -> None:
-    demands = pd.read_csv(results / "demands.csv", index_col=0)
-    factors = {"m": 1e3, "N": 1e-3}
-    heads = list(demands.columns)
-    assert [head.partition(",")[0] for head in heads[1:3]] == ["lower", "upper"]
-    assert all(" of " in head for head in (*heads[1:4], heads[5]))  # the statistic
-    part = section(page, "time-histories")
-    assert f"Values are: {heads[1].removeprefix('lower, ')}." in " ".join(part.split())
-    for name, row in demands.iterrows():
-        shown = columns(part, name)
-        factor = factors.get(row["unit"], 1.0)
-        names = ("lower", "upper", "envelope of these", "largest of all runs")
-        for title, column in zip(names, (*heads[1:4], heads[5]), strict=True):
-            text = shown[title]
-            if text == "-":
-                assert math.isnan(row[column])
-            else:
-                assert float(text) == pytest.approx(factor * row[column], rel=1e-3, abs=1e-12)
-    linear = pd.read_csv(results / "equivalent-linear.csv", index_col=0)
-    for bound in ("lower", "upper"):
-        shown = columns(section(page, "equivalent-linear-analysis"), bound)
-        assert float(shown["displacement [mm]"]) == pytest.approx(
-            1e3 * linear.loc[bound, "displacement [m]"], rel=1e-3
-        )
-
-
-def test_the_programme_of_tests_is_there(results: Path, page: str) -> None:
-    table = pd.read_csv(results / "programme.csv", index_col=0)
-    demands = pd.read_csv(results / "demands.csv", index_col=0)
-    assert len(table) > 20
-    for number, row in table.iterrows():
-        shown = columns(section(page, "test-programme"), f"{number} {row['what']}")
-        for title, name, factor in (
-            ("displacement [mm]", "displacement [m]", 1e3),
-            ("vertical load [kN]", "vertical load [N]", 1e-3),
-        ):
-            text = shown[title]
-            if text != "-":
-                assert float(text) == pytest.approx(factor * row[name], rel=1e-3)
-    accepted = section(page, "test-programme").partition('id="accepted"')[2]
-    for rule in code_named("ASCE 7-22").accepted:
-        of = [str(k) for k, name in table["what"].items() if rule.holds_for(name)]
-        shown = columns(accepted, rule.value.what)
-        assert shown.pop("accepted if") == rule.value.what
-        assert shown == {"tests": ", ".join(of), "clause": f"{rule.value.clause} *"}
-    alone = table[table["what"].str.startswith("interface alone")]
-    slip = demands.loc["interface slip", "envelope of these"]
-    assert (alone["displacement [m]"] >= slip - 1e-12).all()
-
-
 def test_every_check_is_there_with_its_calculation(results: Path, page: str) -> None:
     checks = pd.read_csv(results / "checks.csv")
     body = page[page.index('<h2 id="checks">') : page.index('<h2 id="input">')]
@@ -274,24 +222,6 @@ def test_a_browser_shows_it_whole(page: str, tmp_path: Path, width: int) -> None
     assert pictures >= 8
 
 
-def test_bearings_and_members_are_those_of_the_runs(results: Path, page: str) -> None:
-    """Each bearing's largest of all runs; the friction that the bounds make of the file's."""
-    files = (f"{kind}-{bound}.nc" for kind in ("runs", "moved") for bound in ("lower", "upper"))
-    runs = [load(results / name) for name in files]
-    bearings = pd.read_csv(results / "bearings.csv", index_col=0)
-    for k, name in enumerate(bearings.index):
-        largest = max(float(one["peak_displacement"][:, k].max()) for one in runs)
-        least = min(float(-one["peak_axial_tension"][:, k].max()) for one in runs)
-        assert bearings.loc[name, "displacement [m]"] == pytest.approx(largest, rel=1e-12)
-        assert bearings.loc[name, "least load [N]"] == pytest.approx(least, rel=1e-12)
-        assert f"<td>{1e3 * largest:.4g}</td>" in page
-    friction = pd.read_csv(results / "friction.csv", index_col=0)
-    assert list(friction.loc["bottom surface"]) == pytest.approx([0.04, 0.05, 0.065])
-    assert list(friction.loc["interface"]) == pytest.approx([0.135, 0.15, 0.165])
-    periods = pd.read_csv(results / "modes.csv", index_col=0)
-    assert periods["period, sliding [s]"][1] > 2.0 > periods["period, held [s]"][1]
-
-
 def without_date(page: str) -> str:
     return re.sub(r"<tr><th>written</th>.*?</tr>", "", page)
 
@@ -330,26 +260,11 @@ def test_results_of_another_input_are_refused(copied: Path, old: str, new: str, 
     assert words in " ".join(done.output.split())
 
 
-def test_forces_for_design_are_there_as_far_as_the_structure_has_them(
-    results: Path, copied: Path
-) -> None:
-    """A building of springs has no members: neither their tables, nor those of an earlier run."""
-    storeys = pd.read_csv(results / "storeys.csv")
-    reactions = pd.read_csv(results / "reactions.csv")
-    assert set(storeys["bound"]) == set(reactions["bound"]) == {"lower", "upper"}
-    assert len(reactions) == 2 * 4 * 2 * 6 * 2  # bounds, bearings, sides, forces, extremes
-    resting = reactions[(reactions["force"] == "N") & (reactions["side"] == "above")]
-    weight = resting[resting["extreme"] == "max"].groupby("bound")["permanent"].sum()
-    foot = storeys[(storeys["force"] == "Fz") & (storeys["extreme"] == "max")]
-    carried = -foot.groupby("bound")["permanent"].first()
-    assert weight.to_numpy() == pytest.approx(carried.to_numpy(), rel=1e-6)
-    assert carried.to_numpy() == pytest.approx(200e3 * 9.80665, rel=1e-3)
+def test_tables_of_members_of_an_earlier_structure_are_removed(copied: Path) -> None:
+    """A building of springs has no members."""
     (copied / "results" / "members.csv").write_text("of another structure")
     assert lir("report", copied, "--no-figures").exit_code in {0, 1}
-    assert not {path.name for path in (copied / "results").iterdir()} & {
-        "members.csv",
-        "member-groups.csv",
-    }
+    assert not list((copied / "results").glob("member*.csv"))
 
 
 def test_results_of_a_version_without_forces_are_refused(copied: Path) -> None:
@@ -563,9 +478,7 @@ def test_strings_of_style_sheets_end_nowhere_else() -> None:
 
 
 @NEEDS_BROWSER
-def test_contents_name_the_pages_of_the_pdf(
-    results: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_contents_name_the_pages_of_the_pdf(results, tmp_path, caplog):
     pypdf = pytest.importorskip("pypdf")
     paper = print_report(results / "report.html", tmp_path / "report.pdf")
     assert not caplog.messages
@@ -605,9 +518,7 @@ def test_lines_of_calculations_and_colours(page: str) -> None:
     assert set(re.findall(r"var\((--\w+)\)", style)) <= set(re.findall(r"(--\w+):", style))
 
 
-def test_a_pdf_needs_a_browser(
-    results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_pdf_needs_a_browser(results, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(ProjectError, match=r"no browser is found on PATH that prints .*: install"):
         print_report(results / "report.html", tmp_path / "report.pdf")
@@ -618,9 +529,7 @@ def test_a_pdf_needs_a_browser(
         print_report(results / "report.html", tmp_path / "report.pdf")
 
 
-def test_prints_that_never_agree_are_told(
-    results: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_prints_that_never_agree_are_told(results, tmp_path, monkeypatch):
     pytest.importorskip("pypdf")
     prints = iter(range(100))
     monkeypatch.setattr(report_files, "_browser", lambda: "none")
@@ -645,9 +554,7 @@ def evaluated_in(folder: Path) -> ProjectRun:
     return evaluate_run(parts, known, *histories)
 
 
-def test_lines_of_the_figure_of_motions_are_the_demands(
-    results: Path, evaluated: ProjectRun
-) -> None:
+def test_lines_of_the_figure_of_motions_are_the_demands(results, evaluated):
     demands = pd.read_csv(results / "demands.csv", index_col=0)
     figure = motions_figure(evaluated)
     rows = (("isolator displacement", 1e3), ("interface slip", 1e3), ("storey drift ratio", 1e2))
@@ -661,49 +568,7 @@ def test_lines_of_the_figure_of_motions_are_the_demands(
             assert len(marks[k].get_ydata()) == 7
 
 
-def test_what_each_motion_gave_is_what_means_are_taken_of(
-    results: Path, evaluated: ProjectRun, page: str
-) -> None:
-    each = pd.read_csv(results / "demands-by-motion.csv", keep_default_na=False)
-    demands = pd.read_csv(results / "demands.csv", index_col=0)
-    raised = pd.read_csv(results / "eccentricity.csv").set_index(["bound", "quantity"])
-    assert list(each["bound"].unique()) == ["lower", "upper"]
-    assert (each.groupby("bound").size() == 11).all()  # seven motions, one of them four ways more
-    own = each[each["masses moved"] == ""]
-    for name, unit, raise_of in (
-        ("isolator displacement", "m", "displacement"),
-        ("storey shear", "N", "storey shear"),
-        ("residual displacement", "m", "displacement left"),
-        ("uplift duration", "s", ""),
-    ):
-        for bound, values in own.groupby("bound")[f"{name} [{unit}]"]:
-            more = raised.loc[[(bound, raise_of)]] if raise_of else raised.iloc[:0]
-            factor = np.nan_to_num(more["factor"].max(), nan=1.0)
-            added = np.nan_to_num(more["added"].max(), nan=0.0)
-            design = demands.filter(like=f"{bound},").loc[name].item()
-            assert factor * values.mean() + added == pytest.approx(design, rel=1e-12)
-    name = "normalised eccentricity e/a"
-    for check in (c for c in evaluated.checks if c.title == name):
-        rows = own[own["bound"] == check.bound]
-        assert list(rows[f"{name}, at"].unique()) == [check.subject]
-        taken = check.trace["epsilon_c_i"].value
-        assert list(rows[f"{name} [-]"]) == pytest.approx(taken, rel=1e-12)
-    run = load(results / "governing.nc")  # the same of its own history
-    moved = np.hypot(*run["bearing_displacement"].sel(axis=["x", "y"]).to_numpy().T)
-    case = evaluated.governing_case
-    named = zip(own["motion"], own["bound"], strict=True)
-    row = own[[str(m) in case and b in case for m, b in named]]
-    assert len(row) == 1
-    column = "isolator displacement, farthest [m]"
-    assert row[column].item() == pytest.approx(moved.max(), rel=1e-6)
-    part = page.partition('id="motion-by-motion"')[2].partition("<h3")[0]
-    assert part.count("<td>artificial-1</td>") == 2 * part.count("<table")  # bounds, each part
-    assert f"<td>{1e3 * row['isolator displacement [m]'].item():.4g}</td>" in part
-
-
-def test_bearings_in_plan_reach_the_ratio_that_governs(
-    results: Path, evaluated: ProjectRun
-) -> None:
+def test_bearings_in_plan_reach_the_ratio_that_governs(results, evaluated):
     check, shares = utilisation(evaluated)
     checks = pd.read_csv(results / "checks.csv", keep_default_na=False)
     of_bearings = checks[checks["subject"].isin(list(evaluated.frame.bearings))]
@@ -801,15 +666,3 @@ def test_each_point_of_the_check_list_has_its_place(page: str) -> None:
     anchors = {anchor for _, anchor in points} | set(re.findall(r"`#([a-z-]+)`", text))
     assert anchors <= set(re.findall(r' id="([a-z-]+)"', page))
     assert len(anchors) > 15
-
-
-def test_factors_of_moved_masses_are_pure_numbers(results: Path, page: str) -> None:
-    raised = pd.read_csv(results / "eccentricity.csv")
-    worst = raised[raised["quantity"] == "displacement"].groupby("bound")["factor"].max()
-    part = page.partition('id="accidental-eccentricity"')[2].partition("</table>")[0]
-    head = re.findall(r"<th[^>]*>([^<]*)</th>", part)
-    rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in part.split("</tr>")]
-    place, of = head.index("factor"), head.index("bound")
-    shown = {row[of]: row[place] for row in rows if row and row[0] == "isolator displacement"}
-    assert shown == {bound: f"{factor:.4g}" for bound, factor in worst.items()}
-    assert set(shown) == {"lower", "upper"}

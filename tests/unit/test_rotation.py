@@ -68,7 +68,7 @@ def test_coefficients(square: float) -> None:
 def test_series_meets_the_closed_form() -> None:
     """Below and above the seam: no jump beyond the round-off of the closed forms."""
     below, above = (np.array(coefficients(SEAM * (1.0 + s * 1e-12))) for s in (-1.0, 1.0))
-    assert_allclose(above, below, rtol=2e-13, atol=0.0)
+    assert_allclose(above, below, rtol=2e-13)
     # and the matrices of two neighbours on either side
     direction = np.array([0.48, -0.6, 0.64])
     one, two = (rotation(direction * math.sqrt(SEAM) * (1.0 + s * 1e-12)) for s in (-1.0, 1.0))

@@ -38,16 +38,6 @@ def turned(x: float, y: float, angle: float) -> tuple[float, float]:
 
 @pytest.mark.quick
 @pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
-@given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, u_y=st.floats(1e-5, 1e-2))
-def test_never_beyond_the_cone(bouc_wen, eta, size, angle, d_1, d_2, u_y):
-    z_1, z_2 = turned(size, 0.0, angle)
-    out = return_map(bouc_wen, eta, z_1, z_2, d_1, d_2, u_y)
-    assert math.hypot(out[0], out[1]) <= 1.0 + 1e-15  # two ulp
-    assert out[6] >= 0.0  # slipped part
-
-
-@pytest.mark.quick
-@pytest.mark.parametrize(("bouc_wen", "eta"), LAWS)
 @given(size=st.floats(0.0, 1.0), angle=ANGLE, d_1=STEP, d_2=STEP, turn=ANGLE)
 def test_isotropy(bouc_wen, eta, size, angle, d_1, d_2, turn):
     """Turning state and step by an angle turns z and its derivative, and keeps the slip."""
@@ -74,13 +64,13 @@ def test_isotropy(bouc_wen, eta, size, angle, d_1, d_2, turn):
 def test_elastic_plastic_by_hand(sign: float) -> None:
     """Elastic up to u_y, then z on the circle in the direction of the trial value."""
     out = return_map(0, 2.0, 0.0, 0.0, sign * 0.4 * U_Y, 0.0, U_Y)
-    assert_allclose(out, [sign * 0.4, 0, 1 / U_Y, 0, 0, 1 / U_Y, 0, 0, 0], rtol=1e-15, atol=0.0)
+    assert_allclose(out, [sign * 0.4, 0, 1 / U_Y, 0, 0, 1 / U_Y, 0, 0, 0], rtol=1e-15)
     out = return_map(0, 2.0, sign * 0.6, 0.0, sign * 2.4 * U_Y, sign * 4.0 * U_Y, U_Y)
     z_1, z_2, k_11, k_12, k_21, k_22, slip, _, _ = out
     # b = (3, 4): |b| = 5, slip 4 u_y; derivative (1 - e e') / 5 u_y
-    assert_allclose([z_1, z_2, slip], [sign * 0.6, sign * 0.8, 4.0 * U_Y], rtol=1e-14, atol=0.0)
+    assert_allclose([z_1, z_2, slip], [sign * 0.6, sign * 0.8, 4.0 * U_Y], rtol=1e-14)
     expected = np.array([0.64, -0.48, -0.48, 0.36]) / (5.0 * U_Y)
-    assert_allclose([k_11, k_12, k_21, k_22], expected, rtol=1e-13, atol=0.0)
+    assert_allclose([k_11, k_12, k_21, k_22], expected, rtol=1e-13)
 
 
 @pytest.mark.quick
@@ -180,20 +170,6 @@ def test_bouc_wen_is_its_rate_law(eta: float, seed: int, sign: float) -> None:
     assert_allclose(extrapolated, exact, rtol=0.0, atol=1e-4)  # second order is left
 
 
-@pytest.mark.quick
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_bouc_wen_along_a_line(sign: float) -> None:
-    """Closed form for eta = 1, monotonic: z = 1 - exp(-w / u_y); unloading is elastic."""
-    steps, z = 20_000, 0.0
-    for _ in range(steps):
-        z = return_map(1, 1.0, z, 0.0, sign * 2.0 * U_Y / steps, 0.0, U_Y)[0]
-    # first order in a step of 1e-4
-    assert_allclose(z, sign * (1.0 - math.exp(-2.0)), rtol=1e-4, atol=0.0)
-    back = return_map(1, 1.0, z, 0.0, -sign * 0.3 * U_Y, 0.0, U_Y)
-    assert_allclose(back[0], z - sign * 0.3, rtol=1e-14, atol=0.0)
-    assert back[6] == 0.0
-
-
 def rubbed(law: FrictionLaw) -> Props:
     """Return the properties of a bearing whose surfaces have a law."""
     bearing = simple_bearing(capacity=0.2, friction=law, interface_friction=0.2)
@@ -206,7 +182,7 @@ def test_friction_is_equation_one(speed: float) -> None:
     """mu = f_max - (f_max - f_min) exp(-alpha v), the numerical example's parameters."""
     p = rubbed(VelocityFriction(0.065, 0.0325, 15.0))
     mu, slope = coefficient(p, 1, speed)
-    assert_allclose(mu, 0.065 - 0.0325 * math.exp(-15.0 * speed), rtol=1e-15, atol=0.0)
+    assert_allclose(mu, 0.065 - 0.0325 * math.exp(-15.0 * speed), rtol=1e-15)
     h = 1e-5
     at = [coefficient(p, 1, speed + k * h)[0] for k in (-1, 1)]
     # second order in 15 h = 1.5e-4
@@ -223,15 +199,9 @@ def test_friction_of_coulomb() -> None:
 @pytest.mark.quick
 def test_contact_by_hand() -> None:
     """k pen + c (pen - pen_old) / dt; static without the damper; open: nothing."""
-    assert_allclose(
-        kelvin_voigt(2e-3, 1.5e-3, 1e8, 4e5, 0.01), (2.2e5, 1.4e8, 2e-3), rtol=1e-14, atol=0.0
-    )
-    assert_allclose(
-        kelvin_voigt(2e-3, 2.5e-3, 1e8, 4e5, 0.01), (1.8e5, 1.4e8, 2e-3), rtol=1e-14, atol=0.0
-    )
-    assert_allclose(
-        kelvin_voigt(2e-3, 1.5e-3, 1e8, 4e5, 0.0), (2e5, 1e8, 2e-3), rtol=1e-14, atol=0.0
-    )
+    assert_allclose(kelvin_voigt(2e-3, 1.5e-3, 1e8, 4e5, 0.01), (2.2e5, 1.4e8, 2e-3), rtol=1e-14)
+    assert_allclose(kelvin_voigt(2e-3, 2.5e-3, 1e8, 4e5, 0.01), (1.8e5, 1.4e8, 2e-3), rtol=1e-14)
+    assert_allclose(kelvin_voigt(2e-3, 1.5e-3, 1e8, 4e5, 0.0), (2e5, 1e8, 2e-3), rtol=1e-14)
     for gap in (0.0, -1e-9, -1.0, -math.inf):
         assert kelvin_voigt(gap, 1e-3, 1e8, 4e5, 0.01) == (0.0, 0.0, 0.0)
 
@@ -250,18 +220,6 @@ def test_contact_never_pulls(gap: float, old: float, k: float, c: float, dt: flo
     assert slope >= 0.0
     assert closure == max(gap, 0.0)
     assert (force > 0.0) == (slope > 0.0) or force == 0.0
-
-
-@pytest.mark.quick
-@given(old=st.floats(0.0, 1e-2), k=st.floats(1e6, 1e9), c=st.floats(0.0, 1e7))
-def test_contact_is_continuous(old: float, k: float, c: float) -> None:
-    """No jump from open to closed, at impact (old = 0) or not: the slope bounds the change."""
-    gaps = np.linspace(-2e-3, 1.2e-2, 1500)
-    dt = 0.01
-    force = np.array([kelvin_voigt(g, old, k, c, dt)[0] for g in gaps])
-    bound = (k + c / dt) * (gaps[1] - gaps[0])
-    assert np.abs(np.diff(force)).max() <= bound * (1.0 + 1e-9)
-    assert kelvin_voigt(1e-12, 0.0, k, c, dt)[0] <= (k + c / dt) * 1e-12 * (1.0 + 1e-9)
 
 
 @pytest.mark.quick

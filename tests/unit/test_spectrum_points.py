@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
+pytest.importorskip("typer")
 
 from frames import MotionWarning
 from frames.design import (

@@ -7,8 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
+pytest.importorskip("typer")
 
 from frames import Frame, ModalDamping, moment_frame
 from frames.demo import bearing_for

@@ -33,20 +33,6 @@ def fixed_end(frame):
     return assemble(frame).members.fixed_end[0]
 
 
-def test_a_triangle_between_clamps():
-    """q L^2 / 30 and / 20, 3 and 7 q L / 20: any table of beams."""
-    frame, q = beam(), 12e3
-    frame.add_tapered_load("m0", (0.0, 0.0, 0.0), (0.0, 0.0, -q))
-    forces = fixed_end(frame)
-    assert_allclose(forces[[2, 8]], [0.15 * q * LONG, 0.35 * q * LONG], rtol=1e-13)
-    assert_allclose(forces[[4, 10]], [-q * LONG**2 / 30.0, q * LONG**2 / 20.0], rtol=1e-13)
-    across = beam()
-    across.add_tapered_load("m0", (0.0, 0.0, 0.0), (0.0, q, 0.0))
-    assert_allclose(
-        fixed_end(across)[[5, 11]], [-q * LONG**2 / 30.0, q * LONG**2 / 20.0], rtol=1e-13
-    )
-
-
 @pytest.mark.parametrize("section", [SECTION, SHEAR])
 def test_the_whole_length_is_a_uniform_load(section):
     end, q = (3.0, 1.0, 2.0), (3e3, -2e3, -7e3)

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
-import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
@@ -13,7 +10,6 @@ from frames.design import (
     ASCE7,
     EN1998,
     DesignTarget,
-    EquivalentLinear,
     IsolationSystem,
     NCh2745,
     Spectrum,
@@ -25,7 +21,6 @@ from frames.design import (
 from tests.scenes import large_bearing
 
 BEARING = large_bearing()
-SIDES = (24.0, 10.0)
 ASCE = Spectrum.asce7(s_ms=1.2, s_m1=0.5)
 EUROPE = Spectrum.en1998(a_g=3.0, ground_type="C")
 CHILE = Spectrum.nch2745(soil="II", zone=2)
@@ -43,9 +38,7 @@ def building(share: float, **options: bool) -> Frame:
     )
 
 
-def analysed(
-    frame: Frame, spectrum: Spectrum, code: ASCE7 | EN1998 | NCh2745, *, storeys: bool = False
-) -> EquivalentLinear:
+def analysed(frame, spectrum, code, *, storeys=False):
     above = Superstructure.from_frame(frame, R=2.0) if storeys else None
     system = IsolationSystem.from_frame(frame, s_ms=1.2)
     return equivalent_linear(system, spectrum, bounds=None, code=code, superstructure=above)
@@ -57,32 +50,6 @@ def corners(share: float) -> tuple[float, float]:
     Bearings alike under equal loads: their centre of stiffness is the middle of the plan.
     """
     return 12.0, share * 24.0
-
-
-@pytest.mark.parametrize("share", [0.0, 0.03, 0.30])
-def test_d_tm_by_asce7(share: float) -> None:
-    found = analysed(building(share, overturning=False), ASCE, ASCE7())["nominal"]
-    far, off = corners(share)
-    e = off + 0.05 * 24.0
-    x = np.repeat([-12.0, -6.0, 0.0, 6.0, 12.0], 3)
-    y = np.tile([-5.0, 0.0, 5.0], 5)
-    gyration = math.sqrt((24.0**2 + 10.0**2) / 12.0)
-    p_t = max(math.sqrt(float(((x - off) ** 2 + y**2).mean())) / gyration, 1.0)
-    grows = 1.0 + far / p_t**2 * 12.0 * e / (24.0**2 + 10.0**2)
-    assert found.total_displacement == pytest.approx(found.displacement * max(grows, 1.15))
-    assert grows > 1.15
-
-
-@pytest.mark.parametrize("share", [0.0, 0.03, 0.30])
-def test_delta_by_en1998(share: float) -> None:
-    code = EN1998()
-    found = analysed(building(share, overturning=False), EUROPE, code)["nominal"]
-    far, off = corners(share)
-    x, y = np.array([-12.0, -6.0, 0.0, 6.0, 12.0]), np.array([-5.0, 0.0, 5.0])
-    squared = (x**2).mean() + (y**2).mean()
-    grows = 1.0 + (off + 0.05 * 24.0) / squared * far
-    moved = found.trace.value("d_dc") * grows
-    assert max(found.trace.values("d_bi")) == pytest.approx(moved)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.03, 0.30])

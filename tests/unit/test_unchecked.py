@@ -15,8 +15,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
 pytest.importorskip("typer")
 
 import xarray as xr
@@ -211,13 +209,7 @@ def scaled(data: xr.Dataset, factors: np.ndarray) -> xr.Dataset:
     return data.assign({n: (v * by).transpose(*v.dims) for n, v in numbers.items()})
 
 
-def judged(
-    kind: Any,
-    parts: ProjectInputs,
-    known: Preliminary,
-    data: xr.Dataset,
-    moved: xr.Dataset | None = None,
-) -> ProjectRun:
+def judged(kind, parts, known, data, moved=None):
     """Evaluate runs at all levels of a code; with moved masses four of the first motion."""
     ways = {"mass_shift": ("run", ["+x", "-x", "+y", "-y"])}
     moved = (data.isel(run=[0] * 4) if moved is None else moved).assign_coords(ways)
@@ -237,9 +229,7 @@ def judged(
         for pair in itertools.product(KINDS, CODES)
     ],
 )
-def test_every_provision_is_checked_or_says_why_not(
-    kinds: Callable[[str], Any], name: str, code: str
-) -> None:
+def test_every_provision_is_checked_or_says_why_not(kinds, name, code):
     """Whichever structure: each is made, or named with its reason; no check is without one."""
     if name == "imported":
         pytest.importorskip("openseespy")
@@ -328,9 +318,7 @@ def failing(kind: Any, code: str, case: str, share: float) -> tuple[ProjectRun, 
         ("dampers and moat", "NCh2745", "all"),
     ],
 )
-def test_no_check_and_no_table_takes_a_value_of_a_failed_run(
-    kinds: Callable[[str], Any], name: str, code: str, case: str
-) -> None:
+def test_no_check_and_no_table_takes_a_value_of_a_failed_run(kinds, name, code, case):
     """Whatever changes with the values of the failed run is void, or bears its mark."""
     (run, word), (other, _) = (failing(kinds(name), code, case, share) for share in (1.0, 0.4))
     changed = []

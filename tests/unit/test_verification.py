@@ -7,8 +7,6 @@ from typing import Any
 import pandas as pd
 import pytest
 
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
 pytest.importorskip("typer")
 
 from typer.testing import CliRunner

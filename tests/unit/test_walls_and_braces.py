@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
+pytest.importorskip("typer")
 
 from frames import Frame, ModelError, Section, gravity, modes
 from frames.demo import bearing_for
