@@ -62,6 +62,8 @@ def ready(kernel: Callable[..., Any], *arguments: Any) -> float:
     return perf_counter() - began
 
 
+_OWNED = 4  # flag of an array that owns its memory, which its type does not say
+
 _READY: set[tuple[Any, ...]] = set()  # kernels and kinds of arguments they are compiled for
 
 
@@ -71,7 +73,5 @@ def _kind(value: Any) -> Any:
     if isinstance(value, tuple):
         return type(value), *(_kind(part) for part in value)
     if isinstance(value, np.ndarray):
-        flags = value.flags
-        layout = flags.c_contiguous, flags.f_contiguous, flags.aligned, flags.writeable
-        return value.dtype, value.ndim, layout
+        return value.dtype, value.ndim, value.flags.num & ~_OWNED
     return type(value)

@@ -14,7 +14,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import linalg, sparse
+from scipy import linalg
 
 from frames._errors import ModelError
 from frames.assembly.coordinates import Basis as Basis
@@ -27,20 +27,6 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.assembly.assemble import System
     from frames.model.damping import Damping
-
-
-def bearing_rows(system: System) -> SparseMatrix:
-    """Return the rows of the transform that give the bearings' displacements, (12 n, n_free)."""
-    # those of rotations are empty where plate rotation is left out: neither do the nodes' rotations
-    # reach a bearing, nor its moments the nodes
-    nodes = np.array([(b.i, b.j) for b in system.bearings], dtype=np.int64).reshape(-1, 2)
-    rows = (6 * nodes[:, :, None] + np.arange(6)).reshape(-1)
-    if system.features.plate_rotation:
-        return system.transform[rows]
-    kept = sparse.diags_array((rows % 6 < 3).astype(np.float64))
-    picked = sparse.csr_array(kept @ system.transform[rows])
-    picked.eliminate_zeros()
-    return picked
 
 
 def touched_dofs(rows: SparseMatrix) -> IntArray:
@@ -57,7 +43,7 @@ def build_basis(system: System, geometric: SparseMatrix, damping: Damping | None
     stiffness = elastic + geometric.toarray()
     mass = system.mass.toarray()
     n_free = len(stiffness)
-    touched = touched_dofs(bearing_rows(system))
+    touched = touched_dofs(system.bearing_rows)
     rest = np.setdiff1d(np.arange(n_free), touched)
     massless = rest[~mass[rest].any(axis=1)]
     massive = np.setdiff1d(rest, massless)

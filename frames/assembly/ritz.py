@@ -17,7 +17,6 @@ from scipy import linalg, sparse
 
 from frames._errors import ModelError
 from frames.assembly.basis import (
-    bearing_rows,
     build_basis,
     mode_damping,
     touched_dofs,
@@ -49,7 +48,7 @@ class RitzSpace:
     def __init__(self, system: System, geometric: SparseMatrix, damping: Damping | None) -> None:
         self._system, self._damping = system, damping
         stiffness = sparse.csr_array(system.stiffness + geometric)
-        self._touched = touched_dofs(bearing_rows(system))
+        self._touched = touched_dofs(system.bearing_rows)
         self._rest = np.setdiff1d(np.arange(stiffness.shape[0]), self._touched)
         inner = sparse.csr_array(stiffness[self._rest][:, self._rest])
         self._stiffness = stiffness
@@ -81,7 +80,7 @@ class RitzSpace:
 
     def _mass_of_heaving(self) -> FloatArray:
         # Inertia of the rest that follows a unit acceleration of each bearing along its axis.
-        rows = bearing_rows(self._system)[:, self._touched]
+        rows = self._system.bearing_rows[:, self._touched]
         lifted = touched_dofs(rows[2::6])
         own = np.asarray(self._system.mass[self._rest][:, self._touched[lifted]].toarray())
         return np.asarray(own + self._mass @ self._follow[:, lifted])

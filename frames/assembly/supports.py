@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse import csgraph
 
 from lir_element.argument_checks import listed
 from lir_element.texts import worded
 
 if TYPE_CHECKING:
-    from frames._types import BoolArray, FloatArray, SparseMatrix
+    from frames._types import FloatArray, SparseMatrix
     from frames.assembly.system import System
 
 UNSAID = 0.01
@@ -59,7 +57,7 @@ def load_path(
 
     Shapes: geometric (6 n_nodes, 6 n_nodes), displacement (n_free,), axial_forces (n_bearings,).
     """
-    above = above_bearings(system)
+    above = system.above_bearings
     held = np.diff(system.transform.indptr)[2::6] == 0
     moves = np.asarray(system.transform @ displacement)
     forces = np.asarray((system.node_stiffness + geometric) @ moves) - system.node_load
@@ -71,20 +69,3 @@ def load_path(
         bearings=float(np.asarray(axial_forces)[standing].sum()),
         supports=tuple(sorted(taken, key=lambda pair: -abs(pair[1]))),
     )
-
-
-def above_bearings(system: System) -> BoolArray:
-    """Return whether members, springs, superelements, ties or diaphragms join a node to a bearing.
-
-    Shapes: result (n_nodes,).
-    """
-    count = len(system.node_names)
-    of_node = sparse.csr_array(
-        (np.ones(6 * count), (np.arange(6 * count) // 6, np.arange(6 * count))),
-        shape=(count, 6 * count),
-    )
-    tied = of_node @ abs(system.transform)
-    joined = sparse.csr_array(of_node @ abs(system.node_stiffness) @ of_node.T + tied @ tied.T)
-    _, part = csgraph.connected_components(joined, directed=False)
-    tops = {int(part[placed.j]) for placed in system.bearings}
-    return np.isin(part, list(tops))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse import csgraph
 
 from frames.assembly.members import (
     MemberArrays,
@@ -16,7 +18,9 @@ from frames.assembly.members import (
 )
 
 if TYPE_CHECKING:
-    from frames._types import FloatArray, IntArray, SparseMatrix
+    from collections.abc import Iterable
+
+    from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
     from frames.model.components import Link
     from frames.model.superelement import ElementTable
     from lir_element import Features, LIRBearing
@@ -163,6 +167,40 @@ class System:
     def fixed_dofs(self) -> IntArray:
         """Places among the nodes' displacements, six a node, of those that supports hold."""
         return np.flatnonzero(np.diff(self.transform.indptr) == 0)
+
+    @cached_property
+    def bearing_rows(self) -> SparseMatrix:
+        """Rows of the transform that give the bearings' displacements, (12 n_bearings, n_free)."""
+        # those of rotations are empty where plate rotation is left out: neither do the nodes'
+        # rotations reach a bearing, nor its moments the nodes
+        nodes = np.array([(b.i, b.j) for b in self.bearings], dtype=np.int64).reshape(-1, 2)
+        rows = (6 * nodes[:, :, None] + np.arange(6)).reshape(-1)
+        if self.features.plate_rotation:
+            return self.transform[rows]
+        kept = sparse.diags_array((rows % 6 < 3).astype(np.float64))
+        picked = sparse.csr_array(kept @ self.transform[rows])
+        picked.eliminate_zeros()
+        return picked
+
+    @cached_property
+    def above_bearings(self) -> BoolArray:
+        """Whether members, springs, superelements, ties or diaphragms join a node to a bearing."""
+        count = len(self.node_names)
+        of_node = sparse.csr_array(
+            (np.ones(6 * count), (np.arange(6 * count) // 6, np.arange(6 * count))),
+            shape=(count, 6 * count),
+        )
+        tied = of_node @ abs(self.transform)
+        joined = sparse.csr_array(of_node @ abs(self.node_stiffness) @ of_node.T + tied @ tied.T)
+        _, part = csgraph.connected_components(joined, directed=False)
+        return np.isin(part, list({int(part[placed.j]) for placed in self.bearings}))
+
+    def on(self, devices: Iterable[LIRBearing]) -> System:
+        """Return the same structure on other bearings; what was formed of it alone is shared."""
+        found = copy.copy(self)
+        placed = zip(self.bearings, devices, strict=True)
+        vars(found)["bearings"] = tuple(old._replace(bearing=device) for old, device in placed)
+        return found
 
     def __repr__(self) -> str:
         """Return sizes on one line."""

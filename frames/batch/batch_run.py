@@ -70,6 +70,7 @@ class Runner:
         self.features, self.recording = features, recording
         self._models, self._level = models, level
         self._shared: dict[str, Structure | AnalysisError] = {}
+        self._last: Structure | None = None
         self._left = {name: 0 for name in models}
         for case in cases:
             self._left[case.model] += 1
@@ -97,10 +98,14 @@ class Runner:
     def _set_up(self, name: str) -> Structure | AnalysisError:
         recording = self.recording
         try:
-            found = PreparedFrame(self._models[name], self.features, self._level)
+            like = self._last and self._last.analysis
+            found = PreparedFrame(self._models[name], self.features, self._level, like=like)
         except AnalysisError as failure:
             return failure
-        layout = _layout_of(found, recording)
+        if self._last is not None and self._last.analysis.template is found.template:
+            layout = self._last.layout
+        else:
+            layout = _layout_of(found, recording)
         own = [case for case in self.cases if case.model == name]
         self._rows += len(own)
         self._bytes += len(own) * (_ROW + 8.0 * float(layout.starts[-1]))
@@ -110,7 +115,8 @@ class Runner:
             kept = sum(count // every + 1 if every else 2 for count in steps)
             self._bytes += kept * bytes_over_time(reduced(found.at_rest, recording))
         require_rows(_COPIES * self._bytes, self._rows, len(self.cases))
-        return Structure(found, layout)
+        self._last = Structure(found, layout)
+        return self._last
 
 
 def _layout_of(analysis: PreparedFrame, recording: Recording | None) -> Layout:
@@ -183,7 +189,9 @@ class Worker:
         if self._own is None or self._own[0] is not structure:
             state, peaks = analysis.fresh(), None
             if analysis.can_track and self._runner.recording is None:
-                peaks = PeakRecorder(analysis, state, self._is_stopped)
+                peaks = self._own and self._own[2]
+                if peaks is None or not peaks.serve(analysis, state):
+                    peaks = PeakRecorder(analysis, state, self._is_stopped)
             self._own = structure, state, peaks
         else:
             analysis.restart(self._own[1])

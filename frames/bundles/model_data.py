@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames.assembly.basis import bearing_rows
 from lir_element.bundles.contact_data import Contacts, contact_arrays
 from lir_element.device.features import apply
 
@@ -59,7 +58,7 @@ class ReducedModel(NamedTuple):
 
 def model_arrays(system: System, basis: Basis, static_load: Array | None = None) -> ReducedModel:
     """Return the frame as the time loop reads it; `static_load` as in `features.apply`."""
-    rows = bearing_rows(system)[:, basis.bearing_dofs].tocsr()
+    rows = system.bearing_rows[:, basis.bearing_dofs].tocsr()
     rows.sort_indices()
     count = len(system.bearings)
     pointers = rows.indptr.astype(np.int64)

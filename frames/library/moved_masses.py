@@ -10,7 +10,6 @@ from scipy import sparse
 
 from frames._errors import ModelError
 from frames.assembly.assemble import assemble
-from frames.assembly.supports import above_bearings
 from lir_element.argument_checks import require_between
 from lir_element.elevations import by_elevation
 
@@ -93,7 +92,7 @@ def with_moved_masses(frame: Frame, shares: tuple[float, float], name: str | Non
 
 def _floors(frame: Frame, system: System) -> list[_Floor]:
     # Masses above the bearings that move in plan, each with the nearest level.
-    above = above_bearings(system)
+    above = system.above_bearings
     moving = np.diff(system.transform.indptr).reshape(-1, 6) > 0
     heavy = above & (system.node_mass[:, :2] > 0.0).any(axis=1) & moving[:, :2].any(axis=1)
     if not heavy.any():

@@ -10,7 +10,6 @@ from scipy.sparse.linalg import splu
 
 from frames._errors import ModelError
 from frames._remedies import argument
-from frames.assembly.basis import bearing_rows
 from frames.assembly.constraints import eliminate
 from frames.assembly.natural_modes import is_stable, weakest
 from frames.model.superelement import asymmetry
@@ -156,7 +155,7 @@ def refuse_leaning(system: System, initial: SparseMatrix) -> None:
 
     Shapes: initial (6 n, 6 n).
     """
-    touched = np.unique(bearing_rows(system).tocoo().coords[1])
+    touched = np.unique(system.bearing_rows.tocoo().coords[1])
     rest = np.setdiff1d(np.arange(len(system.dof_labels)), touched)
     if not len(rest):
         return

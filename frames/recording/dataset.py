@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from frames.assembly.assemble import node_geometric_stiffness
-from frames.assembly.basis import bearing_rows
 from frames.bundles.model_data import device_records
 from frames.bundles.peak_data import ENERGY_TERMS
 from frames.model.components import DOFS
@@ -38,41 +36,57 @@ if TYPE_CHECKING:
     from lir_element.layout import Records
 
 
+_PLACES = "node_position", "level_node", "level_height"
+
+
 class Common(NamedTuple):
     """What all results of a structure hold of it."""
 
     frame: FrameData
     variables: dict[str, xr.Variable]
-    coordinates: xr.Coordinates  # all but the time
+    labels: dict[str, list[str]]
+    coordinates: xr.Coordinates  # of these labels: all but the time
     heights: list[float]  # of the levels [m]
     resultants: Resultants
+
+    def is_laid_out_as(self, other: Common) -> bool:
+        """Return whether its results differ from those of another one in numbers alone."""
+        own, others = self.variables, other.variables
+        return (
+            self.coordinates is other.coordinates
+            and own.keys() == others.keys()
+            and all(np.array_equal(own[name].data, others[name].data) for name in _PLACES)
+        )
 
     def of_structure(self) -> xr.Dataset:
         """Return it as a Dataset."""
         return xr.Dataset(self.variables, self.coordinates)
 
 
-def common_of(frame: FrameData, state: GravityState) -> Common:
-    """Return what all results of a structure hold of it."""
+def common_of(frame: FrameData, state: GravityState, like: Common | None = None) -> Common:
+    """Return what all results of a structure hold of it; what is the same is that of `like`."""
     system, levels = state.system, frame.levels
-    resultants = Resultants(state)
+    if like is not None and like.resultants.serves(state):
+        resultants = like.resultants
+    else:
+        resultants = Resultants(state)
     names = part_coordinates(system.parts, frame)
     if levels[1:]:
         names["storey"] = [level.name for level in levels[1:]]
-    coordinates = xr.Dataset(
-        coords={
-            "node": list(system.node_names),
-            "dof": list(DOFS),
-            "term": list(ENERGY_TERMS),
-            "resultant": list(resultants.names),
-            "level": [level.name for level in levels],
-            **names,
-            **bearing_coordinates([placed.name for placed in system.bearings]),
-        }
-    ).coords
+    labels = {
+        "node": list(system.node_names),
+        "dof": list(DOFS),
+        "term": list(ENERGY_TERMS),
+        "resultant": list(resultants.names),
+        "level": [level.name for level in levels],
+        **names,
+        **bearing_coordinates([placed.name for placed in system.bearings]),
+    }
+    is_alike = like is not None and like.labels == labels
+    coordinates = like.coordinates if is_alike else xr.Dataset(coords=labels).coords
     variables = _device_variables(system) | _permanent(frame, state)
     heights = [level.z for level in levels]
-    return Common(frame, variables, coordinates, heights, resultants)
+    return Common(frame, variables, labels, coordinates, heights, resultants)
 
 
 def build_dataset(
@@ -290,7 +304,7 @@ def _device_variables(system: System) -> dict[str, xr.Variable]:
 
 def _bearing_velocity(state: GravityState, v_b: FloatArray) -> FloatArray:
     # Velocity of node j relative to node i, (n, n_bearings, 3).
-    rows = bearing_rows(state.system)[:, state.basis.bearing_dofs]
+    rows = state.system.bearing_rows[:, state.basis.bearing_dofs]
     v = np.asarray(rows @ v_b.T).T.reshape(len(v_b), -1, 12)
     relative: FloatArray = v[..., 6:9] - v[..., :3]
     return relative
@@ -301,7 +315,7 @@ def _other_reactions(state: GravityState, q: FloatArray, beyond: FloatArray) -> 
     # are: positive with positive displacement of the structure.
     system = state.system
     fixed = system.fixed_dofs[system.fixed_dofs % 6 < 3]
-    stiffness = system.node_stiffness + node_geometric_stiffness(system, state.member_forces)
+    stiffness = system.node_stiffness + state.node_geometric
     forces = system.node_load[fixed] - np.asarray((stiffness[fixed] @ system.transform) @ q.T).T
     forces -= np.asarray(system.parts.node_rows[:, fixed].T @ beyond.T).T
     total = np.zeros((len(q), 3))

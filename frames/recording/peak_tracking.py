@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy import sparse
 
-from frames.assembly.assemble import node_geometric_stiffness
 from frames.bundles.model_data import device_records
 from frames.bundles.peak_data import Devices, Reached, Shape
 from frames.kernels.peaks import (
@@ -261,7 +260,7 @@ def _shear_rows(state: GravityState) -> tuple[SparseMatrix, FloatArray]:
     # What supports of the structure itself resist along x and y: `_other_reactions` of the
     # Dataset; over free degrees of freedom, and over forces beyond with the constant.
     system = state.system
-    stiffness = system.node_stiffness + node_geometric_stiffness(system, state.member_forces)
+    stiffness = system.node_stiffness + state.node_geometric
     node_rows = sparse.csc_array(system.parts.node_rows)
     rows = []
     rest = np.zeros((3, node_rows.shape[0] + 1))

@@ -16,6 +16,8 @@ from frames.results.recorded import PEAK
 from lir_element.results.dataset import labelled
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from frames._types import BoolArray, FloatArray, IntArray
 
     Columns = dict[str, Any]
@@ -79,19 +81,26 @@ def with_peak_state(data: xr.Dataset, found: PeakState) -> xr.Dataset:
     return data.assign_coords(coordinates).assign(variables)
 
 
-def with_other_peak_state(data: xr.Dataset, found: PeakState, peak: FloatArray) -> xr.Dataset:
-    """Return what `with_peak_state` gave of one run with the numbers of another one.
+def put_peak_state(
+    data: xr.Dataset,
+    found: PeakState,
+    peak: FloatArray,
+    common: Mapping[str, xr.Variable],
+) -> xr.Dataset:
+    """Put the numbers of another run into what `with_peak_state` gave, and return it.
 
-    Shapes: peak (3,).
+    `common` are variables of the run's structure. Shapes: peak (3,).
     """
-    known = data.variables
-    values: dict[str, Any] = {str(name): known[name].data for name in data.data_vars}
+    values: dict[str, Any] = {name: each.data for name, each in common.items()}
     for name, most in found.reached.items():
         values[PEAK + name], values[f"{PEAK}{name}_at"] = most
     values |= {PEAK + name: value for name, value in found.totals.items()}
     values |= {f"{PEAK}{name}_left": value for name, value in found.left.items()}
     values |= {UNTIL: np.array(found.until), "peak_ground_velocity": peak}
-    return data.copy(data=values)
+    variables = data.variables
+    for name, value in values.items():
+        variables[name].data = value
+    return data
 
 
 class Reduction:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lir_element.device.features import Features
@@ -112,7 +112,7 @@ class Findings(tuple[Finding, ...]):
     def plain(self) -> list[dict[str, Any]]:
         """Return them as JSON takes them, without what is not so: `findings_from` reads it."""
         return [
-            {k: v.plain() if isinstance(v, Text) else v for k, v in asdict(one).items() if v}
+            {k: v.plain() if isinstance(v, Text) else v for k, v in vars(one).items() if v}
             for one in self
         ]
 

@@ -76,14 +76,14 @@ def larger_of(old: Extreme, new: Extreme) -> Extreme:
 def summed(data: xr.Dataset, name: str) -> FloatArray:
     """Return a sum over the steps of a time history: one of `TOTALS`."""
     if PEAK + name in data.variables:
-        return data.variables[PEAK + name].to_numpy()
+        return data.variables[PEAK + name].values
     return QUANTITIES[name].of(data, 0, data.sizes["time"])
 
 
 def final_value(data: xr.Dataset, name: str) -> FloatArray:
     """Return a quantity of `LEFT` at the last step of the run."""
     if f"{PEAK}{name}_left" in data.variables:
-        return data.variables[f"{PEAK}{name}_left"].to_numpy()
+        return data.variables[f"{PEAK}{name}_left"].values
     return np.asarray(QUANTITIES[name].of(data)[-1])
 
 

@@ -41,8 +41,7 @@ def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] |
     """Return what a recording kept of a quantity: its largest values and their times [s]."""
     if PEAK + name not in data.variables:
         return None
-    values, at = (data.variables[PEAK + key].to_numpy() for key in (name, f"{name}_at"))
-    return values, at
+    return data.variables[PEAK + name].values, data.variables[f"{PEAK}{name}_at"].values
 
 
 def noted(data: xr.Dataset) -> dict[str, str]:

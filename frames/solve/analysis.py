@@ -24,12 +24,13 @@ from frames.bundles.nonlinear_data import NonlinearElements, part_sizes
 from frames.bundles.run_data import AT_REST, STILL, output_arrays, run_arrays
 from frames.kernels.integration import integrate_chunk
 from frames.model import sanity_checks
+from frames.model.components import bearing_axial_stiffness, bearing_rocking_stiffness
 from frames.model.superelement import Superelement
 from frames.recording.dataset import build_dataset, common_of
 from frames.recording.force_rows import force_maps
 from frames.recording.peak_tracking import can_track, devices_of, places_of, shape_of
 from frames.recording.reduction import with_peak_state, without_histories_of
-from frames.statics.gravity import gravity
+from frames.statics.gravity import equilibrium_of
 from frames.statics.springs import plane_coupling
 from lir_element.bundles.contact_data import detached
 from lir_element.texts import worded
@@ -53,6 +54,10 @@ MOST_BYTES = 64e6
 _REMADE = frozenset({"reduced", "inverse_e", "follow_e", "lead_e", "follow", "pool"})
 # of step sizes: the loop makes them again, as `has_reduced` says
 
+_LEAST = 0.1
+_HOLDING = bearing_axial_stiffness, bearing_rocking_stiffness
+# a structure that bearings hold is held by others that are a tenth as stiff
+
 _TAKEN = threading.Lock()
 _CODE = (type, types.ModuleType, types.FunctionType, types.BuiltinFunctionType, types.MethodType)
 
@@ -61,7 +66,8 @@ class PreparedFrame:
     """A frame in equilibrium under gravity, and what its results form of it alone.
 
     No run changes it: runs work in arrays of their own (`fresh`, `restart`). The equilibrium is
-    found here if none is given. What two threads form at once is formed twice, the same.
+    found here if none is given. What two threads form at once is formed twice, the same. `like` is
+    another one with these features and levels: what is the same there is not formed again.
     """
 
     def __init__(
@@ -70,12 +76,47 @@ class PreparedFrame:
         features: Features,
         level: str | Mapping[str, str],
         state: GravityState | None = None,
+        like: PreparedFrame | None = None,
     ) -> None:
         self.model = copy.copy(model)  # as it is now
         self.features, self.level = features, level
-        self.state = gravity(model, features, level) if state is None else state
-        self.parts: list[object] = []  # of the model, by which it is found again
+        self.parts = list(_parts(vars(model)))
+        """Of the model, by which it is found again."""
         self._judged: xr.Dataset | None = None
+        if state is None:
+            alike = like is not None and like.has_structure_of(self)
+            state = equilibrium_of(model, features, level, like.state if alike else None)
+        self.state = state
+        if like is not None:
+            self._take(like)
+
+    def _take(self, like: PreparedFrame) -> None:
+        # What is formed of the structure, or differs in numbers that runs replace.
+        self.common = common_of(self.model, self.state, like.common)
+        if "shape" in vars(like) and self.common.resultants is like.common.resultants:
+            self.shape = like.shape
+        same = all(
+            self.state.model.props[name].any() == like.state.model.props[name].any()
+            for name in ("heats", "goes_on")
+        )
+        if same and self.common.is_laid_out_as(like.common):
+            self._judged = like._judged
+            if "template" in vars(like):
+                self.at_rest, self.template = like.at_rest, like.template
+
+    def has_structure_of(self, other: PreparedFrame) -> bool:
+        """Return whether another one stands on such bearings as these, apart from their numbers."""
+        links, others = (each.model.bearings.values() for each in (self, other))
+        count = len(self.parts) - 2 * len(links) - 2  # names and links, and the ends of dicts
+        return (
+            len(self.parts) == len(other.parts)
+            and all(a is b for a, b in zip(self.parts[:count], other.parts, strict=False))
+            and all(
+                (a.name, a.i, a.j) == (b.name, b.i, b.j)
+                and all(_LEAST <= of(a.bearing) / of(b.bearing) <= 1.0 / _LEAST for of in _HOLDING)
+                for a, b in zip(links, others, strict=True)
+            )
+        )
 
     def fresh(self, seconds: float | None = None) -> GravityState:
         """Return the state at rest for one run to change; what was formed of it is shared."""
@@ -199,9 +240,10 @@ def analysis_of(
         if found is not None:
             _KEPT.remove(found)
             _KEPT.append(found)
+        alike = [kept for kept in _KEPT if (kept.features, kept.level) == (features, level)]
     if found is None:
-        found = PreparedFrame(frame, features, level if isinstance(level, str) else dict(level))
-        found.parts = parts
+        kept_level = level if isinstance(level, str) else dict(level)
+        found = PreparedFrame(frame, features, kept_level, like=alike[-1] if alike else None)
         state = found.fresh()
         _keep(found)
         return found, state
@@ -228,13 +270,20 @@ def _arrays(state: GravityState) -> float:
     return float(sum(array.nbytes for array in arrays))
 
 
-def _parts(value: object) -> Iterator[object]:
+def _parts(frame: Mapping[str, object]) -> Iterator[object]:
+    # What a frame holds, its bearings last.
+    links = {"_bearings": frame["_bearings"]}
+    yield from _pieces({name: each for name, each in frame.items() if name not in links})
+    yield from _pieces(links)
+
+
+def _pieces(value: object) -> Iterator[object]:
     # What a frame holds, down to what is frozen; matrices of superelements, which are not, as text.
     if isinstance(value, dict):
         yield dict
         for key, each in value.items():
             yield key
-            yield from _parts(each)
+            yield from _pieces(each)
         yield None
     elif isinstance(value, Superelement):
         yield sys.intern(fingerprint(value))

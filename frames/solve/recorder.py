@@ -25,7 +25,7 @@ from frames.recording.reduction import (
     PeakState,
     Reduction,
     present_quantities,
-    with_other_peak_state,
+    put_peak_state,
     without_histories_of,
 )
 from frames.results.peak_response import largest, with_exceeded
@@ -212,7 +212,8 @@ class Recorder(_Buffer):
             self.out, self._states, count - 1
         )
         judged = self._analysis.judged(data, found)
-        return with_other_peak_state(judged, found, data.variables["peak_ground_velocity"].values)
+        peak = data.variables["peak_ground_velocity"].values
+        return put_peak_state(judged.copy(), found, peak, self._analysis.common.variables)
 
     def reached(self, data: xr.Dataset) -> dict[str, Extreme]:
         """Return the largest values of all quantities of a result that `data` gave, by name."""
@@ -257,6 +258,18 @@ class PeakRecorder(_Buffer):
     ) -> None:
         size = int(PEAK_BYTES / bytes_of_step(state))
         super().__init__(analysis, state, min(max(size, LEAST_ROWS), MOST_ROWS), is_stopped)
+        self._judged = analysis.template.copy()
+
+    def serve(self, analysis: PreparedFrame, state: GravityState) -> bool:
+        """Take up runs of another analysis from now on, if their steps need the same room."""
+        own = self._state
+        if _sizes(own) != _sizes(state):
+            return False
+        if analysis.template is not self._analysis.template:
+            self._judged = analysis.template.copy()
+        self._analysis, self._state = analysis, state
+        self.strains = StrainGauge(analysis.model, state)
+        return True
 
     def renew(self, motion: GroundMotion, ground: Ground) -> None:
         """Make ready for a run under `motion`, which the loop integrates as `ground`."""
@@ -265,12 +278,12 @@ class PeakRecorder(_Buffer):
         self._gauges = Gauges(self._analysis, whole=True)
 
     def data(self, done: int) -> xr.Dataset:
-        """Return what the assumption check reads of the run."""
+        """Return what the assumption check reads of the run, until the next one is begun."""
         rows = done - self.first + 1
         self._empty(rows)
         found = self._gauges.peak_state(self.out, self._states, rows - 1)
         peak = peak_velocity(self._motion, found.until)
-        return with_other_peak_state(self._analysis.template, found, peak)
+        return put_peak_state(self._judged, found, peak, self._analysis.common.variables)
 
     def without_histories(self, data: xr.Dataset) -> xr.Dataset:
         """Return what the assumption check reads of a result that `data` gave."""
@@ -281,3 +294,10 @@ class PeakRecorder(_Buffer):
         self._gauges.take(self.out, self._states, self._ground, first, rows)
         self.strains.take(self.out, first, rows)
         self._taken = self.first + rows
+
+
+def _sizes(state: GravityState) -> tuple[object, ...]:
+    # Of the arrays that steps are written to.
+    model = state.model
+    own = len(model.load_b), len(model.load_e), len(model.props)
+    return *own, state.contacts is None, part_sizes(state.parts)

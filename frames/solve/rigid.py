@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from frames._errors import ModelError
-from frames.assembly.basis import bearing_rows
 from frames.bundles.peak_data import ENERGY_TERMS
 from frames.bundles.run_data import Ground, Output, output_arrays
 from frames.recording.dataset import build_dataset, common_of, ground_at, peak_velocity
@@ -201,7 +200,7 @@ def _top_plate(state: GravityState) -> tuple[FloatArray, FloatArray, IntArray]:
         message = "it has links or hinges, the level takes a mass on a bearing"
     elif system.damping.nnz:
         message = "it has a damping matrix, the level takes a mass on a bearing"
-    rows = bearing_rows(system).toarray()
+    rows = system.bearing_rows.toarray()
     if not message and rows[:6].any():
         message = "node i of its bearing is not fixed"
     if not message and len(state.basis.bearing_dofs) != rows.shape[1]:
@@ -256,7 +255,7 @@ def _output(
 ) -> Output:
     states, bodies, energy = recorded
     out, _, _ = output_arrays(state.model, None, len(times))
-    rows = bearing_rows(state.system).toarray()[6:]
+    rows = state.system.bearing_rows.toarray()[6:]
     dofs = [int(np.flatnonzero(rows[:, k])[0]) for k in state.basis.bearing_dofs]
     plate = np.concatenate([bodies["velocity"][:, 2], bodies["spin"][:, 2]], axis=1)
     moves = _accelerations(state, ground, times, states["force"][:, 6:9])

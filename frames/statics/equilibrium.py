@@ -13,13 +13,14 @@ from frames._errors import ModelError
 from frames.assembly.assemble import node_geometric_stiffness
 from frames.assembly.supports import load_path
 from frames.assembly.system import BOUC_WEN, HINGE, SCRATCH, STATE_SIZE, STRIDE
-from frames.bundles.model_data import ReducedModel, contacts_of, model_arrays
+from frames.bundles.model_data import ReducedModel, contacts_of, device_records, model_arrays
 from frames.bundles.nonlinear_data import part_sizes
 from frames.bundles.run_data import AT_REST, STILL, IntegrationState, output_arrays, run_arrays
 from frames.kernels.hinges import is_outside, set_forces, set_stress
 from frames.kernels.integration import integrate_chunk
 from frames.model.laws import Bilinear, BoucWen
 from frames.statics.springs import spring_forces
+from lir_element.device.features import apply
 from lir_element.device.friction import least_coefficients
 from lir_element.element import limit_detail
 from lir_element.errors import AnalysisError, RunStatus
@@ -59,17 +60,23 @@ def find_equilibrium(
     levels: Mapping[str, str],
     static_load: FloatArray | None,
     parts: NonlinearElements | None,
+    like: ReducedModel | None = None,
 ) -> Equilibrium:
     """Find the equilibrium of a frame under its permanent loads.
 
     Newton's method starts from the linear solution. Where it fails, friction is softened: an
     elastic sliding before slip that leaves it ten times as stiff as the pendulum, and is brought
     down to the true one stage by stage, each from the equilibria before. The bearings are at rest
-    before each solution, so that the last one is the equilibrium that was asked for.
+    before each solution, so that the last one is the equilibrium that was asked for. `like` is of
+    the same basis and other bearings.
 
     Shapes: linear (n_free,).
     """
-    model = model_arrays(system, basis, static_load)
+    if like is None:
+        model = model_arrays(system, basis, static_load)
+    else:
+        props = apply(system.features, device_records(system), static_load)
+        model = like._replace(props=props)
     chosen = [levels[placed.name] for placed in system.bearings]
     settings = AT_REST._replace(
         force_tolerance=force_tolerance(system, _FORCE_TOLERANCE), max_iterations=_MAX_ITERATIONS

@@ -27,7 +27,7 @@ from frames.model.frame_data import FrameData
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.equilibrium import find_equilibrium, put_at_rest
 from frames.statics.sanity_checks import held_periods, sanity_warnings
-from frames.statics.springs import first_displacement
+from frames.statics.springs import first_displacement, have_same_springs
 from lir_element.argument_checks import require_choice, require_type
 from lir_element.element import LEVELS
 from lir_element.tables import html_table
@@ -50,8 +50,12 @@ class GravityState:
     ----------
     system : System
         Matrices over the free degrees of freedom.
+    linear : ndarray, (n_free,)
+        Displacements under permanent loads on linear springs in place of bearings.
     geometric : csr_array, (n_free, n_free)
         Geometric stiffness of the members under gravity.
+    node_geometric : csr_array, (6 n_nodes, 6 n_nodes)
+        The same over all nodal displacements.
     member_forces : ndarray, (n_members,)
         The members' axial forces it was made with, tension positive [N].
     basis : Basis
@@ -81,7 +85,9 @@ class GravityState:
     """
 
     system: System
+    linear: FloatArray
     geometric: SparseMatrix
+    node_geometric: SparseMatrix
     member_forces: FloatArray
     basis: Basis
     model: ReducedModel
@@ -181,10 +187,26 @@ def gravity(
     """
     require_type("frame", frame, FrameData, "a Frame")
     with blas_threads_for(frame):
-        prepared = prepare(frame, features, level)
-        began = perf_counter()
-        basis = build_basis(prepared.system, prepared.geometric, frame.damping)
-        return at_rest(prepared, basis, perf_counter() - began)
+        return equilibrium_of(frame, features, level)
+
+
+def equilibrium_of(
+    frame: FrameData,
+    features: Features | None,
+    level: str | Mapping[str, str],
+    like: GravityState | None = None,
+) -> GravityState:
+    """Return the state of `gravity`, to the bit.
+
+    `like` is that of the same structure on other bearings, with these features and levels: what
+    does not depend on bearings is taken from there.
+    """
+    prepared = prepare(frame, features, level, like)
+    began = perf_counter()
+    if like is not None and prepared.geometric is like.geometric:
+        return at_rest(prepared, like.basis, 0.0, like=like)
+    basis = build_basis(prepared.system, prepared.geometric, frame.damping)
+    return at_rest(prepared, basis, perf_counter() - began)
 
 
 class Prepared(NamedTuple):
@@ -192,6 +214,7 @@ class Prepared(NamedTuple):
 
     system: System
     geometric: SparseMatrix
+    node_geometric: SparseMatrix
     member_forces: FloatArray
     linear: FloatArray
     """Displacements on linear springs (n_free,)."""
@@ -200,45 +223,72 @@ class Prepared(NamedTuple):
 
 
 def prepare(
-    frame: FrameData, features: Features | None, level: str | Mapping[str, str]
+    frame: FrameData,
+    features: Features | None,
+    level: str | Mapping[str, str],
+    like: GravityState | None = None,
 ) -> Prepared:
-    """Check a frame and make its matrices, geometric stiffness included; arguments as `gravity`."""
-    sanity_checks.refuse_extent(frame)
+    """Check a frame and make its matrices, geometric stiffness included.
+
+    Arguments as of `equilibrium_of`.
+    """
+    if like is None:
+        sanity_checks.refuse_extent(frame)
     for doubt in sanity_checks.sanity_warnings(frame):
         warnings.warn(doubt, ModelWarning, stacklevel=3)
     began = perf_counter()
     levels = levels_of(tuple(frame.bearings), level)
     points = [name for name, own in levels.items() if own == "contact"]
-    system = assemble(frame, features, points)
+    if like is None:
+        system = assemble(frame, features, points)
+    else:
+        system = like.system.on(link.bearing for link in frame.bearings.values())
     if not system.bearings:
         message = "the frame has no bearing: add one with add_bearing"
         raise ModelError(message)
-    linear = first_displacement(system, points)
-    member_forces = member_axial_forces(system, linear)
-    geometric = geometric_stiffness(system, member_forces)
-    system = replace(system, parts=with_axial_forces(system.parts, system.members, member_forces))
-    return Prepared(system, geometric, member_forces, linear, levels, perf_counter() - began)
+    if like is not None and have_same_springs(system, like.system):
+        linear, member_forces = like.linear, like.member_forces
+    else:
+        linear = first_displacement(system, points)
+        member_forces = member_axial_forces(system, linear)
+    if like is not None and member_forces.tobytes() == like.member_forces.tobytes():
+        geometric, of_nodes = like.geometric, like.node_geometric
+    else:
+        geometric = geometric_stiffness(system, member_forces)
+        of_nodes = node_geometric_stiffness(system, member_forces)
+        parts = with_axial_forces(system.parts, system.members, member_forces)
+        system = system if parts is system.parts else replace(system, parts=parts)
+    seconds = perf_counter() - began
+    return Prepared(system, geometric, of_nodes, member_forces, linear, levels, seconds)
 
 
 def at_rest(
-    prepared: Prepared, basis: Basis, seconds: float, *, silent: bool = False
+    prepared: Prepared,
+    basis: Basis,
+    seconds: float,
+    *,
+    silent: bool = False,
+    like: GravityState | None = None,
 ) -> GravityState:
-    """Find the equilibrium under permanent loads in a basis."""
+    """Find the equilibrium under permanent loads in a basis, that of `like` if it is given."""
     began = perf_counter()
-    system, _, member_forces, linear, levels, before = prepared
+    system, geometric, of_nodes, member_forces, linear, levels, before = prepared
     parts = parts_arrays(system.parts, system.part_rows, basis)
-    found = find_equilibrium(system, basis, linear, levels, None, parts)
+    model = None if like is None else like.model
+    found = find_equilibrium(system, basis, linear, levels, None, parts, model)
     compiling = found.compiling
     axial_forces = np.array(found.run.old["axial_force"])
     if not system.features.vertical_coupling:
         load = -found.run.old["force"][:, 8]
-        found = find_equilibrium(system, basis, linear, levels, load, parts)
+        found = find_equilibrium(system, basis, linear, levels, load, parts, model)
     displacement = expand(basis, found.run.b, found.run.e)
     if parts is not None:
         put_at_rest(system, parts, displacement)
     state = GravityState(
         system=system,
-        geometric=prepared.geometric,
+        linear=linear,
+        geometric=geometric,
+        node_geometric=of_nodes,
         member_forces=member_forces,
         basis=basis,
         model=found.model,
@@ -247,9 +297,7 @@ def at_rest(
         displacement=displacement,
         axial_forces=axial_forces,
         seconds=before + seconds + perf_counter() - began - compiling,
-        load_path=load_path(
-            system, node_geometric_stiffness(system, member_forces), displacement, axial_forces
-        ),
+        load_path=load_path(system, of_nodes, displacement, axial_forces),
         parts=parts,
     )
     for doubt in () if silent else state.doubts:

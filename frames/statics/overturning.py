@@ -9,9 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from frames.assembly.assemble import assemble
-from frames.assembly.basis import bearing_rows
 from frames.assembly.solvers import Factors
-from frames.assembly.supports import above_bearings
 from frames.model.components import bearing_axial_stiffness, bearing_rocking_stiffness
 from frames.statics.springs import spring_matrix
 from lir_element.texts import joined, worded
@@ -72,13 +70,13 @@ def overturning_share(system: System) -> Overturning:
     bearings do not carry of either moment goes to supports that hold the structure's tilt.
     """
     tops = np.array([placed.j for placed in system.bearings])
-    mass = np.where(above_bearings(system), system.node_mass[:, 0], 0.0)
+    mass = np.where(system.above_bearings, system.node_mass[:, 0], 0.0)
     axial = np.array([bearing_axial_stiffness(placed.bearing) for placed in system.bearings])
     rocking = np.array([bearing_rocking_stiffness(placed.bearing) for placed in system.bearings])
     springs = np.column_stack([axial, axial, axial, rocking, rocking, rocking])
     stiffness = sparse.csr_array(system.stiffness + spring_matrix(system, springs))
     factors = Factors(stiffness)
-    rows = bearing_rows(system)
+    rows = system.bearing_rows
 
     def carried(force: FloatArray, axis: int) -> float:
         # Moment of the bearings under nodal forces (n_nodes, 6).
@@ -120,7 +118,7 @@ def unknown_axial_forces(frame: FrameData) -> str:
 
 def mass_centre(system: System) -> tuple[float, float]:
     """Return x and y of the centre of the masses above the bearings [m]."""
-    mass = np.where(above_bearings(system), system.node_mass[:, 0], 0.0)
+    mass = np.where(system.above_bearings, system.node_mass[:, 0], 0.0)
     total = float(mass.sum())
     if total <= 0.0:
         return math.nan, math.nan

@@ -19,7 +19,6 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import csgraph
 
-from frames.assembly.basis import bearing_rows
 from frames.assembly.solvers import Factors
 from frames.model.components import bearing_axial_stiffness
 from frames.results.formulas import VIOLENT
@@ -41,17 +40,15 @@ LIGHTEST = 1e-3
 being no masses that are next to nothing (a choice)."""
 
 
-def accelerating(state: GravityState) -> FloatArray:
+def accelerating(state: GravityState, stiffness: SparseMatrix, light: BoolArray) -> FloatArray:
     """Return how accelerations of b and eta accelerate the free degrees of freedom.
 
-    Shapes: result (n_free, n_b + n_e).
+    Shapes: stiffness (n_free, n_free) on bearings pressed as at rest, light (n_free,), result
+    (n_free, n_b + n_e).
     """
     basis = state.basis
     found = np.hstack([basis.expand_b, basis.mass_e * basis.expand_e])
-    stiffness = present_stiffness(state)
-    light = without_inertia(state, stiffness)
-    own = state.system.mass.diagonal() > 0.0
-    if not (light[basis.bearing_dofs].any() or (light & own).any()):
+    if not _carries_along(state, light):
         return found  # the rest does so in these coordinates
     inner = sparse.csr_array(stiffness[light][:, light])
     alone = inner.diagonal() <= 0.0
@@ -62,24 +59,23 @@ def accelerating(state: GravityState) -> FloatArray:
     return found
 
 
-def has_light_nodes(state: GravityState) -> bool:
-    """Return whether a displacement of the structure has so little mass that it counts as none."""
-    light = without_inertia(state, present_stiffness(state))
+def _carries_along(state: GravityState, light: BoolArray) -> bool:
+    # Whether something without mass, or next to none, is not what the basis has no mass of.
+    return bool(light[state.basis.bearing_dofs].any() or _has_light_nodes(state, light))
+
+
+def _has_light_nodes(state: GravityState, light: BoolArray) -> bool:
+    # Whether a displacement of the structure has so little mass that it counts as none.
     return bool((light & (state.system.mass.diagonal() > 0.0)).any())
 
 
-def present_stiffness(state: GravityState) -> SparseMatrix:
-    """Return the stiffness (n_free, n_free) of the structure on bearings pressed as at rest."""
-    return sparse.csr_array(state.system.stiffness + state.geometric + _springs(state))
-
-
-def without_inertia(state: GravityState, stiffness: SparseMatrix) -> BoolArray:
+def without_inertia(state: GravityState, held: FloatArray) -> BoolArray:
     """Return which free degrees of freedom have no mass, or so little that no step follows it.
 
-    Shapes: stiffness (n_free, n_free), result (n_free,).
+    Shapes: held (n_free,) the stiffness that holds each by itself, result (n_free,).
     """
     system = state.system
-    mass, held = system.mass.diagonal(), stiffness.diagonal()
+    mass = system.mass.diagonal()
     length = min(placed.bearing.effective_radius for placed in system.bearings)
     rate = 2.0 * math.pi / (FASTEST * math.sqrt(length / system.gravity))
     carried = float(system.node_mass[:, :3].mean(axis=1).sum()) / len(system.bearings)
@@ -88,14 +84,14 @@ def without_inertia(state: GravityState, stiffness: SparseMatrix) -> BoolArray:
     return np.asarray(~(mass > 0.0) | fast)
 
 
-def _springs(state: GravityState) -> SparseMatrix:
+def _springs(state: GravityState) -> FloatArray:
     # The bearings pressed as at rest: what restores along the pendulum, and the axial contact.
     system = state.system
     values = np.zeros((len(system.bearings), 6))
     for k, (_, _, _, bearing) in enumerate(system.bearings):
         values[k, :2] = state.axial_forces[k] / bearing.effective_radius
         values[k, 2] = bearing_axial_stiffness(bearing)
-    return spring_matrix(system, values)
+    return values
 
 
 RESULTANTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
@@ -134,15 +130,28 @@ class Resultants:
                 system.part_rows @ motions
             ).T
         self._rest = np.asarray(stiffness @ motions).T @ basis.offset - motions.T @ system.load
-        self.accelerating = accelerating(state)
+        present = sparse.csr_array(stiffness + spring_matrix(system, _springs(state)))
+        self._basis, self._held = basis, stiffness.diagonal()
+        ends = np.arange(12 * len(system.bearings)).reshape(-1, 2, 6)
+        moves = system.bearing_rows[ends[:, 1].ravel()] - system.bearing_rows[ends[:, 0].ravel()]
+        self._give = sparse.csr_array(moves.multiply(moves))  # of each spring between its ends
+        self._light = without_inertia(state, present.diagonal())
+        self.accelerating = accelerating(state, present, self._light)
         """How accelerations of b and eta accelerate the free displacements, (n_free, n)."""
-        self.has_light_nodes = has_light_nodes(state)
+        self.has_light_nodes = _has_light_nodes(state, self._light)
         """Whether nodes have so little mass that no step follows it."""
         self._over_a = np.asarray(system.mass @ motions).T @ self.accelerating
         self._over_ground = motions.T @ system.inertia_load
-        self._over_force = np.asarray(bearing_rows(system) @ motions).T
+        self._over_force = np.asarray(system.bearing_rows @ motions).T
         self.nodes = _Nodes(state)
         """Those with mass."""
+
+    def serves(self, state: GravityState) -> bool:
+        """Return whether these are the sums of the same structure on other bearings."""
+        if state.basis is not self._basis or _carries_along(state, self._light):
+            return False
+        held = self._held + _springs(state).ravel() @ self._give
+        return np.array_equal(without_inertia(state, held), self._light)
 
     def of(
         self, out: Output, states: Records, ground: FloatArray, first: int, last: int

@@ -9,7 +9,6 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from frames.assembly.assemble import assemble
-from frames.assembly.basis import bearing_rows
 from frames.assembly.constraints import OUT_OF_PLANE
 from frames.assembly.solvers import Factors
 from frames.model.components import DOFS, bearing_axial_stiffness, bearing_rocking_stiffness
@@ -50,22 +49,32 @@ def first_displacement(system: System, with_points: Collection[str] = ()) -> Flo
     return first + factors.solve(system.load - np.asarray(stiffness @ first))  # round-off
 
 
+def have_same_springs(one: System, other: System) -> bool:
+    """Return whether the bearings of two systems are the same as linear springs."""
+    pairs = zip(one.bearings, other.bearings, strict=True)
+    kinds = bearing_axial_stiffness, bearing_rocking_stiffness
+    return all(of(a.bearing) == of(b.bearing) for a, b in pairs for of in kinds)
+
+
 def spring_forces(system: System, displacement: FloatArray) -> FloatArray:
     """Return the axial forces of the bearings as linear springs, compression positive.
 
     Shapes: displacement (n_free,), result (n_bearings,).
     """
-    moves = np.asarray(bearing_rows(system) @ displacement).reshape(-1, 12)
+    moves = np.asarray(system.bearing_rows @ displacement).reshape(-1, 12)
     axial = np.array([bearing_axial_stiffness(placed.bearing) for placed in system.bearings])
     return np.asarray(axial * (moves[:, 2] - moves[:, 8]))
 
 
 def spring_matrix(system: System, values: FloatArray) -> SparseMatrix:
     """Return springs (n_bearings, 6) between the nodes of each bearing, over the free DOFs."""
-    rows = bearing_rows(system)
-    pair = np.array([[1.0, -1.0], [-1.0, 1.0]])
-    blocks = [sparse.csr_array(np.kron(pair, np.diag(row))) for row in values]
-    return sparse.csr_array(rows.T @ sparse.block_diag(blocks, format="csr") @ rows)
+    rows = system.bearing_rows
+    bearing, dof = np.nonzero(values)
+    i, size = 12 * bearing + dof, values[bearing, dof]
+    j, count = i + 6, 12 * len(values)
+    at = np.concatenate([i, i, j, j]), np.concatenate([i, j, i, j])
+    blocks = sparse.csr_array((np.concatenate([size, -size, -size, size]), at), (count, count))
+    return sparse.csr_array(rows.T @ blocks @ rows)
 
 
 def exact_features(frame: FrameData, motion: GroundMotion) -> Features:
@@ -109,6 +118,6 @@ def plane_coupling(frame: FrameData) -> float:
     system = assemble(frame)
     stiffness = sparse.csc_array(system.stiffness + guessed_springs(system))
     moves: FloatArray = spsolve(stiffness, system.inertia_load[:, 0])
-    u = np.asarray(bearing_rows(system) @ moves).reshape(-1, 12)
+    u = np.asarray(system.bearing_rows @ moves).reshape(-1, 12)
     relative = np.abs(u[:, 6:8] - u[:, :2]).max(axis=0)
     return float(relative[1] / relative[0]) if relative[0] > 0.0 else np.inf

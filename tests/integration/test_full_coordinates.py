@@ -9,7 +9,6 @@ import numpy as np
 from numpy.testing import assert_allclose
 
 from frames import Frame, GroundMotion, RayleighDamping, gravity, moment_frame
-from frames.assembly.basis import bearing_rows
 from frames.solve import run as run_module
 from lir_element import CoulombFriction, Element, VelocityFriction
 from tests.scenes import uneven_bearing
@@ -67,7 +66,7 @@ def integrate(frame: Frame, ground: np.ndarray) -> np.ndarray:
     stiffness = system.stiffness.toarray() + state.geometric.toarray()
     damping = relative_damping(frame, state)
     elements = [Element(bearing) for _, _, _, bearing in system.bearings]
-    maps = bearing_rows(system).toarray().reshape(len(elements), 12, n)
+    maps = system.bearing_rows.toarray().reshape(len(elements), 12, n)
     q, v, a = state.displacement.copy(), np.zeros(n), np.zeros(n)
     for element, rows in zip(elements, maps, strict=True):
         element.set_trial(rows @ q, np.zeros(12), 0.0)

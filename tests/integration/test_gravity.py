@@ -11,7 +11,6 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from frames import Frame, GroundMotion, ModelError, Section, gravity, lumped_mass, moment_frame
-from frames.assembly.basis import bearing_rows
 from frames.kernels.integration import integrate_chunk
 from frames.model.components import bearing_axial_stiffness
 from frames.statics import equilibrium
@@ -58,7 +57,7 @@ def beam(places: tuple[float, ...], section: Section = RIGID, **options) -> Fram
 
 
 def springs(state, lateral: float) -> sparse.csr_array:
-    rows = bearing_rows(state.system).toarray().reshape(-1, 2, 6, len(state.system.load))
+    rows = state.system.bearing_rows.toarray().reshape(-1, 2, 6, len(state.system.load))
     total = 0.0
     for below, above in rows:
         opening = (above - below)[:3]
@@ -287,7 +286,7 @@ def test_stiff_friction_under_sliders_as_bodies(elastic, load):
     onto = spsolve(
         sparse.csc_array(state.system.stiffness + guessed_springs(state.system)), state.system.load
     )
-    moves = (bearing_rows(state.system) @ onto).reshape(-1, 12)
+    moves = (state.system.bearing_rows @ onto).reshape(-1, 12)
     expected = -bearing_axial_stiffness(bearing) * (moves[:, 8] - moves[:, 2])
     assert_allclose(state.axial_forces, expected, rtol=0.05)
     assert np.array_equal(state.model.props["yield_displacement"][0], [elastic, elastic])

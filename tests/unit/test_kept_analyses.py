@@ -41,8 +41,8 @@ def nothing_kept(monkeypatch) -> list[int]:
         found.append(1)
         return original(*given)
 
-    original = analysis.gravity
-    monkeypatch.setattr(analysis, "gravity", counted)
+    original = analysis.equilibrium_of
+    monkeypatch.setattr(analysis, "equilibrium_of", counted)
     return found
 
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.assembly.supports import above_bearings
 from frames.design._errors import CheckError
 from frames.statics.gravity import gravity
 from lir_element.argument_checks import require_vector
