@@ -87,7 +87,7 @@ def layout_of(judged: xr.Dataset) -> Layout:
 def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
     """Return what a run reached as a row of numbers."""
     found = with_exceeded(judged).variables
-    return np.concatenate([np.ravel(found[name].to_numpy()) for name in layout.names])
+    return np.concatenate([np.ravel(found[name].values) for name in layout.names])
 
 
 def stack(

@@ -26,6 +26,7 @@ from frames.results.findings import Finding, Findings, by_whom, finding, percent
 from frames.results.formulas import left_out
 from frames.results.level_doubts import levels_of_bearings
 from frames.results.peak_response import largest, summed
+from frames.results.recorded import names_of
 from lir_element.argument_checks import require_type
 from lir_element.device.features import Features
 from lir_element.texts import joined, worded
@@ -156,7 +157,7 @@ def asking_for_contact(findings: tuple[Finding, ...]) -> tuple[Finding, ...]:
 
 
 def _rims(data: xr.Dataset, out: bool) -> Finding:
-    limit = data.variables["rim_displacement"].to_numpy()
+    limit = data.variables["rim_displacement"].values
     share = float((largest(data, "sliding").values / limit).max())
     met = largest(data, "rims_met")
     mattered = share >= (_reached(data, "rims") if out else 1.0)
@@ -171,7 +172,7 @@ def _rims(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _bent_rims(data: xr.Dataset, bent: FloatArray) -> str:
-    names = data["bearing"].to_numpy()
+    names = names_of(data, "bearing")
     broken = names[np.isinf(bent)]
     if broken.size:
         who = ", ".join(str(name) for name in broken[:_NAMED])
@@ -185,7 +186,7 @@ def _bent_rims(data: xr.Dataset, bent: FloatArray) -> str:
     k = int(np.argmax(bent))
     if not bent[k] > 0.0:
         return ""
-    share = bent[k] / float(data["rim_overrun"][k])
+    share = bent[k] / float(data.variables["rim_overrun"].values[k])
     return worded(
         "{count} of them yielded, by up to {bent:.3g} mm ({bearing}, {share} of the deformation at "
         "which it breaks)",
@@ -197,7 +198,7 @@ def _bent_rims(data: xr.Dataset, bent: FloatArray) -> str:
 
 
 def _interface(data: xr.Dataset, out: bool) -> Finding:
-    if np.isinf(data.variables["interface_friction"].to_numpy()).all():
+    if np.isinf(data.variables["interface_friction"].values).all():
         return finding("interface", out, False, 0.0, "the slider is rigid")
     share = float(largest(data, "interface_share").values.max())
     loose = "" if out else _loose_slip(data)
@@ -220,18 +221,18 @@ def _loose_slip(data: xr.Dataset) -> str:
     if not bodies.any():
         return ""
     slips, moved = largest(data, "slip").values, largest(data, "displacement").values
-    tilts = data.variables["rim_displacement"].to_numpy() / data.variables["radius"].to_numpy()
-    room = data.variables["length"].to_numpy() * tilts.min(axis=1)  # until a rim is met
+    tilts = data.variables["rim_displacement"].values / data.variables["radius"].values
+    room = data.variables["length"].values * tilts.min(axis=1)  # until a rim is met
     free = bodies * np.minimum(summed(data, "slip_loose"), slips - np.maximum(moved - room, 0.0))
     k = int(np.argmax(free))
-    by, least = float(free[k]), BARE * float(data["slider_radius"][k])
+    by, least = float(free[k]), BARE * float(data.variables["slider_radius"].values[k])
     if not by > max(LOOSE_SLIP * float(slips.max()), least):
         return ""
     return worded(
         "{bearing} slipped {slip:.3g} of its {total:.3g} mm under less than {share} of its load at "
         "rest: its sliders fly and bounce, which no step settles; count on {factor} of those "
         "{slip:.3g} mm",
-        bearing=data["bearing"].to_numpy()[k],
+        bearing=names_of(data, "bearing")[k],
         slip=1e3 * by,
         total=1e3 * slips[k],
         share=percent(LOOSE),
@@ -267,7 +268,7 @@ def _plate_rotation(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _velocity_dependence(data: xr.Dataset, out: bool) -> Finding:
-    if not data.variables["friction_drop"].to_numpy().any():
+    if not data.variables["friction_drop"].values.any():
         text = "no friction depends on speed"
         return finding("velocity_dependence", out, False, 0.0, text)
     work = float(summed(data, "sliding_work"))
@@ -307,7 +308,7 @@ def _vertical_coupling(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _pressure_dependence(data: xr.Dataset, out: bool) -> Finding:
-    if "pressure_rate" not in data or not data.variables["pressure_rate"].to_numpy().any():
+    if "pressure_rate" not in data or not data.variables["pressure_rate"].values.any():
         text = "no friction depends on pressure"
         return finding("pressure_dependence", out, False, 0.0, text)
     share = _ratio(float(summed(data, "sliding_work_pressed")), float(summed(data, "sliding_work")))
@@ -316,7 +317,7 @@ def _pressure_dependence(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _friction_heating(data: xr.Dataset, out: bool) -> Finding:
-    if "softening_rate" not in data or not data.variables["softening_rate"].to_numpy().any():
+    if "softening_rate" not in data or not data.variables["softening_rate"].values.any():
         text = "no friction depends on temperature"
         return finding("friction_heating", out, False, 0.0, text)
     share = _ratio(float(summed(data, "sliding_work_heated")), float(summed(data, "sliding_work")))

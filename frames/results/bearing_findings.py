@@ -10,6 +10,7 @@ from frames.results.findings import Finding, finding, percent, remark
 from frames.results.formulas import VIOLENT
 from frames.results.level_doubts import level_doubts, levels_of_bearings
 from frames.results.peak_response import final_value, largest
+from frames.results.recorded import names_of
 from lir_element.device.specification import STACK_RANGE, stack_stiffness
 from lir_element.texts import joined, worded
 from lir_element.units import STANDARD_GRAVITY
@@ -53,7 +54,7 @@ LEFT_OVER = 0.1
 def full_contact(data: xr.Dataset) -> Finding:
     """Judge what the level 'pendulum' takes for granted: full contact, sliders that do not spin."""
     offsets = largest(data, "eccentricity").values
-    names = data.variables["bearing"].to_numpy()
+    names = names_of(data, "bearing")
     share = float(offsets.max())
     if share <= KERN:
         verdict = "holds"
@@ -93,18 +94,18 @@ def full_contact(data: xr.Dataset) -> Finding:
 def slip_stability(data: xr.Dataset) -> Finding:
     """Judge whether the slip that is left holds."""
     # docs/theory.md (2.7), with the friction of high speed; a rigid slider holds without end
-    friction = data.variables["interface_friction"].to_numpy()
+    friction = data.variables["interface_friction"].values
     rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
-    held = data.variables["length"].to_numpy() * friction
-    held -= (rubbed[0].to_numpy() * rubbed[1].to_numpy()).sum(axis=1)
+    held = data.variables["length"].values * friction
+    held -= (rubbed[0].values * rubbed[1].values).sum(axis=1)
     slip = largest(data, "slip").values
     shares = slip / np.maximum(held, 1e-12)
     overlaps = (
-        slip / data.variables["slip_capacity"].to_numpy() if "slip_capacity" in data else 0 * shares
+        slip / data.variables["slip_capacity"].values if "slip_capacity" in data else 0 * shares
     )
     worst, last = int(np.argmax(shares)), int(np.argmax(overlaps))
     share = float(shares[worst])
-    names, parts = data.variables["bearing"].to_numpy(), []
+    names, parts = names_of(data, "bearing"), []
     if share > HOLDS:
         limit = 1e3 * max(float(held[worst]), 0.0)
         parts.append(
@@ -117,7 +118,7 @@ def slip_stability(data: xr.Dataset) -> Finding:
             )
         )
     if overlaps[last] > OVERLAPS:
-        limit = 1e3 * float(data["slip_capacity"][last])
+        limit = 1e3 * float(data.variables["slip_capacity"].values[last])
         parts.append(
             worded(
                 "{bearing} slipped {slip:.4g} mm of the {total:.4g} mm at which the sliders' "
@@ -145,21 +146,21 @@ def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     if "axial_stiffness" not in data.variables:
         return ()
     closing = largest(data, "closing")
-    static = data.variables["static_axial_force"].to_numpy()
-    stiffness = data.variables["axial_stiffness"].to_numpy()
+    static = data.variables["static_axial_force"].values
+    stiffness = data.variables["axial_stiffness"].values
     rises = closing.values * np.sqrt(stiffness / (static * STANDARD_GRAVITY))
     k = int(np.argmax(rises))
     if not rises[k] > IMPACT:
         return ()
-    height = data.variables["radius"].to_numpy().sum(axis=1) - data.variables["length"].to_numpy()
-    area = np.pi * data.variables["slider_radius"].to_numpy() ** 2
+    height = data.variables["radius"].values.sum(axis=1) - data.variables["length"].values
+    area = np.pi * data.variables["slider_radius"].values ** 2
     assumed = bool(np.isclose(stiffness[k], stack_stiffness(area[k], height[k]), rtol=1e-6))
     low, high = STACK_RANGE
     text = worded(
         "{bearing} met a rim with a slip at {time:.2f} s: the axial stiffness stops {speed:.3g} "
         "mm/s along the slider, by which the axial force rises by up to {share} of that at rest, "
         "and the bearing's force with it",
-        bearing=data["bearing"].to_numpy()[k],
+        bearing=names_of(data, "bearing")[k],
         time=closing.at[k],
         speed=1e3 * closing.values[k],
         share=percent(float(rises[k])),
@@ -183,15 +184,15 @@ def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
     if "yield_displacement" not in data.variables:
         return ()
     rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
-    held = (rubbed[0].to_numpy() * rubbed[1].to_numpy()).sum(axis=1)
-    yields = data.variables["yield_displacement"].to_numpy().max(axis=-1)
+    held = (rubbed[0].values * rubbed[1].values).sum(axis=1)
+    yields = data.variables["yield_displacement"].values.max(axis=-1)
     moved = largest(data, "displacement").values
     slid = (held > 0.0) & (moved > SLID * yields)
     shares = np.where(slid, moved / np.maximum(held, 1e-12), np.inf)
     ended = "exceeded" not in data.attrs and data.attrs.get("status", "ok") in COMPLETE
     rest = np.where(slid, final_value(data, "displacement"), 0.0) * ended
     least, most = int(np.argmin(shares)), int(np.argmax(rest / np.maximum(held, 1e-12)))
-    names, parts = data.variables["bearing"].to_numpy(), []
+    names, parts = names_of(data, "bearing"), []
     if shares[least] < STUCK:
         parts.append(
             worded(
@@ -243,7 +244,7 @@ def equilibrium(data: xr.Dataset) -> tuple[Finding, ...]:
     text, most, doubtful = "equilibrium: supports share in it, not summed up", 0.0, False
     if gaps.values.size:
         k = int(np.argmax(gaps.values))
-        most, name = float(gaps.values[k]), str(data["resultant"].to_numpy()[k])
+        most, name = float(gaps.values[k]), str(names_of(data, "resultant")[k])
         doubtful = most > BALANCED
         over = "the weight" if name.startswith("F") else "weight times half the extent"
         text = worded(
@@ -284,7 +285,7 @@ def _violence(data: xr.Dataset) -> tuple[Finding, ...]:
     text = worded(
         "accelerations: node {node} reached {most:.3g} g at t = {time:.4g} s (more than "
         "{limit:.0f} g is beyond what structures do): {cause}",
-        node=data["node"].to_numpy()[k],
+        node=names_of(data, "node")[k],
         most=most,
         time=float(found.at[k]),
         limit=VIOLENT / STANDARD_GRAVITY,
@@ -326,7 +327,7 @@ def yielding(data: xr.Dataset) -> tuple[Finding, ...]:
             "plastic rotation of hinge {hinge}: {turned:.3g} mrad at t = {time:.4g} s: members "
             "lose strength from about {limit:.0f} mrad on, which is not modelled; take it as the "
             "beginning of a failure",
-            hinge=data["hinge"].to_numpy()[k],
+            hinge=names_of(data, "hinge")[k],
             turned=1e3 * most,
             time=float(turned.at[k]),
             limit=1e3 * TURNED,

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames.results.peak_response import largest
+from frames.results.recorded import names_of
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -107,7 +108,7 @@ class LevelDoubts(NamedTuple):
 
 def levels_of_bearings(data: xr.Dataset) -> tuple[str, ...]:
     """Return the level of each bearing of a result, from its attribute `level`."""
-    text, names = str(data.attrs["level"]), [str(n) for n in data.variables["bearing"].to_numpy()]
+    text, names = str(data.attrs["level"]), [str(n) for n in names_of(data, "bearing")]
     if not text.startswith("{"):
         return (text,) * len(names)
     given = ast.literal_eval(text)
@@ -116,7 +117,7 @@ def levels_of_bearings(data: xr.Dataset) -> tuple[str, ...]:
 
 def level_doubts(data: xr.Dataset) -> LevelDoubts:
     """Return what bearings at the level 'pendulum' may have wrong in a run."""
-    names = tuple(str(name) for name in data.variables["bearing"].to_numpy())
+    names = tuple(str(name) for name in names_of(data, "bearing"))
     met, lifted, share = (
         largest(data, name).values for name in ("rims_met", "lifted", "eccentricity")
     )
@@ -177,7 +178,7 @@ def _are_unequal(data: xr.Dataset) -> BoolArray:
 
 
 def _of_bearings(data: xr.Dataset, name: str) -> FloatArray:
-    return np.asarray(data.variables[name].transpose("bearing", ...).to_numpy())
+    return np.asarray(data.variables[name].transpose("bearing", ...).values)
 
 
 def rims_are_unequal(reach: FloatArray, radius: FloatArray) -> BoolArray:

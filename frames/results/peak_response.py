@@ -15,7 +15,7 @@ import numpy as np
 
 from frames.results.measures import lines_of
 from frames.results.quantities import QUANTITIES
-from frames.results.recorded import PEAK, largest_kept
+from frames.results.recorded import PEAK, largest_kept, names_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,7 +45,7 @@ def _with_exceeded(data: xr.Dataset, name: str, found: Extreme) -> Extreme:
     if attrs.get("exceeded") != name:
         return found
     at = float(attrs["exceeded_at"])
-    where = data.variables["bearing"].to_numpy() == attrs["exceeded_bearing"]
+    where = names_of(data, "bearing") == attrs["exceeded_bearing"]
     ends = computed_until(data) + 1.5 * float(attrs.get("dt", math.inf)) >= at
     beyond = np.where(where & ends, float(attrs["exceeded_value"]), -math.inf)
     return larger_of(found, Extreme(beyond, np.full(len(beyond), at)))
@@ -113,8 +113,8 @@ def places_of(data: xr.Dataset, name: str) -> NDArray[np.str_]:
     if dim == "line" and "run" not in data.dims:
         return np.array(storeys_of_lines(data)[0], dtype=str)
     if dim == "storey" and dim not in data.coords:
-        return data["level"].to_numpy()[1:].astype(str)
-    return data.variables[dim].to_numpy().astype(str) if dim in data.variables else np.array([])
+        return names_of(data, "level")[1:]
+    return names_of(data, dim) if dim in data.variables else np.array([])
 
 
 def computed_until(data: xr.Dataset) -> float:
@@ -127,10 +127,9 @@ def computed_until(data: xr.Dataset) -> float:
 def storeys_of_lines(data: xr.Dataset) -> tuple[list[str], list[str]]:
     """Return the names of the lines of nodes over one another, and of the storey of each."""
     if f"{PEAK}line_storey" in data.variables:
-        both = (data.variables[key].to_numpy() for key in ("line", f"{PEAK}line_storey"))
-        names, storeys = ([str(name) for name in each] for each in both)
-        return names, storeys
+        storeys = data.variables[f"{PEAK}line_storey"].values
+        return names_of(data, "line").tolist(), [str(name) for name in storeys]
     if f"{PEAK}drift" in data.variables:  # of an earlier version, which kept none
         return [], []
-    lines, nodes, levels = lines_of(data), data["node"].to_numpy(), data["level"].to_numpy()
+    lines, nodes, levels = lines_of(data), names_of(data, "node"), names_of(data, "level")
     return [str(nodes[k]) for k in lines.upper], [str(levels[k]) for k in lines.storey]

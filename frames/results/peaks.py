@@ -23,6 +23,7 @@ from frames.results.peak_response import (
     summed,
 )
 from frames.results.quantities import QUANTITIES
+from frames.results.recorded import names_of
 from lir_element.argument_checks import require_type
 
 if TYPE_CHECKING:
@@ -160,7 +161,7 @@ def _rows(data: xr.Dataset, name: str) -> Iterator[Peak]:
         values = summed(data, name)
         worst = int(np.argmax(values))
         there = values.ndim and values[worst] > 0.0
-        where = str(data.variables["bearing"].to_numpy()[worst]) if there else ""
+        where = str(names_of(data, "bearing")[worst]) if there else ""
         yield Peak(title, float(values.max()), unit, where=where)
     elif name in _OF_SEVERAL:
         yield from _OF_SEVERAL[name](data, title)
@@ -197,7 +198,7 @@ def _of_heat(data: xr.Dataset, title: str) -> Iterator[Peak]:
         return
     found = largest(data, "temperature")
     heated = np.isfinite(found.values[:, 0])
-    names = data.variables["bearing"].to_numpy()[heated]
+    names = names_of(data, "bearing")[heated]
     for text, contacts in (("plates", (0, 1)), ("interfaces", (2,))):
         if heated.any():
             places = np.repeat(names, len(contacts))
@@ -236,12 +237,12 @@ _OF_SEVERAL: dict[str, Callable[[xr.Dataset, str], Iterator[Peak]]] = {
 
 def _walls(data: xr.Dataset) -> BoolArray:
     # Stops have no deformation at yield, as dampers, but they never pull.
-    unlimited = np.isnan(data.variables["link_yield_deformation"].to_numpy())
+    unlimited = np.isnan(data.variables["link_yield_deformation"].values)
     return np.asarray(unlimited & (largest(data, "link_reversal").values <= 0.0))
 
 
 def _on_levels(data: xr.Dataset) -> BoolArray:
-    return np.asarray(data.variables["level_node"].to_numpy() >= 0)
+    return np.asarray(data.variables["level_node"].values >= 0)
 
 
 _SHOWN: dict[str, Callable[[xr.Dataset], BoolArray]] = {

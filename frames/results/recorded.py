@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Hashable
 
     import xarray as xr
+    from numpy.typing import NDArray
 
     from frames._types import FloatArray
 
@@ -42,6 +43,11 @@ def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] |
     if PEAK + name not in data.variables:
         return None
     return data.variables[PEAK + name].values, data.variables[f"{PEAK}{name}_at"].values
+
+
+def names_of(data: xr.Dataset, dim: str) -> NDArray[np.str_]:
+    """Return the names along a dimension."""
+    return data.variables[dim].to_index().to_numpy()
 
 
 def noted(data: xr.Dataset) -> dict[str, str]:

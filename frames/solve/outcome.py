@@ -54,7 +54,9 @@ def energy_status(data: xr.Dataset) -> tuple[RunStatus, str, tuple[Finding, ...]
         float(largest(data, name).values)
         for name in ("energy_gap", "energy_numerical", "energy_input")
     )
-    least = LEAST_INPUT * float(data.variables["weight"]) * float(data.variables["length"].min())
+    least = (
+        LEAST_INPUT * float(data.variables["weight"]) * float(data.variables["length"].values.min())
+    )
     scale = max(given, abs(least))
     gap, numerical = gap / scale, numerical / scale
     data.attrs |= {"energy_error": gap, "numerical_share": numerical}
