@@ -6,11 +6,13 @@ import threading
 import tracemalloc
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
+from numpy.testing import assert_array_equal
 
 from frames import (
     Analysis,
@@ -20,11 +22,13 @@ from frames import (
     ModelWarning,
     lumped_mass,
     moment_frame,
+    time_histories,
     time_history,
 )
 from frames.demo import bearing_for
 from frames.solve import analysis
-from lir_element import Features
+from frames.statics import gravity as gravity_module
+from lir_element import CoulombFriction, Features, FrictionHeating
 from tests.refusals import refused
 
 MOTION = GroundMotion(x=2.0 * np.sin(np.linspace(0.0, 6.0, 41)), y=np.ones(41), dt=0.01)
@@ -237,3 +241,42 @@ def test_memory_stays_within_its_bound(monkeypatch) -> None:
         tracemalloc.stop()
     assert 2 <= len(analysis._KEPT) < len(frames)
     assert held < 1.5 * most  # what the last run formed is weighed when another one is kept
+
+
+STRONGER = replace(bearing_for(400e3), friction=CoulombFriction(0.09))
+OTHERS: dict[str, Callable[[Frame], Frame]] = {
+    "friction": lambda f: f.with_bearings(STRONGER),
+    "stiffness": lambda f: f.with_bearings(replace(STRONGER, axial_stiffness=3e9)),
+    "one bearing": lambda f: f.with_bearings({next(iter(f.bearings)): STRONGER}),
+    "rims that yield": lambda f: f.with_bearings(replace(STRONGER, rim_yield_force=1e5)),
+    "heat": lambda f: f.with_bearings(replace(STRONGER, friction_heating=FrictionHeating())),
+    "size": lambda f: f.with_bearings(bearing_for(500e3)),
+    "floors": lambda _: moment_frame((1, 1), 1, bearing=STRONGER, floor_mass=15e3),
+    "places": lambda _: moment_frame((1, 1), 1, bearing=STRONGER, bay_width=5.0),
+    "storeys": lambda _: moment_frame((1, 1), 2, bearing=STRONGER),
+}
+
+
+def test_what_sets_of_parameters_share_changes_no_bit(monkeypatch) -> None:
+    assembled: list[Frame] = []
+
+    def counted(frame: Frame, *given: Any) -> Any:
+        assembled.append(frame)
+        return original(frame, *given)
+
+    original = gravity_module.assemble
+    first = building()
+    frames = {"first": first, **{name: other(first) for name, other in OTHERS.items()}}
+    alone = {n: time_histories({n: f}, MOTION, workers=1) for n, f in frames.items()}
+    single = {name: run(frame) for name, frame in frames.items()}
+    monkeypatch.setattr(gravity_module, "assemble", counted)
+    together = time_histories(frames, MOTION, workers=1)
+    assert len(assembled) == 4  # the first, and other structures
+    for k, (name, runs) in enumerate(alone.items()):
+        own = runs.isel(run=0).drop_sel(quantity="seconds of the time loop")
+        shared = together.isel(run=k)
+        for key in {*own.data_vars} - {"seconds_loop"}:
+            labels = {dim: own[dim] for dim in own[key].dims}
+            assert_array_equal(own[key], shared[key].sel(labels), f"{name}: {key}")
+        analysis._KEPT.clear()
+        assert same(single[name], run(frames[name])), name

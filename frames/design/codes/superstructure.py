@@ -150,6 +150,6 @@ def floor_weights(frame: Frame) -> FloatArray:
     levels = np.array([level.z for level in frame.levels])
     system = gravity(frame).system
     away = np.abs(system.coordinates[:, 2, None] - levels)
-    own = np.where(above_bearings(system), system.node_mass[:, 0], 0.0)
+    own = np.where(system.above_bearings, system.node_mass[:, 0], 0.0)
     weights = frame.gravity * np.bincount(away.argmin(axis=1), own, len(levels))
     return np.asarray(weights[1:])
