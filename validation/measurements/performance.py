@@ -15,16 +15,29 @@ import subprocess  # runs this interpreter on the lines below  # noqa: S404
 import sys
 import tempfile
 import time
+from dataclasses import replace
 from itertools import product
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
+from scipy.stats import uniform
 
-from frames import GroundMotion, gravity, lumped_mass, moment_frame, shear_building, time_history
+from frames import (
+    Frame,
+    GroundMotion,
+    Section,
+    gravity,
+    lumped_mass,
+    moment_frame,
+    shear_building,
+    time_history,
+)
 from frames._jit import kernel
 from frames.laws import Bilinear, PlasticHinge
-from lir_element import LIRBearing
+from frames.risk import Campaign, latin_hypercube
+from lir_element import CoulombFriction, LIRBearing
 from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
 from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.element import Level, heat_parts, initial_state
@@ -39,6 +52,9 @@ STATES = ("linear", "elastic", "yielding")
 TARGET = FOLDER.parent / "performance.md"
 
 MANY_STOREYS, MANY_STEP, MANY_SECONDS = 10, 0.01, 4.0  # -, s, s
+
+BELOW = example_bearing(slider_radius=0.12)
+STUDY_REPEATS = 3
 
 START = "import numpy as np; from lir_element import *; "
 ELEMENT = START + (
@@ -77,6 +93,47 @@ def repeat_element(
         bearing_commit(props, old, new, old_words, new_words, heat, contacts, 0)
         total += old[0].iterations
     return total
+
+
+class Study(NamedTuple):
+    """A study that is measured: a model, or a function of parameters, and what changes."""
+
+    name: str
+    model: Any
+    more: dict[str, Any]
+    sets: int
+    scales: tuple[float, ...] = (1.0,)
+
+
+def stiffer(parameters: dict[str, float]) -> Frame:
+    """Return the demo building on bearings of other friction, with other columns."""
+    below = replace(BELOW, friction=CoulombFriction(parameters["friction"]))
+    column = Section.rectangle(0.4, 0.4, elastic_modulus=parameters["modulus"])
+    return moment_frame(bays=(2, 2), storeys=3, bearing=below, column=column)
+
+
+STUDIES = (
+    Study(
+        "one bearing: friction, radius",
+        lumped_mass(example_bearing(), 204e3),
+        {"radius": uniform(0.75, 0.1)},
+        100,
+    ),
+    Study(
+        "one bearing: friction, 20 scales each",
+        lumped_mass(example_bearing(), 204e3),
+        {},
+        5,
+        tuple(np.linspace(0.2, 1.0, 20)),
+    ),
+    Study(
+        "3 storeys, 9 bearings: friction",
+        moment_frame(bays=(2, 2), storeys=3, bearing=BELOW),
+        {},
+        5,
+    ),
+    Study("the same: friction, columns", stiffer, {"modulus": uniform(2.6e10, 8e9)}, 5),
+)
 
 
 def element_path(bearing: LIRBearing, count: int, reach: float) -> Floats:
@@ -289,6 +346,41 @@ def many_rows() -> list[str]:
             f"| {1e6 * spent / found['steps']:.0f} | {1e3 * spent / MANY_SECONDS:.0f} "
             f"| {found['newton_iterations'] / found['steps']:.1f} | {found['tangents']}, "
             f"{found['shared_tangents']} | {found['seconds_gravity']:.1f} |"
+        )
+    return rows
+
+
+def study_seconds(study: Study, duration: float) -> float:
+    """Return seconds of CPU a run of a campaign with one worker, without what it begins with."""
+    found = []
+    for count in (study.sets, 3 * study.sets):
+        sample = latin_hypercube({"friction": uniform(0.04, 0.04), **study.more}, count, seed=1)
+        with tempfile.TemporaryDirectory() as folder:
+            whole = Campaign(
+                study.model,
+                near_fault(0.4),
+                store=Path(folder) / "runs",
+                sample=sample,
+                scales=study.scales,
+                duration=duration,
+            )
+            began = time.process_time()
+            whole.run(workers=1)
+            found.append(time.process_time() - began)
+    return (found[1] - found[0]) / (2 * study.sets * len(study.scales))
+
+
+def study_rows() -> list[str]:
+    """Measure what a run of a study costs: all of it, and with two steps in place of the motion."""
+    rows = []
+    for study in STUDIES:
+        whole, rest = (
+            statistics.median(1e3 * study_seconds(study, duration) for _ in range(STUDY_REPEATS))
+            for duration in (10.0, 0.01)
+        )
+        rows.append(
+            f"| {study.name} | {whole:.1f} | {rest:.1f} | {rest / (whole - rest):.2f} | "
+            f"{whole * 10_000 / 60_000:.1f} |"
         )
     return rows
 
