@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import fields, is_dataclass
 from typing import TYPE_CHECKING, Any
@@ -26,45 +26,52 @@ def fingerprint(value: object) -> str:
     True
     """
     found = hashlib.sha256()
-    for piece in _pieces(value):
-        found.update(piece)
+    _tell(value, found.update)
     return found.hexdigest()[:16]
 
 
-def _pieces(value: Any) -> Iterator[bytes]:
-    yield f"<{type(value).__name__}>".encode()
-    if isinstance(value, np.ndarray):
-        yield f"{value.dtype.str}{value.shape}".encode()
-        yield np.ascontiguousarray(value).tobytes()
+def _tell(value: Any, told: Callable[[bytes], object]) -> None:
+    # Hands over the content of a value piece by piece.
+    told(f"<{type(value).__name__}>".encode())
+    if value is None or isinstance(value, (str, bytes, bool, int, float, np.generic)):
+        told(repr(value).encode())
+    elif isinstance(value, (tuple, list)):
+        for each in value:
+            _tell(each, told)
+    elif isinstance(value, np.ndarray):
+        told(f"{value.dtype.str}{value.shape}".encode())
+        told(np.ascontiguousarray(value).tobytes())
     elif issparse(value):
         given: Any = value
         whole = given.tocsr(copy=True)
         whole.sum_duplicates()
-        yield from _pieces((whole.shape, whole.data, whole.indices, whole.indptr))
+        _tell((whole.shape, whole.data, whole.indices, whole.indptr), told)
     elif isinstance(value, Mapping):
         for key, each in value.items():
-            yield from _pieces(key)
-            yield from _pieces(each)
+            _tell(key, told)
+            _tell(each, told)
     elif isinstance(value, AbstractSet):
-        yield from sorted(b"".join(_pieces(each)) for each in value)
-    elif isinstance(value, (tuple, list)):
-        for each in value:
-            yield from _pieces(each)
-    elif value is None or isinstance(value, (str, bytes, bool, int, float, np.generic)):
-        yield repr(value).encode()
+        for piece in sorted(map(_whole, value)):
+            told(piece)
     elif is_dataclass(value):
-        yield from _pieces({field.name: getattr(value, field.name) for field in fields(value)})
-        yield from _table(value)
+        _tell({field.name: getattr(value, field.name) for field in fields(value)}, told)
+        _tell_table(value, told)
     else:
-        yield from _pieces(vars(value))
-    yield b"</>"
+        _tell(vars(value), told)
+    told(b"</>")
 
 
-def _table(value: object) -> Iterator[bytes]:
+def _whole(value: object) -> bytes:
+    pieces: list[bytes] = []
+    _tell(value, pieces.append)
+    return b"".join(pieces)
+
+
+def _tell_table(value: object, told: Callable[[bytes], object]) -> None:
     # Of a friction law from a table: what its class says its fields do not tell.
     values = value.kernel_values() if isinstance(value, FrictionLaw) else None
     if values and values.table:
-        yield from _pieces(values)
+        _tell(values, told)
 
 
 def motion_digest(motion: GroundMotion) -> str:
