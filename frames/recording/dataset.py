@@ -82,8 +82,10 @@ def common_of(frame: FrameData, state: GravityState, like: Common | None = None)
         **names,
         **bearing_coordinates([placed.name for placed in system.bearings]),
     }
-    is_alike = like is not None and like.labels == labels
-    coordinates = like.coordinates if is_alike else xr.Dataset(coords=labels).coords
+    if like is not None and like.labels == labels:
+        coordinates = like.coordinates
+    else:
+        coordinates = xr.Dataset(coords=labels).coords
     variables = _device_variables(system) | _permanent(frame, state)
     heights = [level.z for level in levels]
     return Common(frame, variables, labels, coordinates, heights, resultants)

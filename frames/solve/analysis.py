@@ -84,9 +84,9 @@ class PreparedFrame:
         """Of the model, by which it is found again."""
         self._judged: xr.Dataset | None = None
         if state is None:
-            alike = like is not None and like.has_structure_of(self)
-            state = equilibrium_of(model, features, level, like.state if alike else None)
-        self.state = state
+            before = like.state if like is not None and like.has_structure_of(self) else None
+            state = equilibrium_of(model, features, level, before)
+        self.state: GravityState = state
         if like is not None:
             self._take(like)
 
