@@ -13,6 +13,7 @@ from frames.kernels.coupling import coupled_load, eliminate_modes
 from frames.kernels.effective import effective, rates_after
 from frames.kernels.energy_balance import add_bearing_energy, add_energy, add_part_energy
 from frames.kernels.failures import ends_run, lose_bearing
+from frames.kernels.missed_impulse import add_missed_impulse, push_parts
 from frames.kernels.nonlinear_works import commit_parts
 from frames.kernels.part_states import set_part_follow
 from frames.kernels.shared_tangent import carry_products
@@ -288,12 +289,17 @@ def accept_step(
             run.flows,
             run.held,
         )
+    pushed = False
+    if parts is not None:
+        pushed = add_missed_impulse(model, run, settings)
     add_energy(model, run, parts, ground)
     keep_motion(model, run, settings, ground)
     commit_bearings(model, run, contacts)
     add_bearing_energy(run)
     if parts is not None:
         commit_parts(parts, settings.beta, settings.gamma, clock.dt)
+        if pushed:
+            push_parts(run, parts)
         add_part_energy(run, parts)
     clock.equal = clock.equal + 1 if clock.dt == clock.dt_before else 0
     for a in range(run.b.shape[0]):

@@ -1,0 +1,157 @@
+"""Kernels of the impulse that the trapezoidal rule misses in a step, of structures that yield.
+
+Springs follow the path of a step, which is curved; friction does so until it slips, within a step.
+The forces at the ends of the step do not tell its mean. What they miss is added to the velocities:
+by accelerations, which follow from displacements, so that nothing rings up (docs/theory_structure.md,
+5). All is filtered by the step's effective stiffness: what no step resolves stays as it is.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from frames._jit import inlined_by_llvm, kernel
+from frames.assembly.system import HINGES
+from frames.kernels.effective import effective
+from lir_element.kernels.linear import add_product, dot, gather, scatter, set_product, substitute
+
+if TYPE_CHECKING:
+    from frames.bundles.model_data import ReducedModel
+    from frames.bundles.nonlinear_data import NonlinearElements
+    from frames.bundles.run_data import IntegrationState, IntegratorSettings
+
+_LEAST = 1e-30  # of what is divided by
+_SLIPS = 1.0 - 1e-9  # of the friction that there may be
+
+
+@kernel
+def missed_mean(
+    y_1: float,
+    y_2: float,
+    z_1: float,
+    z_2: float,
+    d_1: float,
+    d_2: float,
+    c_1: float,
+    c_2: float,
+) -> tuple[float, float]:
+    """Return how far the mean of z over a step is beyond that of its ends, y and z.
+
+    `d` is the sliding over the yield displacement, `c` half of what its speed gains: of a spring
+    the path misses c / 6 twice, in its mean and in where it leads to.
+    """
+    b_1, b_2 = y_1 + d_1, y_2 + d_2
+    square = d_1 * d_1 + d_2 * d_2
+    if b_1 * b_1 + b_2 * b_2 <= 1.0:
+        return -c_1 / 3.0, -c_2 / 3.0
+    along = y_1 * d_1 + y_2 * d_2
+    room = max(1.0 - (y_1 * y_1 + y_2 * y_2), 0.0)
+    root = math.sqrt(along * along + square * room)
+    s = (root - along) / square if along < 0.0 else room / max(root + along, _LEAST)
+    bend = min(max((c_1 * d_1 + c_2 * d_2) / square, -1.0), 1.0)
+    root = math.sqrt(max((1.0 - bend) * (1.0 - bend) + 4.0 * bend * s, 0.0))
+    t = min(2.0 * s / max(1.0 - bend + root, _LEAST), 1.0)  # when it slips
+    held = t * t * (0.5 * (1.0 - bend) + bend * t / 3.0)
+    rest = 0.5 * (1.0 - t)
+    return (
+        y_1 * t + d_1 * held + rest * (y_1 + s * d_1 + z_1) - 0.5 * (y_1 + z_1),
+        y_2 * t + d_2 * held + rest * (y_2 + s * d_2 + z_2) - 0.5 * (y_2 + z_2),
+    )
+
+
+@inlined_by_llvm
+def friction_misses(model: ReducedModel, run: IntegrationState, k: int) -> bool:
+    """Set ``run.u``, forces on the nodes of bearing `k`; returns whether there are any."""
+    p, old, new = model.props[k], run.old[k], run.new[k]
+    dt = run.clock[0].dt
+    gather(model.start[k], model.columns, model.values, run.rhs_b, run.v)
+    a_1, a_2 = run.v[6] - run.v[0], run.v[7] - run.v[1]
+    d = new.sliding_increment
+    way = math.hypot(d[0, 0], d[0, 1]) + math.hypot(d[1, 0], d[1, 1])
+    for row in range(12):
+        run.u[row] = 0.0
+    found = False
+    for side in range(2):
+        d_1, d_2 = d[side, 0], d[side, 1]
+        y_1, y_2 = old.hysteresis[side, 0], old.hysteresis[side, 1]
+        size = math.hypot(d_1, d_2)
+        if not size > 0.0 or y_1 * d_1 + y_2 * d_2 >= _SLIPS * size:
+            continue
+        per = 1.0 / p.yield_displacement[side]
+        gain = 0.5 * dt * dt * per * size / way
+        z_1, z_2 = new.hysteresis[side, 0], new.hysteresis[side, 1]
+        f_1, f_2 = missed_mean(
+            y_1, y_2, z_1, z_2, d_1 * per, d_2 * per, gain * a_1, gain * a_2
+        )
+        force = new.friction_coefficient[side] * max(new.axial_force, 0.0)
+        force *= p.radius[side] / p.length
+        run.u[6] += force * f_1
+        run.u[7] += force * f_2
+        found = True
+    run.u[0], run.u[1] = -run.u[6], -run.u[7]
+    return found
+
+
+@inlined_by_llvm
+def give_way(
+    model: ReducedModel, run: IntegrationState, c_m: float, c_c: float, c_k: float
+) -> None:
+    """Set ``run.rhs_b`` and ``run.rhs_e``, forces, to c_m times the step that they make."""
+    for k in range(run.rhs_e.shape[0]):
+        run.rhs_e[k] *= c_m / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
+    add_product(model.mass_eb, run.rhs_e, -1.0, run.rhs_b)
+    substitute(run.tangent, run.order, run.rhs_b)
+    set_product(model.mass_be, run.rhs_b, run.h_e)
+    for a in range(run.rhs_b.shape[0]):
+        run.rhs_b[a] *= c_m
+    for k in range(run.rhs_e.shape[0]):
+        stiff = c_m + c_c * model.damping_e[k] + c_k * model.omega2[k]
+        run.rhs_e[k] -= c_m * c_m / stiff * run.h_e[k]
+
+
+@kernel
+def add_missed_impulse(
+    model: ReducedModel, run: IntegrationState, settings: IntegratorSettings
+) -> bool:
+    """Add to the new velocities what the trapezoidal rule misses in the step; return whether so.
+
+    ``run.rhs_b`` and ``run.rhs_e`` hold what was added.
+    """
+    clock = run.clock[0]
+    if settings.alpha_f != 0.0 or settings.gamma != 0.5 or model.damping_ee.shape[0] > 0:
+        return False
+    if clock.kept != clock.halvings + 1:
+        return False
+    c_m, c_c, c_k = effective(settings, clock.dt)
+    set_product(model.mass_b, run.a_b_new, run.rhs_b)
+    add_product(model.mass_eb, run.a_e_new, 1.0, run.rhs_b)
+    for k in range(run.rhs_e.shape[0]):
+        run.rhs_e[k] = run.a_e_new[k] + run.flow_a_new[k]
+    give_way(model, run, c_m, c_c, c_k)
+    for a in range(run.h_b.shape[0]):
+        run.h_b[a] = 0.0
+    for k in range(run.old.shape[0]):
+        if model.props[k].bouc_wen == 0 and friction_misses(model, run, k):
+            scatter(model.start[k], model.columns, model.values, -clock.dt, run.u, run.h_b)
+    share = clock.dt * clock.dt * clock.dt / 6.0
+    for k in range(run.rhs_e.shape[0]):
+        run.rhs_e[k] *= share * model.omega2[k]
+    for a in range(run.rhs_b.shape[0]):
+        run.rhs_b[a] = run.h_b[a]
+    give_way(model, run, c_m, c_c, c_k)
+    set_product(model.mass_be, run.rhs_b, run.h_e)
+    for a in range(run.rhs_b.shape[0]):
+        run.v_b_new[a] += run.rhs_b[a]
+    for k in range(run.rhs_e.shape[0]):
+        run.v_e_new[k] += run.rhs_e[k]
+        run.flow_v_new[k] += run.h_e[k]
+    return True
+
+
+@inlined_by_llvm
+def push_parts(run: IntegrationState, parts: NonlinearElements) -> None:
+    """Add what `add_missed_impulse` added to the speeds of parts that depend on these."""
+    for i in range(parts.v_old.shape[0]):
+        if parts.kind[parts.owner[i]] != HINGES:
+            parts.v_old[i] += dot(parts.to_b[i], run.rhs_b) + dot(parts.to_e[i], run.rhs_e)
