@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined_by_llvm, kernel
 from frames.assembly.system import HINGES
 from frames.kernels.effective import effective
-from lir_element.kernels.linear import add_product, dot, gather, scatter, set_product, substitute
+from lir_element.kernels.linear import add_product, copy, dot, gather, scatter, set_product, substitute
 
 if TYPE_CHECKING:
     from frames.bundles.model_data import ReducedModel
@@ -95,24 +95,27 @@ def friction_misses(model: ReducedModel, run: IntegrationState, k: int) -> bool:
 
 @inlined_by_llvm
 def give_way(
-    model: ReducedModel, run: IntegrationState, c_m: float, c_c: float, c_k: float
+    model: ReducedModel, run: IntegrationState, parts: NonlinearElements, c_m: float
 ) -> None:
-    """Set ``run.rhs_b`` and ``run.rhs_e``, forces, to c_m times the step that they make."""
-    for k in range(run.rhs_e.shape[0]):
-        run.rhs_e[k] *= c_m / (c_m + c_c * model.damping_e[k] + c_k * model.omega2[k])
-    add_product(model.mass_eb, run.rhs_e, -1.0, run.rhs_b)
+    """Set ``run.rhs_b`` and ``run.rhs_e`` to c_m times the step that forces make.
+
+    They hold the forces on b with the modes eliminated, and what the modes do while b rests;
+    ``run.h_e`` becomes mass_eb times the result for b.
+    """
     substitute(run.tangent, run.order, run.rhs_b)
-    set_product(model.mass_be, run.rhs_b, run.h_e)
     for a in range(run.rhs_b.shape[0]):
         run.rhs_b[a] *= c_m
+    set_product(model.mass_be, run.rhs_b, run.h_e)
     for k in range(run.rhs_e.shape[0]):
-        stiff = c_m + c_c * model.damping_e[k] + c_k * model.omega2[k]
-        run.rhs_e[k] -= c_m * c_m / stiff * run.h_e[k]
+        run.rhs_e[k] = c_m * (run.rhs_e[k] - parts.modes[0, k] * run.h_e[k])
 
 
 @kernel
 def add_missed_impulse(
-    model: ReducedModel, run: IntegrationState, settings: IntegratorSettings
+    model: ReducedModel,
+    run: IntegrationState,
+    parts: NonlinearElements,
+    settings: IntegratorSettings,
 ) -> bool:
     """Add to the new velocities what the trapezoidal rule misses in the step; return whether so.
 
@@ -123,12 +126,13 @@ def add_missed_impulse(
         return False
     if clock.kept != clock.halvings + 1:
         return False
-    c_m, c_c, c_k = effective(settings, clock.dt)
-    set_product(model.mass_b, run.a_b_new, run.rhs_b)
-    add_product(model.mass_eb, run.a_e_new, 1.0, run.rhs_b)
+    c_m, _, _ = effective(settings, clock.dt)
     for k in range(run.rhs_e.shape[0]):
-        run.rhs_e[k] = run.a_e_new[k] + run.flow_a_new[k]
-    give_way(model, run, c_m, c_c, c_k)
+        run.rhs_e[k] = parts.modes[0, k] * (run.a_e_new[k] + run.flow_a_new[k])
+        run.h_e[k] = run.a_e_new[k] - c_m * run.rhs_e[k]
+    set_product(model.mass_b, run.a_b_new, run.rhs_b)
+    add_product(model.mass_eb, run.h_e, 1.0, run.rhs_b)
+    give_way(model, run, parts, c_m)
     for a in range(run.h_b.shape[0]):
         run.h_b[a] = 0.0
     for k in range(run.old.shape[0]):
@@ -136,11 +140,11 @@ def add_missed_impulse(
             scatter(model.start[k], model.columns, model.values, -clock.dt, run.u, run.h_b)
     share = clock.dt * clock.dt * clock.dt / 6.0
     for k in range(run.rhs_e.shape[0]):
-        run.rhs_e[k] *= share * model.omega2[k]
-    for a in range(run.rhs_b.shape[0]):
-        run.rhs_b[a] = run.h_b[a]
-    give_way(model, run, c_m, c_c, c_k)
-    set_product(model.mass_be, run.rhs_b, run.h_e)
+        run.rhs_e[k] *= share * model.omega2[k] * parts.modes[0, k]
+        run.h_e[k] = -c_m * run.rhs_e[k]
+    copy(run.h_b, run.rhs_b)
+    add_product(model.mass_eb, run.h_e, 1.0, run.rhs_b)
+    give_way(model, run, parts, c_m)
     for a in range(run.rhs_b.shape[0]):
         run.v_b_new[a] += run.rhs_b[a]
     for k in range(run.rhs_e.shape[0]):
