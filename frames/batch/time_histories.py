@@ -52,7 +52,7 @@ def time_histories(
     dt: float | None = None,
     level: str | Mapping[str, str] = "pendulum",
     method: Literal["direct"] = "direct",
-    integrator: Literal["newmark", "generalised-alpha"] | None = None,
+    integrator: Literal["newmark", "corrected-newmark", "generalised-alpha"] | None = None,
     spectral_radius: float = 0.8,
     tolerance: float | None = None,
     features: Features | None = None,

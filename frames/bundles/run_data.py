@@ -146,6 +146,10 @@ class Ground(NamedTuple):
     dt: float  # between samples [s]; linear between, zero after the last
 
 
+CORRECTED = "corrected-newmark"
+"""Integrator that adds to the velocities what the trapezoidal rule misses in a step."""
+
+
 class IntegratorSettings(NamedTuple):
     """Constants of the time integration."""
 
@@ -168,6 +172,7 @@ class IntegratorSettings(NamedTuple):
     least_halvings: int  # of a base step, whatever the estimate says
     error_vertical: float  # share of the vertical error that counts while a bearing is pressed
     error_open: float  # the same while it is lifted off, or lands
+    corrects: int  # 1: velocities get what the trapezoidal rule misses in a step
     first: int  # base step that the first row of the output holds
 
 

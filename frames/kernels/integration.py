@@ -291,7 +291,7 @@ def accept_step(
         )
     pushed = False
     if parts is not None:
-        pushed = add_missed_impulse(model, run, parts, settings)
+        pushed = settings.corrects == 1 and add_missed_impulse(model, run, parts, settings)
     add_energy(model, run, parts, ground)
     keep_motion(model, run, settings, ground)
     commit_bearings(model, run, contacts)

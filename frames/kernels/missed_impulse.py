@@ -1,9 +1,9 @@
-"""Kernels of the impulse that the trapezoidal rule misses in a step, of structures that yield.
+"""Kernels of the impulse that the trapezoidal rule misses in a step: "corrected-newmark".
 
 Springs follow the path of a step, which is curved; friction does so until it slips, within a step.
-The forces at the ends of the step do not tell its mean. What they miss is added to the velocities:
-by accelerations, which follow from displacements, so that nothing rings up (docs/theory_structure.md,
-5). All is filtered by the step's effective stiffness: what no step resolves stays as it is.
+Forces at the ends of the step do not tell its mean. What they miss is added to the velocities, by
+accelerations, which follow from displacements, so that nothing rings up. All is filtered by the
+effective stiffness: what no step resolves stays as it is (docs/theory_structure.md, 5).
 """
 
 from __future__ import annotations
@@ -14,7 +14,15 @@ from typing import TYPE_CHECKING
 from frames._jit import inlined_by_llvm, kernel
 from frames.assembly.system import HINGES
 from frames.kernels.effective import effective
-from lir_element.kernels.linear import add_product, copy, dot, gather, scatter, set_product, substitute
+from lir_element.kernels.linear import (
+    add_product,
+    copy,
+    dot,
+    gather,
+    scatter,
+    set_product,
+    substitute,
+)
 
 if TYPE_CHECKING:
     from frames.bundles.model_data import ReducedModel
@@ -81,9 +89,7 @@ def friction_misses(model: ReducedModel, run: IntegrationState, k: int) -> bool:
         per = 1.0 / p.yield_displacement[side]
         gain = 0.5 * dt * dt * per * size / way
         z_1, z_2 = new.hysteresis[side, 0], new.hysteresis[side, 1]
-        f_1, f_2 = missed_mean(
-            y_1, y_2, z_1, z_2, d_1 * per, d_2 * per, gain * a_1, gain * a_2
-        )
+        f_1, f_2 = missed_mean(y_1, y_2, z_1, z_2, d_1 * per, d_2 * per, gain * a_1, gain * a_2)
         force = new.friction_coefficient[side] * max(new.axial_force, 0.0)
         force *= p.radius[side] / p.length
         run.u[6] += force * f_1
@@ -122,8 +128,6 @@ def add_missed_impulse(
     ``run.rhs_b`` and ``run.rhs_e`` hold what was added.
     """
     clock = run.clock[0]
-    if settings.alpha_f != 0.0 or settings.gamma != 0.5 or model.damping_ee.shape[0] > 0:
-        return False
     if clock.kept != clock.halvings + 1:
         return False
     c_m, _, _ = effective(settings, clock.dt)

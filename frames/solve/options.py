@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+from frames.bundles.run_data import CORRECTED
 from frames.recording.recording import number_of_steps
 from frames.solve.rigid import LARGEST_STEP
 from lir_element.argument_checks import require_between, require_choice, require_positive
@@ -81,7 +82,7 @@ def check_options(
     """Refuse options that are not known, or do not go together."""
     choices: list[tuple[str, object, tuple[str | None, ...]]] = [
         ("method", method, METHODS),
-        ("integrator", integrator, (None, "newmark", "generalised-alpha", "explicit")),
+        ("integrator", integrator, (None, "newmark", CORRECTED, "generalised-alpha", "explicit")),
     ]
     if isinstance(level, str):
         choices.insert(0, ("level", level, (*ALL_LEVELS, "auto")))

@@ -10,7 +10,7 @@ import numpy as np
 
 from frames._fingerprint import motion_digest
 from frames._provenance import provenance
-from frames.bundles.run_data import MOST_HALVINGS, Ground, IntegratorSettings
+from frames.bundles.run_data import CORRECTED, MOST_HALVINGS, Ground, IntegratorSettings
 from frames.kernels.integration import integrate_chunk
 from frames.motion.ground_motion import seen_by_steps
 from frames.solve.outcome import Outcome, final_status, loop_status
@@ -47,6 +47,12 @@ _SERVES = 5.0  # steps that a new tangent serves (measured)
 _SECANTS_SAVE = 2.5  # of what bearings share of a tangent, by secants (measured)
 _ENERGY_TOLERANCE = 2e-4  # of the energy moved, that contacts may make or lose in a step
 _ENERGY_FLOOR = 1e-6  # of weight times effective radius
+
+
+NOT_CORRECTED = (
+    f'integrator = "{CORRECTED}" is for structures with links or hinges, damped by modes or '
+    'stiffness and not by a matrix: take integrator="newmark" with a smaller dt'
+)
 
 
 class StepWriter(Protocol):
@@ -146,6 +152,8 @@ def _attrs(
 
 def settings_of(state: GravityState, options: Options) -> IntegratorSettings:
     """Return the constants of the time integration."""
+    if options.integrator == CORRECTED and not can_correct(state):
+        raise ValueError(NOT_CORRECTED)
     alpha_m, alpha_f = 0.0, 0.0
     radius = options.spectral_radius
     if options.integrator == "generalised-alpha":
@@ -172,8 +180,14 @@ def settings_of(state: GravityState, options: Options) -> IntegratorSettings:
         least_halvings=_least_halvings(options.base, tolerance),
         error_vertical=float(_ERROR_VERTICAL),
         error_open=float(_ERROR_OPEN),
+        corrects=int(options.integrator == CORRECTED),
         first=0,
     )
+
+
+def can_correct(state: GravityState) -> bool:
+    """Return whether steps of a structure can have their impulses corrected."""
+    return state.parts is not None and not state.model.damping_ee.size
 
 
 def estimated_error(state: GravityState, settings: IntegratorSettings) -> float:

@@ -46,7 +46,8 @@ def time_history(
     level: str | Mapping[str, str] = "pendulum",
     method: Literal["direct", "reduced"] = "direct",
     *,
-    integrator: Literal["newmark", "generalised-alpha", "explicit"] | None = None,
+    integrator: Literal["newmark", "corrected-newmark", "generalised-alpha", "explicit"]
+    | None = None,
     spectral_radius: float = 0.8,
     tolerance: float | None = None,
     reduction_tolerance: float | None = None,
@@ -80,8 +81,10 @@ def time_history(
         "direct": all degrees of freedom. "reduced": the bearings' ones and few load-dependent
         vectors of the structure, in a run with few and runs with more, until two agree: for
         structures whose modes are many beside their bearings (docs/choices.md).
-    integrator : {None, "newmark", "generalised-alpha", "explicit"}
+    integrator : {None, "newmark", "corrected-newmark", "generalised-alpha", "explicit"}
         Time integration. None is Newmark's average acceleration, which conserves energy;
+        "corrected-newmark" adds what it misses in a step, of structures with links or hinges, so
+        that steps may be twice as long for the same error (docs/choices.md);
         "generalised-alpha" that of Chung and Hulbert (1993). At the level "rigid_body" None is
         Bossak's implicit method, and "explicit" takes small equal steps of `dt`.
     spectral_radius : float
@@ -255,7 +258,7 @@ class Analysis:
         duration: float | None = None,
         dt: float | None = None,
         *,
-        integrator: Literal["newmark", "generalised-alpha"] | None = None,
+        integrator: Literal["newmark", "corrected-newmark", "generalised-alpha"] | None = None,
         spectral_radius: float = 0.8,
         tolerance: float | None = None,
         recording: Recording | None = None,

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from frames import GroundMotion, moment_frame, time_history
+from frames.kernels.missed_impulse import missed_mean
 from frames.laws import PlasticHinge, Tie
+from lir_element.kernels.slip import return_map
 from tests.scenes import heavy_bearing
 
 HINGES = {
@@ -84,3 +86,50 @@ def test_a_step_errs_no_more_than_in_opensees():
         )
         assert there > 1e-3
         assert 0.5 * there < here < 1.3 * there, name
+
+
+@pytest.mark.parametrize(
+    ("before", "way", "bend"), [(-1.0, 2.3, 0.4), (0.2, 1.5, -0.7), (0.9, 0.5, 0.0)]
+)
+def test_friction_that_slips_within_a_step_has_the_mean_of_its_path(before, way, bend):
+    """Against the return map along the path, in 20,000 parts."""
+    t = np.linspace(0.0, 1.0, 20_001)
+    path = way * (t + bend * (t**2 - t))
+    z = np.array([return_map(0, 1.0, before, 0.0, d, 0.0, 1.0)[0] for d in path])
+    missed = np.trapezoid(z, t) - 0.5 * (z[0] + z[-1])
+    found, across = missed_mean(before, 0.0, z[-1], 0.0, way, 0.0, bend * way, 0.0)
+    assert across == 0.0
+    assert found == pytest.approx(missed, abs=1e-7)
+
+
+def test_corrected_steps_err_less():
+    """Of an undamped frame whose bearings turn round and whose hinges turn: of second order."""
+    pytest.importorskip("openseespy")
+    from validation.claims.opensees_yielding_runs import bearing, hinged, pulse
+
+    frame, motion = hinged(bearing(math.inf, 0.1)), pulse(1.0)
+
+    def run(dt, integrator="corrected-newmark"):
+        data = time_history(
+            frame, motion, 3.0, dt, integrator=integrator, record_every=round(0.01 / dt)
+        )
+        assert data.attrs["status"] == "ok"
+        return data["bearing_displacement"].to_numpy()[..., :2], data["hinge_rotation"].to_numpy()
+
+    fine = run(6.25e-4)
+    plain, coarse, half = (
+        [np.abs(a - b).max() / np.abs(b).max() for a, b in zip(found, fine, strict=True)]
+        for found in (run(0.01, "newmark"), run(0.01), run(0.005))
+    )
+    assert coarse[0] < 0.7 * plain[0]  # friction, and the phase of what rings
+    assert coarse[1] < 0.3 * plain[1]
+    assert half[0] < 0.3 * coarse[0]
+    assert half[0] < 3e-4
+
+
+def test_steps_of_a_structure_without_links_or_hinges_are_not_corrected():
+    frame = moment_frame((1, 1), 2, bearing=heavy_bearing(capacity=math.inf, friction=0.1))
+    motion = GroundMotion(x=np.array([0.0, 1.0, 0.0]), dt=0.01)
+    with pytest.raises(ValueError, match='take integrator="newmark" with a smaller dt'):
+        time_history(frame, motion, dt=0.01, integrator="corrected-newmark")
+    assert time_history(frame, motion, dt=0.005, integrator="newmark").attrs["status"] == "ok"

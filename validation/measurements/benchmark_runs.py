@@ -124,7 +124,8 @@ def run_here(
     recording: Recording | None = BEARINGS_ALONE,
 ) -> Run:
     """Run a structure here."""
-    options: Any = {"method": method, "recording": recording}
+    integrator = "corrected-newmark" if frame.hinges else "newmark"
+    options: Any = {"method": method, "recording": recording, "integrator": integrator}
     cpu = process_time()
     try:
         with warnings.catch_warnings(action="ignore", category=AnalysisWarning), cpu_clock():
