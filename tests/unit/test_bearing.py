@@ -1,9 +1,11 @@
 """What an engineer may specify, what is refused and how, and what follows from it."""
 
 import dataclasses
+import itertools
 import math
 import re
 import warnings
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -23,6 +25,7 @@ from lir_element import (
 )
 from lir_element.device.sliders import face_records, slider_record
 from lir_element.layout import FRICTION_TABLE, PROPS_FIELDS
+from tests import refusals
 from tests.scenes import small_bearing
 from tests.scenes import small_bearing as bearing
 
@@ -43,6 +46,7 @@ def refused(error: type[Exception], *words: str, **changes: object) -> None:
         assert word in str(caught.value), f"{word!r} is not in {caught.value}"
 
 
+Refusal = tuple[type[Exception], tuple[str, ...], dict[str, Any]]
 POSITIVE = [
     "slider_height",
     "slider_radius",
@@ -57,6 +61,7 @@ POSITIVE = [
     "interface_yield_displacement",
 ]
 NOT_NEGATIVE = ["axial_damping", "rim_damping", "plate_thickness"]
+LEAST = dict.fromkeys(NOT_NEGATIVE, 0.0) | {"bouc_wen_exponent": 1.0}
 MAY_BE_INFINITE = {"interface_friction", "capacity"}
 UNITS = {
     "axial_stiffness": "N/m",
@@ -77,10 +82,12 @@ def test_positive_numbers(name: str, value: float) -> None:
 
 
 @pytest.mark.parametrize("value", [-1.0, -1e-12, math.nan, -math.inf, math.inf])
-@pytest.mark.parametrize("name", NOT_NEGATIVE)
-def test_numbers_that_may_be_zero(name: str, value: float) -> None:
-    refused(ValueError, f"{name} = {value:g}", "at least 0", "give", **{name: value})
-    assert getattr(bearing(**{name: 0.0}), name) == 0.0
+@pytest.mark.parametrize("name", LEAST)
+def test_numbers_with_a_least_value(name: str, value: float) -> None:
+    least = LEAST[name]
+    value += least
+    refused(ValueError, f"{name} = {value:g}", f"at least {least:g}", "give", **{name: value})
+    assert getattr(bearing(**{name: least}), name) == least
 
 
 @pytest.mark.parametrize("value", [-1.0, 0.0, math.nan, -math.inf, math.inf])
@@ -103,92 +110,70 @@ def test_pairs_are_checked_on_both_surfaces(place: int, value: float) -> None:
 @pytest.mark.parametrize("value", ["0.1", None, 1j, b"1", {}, True, False])
 @pytest.mark.parametrize("name", ["radius", "bouc_wen_exponent", *POSITIVE, *NOT_NEGATIVE])
 def test_not_a_number(name: str, value: object) -> None:
-    if value is None and _default(name) is None and name != "capacity":
-        assert bearing(**{name: None}) == bearing()  # None asks for the default
-        return
+    defaults = {f.name: f.default for f in dataclasses.fields(LIRBearing)}
     if value is None and name == "capacity":
-        return  # see test_capacity_or_rims_are_needed
-    words = (name, f"{value!r} is not a number", UNITS.get(name, ""))
-    refused(TypeError, *words, **{name: value})
-
-
-def _default(name: str) -> object:
-    return {f.name: f.default for f in dataclasses.fields(LIRBearing)}[name]
-
-
-def test_capacity_or_rims_are_needed() -> None:
-    refused(ValueError, "capacity is missing", "math.inf", "rims=(bottom, top)", capacity=None)
-
-
-@pytest.mark.parametrize("name", ["radius", "friction", "plate_thickness"])
-@pytest.mark.parametrize("count", [0, 1, 3])
-def test_pairs_have_two_entries(name: str, count: int) -> None:
-    value = PAPER["friction"] if name == "friction" else 0.75
-    refused(ValueError, f"{name} has {count} entries", "(bottom, top)", **{name: (value,) * count})
-
-
-@pytest.mark.parametrize("rims", [0.09, (0.09,), (0.09, 0.09, 0.09)])
-def test_rims_are_a_pair(rims: object) -> None:
-    """One value for both (as elsewhere) or a refusal that names it."""
-    try:
-        made = bearing(capacity=None, rims=rims)
-    except (TypeError, ValueError) as error:
-        assert "rims" in str(error)  # noqa: PT017
+        refused(ValueError, "capacity is missing", "math.inf", "rims=(bottom, top)", capacity=None)
+    elif value is None and defaults[name] is None:
+        assert bearing(**{name: None}) == bearing()  # None asks for the default
     else:
-        assert made.rim_displacement == (0.09, 0.09)
-        assert not isinstance(rims, tuple)
+        words = (name, f"{value!r} is not a number", UNITS.get(name, ""))
+        refused(TypeError, *words, **{name: value})
 
 
-@pytest.mark.parametrize("law", [True, "coulomb", None, CoulombFriction])
-def test_friction_must_be_a_law(law: object) -> None:
-    for friction in (law, (CoulombFriction(0.05), law), (law, CoulombFriction(0.05))):
-        refused(TypeError, f"friction = {law!r}", "CoulombFriction(mu)", friction=friction)
+def pairs() -> Iterator[Refusal]:
+    law = PAPER["friction"]
+    for name, one in {"radius": 0.75, "friction": law, "plate_thickness": 0.75}.items():
+        for count in (0, 1, 3):
+            words = f"{name} has {count} entries", "(bottom, top)"
+            yield ValueError, words, {name: (one,) * count}
+    for count in (1, 3):
+        yield (TypeError, ValueError), ("rims",), {"rims": (0.09,) * count, "capacity": None}
+    for one in (True, "coulomb", None, CoulombFriction):
+        for friction in (one, (law, one), (one, law)):
+            words = f"friction = {one!r}", "CoulombFriction(mu)"
+            yield TypeError, words, {"friction": friction}
 
 
-@pytest.mark.parametrize("name", ["law", "", 3, None])
-def test_unknown_friction_law(name: object) -> None:
-    words = (f"friction_law = {name!r}", "'elastic-plastic'", "'bouc-wen'")
-    refused(ValueError, *words, friction_law=name)
+def sizes() -> Iterator[Refusal]:
+    for radius, edge in itertools.product((0.75, (0.75, 2.0), (2.0, 0.75)), (0.75, 0.8)):
+        words = f"slider_radius = {edge:g} m", "does not fit", "0.75 m", "smaller slider"
+        yield ValueError, words, {"radius": radius, "slider_radius": edge}
+    for height in (1.5, 1.6):
+        least = "below the sum of the radii, 1.5 m", "R1 + R2 - h"
+        yield ValueError, (f"slider_height = {height:g} m", *least), {"slider_height": height}
+    for capacity in (0.95 * 1.415 * 1.0001, 1.415, 7.0, 175.0):
+        words = f"capacity = {capacity:g} m", "beyond the spheres", "0.95 L", "larger radii"
+        yield ValueError, words, {"capacity": capacity}
+    for law in ("law", "", 3, None):
+        words = f"friction_law = {law!r}", "'elastic-plastic'", "'bouc-wen'"
+        yield ValueError, words, {"friction_law": law}
 
 
-@pytest.mark.parametrize("value", [0.999, 0.5, 0.0, -1.0, math.nan, math.inf])
-def test_bouc_wen_exponent_is_at_least_one(value: float) -> None:
-    refused(ValueError, f"bouc_wen_exponent = {value:g}", "at least 1", bouc_wen_exponent=value)
-    assert bearing(bouc_wen_exponent=1.0).bouc_wen_exponent == 1.0
+@pytest.mark.parametrize(("error", "words", "changes"), [*pairs(), *sizes()])
+def test_refusals(error: type[Exception], words: tuple[str, ...], changes: dict[str, Any]) -> None:
+    refused(error, *words, **changes)
+    with pytest.raises(error, match=re.escape(words[0])):
+        dataclasses.replace(bearing(), **changes)
 
 
-@pytest.mark.parametrize("value", [-0.01, 1.0, 2.0, math.nan, math.inf, -math.inf])
-def test_bounds_of_friction_coefficients(value: float) -> None:
-    for make, name in (
-        (lambda: CoulombFriction(value), "coefficient"),
-        (lambda: VelocityFriction(value, 0.0, 1.0), "f_max"),
-        (lambda: VelocityFriction(0.9, value, 1.0), "f_min"),
-    ):
-        with pytest.raises(ValueError, match=rf"{name} = {re.escape(f'{value:g}')}.*below 1"):
-            make()
+LAWS: dict[str, Callable[[Any], object]] = {
+    "coefficient": CoulombFriction,
+    "f_max": lambda value: VelocityFriction(value, 0.0, 1.0),
+    "f_min": lambda value: VelocityFriction(0.9, value, 1.0),
+    "rate": lambda value: VelocityFriction(0.9, 0.1, value),
+}
 
 
-@pytest.mark.parametrize("value", [-1.0, math.nan, math.inf])
-def test_bounds_of_the_rate(value: float) -> None:
-    with pytest.raises(ValueError, match=rf"rate = {re.escape(f'{value:g}')} \[s/m\].*at least 0"):
-        VelocityFriction(0.06, 0.03, value)
-
-
-@pytest.mark.parametrize("value", ["0.1", None, True])
-def test_friction_coefficients_are_numbers(value: object) -> None:
-    for make, name in (
-        (lambda: CoulombFriction(value), "coefficient"),  # type: ignore[arg-type]
-        (lambda: VelocityFriction(value, 0.0, 1.0), "f_max"),  # type: ignore[arg-type]
-        (lambda: VelocityFriction(0.9, value, 1.0), "f_min"),  # type: ignore[arg-type]
-        (lambda: VelocityFriction(0.9, 0.1, value), "rate"),  # type: ignore[arg-type]
-    ):
-        with pytest.raises(TypeError, match=f"{name} = {value!r} is not a number"):
-            make()
-
-
-def test_slow_friction_must_not_exceed_fast_friction() -> None:
-    with pytest.raises(ValueError, match=r"f_min = 0\.07 exceeds f_max = 0\.06.*exchange"):
-        VelocityFriction(f_max=0.06, f_min=0.07, rate=1.0)
+@pytest.mark.parametrize("name", LAWS)
+def test_bounds_of_friction_laws(name: str) -> None:
+    bound, more = (r"\[s/m\].*at least 0", ()) if name == "rate" else ("below 1", (1.0, 2.0))
+    for value in (-0.01, math.nan, math.inf, -math.inf, *more):
+        words = rf"{name} = {re.escape(f'{value:g}')}.*{bound}"
+        refusals.refused(ValueError, words, LAWS[name], value)
+    for value in ("0.1", None, True):
+        refusals.refused(TypeError, f"{name} = {value!r} is not a number", LAWS[name], value)
+    words = r"f_min = 0\.07 exceeds f_max = 0\.06.*exchange"
+    refusals.refused(ValueError, words, VelocityFriction, 0.06, 0.07, 1.0)
     assert VelocityFriction(0.06, 0.06, 1.0).at_speed(0.3) == 0.06
 
 
@@ -213,44 +198,20 @@ def test_coulomb_friction() -> None:
     assert (law.f_max, law.f_min, law.rate) == (0.066, 0.066, 0.0)
 
 
-@pytest.mark.parametrize("edge", [0.75, 0.8])
-@pytest.mark.parametrize("radius", [0.75, (0.75, 2.0), (2.0, 0.75)])
-def test_slider_wider_than_a_sphere(radius: object, edge: float) -> None:
-    words = (f"slider_radius = {edge:g} m", "does not fit", "0.75 m", "smaller slider")
-    refused(ValueError, *words, radius=radius, slider_radius=edge)
+@pytest.mark.parametrize("rims", [None, (0.09, 0.12), (0.12, 0.09), (0.09, math.inf)])
+def test_plates_that_overlap_at_rest(rims: tuple[float, float] | None) -> None:
+    """One above the other they come closest at the edge of the smaller one: a slider at its rim.
 
-
-def test_slider_lower_than_its_caps() -> None:
-    """Two caps of height R - sqrt(R^2 - r^2); without rims, whose plates would overlap before."""
-    caps = (0.75 - math.sqrt(0.75**2 - 0.08**2)) + (1.1 - math.sqrt(1.1**2 - 0.08**2))
-    words = ("slider_height", f"{caps:.4g} m", "slider_radius = 0.08 m", "slimmer slider")
-    free = {"radius": (0.75, 1.1), "capacity": math.inf}
-    refused(ValueError, *words, slider_height=caps * 0.9999, **free)
-    assert bearing(slider_height=caps * 1.0001, **free).radii == (0.75, 1.1)
-
-
-@pytest.mark.parametrize("rims", [(0.09, 0.12), (0.12, 0.09), (0.09, math.inf)])
-def test_plates_that_overlap_at_rest(rims: tuple[float, float]) -> None:
-    """One above the other they come closest at the edge of the smaller one: a slider at its rim."""
-    radii, edge = (0.75, 1.1), 0.09 + 0.08
+    Without rims the slider's two caps meet, of height R - sqrt(R^2 - r^2).
+    """
+    radii, edge = (0.75, 1.1), 0.08 + (0.09 if rims else 0.0)
     rise = sum(r - math.sqrt(r**2 - edge**2) for r in radii)
-    options = {"radius": radii, "rims": rims, "capacity": None}
-    words = ("slider_height", "plates overlap at rest", f"{rise:.4g} m", "less capacity")
-    refused(ValueError, *words, slider_height=rise * 0.9999, **options)
-    assert bearing(slider_height=rise * 1.0001, **options).rim_displacement == rims
-
-
-@pytest.mark.parametrize("height", [1.5, 1.6])
-def test_slider_higher_than_the_radii(height: float) -> None:
-    words = (f"slider_height = {height:g} m", "below the sum of the radii, 1.5 m", "R1 + R2 - h")
-    refused(ValueError, *words, slider_height=height)
-
-
-def test_capacity_beyond_the_spheres() -> None:
-    limit = 0.95 * 1.415
-    for capacity in (limit * 1.0001, 1.415, 7.0, 175.0):
-        words = (f"capacity = {capacity:g} m", "beyond the spheres", "0.95 L", "larger radii")
-        refused(ValueError, *words, capacity=capacity)
+    options = {"radius": radii, "rims": rims, "capacity": None if rims else math.inf}
+    words = ("plates overlap at rest", "less capacity") if rims else ("slimmer slider", "0.08 m")
+    low = {"slider_height": rise * 0.9999}
+    refused(ValueError, "slider_height", f"{rise:.4g} m", *words, **low, **options)
+    made = bearing(slider_height=rise * 1.0001, **options)
+    assert made.rim_displacement == (rims or (math.inf, math.inf))
 
 
 @pytest.mark.parametrize("surface", ["bottom", "top"])
@@ -376,16 +337,12 @@ def test_derived_values(r_1: float, r_2: float, share_1: float, share_2: float) 
     )
 
 
-def test_no_limit_of_force_without_rims_or_interface() -> None:
-    assert bearing(capacity=math.inf).force_limit(1.0) == math.inf
-    assert bearing().as_dcfp().force_limit(1.0) == math.inf
-    assert bearing().as_dcfp(rims=False).force_limit(1.0) == math.inf
-
-
-def test_force_limit_of_a_steep_and_rough_bearing() -> None:
-    """theta_max + atan(mu_h) above 90 degrees: no horizontal force starts the interface."""
+def test_force_without_limit() -> None:
+    """Without rims or interface; with theta_max + atan(mu_h) above 90 degrees."""
     steep = bearing(slider_height=1.1, capacity=0.85 * 0.4, interface_friction=0.9)
-    assert steep.force_limit(1.0) == math.inf
+    free = bearing(capacity=math.inf)
+    for each in (steep, free, bearing().as_dcfp(), bearing().as_dcfp(rims=False)):
+        assert each.force_limit(1.0) == math.inf
 
 
 @pytest.mark.parametrize("base", [PAPER, UNEQUAL])
@@ -462,11 +419,6 @@ def test_equality_and_hash() -> None:
 def records(b: LIRBearing) -> bytes:
     """Return the bits of all constants that kernels read."""
     return b.to_record().tobytes() + slider_record(b).tobytes() + face_records(b)[0].tobytes()
-
-
-def test_replace_checks_again() -> None:
-    with pytest.raises(ValueError, match="interface_friction"):
-        dataclasses.replace(bearing(), friction=CoulombFriction(0.2))
 
 
 def test_record_is_complete() -> None:
