@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -68,6 +69,9 @@ class Asce:
         table = [0.8, 1.0, 1.2, 1.5, 1.7, 1.9, 2.0]
         return float(np.interp(100.0 * damping, [2, 5, 10, 20, 30, 40, 50], table))
 
+    def displacement(self, period: float, damping: float) -> float:
+        return G * self.s_m1 * period / (4.0 * math.pi**2 * self.damping_factor(damping))
+
 
 class En:
     """Type 1, ground C beyond T_C = 0.6 s: constant displacement beyond T_D = 2 s."""
@@ -78,16 +82,16 @@ class En:
     def real(self) -> Spectrum:
         return Spectrum.en1998(a_g=self.plateau / (2.5 * 1.15), ground_type="C")
 
-    def damping_factor(self, damping: float) -> float:
-        return 1.0 / max(math.sqrt(10.0 / (5.0 + 100.0 * damping)), 0.55)
-
-    def acceleration(self, period: float, damping: float = 0.05) -> float:
+    def acceleration(self, period: float, damping: float) -> float:
         shape = 0.6 / period if period < 2.0 else 1.2 / period**2
-        return self.plateau / self.damping_factor(damping) * shape
+        return self.plateau * shape * max(math.sqrt(10.0 / (5.0 + 100.0 * damping)), 0.55)
+
+    def displacement(self, period: float, damping: float) -> float:
+        return self.acceleration(period, damping) * (period / (2.0 * math.pi)) ** 2
 
 
 class NCh:
-    """Displacement plateau of 200 or 300 mm times Z = 1.25; table of B."""
+    """Displacement plateau of 200 or 300 mm times Z = 1.25 and 1.2; table of B."""
 
     def __init__(self, plateau: float) -> None:
         self.plateau = plateau
@@ -95,16 +99,17 @@ class NCh:
     def real(self) -> Spectrum:
         return Spectrum.nch2745({0.20: "I", 0.30: "II"}[self.plateau], zone=3)
 
-    def damping_factor(self, damping: float) -> float:
+    def displacement(self, _: float, damping: float) -> float:
         table = [0.65, 1.0, 1.37, 1.67, 1.94, 2.17, 2.38, 3.02]
-        return float(np.interp(100.0 * damping, [2, 5, 10, 15, 20, 25, 30, 50], table))
+        factor = np.interp(100.0 * damping, [2, 5, 10, 15, 20, 25, 30, 50], table)
+        return 1.2 * 1.25 * self.plateau / float(factor)
 
 
-def one(mu: float, radius: float = 2.5, weight: float = 1500e3, **more: object) -> IsolationSystem:
+def one(mu: float, radius: float = 2.5, **more: object) -> IsolationSystem:
     return IsolationSystem(
         bearings=(FrictionPendulum((radius,), (mu,)),),
         positions=((0.0, 0.0),),
-        loads=(weight,),
+        loads=(1500e3,),
         plan=(20.0, 20.0),
         gravity=G,
         **more,
@@ -119,70 +124,73 @@ def analysed(system: IsolationSystem, spectrum: object, **more: object) -> Equiv
     return equivalent_linear(system, spectrum.real(), **more)
 
 
-@pytest.mark.parametrize(
-    ("mu", "displacement", "period", "damping", "shear"),
-    [
-        (0.04, 0.54616, 2.9161, 0.0985, 0.2585),
-        (0.06, 0.44347, 2.7419, 0.1609, 0.2374),
-        (0.09, 0.34396, 2.4662, 0.2518, 0.2276),
-    ],
-)
-def test_displacement_by_asce7(mu, displacement, period, damping, shear):
-    """W = 1500 kN, R = 2.5 m, S_M1 = 0.9, g = 9.81."""
-    found = nominal(one(mu), Asce(0.9))["nominal"]
-    assert found.displacement == pytest.approx(displacement, abs=6e-6)
-    assert found.period == pytest.approx(period, abs=6e-5)
-    assert found.damping == pytest.approx(damping, abs=6e-5)
-    assert found.base_shear / 1500e3 == pytest.approx(shear, abs=6e-5)
+def pendulum(mu: float, radius: float, d: float, g: float = G) -> tuple[float, float]:
+    """Return period and damping at a displacement."""
+    period = 2.0 * math.pi / math.sqrt(g * (1.0 / radius + mu / d))
+    return period, 2.0 / math.pi * mu / (mu + d / radius)
+
+
+def met(spectrum: Any, mu: float, radius: float, g: float = G) -> float:
+    """Return the displacement that the spectrum has at its period and damping."""
 
     def off(d: float) -> float:
-        k = 1.0 / 2.5 + mu / d  # over W
-        beta = 2.0 / math.pi * mu / (mu + d / 2.5)
-        t = 2.0 * math.pi / math.sqrt(G * k)
-        return G * 0.9 * t / (4.0 * math.pi**2 * Asce(0.9).damping_factor(beta)) - d
+        return spectrum.displacement(*pendulum(mu, radius, d, g)) - d
 
-    assert found.displacement == pytest.approx(brentq(off, 0.05, 2.0, xtol=1e-14), rel=1e-10)
+    return brentq(off, 0.01, 2.0, xtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "mu", "radius"),
+    [
+        *((Asce(0.9), mu, 2.5) for mu in (0.04, 0.06, 0.09)),
+        (En(9.9), 0.12, 2.5),  # between T_C and T_D
+        (En(9.9), 0.05, 4.0),  # beyond
+        *((NCh(plateau), 0.06, 2.5) for plateau in (0.20, 0.30)),
+    ],
+)
+def test_displacement_of_a_pendulum(spectrum: Any, mu: float, radius: float) -> None:
+    found = nominal(one(mu, radius), spectrum)["nominal"]
+    d = met(spectrum, mu, radius)
+    assert found.displacement == pytest.approx(d, rel=1e-9)
     last = found.iterations[-1]
     assert last.found == pytest.approx(last.assumed, rel=1e-12)
-    assert len(found.iterations) > 5
+    torsion = 1.1 if isinstance(spectrum, NCh) else 1.15
+    if not isinstance(spectrum, En):
+        assert found.total_displacement == pytest.approx(torsion * d)
+    if isinstance(spectrum, NCh):
+        assert found.trace.value("C_M") == pytest.approx(1.5 * spectrum.plateau)
+        d = found.trace.value("D_D")  # the damping there is more than at D_M
+        assert 1.2 * d < found.displacement
+        assert 1.2 * d == pytest.approx(spectrum.displacement(*pendulum(mu, radius, d)))
+    else:
+        assert (found.period, found.damping) == pytest.approx(pendulum(mu, radius, d), rel=1e-9)
+    if isinstance(spectrum, Asce):
+        assert found.base_shear == pytest.approx(1500e3 * (d / radius + mu), rel=1e-9)
 
 
-def tuned(mu: float, displacement: float, radius: float = 2.5) -> Asce:
-    """Return the spectrum that gives this displacement."""
-    k = 1.0 / radius + mu / displacement
-    beta = 2.0 / math.pi * mu / (mu + displacement / radius)
-    factor = Asce(1.0).damping_factor(beta)
-    return Asce(4.0 * math.pi**2 * factor * displacement * math.sqrt(G * k) / (2.0 * math.pi * G))
+def tuned(mu: float, displacement: float) -> Asce:
+    """Return the spectrum that gives this displacement, with a radius of 2.5 m."""
+    return Asce(displacement / Asce(1.0).displacement(*pendulum(mu, 2.5, displacement)))
 
 
-def test_checks_at_300_mm() -> None:
-    """beta 0.21221, B_M 1.5244, the second half of D adds 90 kN where 37.5 are asked for."""
+def test_restoring_force_at_300_mm() -> None:
+    """The second half of D adds 90 kN where 37.5 are asked for; k(0.2 D) = W / R + 5 mu W / D."""
     found = nominal(one(0.06), tuned(0.06, 0.30))["nominal"]
-    t = found.trace
     assert found.displacement == pytest.approx(0.30, rel=1e-10)
-    assert found.stiffness == pytest.approx(900e3, rel=1e-9)
-    assert found.damping == pytest.approx(0.21221, abs=5e-6)
-    assert found.damping_factor == pytest.approx(1.5244, abs=5e-5)
-    assert found.base_shear == pytest.approx(270e3, rel=1e-9)
-    assert t.value("Delta_F") == pytest.approx(90e3, rel=1e-9)
-    assert t.value("Delta_F_lim") == pytest.approx(37.5e3, rel=1e-12)
-    restoring = found.checks.of("17.2.4.4")[0]
-    assert restoring.ratio == pytest.approx(37.5 / 90.0)
-    # k(0.2 D) = W / R + 5 mu W / D
-    assert t.value("k_02") == pytest.approx(600e3 + 5.0 * 0.06 * 1500e3 / 0.30, rel=1e-9)
+    values = [found.trace.value(name) for name in ("Delta_F", "Delta_F_lim", "k_02")]
+    assert values == pytest.approx([90e3, 37.5e3, 600e3 + 1500e3], rel=1e-9)
+    assert found.checks.of("17.2.4.4")[0].ratio == pytest.approx(37.5 / 90.0)
 
 
 def test_a_joint_in_the_slider_takes_the_corners_off_the_loop() -> None:
     """R_eff = 0.95 + 0.95 m, mu = 0.05 / 0.09: beta 0.18847 at 0.3 m, not 0.19554."""
-    p = FrictionPendulum((0.95, 0.95), (0.05, 0.09))
-    system = replace(one(0.06), bearings=(p,))
+    system = replace(one(0.06), bearings=(FrictionPendulum((0.95, 0.95), (0.05, 0.09)),))
 
     def off(d: float) -> float:
         force = d / 1.9 + 0.07
         low, high = 0.95 * (force - 0.05), 0.95 * (force - 0.09)
         beta = 4.0 * (0.05 * low + 0.09 * high) / (2.0 * math.pi * force * d)
-        t = 2.0 * math.pi * math.sqrt(d / (force * G))
-        return G * 0.9 * t / (4.0 * math.pi**2 * Asce(0.9).damping_factor(beta)) - d
+        return Asce(0.9).displacement(2.0 * math.pi * math.sqrt(d / (force * G)), beta) - d
 
     found = nominal(system, Asce(0.9))["nominal"]
     assert found.displacement == pytest.approx(brentq(off, 0.1, 1.0, xtol=1e-14), rel=1e-10)
@@ -241,23 +249,13 @@ def test_total_displacement_of_a_square_plan() -> None:
     assert more.displacements[2] == pytest.approx(more.displacement * (1 + 12.0 / 800.0))
 
 
-def test_least_torsion_holds_where_torsion_is_less() -> None:
-    found = nominal(one(0.06), Asce(0.9))["nominal"]
-    assert found.total_displacement == pytest.approx(1.15 * found.displacement)
-
-
-def test_unreduced_shear_above() -> None:
-    """W_s / W = 0.8, beta = 0.2: V_st / V_b = 0.89443, 0.93525 where sliding sets in abruptly."""
-    ratio = 0.06 * (2.0 / (math.pi * 0.2) - 1.0)  # D / R where beta is 0.2
-    system, spectrum = one(0.06), tuned(0.06, 2.5 * ratio)
-    above = Superstructure(
-        fixed_base_period=0.5, storey_weights=(1200e3,), storey_heights=(4.0,), R=6.0
-    )
-    for exponent, expected in ((2.5, 89.443), (3.5, 93.525)):
-        code = ASCE7(exponent=exponent)
-        t = nominal(system, spectrum, superstructure=above, code=code)["nominal"].trace
-        assert t.value("beta_M") == pytest.approx(0.2, rel=1e-9)
-        assert 100.0 * t.value("V_st") / t.value("V_b") == pytest.approx(expected, abs=5e-4)
+@pytest.mark.parametrize("exponent", [2.5, 3.5])
+def test_unreduced_shear_above(exponent: float) -> None:
+    """W_s / W = 5.8 / 9; 3.5 where sliding sets in abruptly."""
+    code = ASCE7(exponent=exponent)
+    t = nominal(SYSTEM, Asce(0.6), superstructure=ABOVE, code=code)["nominal"].trace
+    power = 1.0 - exponent * t.value("beta_M")
+    assert t.value("V_st") == pytest.approx(t.value("V_b") * (5.8 / 9.0) ** power)
 
 
 def test_design_shear_is_the_largest_of_its_minima() -> None:
@@ -343,33 +341,13 @@ def test_scope_of_checks_and_their_table() -> None:
     assert titles["demand"] == {"storey drift", f"{load}, maximum", f"{load}, minimum"}
     assert {c.title for c in asce if c.scope == "procedure"} == {
         "no restrainer contact at the total displacement",
-        "effective period",
-        "effective damping",
         "effective stiffness ratio, D_M to 0.2 D_M",
         "period ratio T_M / T_fb",
-        "storeys",
-        "height",
-        "no uplift, maximum",
-        "no uplift, minimum",
+        *("effective period", "effective damping", "storeys", "height"),
+        *("no uplift, maximum", "no uplift, minimum"),
     }
-    assert list(asce.to_dataframe()) == [
-        "clause",
-        "title",
-        "demand",
-        "limit",
-        "symbol",
-        "unit",
-        "relation",
-        "standing",
-        "bound",
-        "subject",
-        "note",
-        "void",
-        "level",
-        "ratio",
-        "passed",
-        "verdict",
-    ]
+    columns = "clause title demand limit symbol unit relation standing bound subject note void"
+    assert list(asce.to_dataframe()) == f"{columns} level ratio passed verdict".split()
     assert {c.level for c in asce} == {"MCE_R"}
     refused(CheckError, "scope", replace, asce[0], scope="all")
 
@@ -438,30 +416,21 @@ def test_each_check_can_be_followed_to_what_was_given() -> None:
 
 
 def test_displacement_by_en1998() -> None:
-    mu = BEARING.effective_friction
-
-    def off(d: float) -> float:
-        k = 1.0 / 2.7 + mu / d
-        xi = 2.0 / math.pi / (1.0 + d / (mu * 2.7))
-        t = 2.0 * math.pi / math.sqrt(9.80665 * k)
-        return En(8.0).acceleration(t, xi) / 9.80665 / k - d
-
+    g, mu = 9.80665, BEARING.effective_friction
     found = nominal(SYSTEM, En(8.0), superstructure=ABOVE)["nominal"]
-    assert found.displacement == pytest.approx(brentq(off, 0.01, 1.0, xtol=1e-14), rel=1e-9)
-    t = found.trace
-    assert found.damping_factor == pytest.approx(1.0 / En(8.0).damping_factor(found.damping))
+    assert found.displacement == pytest.approx(met(En(8.0), mu, 2.7, g), rel=1e-9)
     s_e = En(8.0).acceleration(found.period, found.damping)
-    assert found.base_shear == pytest.approx(9.0e6 / 9.80665 * s_e)
-    forces = np.array([3.2e6, 2.0e6, 2.0e6, 1.8e6]) / 9.80665 * s_e / 1.5
+    assert found.base_shear == pytest.approx(9.0e6 / g * s_e)
+    forces = np.array([3.2e6, 2.0e6, 2.0e6, 1.8e6]) / g * s_e / 1.5
     np.testing.assert_allclose(found.storey_forces, forces, rtol=1e-12)
     # Torsion by hand: stiffness goes by the loads.
-    x, y = np.array(PLACES).T
-    p = np.array(LOADS)
-    x, y = x - p @ x / p.sum(), y - p @ y / p.sum()
+    p, places = np.array(LOADS), np.array(PLACES)
+    x, y = (places - p @ places / p.sum()).T
     r2 = p @ (x**2 + y**2) / p.sum()
     worst = np.maximum(1.0 + 0.5 / r2 * abs(y), 1.0 + 0.7 / r2 * abs(x))
     np.testing.assert_allclose(found.displacements, found.displacement * worst, rtol=1e-12)
-    np.testing.assert_allclose(t.values("d_Ed"), 1.2 * found.displacement * worst, rtol=1e-12)
+    allowed = 1.2 * found.displacement * worst
+    np.testing.assert_allclose(found.trace.values("d_Ed"), allowed, rtol=1e-12)
 
 
 def test_what_bearings_must_allow_stands_beside_the_displacement() -> None:
@@ -497,76 +466,56 @@ def test_drifts_of_en1998_at_damage_limitation() -> None:
     assert found.trace.value("M_o") == pytest.approx(moment, rel=1e-12)
 
 
-def test_least_shear_of_a_fixed_base_goes_by_two_thirds_of_s_m1() -> None:
-    """ASCE 7-22 12.8.1.1 at T_M with R = 1: C_s = S_D1 / T_M, S_D1 = 2/3 0.9, above its floors."""
-    stiff = replace(ABOVE, R=1.0)
-    target = Spectrum.asce7(s_ms=1.5, s_m1=0.9, s_1=0.59)
-    found = equivalent_linear(SYSTEM, target, bounds=None, superstructure=stiff)["nominal"]
-    assert found.trace.value("C_s") == pytest.approx(0.6 / found.period, rel=1e-12)
-    assert found.trace.value("V_fixed") == pytest.approx(5.8e6 * 0.6 / found.period, rel=1e-12)
-
-
 @pytest.mark.parametrize(
-    ("s_1", "least"), [(0.60, 0.5 * 0.60 / 8.0), (0.59, 0.044 * 0.8), (None, 0.5 * 0.7 / 8.0)]
+    ("s_1", "r", "least"),
+    [
+        (0.60, 8.0, 0.5 * 0.60 / 8.0),
+        (0.59, 8.0, 0.044 * 0.8),
+        (None, 8.0, 0.5 * 0.7 / 8.0),
+        (0.59, 1.0, None),
+    ],
 )
-def test_least_shear_near_a_fault(s_1: float | None, least: float) -> None:
-    """ASCE 7-22 (12.8-6): 0.5 S_1 I_e / R from S_1 = 0.6 g on; S_M1 stands for an unknown S_1."""
+def test_least_shear_of_a_fixed_base(s_1: float | None, r: float, least: float | None) -> None:
+    """ASCE 7-22 12.8: C_s = S_D1 / T_M / R, S_D1 = 2/3 S_M1, above (12.8-5) and (12.8-6).
+
+    0.5 S_1 I_e / R counts from S_1 = 0.6 g on; S_M1 stands for an unknown S_1.
+    """
     target = Spectrum.asce7(s_ms=1.2, s_m1=0.7, s_1=s_1)
-    above = replace(ABOVE, R=8.0)
+    above = replace(ABOVE, R=r)
     found = equivalent_linear(SYSTEM, target, bounds=None, superstructure=above)["nominal"]
-    assert 0.7 / 1.5 / found.period / 8.0 < least  # the falling branch is below
-    assert found.trace.value("C_s") == pytest.approx(least, rel=1e-12)
+    falling = 0.7 / 1.5 / found.period / r
+    assert (falling < least) if least else (falling > 0.044 * 0.8)
+    assert found.trace.value("C_s") == pytest.approx(least or falling, rel=1e-12)
+    assert found.trace.value("V_fixed") == pytest.approx(5.8e6 * (least or falling), rel=1e-12)
     assert target.scaled(2.0).parameters.get("S_1") == (None if s_1 is None else 2.0 * s_1)
 
 
-def test_importance_of_an_isolated_structure_is_said() -> None:
-    notes = {
-        factor: analysed(
-            SYSTEM, Asce(0.9), bounds=None, superstructure=replace(ABOVE, importance=factor)
-        )["nominal"]
-        .trace["I_e"]
-        .note
-        for factor in (1.0, 1.5)
-    }
-    assert notes[1.0] == "of isolated structures by 17.2.1"
-    assert notes[1.5] == "as given; 17.2.1 has 1.0 for isolated structures"
-
-
-@pytest.mark.parametrize(("mu", "radius"), [(0.12, 2.5), (0.05, 4.0)])
-def test_both_branches_of_the_spectrum(mu: float, radius: float) -> None:
-    """Between T_C and T_D, and beyond T_D where the displacement stays."""
-
-    def off(d: float) -> float:
-        k = 1.0 / radius + mu / d
-        xi = 2.0 / math.pi * mu / (mu + d / radius)
-        return En(9.9).acceleration(2.0 * math.pi / math.sqrt(G * k), xi) / (G * k) - d
-
-    found = nominal(one(mu, radius=radius), En(9.9))["nominal"]
-    assert found.displacement == pytest.approx(brentq(off, 1e-2, 1.0, xtol=1e-14), rel=1e-9)
-    assert (found.period < 2.0) == (mu > 0.05)
+@pytest.mark.parametrize(
+    ("factor", "note"),
+    [
+        (1.0, "of isolated structures by 17.2.1"),
+        (1.5, "as given; 17.2.1 has 1.0 for isolated structures"),
+    ],
+)
+def test_importance_of_an_isolated_structure_is_said(factor: float, note: str) -> None:
+    above = replace(ABOVE, importance=factor)
+    found = nominal(SYSTEM, Asce(0.9), superstructure=above)["nominal"]
+    assert found.trace["I_e"].note == note
 
 
 def test_recentring_at_300_mm() -> None:
-    """W = 1500 kN, R = 2.5 m, mu = 0.06, d = 0.30 m: E_S / E_H = 1, d / (mu R) = 2, eta 0.61756."""
-    xi = 2.0 / math.pi / 3.0
-    k = 900e3 / 1500e3
-    period = 2.0 * math.pi / math.sqrt(G * k)
-    plateau = 0.30 * G * k / En(1.0).acceleration(period, xi)
-    found = nominal(one(0.06), En(plateau))["nominal"]
-    assert found.displacement == pytest.approx(0.30, rel=1e-9)
-    assert found.damping == pytest.approx(0.21221, abs=5e-6)
-    assert found.damping_factor == pytest.approx(0.61756, abs=5e-6)
-    energy = found.checks.of("EN 15129 4.3")[0]
-    assert energy.demand / (energy.limit / 0.25) == pytest.approx(1.0, rel=1e-9)
-    assert energy.ratio == pytest.approx(0.25)
-    way = found.checks.of("7.7.1")[0]
-    assert way.demand / (2.0 * way.limit) == pytest.approx(2.0, rel=1e-9)
-    assert way.ratio == pytest.approx(0.25)
+    """W = 1500 kN, R = 2.5 m, mu = 0.06, d = 0.30 m: E_S / E_H = 1, d / (mu R) = 2."""
+    plateau = 0.30 / En(1.0).displacement(*pendulum(0.06, 2.5, 0.30))
+    checks = nominal(one(0.06), En(plateau))["nominal"].checks
+    energy, way = checks.of("EN 15129 4.3")[0], checks.of("7.7.1")[0]
+    assert 0.25 * energy.demand / energy.limit == pytest.approx(1.0, rel=1e-9)
+    assert 0.5 * way.demand / way.limit == pytest.approx(2.0, rel=1e-9)
+    assert (energy.ratio, way.ratio) == pytest.approx((0.25, 0.25))
 
 
 def test_limits_of_the_simplified_analysis_need_all_their_numbers() -> None:
-    with pytest.raises(CheckError, match="fault_distance"):
-        nominal(SYSTEM, En(8.0), code=EN1998(simplified=True), superstructure=ABOVE)
+    more = {"code": EN1998(simplified=True), "superstructure": ABOVE}
+    refused(CheckError, "fault_distance", nominal, SYSTEM, En(8.0), **more)
     code = EN1998(simplified=True, fault_distance=12e3, property_variation=0.12)
     found = nominal(SYSTEM, En(8.0), code=code, superstructure=ABOVE)
     beyond = found.checks.of("EN 1998-1 10.9").inapplicable
@@ -577,8 +526,7 @@ def test_limits_of_the_simplified_analysis_need_all_their_numbers() -> None:
     stiff = next(c for c in found.checks if c.title == "vertical over effective stiffness")
     vertical = 9.0e6 / SYSTEM.gravity * (2.0 * math.pi / 0.05) ** 2  # T_v = 0.05 s
     assert stiff.demand == pytest.approx(vertical / found["nominal"].stiffness, rel=1e-12)
-    assert stiff.limit == 150.0
-    assert stiff.passed
+    assert (stiff.limit, stiff.passed) == (150.0, True)
 
 
 def test_total_eccentricity_by_en1998() -> None:
@@ -599,28 +547,6 @@ def test_what_earlier_events_leave_by_ntc() -> None:
     assert check.demand == pytest.approx(1.2 * max(found.displacements) + left, rel=1e-12)
     assert check.limit == pytest.approx(BEARING.capacity)
     assert check.clause == "NTC 2018 7.10.6.2.2"
-
-
-@pytest.mark.parametrize(("plateau", "design"), [(0.30, 193.30), (0.20, 128.87)])
-def test_displacement_by_nch2745(plateau: float, design: float) -> None:
-    """Z = 1.25, 20 % damping: 193.30 mm on soil II, 128.87 mm on soil I."""
-    ratio = 0.06 * (2.0 / (math.pi * 0.2) - 1.0)
-    radius = 1e-3 * design / ratio
-    spectrum = NCh(plateau)
-    found = nominal(one(0.06, radius=radius), spectrum)["nominal"]
-    t = found.trace
-    assert 1e3 * t.value("D_D") == pytest.approx(design, abs=0.01)
-    assert t.value("beta_D") == pytest.approx(0.2, abs=5e-5)
-    assert t.value("C_M") == pytest.approx(1.2 * 1.25 * plateau)
-    # 231.96 mm if the damping at D_D were kept; it is less at D_M, which is larger.
-    assert 1.2 * t.value("D_D") < t.value("D_M")
-
-    def off(d: float) -> float:
-        beta = 2.0 / math.pi * 0.06 / (0.06 + d / radius)
-        return 1.2 * 1.25 * plateau / spectrum.damping_factor(beta) - d
-
-    assert found.displacement == pytest.approx(brentq(off, 0.05, 1.0, xtol=1e-14), rel=1e-9)
-    assert found.total_displacement == pytest.approx(1.1 * found.displacement)
 
 
 @pytest.mark.parametrize(
@@ -681,23 +607,21 @@ def test_bearings_of_a_frame() -> None:
 
 def test_what_does_not_fit_is_refused() -> None:
     refused(CheckError, "does not go with EN 1998", nominal, SYSTEM, Asce(0.9), code=EN1998())
-    with pytest.raises(CheckError, match="the storeys weigh"):
-        nominal(SYSTEM, Asce(0.9), superstructure=replace(ABOVE, storey_weights=(4e6,) * 3))
+    heavy = replace(ABOVE, storey_weights=(4e6,) * 3)
+    refused(CheckError, "storeys weigh", nominal, SYSTEM, Asce(0.9), superstructure=heavy)
     refused(CheckError, "5 loads for 6 bearings", replace, SYSTEM, loads=LOADS[:5])
     refused(CheckError, "load of bearing 2", replace, SYSTEM, loads=(1e6, -1e3, *LOADS[2:]))
     refused(CheckError, "storey_heights", replace, ABOVE, storey_heights=(3.0, 3.0))
     without = replace(SYSTEM, bearings=(FrictionPendulum((2.7,), (0.06,)),) * 6)
-    code = ASCE7(pressure_limit=40e6)
-    with pytest.raises(CheckError, match="slider_radius"):
-        nominal(without, Asce(0.9), superstructure=ABOVE, code=code)
-    with pytest.raises(CheckError, match="no equivalent-linear analysis"):
-        equivalent_linear(SYSTEM, Spectrum.nch433(), bounds=None)
-    points = Spectrum.given([0.1, 1.0, 3.0], [9.0, 6.0, 2.0], code="ASCE 7")
-    refused(CheckError, "no S_MS and S_M1", equivalent_linear, SYSTEM, points, bounds=None)
-    short = Spectrum.given([0.1, 1.0, 1.5], [9.0, 6.0, 5.0], code="NCh2745")
-    with pytest.raises(MotionError, match="defined for finite periods"):
-        equivalent_linear(SYSTEM, short, bounds=None)
-    refused(TypeError, "a Spectrum", equivalent_linear, SYSTEM, 0.9, bounds=None)
+    more = {"superstructure": ABOVE, "code": ASCE7(pressure_limit=40e6)}
+    refused(CheckError, "slider_radius", nominal, without, Asce(0.9), **more)
+    for error, words, spectrum in (
+        (CheckError, "no equivalent-linear analysis", Spectrum.nch433()),
+        (CheckError, "no S_MS and S_M1", Spectrum.given([0.1, 3.0], [9.0, 2.0], code="ASCE 7")),
+        (MotionError, "finite periods", Spectrum.given([0.1, 1.5], [9.0, 5.0], code="NCh2745")),
+        (TypeError, "a Spectrum", 0.9),
+    ):
+        refused(error, words, equivalent_linear, SYSTEM, spectrum, bounds=None)
     refused(TypeError, "an IsolationSystem", nominal, BEARING, Asce(0.9))
     assert nominal(SYSTEM, NCh(0.30), code=NCh2745(maximum=1.0)).displacement > 0.0
 
@@ -763,15 +687,16 @@ def test_overturning_of_the_whole_structure(spectrum: object, level: str) -> Non
 
 def test_a_slender_structure_overturns_and_a_row_is_not_judged() -> None:
     tall = replace(ABOVE, storey_heights=(60.0, 60.0, 60.0))
-    found = analysed(SYSTEM, Asce(0.9), bounds=BOUNDS, superstructure=tall)
+    found = nominal(SYSTEM, Asce(0.9), superstructure=tall)
     assert "overturning of the whole structure" in {c.title for c in found.checks.failed}
-    row = IsolationSystem(
+    row = replace(
+        SYSTEM,
         bearings=(BEARING,) * 3,
         positions=((-6.0, 0.0), (0.0, 0.0), (6.0, 0.0)),
         loads=(3.0e6,) * 3,
-        plan=(14.0, 10.0),
+        combinations={},
     )
-    found = analysed(row, Asce(0.9), bounds=BOUNDS, superstructure=ABOVE)
+    found = nominal(row, Asce(0.9), superstructure=ABOVE)
     assert not [c for c in found.checks if c.title.startswith("overturning")]
 
 
