@@ -465,11 +465,6 @@ def test_auto_names_runs_that_end_otherwise():
     assert "run 1 stopped (step_too_small) at t = 1 s, run 2 completed" in lines["first fails"][0]
 
 
-def test_findings_are_data():
-    finding = audit(run(device()))[0]
-    assert replace(finding, mattered=True) != finding
-
-
 def test_a_slip_near_the_one_that_holds_is_marked():
     """L mu_h - (mu1 R1 + mu2 R2) is 14 mm with 0.06, 133 mm with 0.12."""
     for mu_h, marked in ((0.06, True), (0.12, False)):

@@ -23,11 +23,13 @@ from frames.design.project.quantities import si
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.motion.record_motions import record_doubts
-from lir_element import CoulombFriction, LIRBearing
+from lir_element import CoulombFriction
 from lir_element._version import package_version
-from tests.scenes import BOUNDS, DEVICE, MOTIONS, SOIL
+from tests.refusals import refused
+from tests.scenes import BOUNDS, DEVICE, MOTIONS, SOIL, wide_bearing
 
 pytestmark = pytest.mark.filterwarnings("default")  # the command prints warnings
+SCALE, R, BAYS = 'scale = "spectrum"', "R = 8.0", '"7 m", "9 m"'
 KINDS = ("far-field", "near-fault pulse", "near-fault no pulse")
 
 
@@ -86,13 +88,6 @@ def test_a_record_cut_in_its_strong_phase_is_named(tmp_path: Path, put_example) 
     assert "cut in its strong phase" in doubt
 
 
-def test_files_are_told_of(tmp_path: Path) -> None:
-    rng = np.random.default_rng(1)
-    np.savetxt(tmp_path / "noise.txt", rng.standard_normal(2000))
-    with pytest.warns(MotionWarning, match="cut in its strong phase"):
-        GroundMotion.from_columns(x=tmp_path / "noise.txt", dt=0.01, unit="m/s2")
-
-
 def test_one_record_under_two_names(example: Path, tmp_path: Path) -> None:
     lines = (example / "motions" / "motions.csv").read_text(encoding="utf-8").splitlines()
     (example / "motions" / "twice.csv").write_text(
@@ -115,14 +110,24 @@ def test_one_record_that_begins_later(example: Path) -> None:
     assert doubt.startswith("artificial-1 and late: identical or proportional histories")
 
 
-@pytest.mark.parametrize("factor", [9.81, 0.102, 0.01])
-def test_a_factor_that_changes_a_unit(factor: float, example: Path, tmp_path: Path) -> None:
-    output = checked(example, tmp_path, 'scale = "spectrum"', f"scale = {factor}")
-    assert f"scale = {factor:g} is the factor from" in output
-
-
-def test_a_factor_above_all_ground(example: Path, tmp_path: Path) -> None:
-    assert "almost no record" in checked(example, tmp_path, 'scale = "spectrum"', "scale = 7.0")
+@pytest.mark.parametrize(
+    ("old", "new", "words", "none"),
+    [
+        (SCALE, "scale = 9.81", "scale = 9.81 is the factor from", ""),
+        (SCALE, "scale = 0.102", "scale = 0.102 is the factor from", ""),
+        (SCALE, "scale = 0.01", "scale = 0.01 is the factor from", ""),
+        (SCALE, "scale = 7.0", "almost no record", ""),
+        (R, f'{R}\nwind_shear = "5000 kN"', "wind_shear = 5000 kN is above", ""),
+        (R, f'{R}\nwind_shear = "5000 kN"', "slides in wind", ""),
+        (R, f'{R}\nwind_shear = "200 kN"', "", "wind_shear"),
+        (BAYS, '"7 m", "9 mm"', "bay_width = 0.009 m is less than the 0.82 m", ""),
+        (BAYS, '"0.9 m", "0.9 m"', "", "takes in plan"),
+    ],
+)
+def test_numbers_of_the_file_that_are_doubted(example, tmp_path, old, new, words, none):
+    output = checked(example, tmp_path, old, new)
+    assert words in output
+    assert not none or none not in output
 
 
 def test_exchanged_parameters_of_a_spectrum() -> None:
@@ -136,15 +141,6 @@ def test_exchanged_parameters_of_a_spectrum() -> None:
             Spectrum.asce7(*pair)
 
 
-def test_wind_that_slides_the_bearings(example: Path, tmp_path: Path) -> None:
-    output = checked(example, tmp_path, "R = 8.0", 'R = 8.0\nwind_shear = "5000 kN"')
-    assert "wind_shear = 5000 kN is above" in output
-    assert "slides in wind" in output
-    assert "wind_shear" not in checked(
-        example, tmp_path, "R = 8.0", 'R = 8.0\nwind_shear = "200 kN"'
-    )
-
-
 @pytest.mark.parametrize(("mass", "words"), [("1 kg", "in t written"), ("9000000 kg", "in kg")])
 def test_masses_by_area(mass: str, words: str, example: Path, tmp_path: Path) -> None:
     given = mass.split()[0]
@@ -154,23 +150,35 @@ def test_masses_by_area(mass: str, words: str, example: Path, tmp_path: Path) ->
     assert words in output
 
 
-def test_importance_in_one_section(tmp_path: Path, put_example: Callable[..., Path]) -> None:
-    put_example(tmp_path, "EN 1998")
-    file = tmp_path / "project.toml"
-    text = file.read_text(encoding="utf-8")
-    file.write_text(text.replace("importance = 1.0", "importance = 1.4"), encoding="utf-8")
-    output = CliRunner().invoke(app, ["check", str(file)]).output
-    assert "[superstructure] importance = 1.4, [spectrum] importance = 1" in output
-
-
-def test_importance_that_changes_nothing(tmp_path: Path, put_example: Callable[..., Path]) -> None:
-    put_example(tmp_path, "NCh2745")
-    file = tmp_path / "project.toml"
-    assert file_doubts(read_project(file)) == ()
-    text = file.read_text(encoding="utf-8")
-    file.write_text(text.replace("importance = 1.0", "importance = 1.2"), encoding="utf-8")
-    output = CliRunner().invoke(app, ["check", str(file)]).output
-    assert "[superstructure] importance = 1.2 changes nothing: NCh2745" in output
+@pytest.mark.parametrize(
+    ("code", "old", "new", "words"),
+    [
+        (
+            "EN 1998",
+            "importance = 1.0",
+            "importance = 1.4",
+            ["[superstructure] importance = 1.4, [spectrum] importance = 1"],
+        ),
+        (
+            "NCh2745",
+            "importance = 1.0",
+            "importance = 1.2",
+            ["[superstructure] importance = 1.2 changes nothing: NCh2745"],
+        ),
+        (
+            "EN 1998",
+            '"3.4 m/s2"',
+            '"0.25 m/s2"',
+            ["nothing slides at this hazard", "or lower the friction"],
+        ),
+    ],
+)
+def test_values_of_other_codes_that_are_doubted(code, old, new, words, tmp_path, put_example):
+    put_example(tmp_path, code)
+    assert file_doubts(read_project(tmp_path / "project.toml")) == ()
+    output = checked(tmp_path, tmp_path, old, new)
+    assert all(word in output for word in words)
+    assert "does not settle" not in output
 
 
 @pytest.mark.parametrize(
@@ -191,40 +199,19 @@ def test_messages_of_a_file(old: str, new: str, words: str, example: Path, tmp_p
     assert "discriminator" not in output
 
 
-@pytest.mark.parametrize("code", ["EN 1998"])
-def test_ground_that_moves_nothing(code, tmp_path, put_example):
-    put_example(tmp_path, code)
-    file = tmp_path / "project.toml"
-    text = file.read_text(encoding="utf-8")
-    assert si("0.25 g", "m/s^2", "3.5 m/s2") == pytest.approx(0.25 * 9.80665, rel=1e-12)
-    file.write_text(text.replace('"3.4 m/s2"', '"0.25 m/s2"'), encoding="utf-8")
-    output = CliRunner().invoke(app, ["check", str(file)]).output
-    assert "nothing slides at this hazard" in output
-    assert "or lower the friction" in output
-    assert "does not settle" not in output
-
-
 def test_an_acceleration_without_a_unit_may_be_in_g() -> None:
-    with pytest.raises(ValueError, match=r'write "0\.25 g" or "0\.25 m/s2" if that is meant'):
-        si(0.25, "m/s^2", "3.5 m/s2")
-    with pytest.raises(ValueError, match=r'write "3\.4 m/s2" if that is meant'):
-        si(3.4, "m/s^2", "3.5 m/s2")
+    assert si("0.25 g", "m/s^2", "3.5 m/s2") == pytest.approx(0.25 * 9.80665, rel=1e-12)
+    for value, said in ((0.25, r'"0\.25 g" or "0\.25 m/s2"'), (3.4, r'"3\.4 m/s2"')):
+        words = f"write {said} if that is meant"
+        refused(ValueError, words, si, value, "m/s^2", "3.5 m/s2")
 
 
 def test_friction_is_a_number_too() -> None:
-    given = {"radius": 2.5, "slider_height": 0.2, "slider_radius": 0.2, "interface_friction": 0.2}
-    assert LIRBearing(**given, capacity=0.3, friction=0.05) == LIRBearing(  # type: ignore[arg-type]
-        **given,
-        capacity=0.3,
-        friction=CoulombFriction(0.05),  # type: ignore[arg-type]
-    )
-    pair = LIRBearing(**given, capacity=0.3, friction=(0.05, 0.06))  # type: ignore[arg-type]
+    for number in (np.float32(0.125), np.float64(0.125), 0.125, CoulombFriction(0.125)):
+        assert wide_bearing(friction=number).frictions == (CoulombFriction(0.125),) * 2
+    pair = wide_bearing(friction=(0.05, 0.06))
     assert pair.frictions == (CoulombFriction(0.05), CoulombFriction(0.06))
-    for number in (np.float32(0.125), np.float64(0.125), 0.125):
-        taken = LIRBearing(**given, capacity=0.3, friction=number)  # type: ignore[arg-type]
-        assert taken.frictions == (CoulombFriction(0.125), CoulombFriction(0.125))
-    with pytest.raises(TypeError, match=r"give a number as 0\.05"):
-        LIRBearing(**given, capacity=0.3, friction=True)  # type: ignore[arg-type]
+    refused(TypeError, r"give a number as 0\.05", wide_bearing, friction=True)
 
 
 def test_the_command_tells_its_version() -> None:
@@ -266,18 +253,6 @@ def test_gal_is_a_unit_of_files(tmp_path: Path) -> None:
 def test_results_that_are_not_there(lazy: bool, tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"nope\.nc is no file: give one that save"):
         load(tmp_path / "nope.nc", lazy=lazy)
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        ('"7 m", "9 m"', '"7 m", "9 mm"', "bay_width = 0.009 m is less than the 0.82 m"),
-        ('"7 m", "9 m"', '"0.9 m", "0.9 m"', ""),
-    ],
-)
-def test_bays_that_bearings_do_not_fit_into(example, tmp_path, old, new, words):
-    output = checked(example, tmp_path, old, new)
-    assert (words in output) if words else ("takes in plan" not in output)
 
 
 @pytest.mark.parametrize(("stiffness", "soft"), [(400e6, False), (20e6, False), (0.4e6, True)])

@@ -98,12 +98,8 @@ BUNDLE = "class Bundle(NamedTuple):\n    {}: float\n    {}: float\n"
 HELD = "class Held(NamedTuple):\n    inner: Bundle\n"
 INNER = "@kernel\ndef inner(held):\n    return held.inner.right - held.inner.left\n"
 OUTER = "@kernel\ndef outer(held):\n    return 2.0 * inner(held)\n"
-ORDERS = (
-    (("left", "right"), 1),
-    (("left", "right"), 0),
-    (("right", "left"), 1),
-    (("left", "right"), 0),
-)
+FIELDS = "left", "right"
+ORDERS = ((FIELDS, 1), (FIELDS, 0), (FIELDS[::-1], 1), (FIELDS, 0))
 
 
 @pytest.mark.parametrize(("called", "factor"), [("inner", 1.0), ("outer", 2.0)])
@@ -156,17 +152,8 @@ def test_sources_are_found_by_what_kernels_import(tmp_path: Path) -> None:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text, encoding="utf-8")
     found = [path.relative_to(folder).as_posix() for _, path in compiled_sources(folder)]
-    assert found == [
-        "_jit.py",
-        "a.py",
-        "b.py",
-        "bundle.py",
-        "e.py",
-        "kernels/law.py",
-        "room/__init__.py",
-        "room/d.py",
-        "room/g.py",
-    ]
+    listed = "_jit.py a.py b.py bundle.py e.py kernels/law.py room/__init__.py room/d.py room/g.py"
+    assert found == listed.split()
 
 
 def as_a_file(cache: Path, _: pytest.MonkeyPatch) -> None:
@@ -213,42 +200,25 @@ def test_without_a_place_to_keep_them_kernels_compile_in_memory(package, monkeyp
     assert not [p for p in folder.rglob("*") if p.is_file()]  # no partial file either
 
 
-def cut(content: bytes) -> bytes:
-    return content[: len(content) // 2]
+DAMAGES = {
+    "cut": lambda content: content[: len(content) // 2],
+    "emptied": lambda _: b"",
+    "foreign": lambda _: b"not a kernel" * 100,
+    "one bit": lambda content: content[:99] + bytes([content[99] ^ 1]) + content[100:],
+}
 
 
-def emptied(_: bytes) -> bytes:
-    return b""
-
-
-def foreign(_: bytes) -> bytes:
-    return b"not a kernel" * 100
-
-
-def one_bit(content: bytes) -> bytes:
-    middle = len(content) // 2
-    return content[:middle] + bytes([content[middle] ^ 1]) + content[middle + 1 :]
-
-
-@pytest.mark.parametrize("damage", [cut, emptied, foreign, one_bit])
-def test_a_damaged_file_is_compiled_anew_and_replaced(package, monkeypatch, damage):
+@pytest.mark.parametrize("damage", [*DAMAGES, "of another kernel"])
+def test_a_damaged_file_is_compiled_anew_and_replaced(package: Path, damage: str) -> None:
     start(package)(1.0)
-    [path] = kept(package)
-    path.write_bytes(damage(path.read_bytes()))
+    [path], [other] = kept(package), (package.parent / "cache").rglob("package.law*")
+    change = DAMAGES.get(damage, lambda _: other.read_bytes())
+    path.write_bytes(change(path.read_bytes()))
     with pytest.warns(RuntimeWarning, match=r"damaged files, compiled anew.*LIR_CACHE_DIR"):
         assert start(package)(1.0) == 3.0
     healed = start(package)
     assert healed(1.0) == 3.0
     assert compilations(healed) == 0
-
-
-def test_the_file_of_another_kernel_is_not_taken(package: Path) -> None:
-    start(package)(1.0)
-    [path] = kept(package)
-    [other] = (package.parent / "cache").rglob("package.law*")
-    path.write_bytes(other.read_bytes())
-    with pytest.warns(RuntimeWarning, match="damaged"):
-        assert start(package)(1.0) == 3.0
 
 
 def test_a_missing_file_is_compiled_without_a_word(package: Path) -> None:

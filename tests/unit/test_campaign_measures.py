@@ -21,6 +21,7 @@ from frames.risk import (
     open_campaign,
 )
 from lir_element import AnalysisWarning
+from tests.refusals import refused
 from tests.scenes import small_bearing
 
 BEARING = small_bearing(interface_friction=0.16)
@@ -94,31 +95,23 @@ def test_runs_that_stop_have_none(tmp_path: Path) -> None:
     assert table["mean shear"].isna().tolist() == stopped.tolist()
 
 
-def changed_level() -> Measure:
-    level = 0.02
-    return Measure(lambda data: float(data["time"][-1]) + level, "s")
-
-
-def other_level() -> Measure:
-    level = 0.03
+def of_level(level: float) -> Measure:
     return Measure(lambda data: float(data["time"][-1]) + level, "s")
 
 
 def test_a_function_is_part_of_the_plan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    small(tmp_path / "store").run(workers=1)
-    same = {"time beyond 10 mm": Measure(beyond, "s"), "mean shear": MEASURES["mean shear"]}
-    small(tmp_path / "store", measures=same).run(workers=1)  # nothing is left to do
-    words = 'measures: "time beyond 10 mm" was .* is '
-    other_unit = MEASURES | {"time beyond 10 mm": Measure(beyond, "ms")}
-    with pytest.raises(CampaignError, match=words):
-        small(tmp_path / "store", measures=other_unit).run()
-    with pytest.raises(CampaignError, match=r"measures was .* is None"):
-        small(tmp_path / "store", measures=None).run()
+    store, name = tmp_path / "store", "time beyond 10 mm"
+    small(store).run(workers=1)
+    same = {name: Measure(beyond, "s"), "mean shear": MEASURES["mean shear"]}
+    small(store, measures=same).run(workers=1)  # nothing is left to do
+    words = f'measures: "{name}" was .* is '
+    other_unit = MEASURES | {name: Measure(beyond, "ms")}
+    refused(CampaignError, words, small(store, measures=other_unit).run)
+    refused(CampaignError, r"measures was .* is None", small(store, measures=None).run)
     monkeypatch.setitem(globals(), "LEVEL", 0.02)  # of a function that the measure calls
-    with pytest.raises(CampaignError, match=words):
-        small(tmp_path / "store").run()
-    assert changed_level().digest() != other_level().digest()
-    assert changed_level().digest() == changed_level().digest()
+    refused(CampaignError, words, lambda: small(store).run())
+    assert of_level(0.02).digest() != of_level(0.03).digest()
+    assert of_level(0.02).digest() == of_level(0.02).digest()
 
 
 def broken(data: xr.Dataset) -> float:
@@ -146,13 +139,10 @@ def test_errors_are_named_with_their_run(
 def test_what_cannot_be_told_again_is_refused(tmp_path: Path) -> None:
     scope: dict[str, Callable[[xr.Dataset], float]] = {}
     exec("def typed(data): return 1.0", scope)  # noqa: S102  # as at a prompt
-    with pytest.raises(CampaignError, match="source of typed cannot be read"):
-        Measure(scope["typed"], "1")
-    with pytest.raises(TypeError, match="a function or a lambda"):
-        Measure(max, "1")
-    with pytest.raises(TypeError, match=r'measures\["x"\].*a Measure'):
-        small(tmp_path / "store", measures={"x": beyond})
-    own = {"base shear": Measure(beyond, "s")}
-    with pytest.raises(CampaignError, match='measure "base shear" has the name of a quantity'):
-        small(tmp_path / "store", measures=own).run()
-    assert not (tmp_path / "store").exists()
+    refused(CampaignError, "source of typed cannot be read", Measure, scope["typed"], "1")
+    refused(TypeError, "a function or a lambda", Measure, max, "1")
+    store, bare = tmp_path / "store", {"x": beyond}
+    refused(TypeError, r'measures\["x"\].*a Measure', small, store, measures=bare)
+    own = small(store, measures={"base shear": Measure(beyond, "s")})
+    refused(CampaignError, 'measure "base shear" has the name of a quantity', own.run)
+    assert not store.exists()

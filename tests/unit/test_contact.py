@@ -228,31 +228,28 @@ def test_contacts_never_pull() -> None:
     b = bearing()
     p, w, dt = b.to_record()[0], one(SCRATCH), 1e-5
     for gap in (1e-5, -1e-5):
-        old, new = one(TOUCH), one(TOUCH)
-        old.closure, old.hysteresis[:] = 4e-4, (0.5, 0.3)
-        old.spot[2] = -1.0
-        clear_pair(w)
-        w.d[:] = (0.0, 0.0, -(b.radii[0] + gap))
-        sphere(p, 0, w, old, new, STIFF, DAMP, dt, 0.0, 1.0)
-        assert new.push == 0.0
-        assert not w.normal.any()
-        assert not w.tangential.any()
-        assert not w.slope.any()
-        assert_allclose(new.hysteresis, [0.5, 0.3], rtol=0.0, atol=1e-15)  # kept for the landing
-        assert_allclose(new.closure, max(gap, 0.0), rtol=1e-9, atol=1e-18)
-        clear_pair(w)
-        w.d[:] = (0.0, 0.0, -gap)
-        plane(p, w, old, new, STIFF, DAMP, dt)
-        assert new.push == 0.0
-        assert not w.normal.any()
-        assert not w.tangential.any()
-        old, new = one(BODIES), one(BODIES)
-        old.rim_closure[0] = 4e-4
-        clear_pair(w)
-        w.d[:] = (b.rim_displacement[0] + gap, 0.0, -0.7)
-        rim(p, 0, w, old, new, dt)
-        assert new.rim_force[0] == 0.0
-        assert not w.normal.any()
+        old, new, past, after = one(TOUCH), one(TOUCH), one(BODIES), one(BODIES)
+        old.closure, old.hysteresis[:], old.spot[2] = 4e-4, (0.5, 0.3), -1.0
+        past.rim_closure[0] = 4e-4
+        for pair, d in (
+            ("sphere", (0.0, 0.0, -(b.radii[0] + gap))),
+            ("plane", (0.0, 0.0, -gap)),
+            ("rim", (b.rim_displacement[0] + gap, 0.0, -0.7)),
+        ):
+            clear_pair(w)
+            w.d[:] = d
+            if pair == "sphere":
+                sphere(p, 0, w, old, new, STIFF, DAMP, dt, 0.0, 1.0)
+                assert_allclose(new.hysteresis, [0.5, 0.3], rtol=0.0, atol=1e-15)  # for the landing
+                assert_allclose(new.closure, max(gap, 0.0), rtol=1e-9, atol=1e-18)
+            elif pair == "plane":
+                plane(p, w, old, new, STIFF, DAMP, dt)
+            else:
+                rim(p, 0, w, past, after, dt)
+            assert new.push == after.rim_force[0] == 0.0
+            assert not w.normal.any()
+            assert not w.tangential.any()
+            assert pair == "rim" or not w.slope.any()
 
 
 def test_bond_pulls_both_ways() -> None:
@@ -393,20 +390,24 @@ class Bodies:
 
     def press(self, *, derive: bool = False) -> np.ndarray:
         self.w.x[:], self.w.q[:] = self.x, self.q
-        bodies = BodyStep(
-            self.p,
-            self.c,
-            self.points,
-            self.old,
-            self.new,
-            self.touch_old,
-            self.touch_new,
-            None,
-            None,
-            self.w,
-        )
-        press(bodies, self.dt, 0.03, 0.04, derive)
+        touches = self.touch_old, self.touch_new
+        given = self.p, self.c, self.points, self.old, self.new, *touches, None, None, self.w
+        press(BodyStep(*given), self.dt, 0.03, 0.04, derive)
         return self.w.g.copy().reshape(4, 6)
+
+    def slopes(self, step: float, check: Any = None) -> np.ndarray:
+        """Return the derivatives of all forces by differences: displacements and finite turns."""
+        x, q = self.x.copy(), self.q.copy()
+
+        def forces(move: np.ndarray) -> np.ndarray:
+            self.x = x + move.reshape(4, 6)[:, :3]
+            self.q = Rotation.from_rotvec(move.reshape(4, 6)[:, 3:]).as_matrix() @ q
+            found = self.press().ravel()
+            if check:
+                check()
+            return found
+
+        return fourth_order(forces, np.zeros(24), step)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -418,15 +419,10 @@ def test_forces_and_moments_of_all_pairs_balance(config: str, seed: int, kind: s
     g = bodies.press()
     assert np.abs(g[3, :3]).max() > 1e3
     scale = np.abs(bodies.new.parts).max()
-    assert_allclose(g[:, :3].sum(axis=0), 0.0, rtol=0.0, atol=1e-12 * scale)
-    moments = g[:, 3:] + np.cross(bodies.x, g[:, :3])
-    assert_allclose(moments.sum(axis=0), 0.0, rtol=0.0, atol=1e-12 * scale)
-    # origin by origin
-    for part in bodies.new.parts:
-        f = part.reshape(4, 6)
-        assert_allclose(f[:, :3].sum(axis=0), 0.0, rtol=0.0, atol=1e-12 * scale)
+    for f in (g, *bodies.new.parts.reshape(-1, 4, 6)):  # in all, and origin by origin
         moments = f[:, 3:] + np.cross(bodies.x, f[:, :3])
-        assert_allclose(moments.sum(axis=0), 0.0, rtol=0.0, atol=1e-12 * scale)
+        sums = np.hstack([f[:, :3], moments]).sum(axis=0)
+        assert_allclose(sums, 0.0, rtol=0.0, atol=1e-12 * scale)
     assert_allclose(bodies.new.parts.sum(axis=0), g.ravel(), rtol=0.0, atol=1e-12 * scale)
     if config == "on the rims":
         for side, (body, plate) in enumerate(((1, 0), (2, 3))):
@@ -474,23 +470,16 @@ def test_derivative_of_all_forces(config: str, seed: int, kind: str) -> None:
     bodies.touch_old["push"] *= 0.7
     bodies.press(derive=True)
     k = bodies.w.k.copy()
-    x, q = bodies.x.copy(), bodies.q.copy()
     touching = bodies.touch_new["push"] > 0.0
     slipping = bodies.touch_new["slid"] > 0.0
     assert touching.any()
 
-    def forces(move: np.ndarray) -> np.ndarray:
-        bodies.x = x + move.reshape(4, 6)[:, :3]
-        turns = Rotation.from_rotvec(move.reshape(4, 6)[:, 3:]).as_matrix()
-        bodies.q = turns @ q
-        out = bodies.press().ravel()
-        # no corner within the differences
+    def no_corner() -> None:
         assert (touching == (bodies.touch_new["push"] > 0.0)).all()
         if bodies.bearing.friction_law != "bouc-wen":
             assert (slipping == (bodies.touch_new["slid"] > 0.0)).all()
-        return out
 
-    expected = fourth_order(forces, np.zeros(24), 2e-8)
+    expected = bodies.slopes(2e-8, no_corner)
     scale = np.abs(k).max()
     assert scale > 1e8
     # round-off 1e-16 m over 2e-8 m; an arm of 0.1 m times a force of 1e4 N would show as 1e-6
@@ -515,15 +504,8 @@ def test_weak_derivatives_of_the_turning_arms() -> None:
     bodies.touch_old["push"] = 0.9 * bodies.touch_new["push"]
     bodies.press(derive=True)
     k = bodies.w.k.copy()
-    x, q = bodies.x.copy(), bodies.q.copy()
-
-    def forces(move: np.ndarray) -> np.ndarray:
-        bodies.x = x + move.reshape(4, 6)[:, :3]
-        bodies.q = Rotation.from_rotvec(move.reshape(4, 6)[:, 3:]).as_matrix() @ q
-        return bodies.press().ravel()
-
     assert (bodies.touch_new["push"] > 0.0).all()
-    expected = fourth_order(forces, np.zeros(24), 1e-4)
+    expected = bodies.slopes(1e-4)
     assert_allclose(k, expected, rtol=0.0, atol=1e-9 * np.abs(k).max())
 
 

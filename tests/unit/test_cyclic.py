@@ -1,7 +1,6 @@
 """The testing rig against the paper's static test (section 2.2) and against statics by hand."""
 
 import math
-import warnings
 from itertools import pairwise
 from typing import Any
 
@@ -19,6 +18,7 @@ from lir_element import (
     VelocityFriction,
     cyclic_test,
 )
+from tests.refusals import refused
 from tests.scenes import small_bearing as bearing
 
 W = 150e3
@@ -63,16 +63,6 @@ def test_static_cyclic_test_of_the_paper(sign: float) -> None:
     # in fact much closer: what is left is the rim's and the contact's deformation
     assert_allclose(force[399], limit, rtol=2e-4, atol=0.0)
     assert_allclose(force[799], -limit, rtol=2e-4, atol=0.0)
-
-
-@SIGNS
-def test_sliding_force_at_the_centre(sign: float) -> None:
-    """mu (R1 + R2) / L W, 6 % above mu W, whatever the slip of the interface is."""
-    data = cyclic_test(bearing(), sign * np.array([0.12, 0.0, -0.12, 0.0, 0.185, 0.0]), W)
-    force = along_x(data, "bearing_force")[[1, 3, 5]]
-    expected = MU_D * 1.5 / L * W
-    # tilt - slip / L at the last point: second order in both
-    assert_allclose(force, sign * np.array([-1.0, 1.0, -1.0]) * expected, rtol=1e-3, atol=0.0)
 
 
 def branch_work(s: float, c: float, start: float, end: float) -> float:
@@ -182,18 +172,6 @@ def slider_statics(u: float, way: float) -> float:
 
 
 @SIGNS
-def test_dcfp_with_unequal_surfaces(sign: float) -> None:
-    """Force at zero (mu1 R1 + mu2 R2) / L W; stiffness W / L at small displacement."""
-    length = R_1 + R_2 - H_S
-    data = cyclic_test(LIRBearing(**UNEQUAL), sign * np.array([-0.1, 0.0, 0.002, 0.1, 0.0]), W)
-    force = sign * along_x(data, "bearing_force")
-    offset = (MU_1 * R_1 + MU_2 * R_2) / length * W
-    assert_allclose(force[[1, 4]], [offset, -offset], rtol=1e-4, atol=0.0)  # l > L by N / k
-    # tan(phi + psi): slope 1 + psi^2, psi = 0.075
-    assert_allclose(force[2] - force[1], 0.002 * W / length, rtol=7e-3, atol=0.0)
-
-
-@SIGNS
 def test_dcfp_at_large_displacement(sign: float) -> None:
     """Against the statics of the slider, up to 30 degrees of tilt.
 
@@ -207,16 +185,6 @@ def test_dcfp_at_large_displacement(sign: float) -> None:
     force = along_x(up, "bearing_force")[1:] / W
     assert_allclose(force, expected, rtol=1.5e-4, atol=1.5e-4)
     assert np.abs(force).max() > 0.6
-
-
-@SIGNS
-def test_friction_alone(sign: float) -> None:
-    """Half the difference of loading and unloading at +-0.5 m is friction: within 0.4 %."""
-    data = cyclic_test(LIRBearing(**UNEQUAL), sign * np.array([0.5, 0.6, 0.5]), W)
-    force = sign * along_x(data, "bearing_force")
-    measured = 0.5 * (force[0] - force[2])
-    expected = 0.5 * W * (slider_statics(0.5, 1.0) - slider_statics(0.5, -1.0))
-    assert_allclose(measured, expected, rtol=4e-3, atol=0.0)
 
 
 @SIGNS
@@ -305,7 +273,7 @@ def test_axial_force_on_the_tilted_slider() -> None:
     assert_allclose(data["axial_force"][0, 0], n, rtol=1e-4, atol=0.0)  # l > L by N / k
 
 
-@pytest.mark.parametrize("angle", [0.3, math.pi / 2, 2.0, -1.2, math.pi])
+@pytest.mark.parametrize("angle", [0.0, 0.3, math.pi / 2, 2.0, -1.2, math.pi])
 def test_oblique_path(angle: float) -> None:
     """Along any line, with rim contacts, the response is that along x, turned."""
     line = through(0.185, -0.19, 0.0, points=60)
@@ -417,50 +385,41 @@ def test_beyond_the_spheres(sign: float, rising: bool) -> None:
     assert_allclose(info.value.time * 0.02, 0.954 * 1.98, rtol=1e-2, atol=0.0)
 
 
-def test_no_warning_without_failure() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        data = cyclic_test(bearing(), [0.1], W)
-    assert data.attrs["message"] == "completed"
-    assert "failed_at" not in data.attrs
+MASKED = np.ma.masked_less([1e5, -1.0, 1e5], 0.0)
 
 
 @pytest.mark.parametrize(
-    ("changes", "error", "words"),
+    ("name", "value", "words"),
     [
-        ({"displacement": []}, ValueError, r"displacement has shape \(0,\).*n >= 1"),
-        ({"displacement": 0.1}, ValueError, r"displacement has shape \(\)"),
-        ({"displacement": np.zeros((3, 3))}, ValueError, r"displacement has shape \(3, 3\)"),
-        ({"displacement": np.zeros((3, 1))}, ValueError, r"displacement has shape \(3, 1\)"),
-        ({"displacement": np.zeros((2, 2, 2))}, ValueError, r"shape \(2, 2, 2\)"),
-        ({"displacement": np.array([0.0, 1.0j])}, ValueError, "displacement holds complex"),
-        (
-            {"axial_load": np.ma.masked_less([1e5, -1.0, 1e5], 0.0)},
-            ValueError,
-            "axial_load has 1 masked values",
-        ),
-        ({"displacement": [0.0, math.nan]}, ValueError, r"displacement\[1\].*not finite"),
-        ({"displacement": [[0.0, 0.0], [0.0, math.inf]]}, ValueError, r"displacement\[1\]"),
-        ({"axial_load": 0.0}, ValueError, r"axial_load = 0 N.*positive"),
-        ({"axial_load": -1e5}, ValueError, r"axial_load = -100000 N.*compression"),
-        ({"axial_load": math.nan}, ValueError, r"axial_load = nan N"),
-        ({"axial_load": math.inf}, ValueError, r"axial_load = inf N"),
-        ({"axial_load": [1e5, 1e5]}, ValueError, r"axial_load has shape \(2,\).*\(3,\)"),
-        ({"axial_load": [1e5, -2.0, 1e5]}, ValueError, r"axial_load = -2 N"),
-        ({"axial_load": np.ones((3, 1))}, ValueError, r"axial_load has shape \(3, 1\)"),
-        ({"velocity": 0.0}, ValueError, r"velocity = 0 \[m/s\].*positive"),
-        ({"velocity": -0.1}, ValueError, r"velocity = -0\.1"),
-        ({"velocity": math.nan}, ValueError, r"velocity = nan"),
-        ({"velocity": math.inf}, ValueError, r"velocity = inf"),
-        ({"velocity": "fast"}, TypeError, r"velocity = 'fast' is not a number"),
-        ({"level": "contact!"}, ValueError, r"level = 'contact!'.*pendulum"),
-        ({"on_failure": "ignore"}, ValueError, r"on_failure = 'ignore'.*'warn'.*'raise'"),
+        ("displacement", [], r" has shape \(0,\).*n >= 1"),
+        ("displacement", 0.1, r" has shape \(\)"),
+        ("displacement", np.zeros((3, 3)), r" has shape \(3, 3\)"),
+        ("displacement", np.zeros((3, 1)), r" has shape \(3, 1\)"),
+        ("displacement", np.zeros((2, 2, 2)), r" has shape \(2, 2, 2\)"),
+        ("displacement", np.array([0.0, 1.0j]), " holds complex"),
+        ("displacement", [0.0, math.nan], r"\[1\].*not finite"),
+        ("displacement", [[0.0, 0.0], [0.0, math.inf]], r"\[1\]"),
+        ("axial_load", MASKED, " has 1 masked values"),
+        ("axial_load", 0.0, r" = 0 N.*positive"),
+        ("axial_load", -1e5, r" = -100000 N.*compression"),
+        ("axial_load", math.nan, r" = nan N"),
+        ("axial_load", math.inf, r" = inf N"),
+        ("axial_load", [1e5, 1e5], r" has shape \(2,\).*\(3,\)"),
+        ("axial_load", [1e5, -2.0, 1e5], r" = -2 N"),
+        ("axial_load", np.ones((3, 1)), r" has shape \(3, 1\)"),
+        ("velocity", 0.0, r" = 0 \[m/s\].*positive"),
+        ("velocity", -0.1, r" = -0\.1"),
+        ("velocity", math.nan, r" = nan"),
+        ("velocity", math.inf, r" = inf"),
+        ("velocity", "fast", r" = 'fast' is not a number"),
+        ("level", "contact!", r" = 'contact!'.*pendulum"),
+        ("on_failure", "ignore", r" = 'ignore'.*'warn'.*'raise'"),
     ],
 )
-def test_bad_input(changes: dict[str, Any], error: type[Exception], words: str) -> None:
-    given_ = {"displacement": [0.01, 0.02, 0.03], "axial_load": W} | changes
-    with pytest.raises(error, match=words):
-        cyclic_test(bearing(), **given_)
+def test_bad_input(name: str, value: Any, words: str) -> None:
+    given_ = {"displacement": [0.01, 0.02, 0.03], "axial_load": W, name: value}
+    kind = TypeError if words.endswith("is not a number") else ValueError
+    refused(kind, name + words, cyclic_test, bearing(), **given_)
 
 
 CONTRACT = {
@@ -486,7 +445,9 @@ def test_dataset_keeps_the_contract() -> None:
     assert list(data["axis"].to_numpy()) == ["x", "y", "z"]
     assert list(data["surface"].to_numpy()) == ["bottom", "top"]
     assert data.sizes["step"] == 3
-    assert {"status", "lir_dcfp_version", "level", "message"} <= set(data.attrs)
+    assert {"status", "lir_dcfp_version", "level"} <= set(data.attrs)
+    assert data.attrs["message"] == "completed"
+    assert "failed_at" not in data.attrs
 
 
 def test_dataset_is_consistent() -> None:
@@ -515,13 +476,6 @@ def test_dataset_is_consistent() -> None:
     arm = u + np.array([0.0, 0.0, 0.085])
     balance = moments[:, 0] + moments[:, 1] + np.cross(arm, force)
     assert_allclose(balance, 0.0, rtol=0.0, atol=1e-9 * W)  # round-off of levers times W
-
-
-def test_path_in_one_direction_is_the_two_dimensional_path() -> None:
-    line = through(0.185, -0.1, points=20)
-    one = cyclic_test(bearing(), line, W)
-    two = cyclic_test(bearing(), np.column_stack([line, 0.0 * line]), W)
-    xr.testing.assert_identical(one, two)
 
 
 @SIGNS

@@ -15,17 +15,15 @@ from frames.design import (
     engagement_checks,
     overlap_area,
 )
-from lir_element import CoulombFriction, LIRBearing, PressureDependence, cyclic_test
+from lir_element import LIRBearing, PressureDependence, cyclic_test
 from tests.refusals import refused
-
-STATIC = {"radius": 0.75, "slider_height": 0.085, "slider_radius": 0.08}
-"""Bearing of the paper's static test: L = 1.415 m, tested under 150 kN."""
+from tests.scenes import small_bearing
 
 
 def bearing(mu: float = 0.066, mu_h: float = 0.126, **other: object) -> LIRBearing:
-    rims = {} if "rims" in other else {"capacity": 0.175}
-    given = {**STATIC, **rims, **other}
-    return LIRBearing(friction=CoulombFriction(mu), interface_friction=mu_h, **given)
+    """The paper's static test: L = 1.415 m, tested under 150 kN."""
+    rims = {"capacity": None} if "rims" in other else {}
+    return small_bearing(friction=mu, interface_friction=mu_h, **rims | other)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.2, 1.0, 1.7, 2.0, 3.0])
@@ -39,13 +37,8 @@ def test_overlap_is_what_integration_over_the_strips_gives(share: float) -> None
 
 def test_static_bearing_by_hand() -> None:
     """mu_e = 0.066 * 1.5 / 1.415; s* = 1.415 * 0.126 - 0.066 * 1.5; overlap of circles."""
-    limits = DesignLimits(
-        margin=1.2,
-        rim_strength=20e3,
-        interface_pressure=15e6,
-        liner_pressure=15e6,
-        lateral_force=40e3,
-    )
+    pressure = dict.fromkeys(("interface_pressure", "liner_pressure"), 15e6)
+    limits = DesignLimits(margin=1.2, rim_strength=20e3, lateral_force=40e3, **pressure)
     checks = device_checks(bearing(), (100e3, 150e3), slip=0.01, limits=limits)
     by = {(c.title, c.subject): c for c in checks}
     held = by["interface holds until a rim is met", "N_min"]
@@ -55,13 +48,11 @@ def test_static_bearing_by_hand() -> None:
     rim = by["interface slips before the rim breaks", "bottom rim"]
     cos = math.cos(math.asin(0.175 / 1.415))
     assert rim.demand == pytest.approx(150e3 * 0.07929 / 0.75 / cos)
-    assert by["pressure on the sliders' overlap", ""].demand == pytest.approx(
-        150e3 / overlap_area(0.08, 0.01)
-    )
+    pressed = by["pressure on the sliders' overlap", ""].demand
+    assert pressed == pytest.approx(150e3 / overlap_area(0.08, 0.01))
     # bottom rim alone: (R - h/2) mu_h - mu R off the upper slider's axis, that is s* / 2
-    assert by["normalised eccentricity e/a at the rims", ""].demand == pytest.approx(
-        0.07929 / 2 / 0.08
-    )
+    eccentric = by["normalised eccentricity e/a at the rims", ""].demand
+    assert eccentric == pytest.approx(0.07929 / 2 / 0.08)
     # the centre of pressure on a liner: s R / L off where frictions are alike, and mu R h / L
     offset = 0.75 * (0.01 + 0.066 * 0.085) / 1.415
     liner = by["pressure on the liner around its resultant", "top surface"]

@@ -1,7 +1,6 @@
 """Checks at the door: what passes unchanged, and that refusals name value, bound and remedy."""
 
 import math
-from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 
@@ -52,8 +51,8 @@ def test_every_kind_of_number(value: object) -> None:
     "value", [True, np.bool_(True), "2", None, 2j, np.complex64(2), [2.0], np.array([2.0])]
 )
 def test_what_is_no_number(value: object) -> None:
-    with pytest.raises(TypeError, match=r"length = .* is not a number: give one number in m$"):
-        require_positive("length", value, "m", error=OwnError)
+    words = r"length = .* is not a number: give one number in m$"
+    refused(TypeError, words, require_positive, "length", value, "m", error=OwnError)
 
 
 @pytest.mark.parametrize(
@@ -65,11 +64,12 @@ def test_what_is_no_number(value: object) -> None:
     ],
 )
 def test_bounds(check, good, bad):
+    told = {"remedy": "measure it", "error": OwnError}
     for value in good:
         assert check("length", value) == value
     for value in bad:
-        with pytest.raises(OwnError, match=rf"length = {value:g} \[m\] must be .*: measure it$"):
-            check("length", value, "m", remedy="measure it", error=OwnError)
+        words = rf"length = {value:g} \[m\] must be .*: measure it$"
+        refused(OwnError, words, check, "length", value, "m", **told)
 
 
 def test_infinity_where_it_is_meant() -> None:
@@ -101,8 +101,8 @@ def test_kinds_and_choices() -> None:
     require_type("name", "a", str, "a string")
     refused(TypeError, "name = 7 must be a string", require_type, "name", 7, str, "a string")
     require_choice("axis", "x", ("x", "y"))
-    with pytest.raises(OwnError, match=r"axis = 'q': choose one of \('x', 'y'\)"):
-        require_choice("axis", "q", ("x", "y"), error=OwnError)
+    words = r"axis = 'q': choose one of \('x', 'y'\)"
+    refused(OwnError, words, require_choice, "axis", "q", ("x", "y"), error=OwnError)
 
 
 def test_results_and_devices_of_another_kind_are_told() -> None:
@@ -110,18 +110,20 @@ def test_results_and_devices_of_another_kind_are_told() -> None:
     bearing = small_bearing(friction=0.05, interface_friction=0.15)
     model = lumped_mass(bearing, 15e3)
     data = time_history(model, GroundMotion(x=[0.0, 1.0, 0.0], dt=0.1))
-    refused(TypeError, r"for several, summary\(\{name: data", peaks, [data])
-    refused(TypeError, "results is a Dataset: give Datasets by name", summary, data)
-    refused(TypeError, "results is a list", summary, [data])
-    with pytest.raises(TypeError, match=r"an array of shape \(3,\) must be a GroundMotion"):
-        time_history(model, np.zeros(3))
-    for wrong in (Element, Element(bearing)):
-        refused(TypeError, "must be an LIRBearing, the device itself", lumped_mass, wrong, 15e3)
-    with pytest.raises(ValueError, match=r"reaches 150 m, .* 0.75 m: give metres, 150 mm as 0.15"):
-        cyclic_test(bearing, [0.0, 150.0, 0.0], 150e3)
-    with pytest.warns(
-        UserWarning, match=r"1000 N is .* times the design load.*1000 kN are 1e\+06 N"
+    device = "must be an LIRBearing, the device itself"
+    for words, call, *given in (
+        (r"for several, summary\(\{name: data", peaks, [data]),
+        ("results is a Dataset: give Datasets by name", summary, data),
+        ("results is a list", summary, [data]),
+        (r"an array of shape \(3,\) must be a GroundMotion", time_history, model, np.zeros(3)),
+        (device, lumped_mass, Element, 15e3),
+        (device, lumped_mass, Element(bearing), 15e3),
     ):
+        refused(TypeError, words, call, *given)
+    words = r"reaches 150 m, .* 0.75 m: give metres, 150 mm as 0.15"
+    refused(ValueError, words, cyclic_test, bearing, [0.0, 150.0, 0.0], 150e3)
+    words = r"1000 N is .* times the design load.*1000 kN are 1e\+06 N"
+    with pytest.warns(UserWarning, match=words):
         cyclic_test(bearing, [0.0, 0.001], 1e3)
 
 
@@ -130,23 +132,20 @@ def test_messages_are_short_whatever_was_given(tmp_path: Path) -> None:
     bearing = small_bearing(friction=0.05, interface_friction=0.15)
     model, many = lumped_mass(bearing, 15e3), np.linspace(0.0, 1.0, 600)
     data = time_history(model, GroundMotion(x=[0.0, 1.0, 0.0], dt=0.1))
-    tries: dict[str, Callable[[], object]] = {
-        "data = a list of 1 must be a Dataset": lambda: audit([data]),  # type: ignore[arg-type]
-        "data = a list of 1 must be": lambda: peaks([data]),  # type: ignore[arg-type]
+    for words, attempt in {
+        "data = a list of 1 must be a Dataset": lambda: audit([data]),
+        "data = a list of 1 must be": lambda: peaks([data]),
         r"array of shape \(600,\) must be a Ground": lambda: time_histories(model, many),
-        "dt = a list of 600 is not a number": lambda: GroundMotion(x=0.01, dt=many.tolist()),  # type: ignore[arg-type]
-        "frame = a Dataset must be a Frame": lambda: modes(data),  # type: ignore[arg-type]
-        "frame = GroundMotion.* must be a Frame": lambda: gravity(GroundMotion(x=many, dt=0.1)),  # type: ignore[arg-type]
-        "bearing = an Element must be": lambda: moment_frame(bearing=Element(bearing)),  # type: ignore[arg-type]
-        "bearing = 5.0 must be": lambda: shear_building(5.0, 1e4, 1e7, storeys=1),  # type: ignore[arg-type]
-    }
-    for words, attempt in tries.items():
-        with pytest.raises(TypeError, match=words) as told:
-            attempt()
-        assert len(str(told.value)) < 200
+        "dt = a list of 600 is not a number": lambda: GroundMotion(x=0.01, dt=many.tolist()),
+        "frame = a Dataset must be a Frame": lambda: modes(data),
+        "frame = GroundMotion.* must be a Frame": lambda: gravity(GroundMotion(x=many, dt=0.1)),
+        "bearing = an Element must be": lambda: moment_frame(bearing=Element(bearing)),
+        "bearing = 5.0 must be": lambda: shear_building(5.0, 1e4, 1e7, storeys=1),
+    }.items():
+        assert len(str(refused(TypeError, words, attempt))) < 200
     (tmp_path / "notes.nc").write_text("no results")
-    with pytest.raises(OSError, match=r"notes\.nc holds no results .*: give a file that save"):
-        load(tmp_path / "notes.nc")
+    words = r"notes\.nc holds no results .*: give a file that save"
+    refused(OSError, words, load, tmp_path / "notes.nc")
 
 
 @pytest.mark.parametrize("size", [1e-320, 1e-300])

@@ -19,15 +19,7 @@ from frames.plots.model_geometry import member_lines
 from tests.scenes import SECTION as PLAIN
 
 SHEAR = replace(PLAIN, shear_area_y=5e-3, shear_area_z=4e-3)
-STIFF = Section(
-    area=1e2,
-    inertia_y=1e2,
-    inertia_z=1e2,
-    torsion_constant=1e2,
-    elastic_modulus=2e11,
-    shear_modulus=1e11,
-    density=0.0,
-)
+STIFF = replace(PLAIN, area=1e2, inertia_y=1e2, inertia_z=1e2, torsion_constant=1e2)
 AT_I, AT_J = (0.3, 0.1, -0.2), (-0.25, 0.15, -0.4)
 RELEASES = [None, {"j": ("My", "Mz")}, {"i": ("My",), "j": ("T", "Mz")}]
 
@@ -171,15 +163,12 @@ def test_as_opensees_joint_offsets():
             ops.timeSeries("Linear", 1)
             ops.pattern("Plain", 1, 1)
             ops.load(built.nodes["b"], *(1.0 if k == dof else 0.0 for k in range(6)))
-            for command, *options in (
-                ("system", "FullGeneral"),
-                ("numberer", "Plain"),
-                ("constraints", "Plain"),
-                ("integrator", "LoadControl", 1),
-                ("algorithm", "Linear"),
-                ("analysis", "Static"),
-            ):
-                getattr(ops, command)(*options)
+            for command in ("numberer", "constraints"):
+                getattr(ops, command)("Plain")
+            ops.system("FullGeneral")
+            ops.integrator("LoadControl", 1)
+            ops.algorithm("Linear")
+            ops.analysis("Static")
             assert ops.analyze(1) == 0
             flexibility[:, dof] = ops.nodeDisp(built.nodes["b"])
     assert_allclose(np.linalg.inv(flexibility), ours, rtol=0.0, atol=1e-9 * np.abs(ours).max())

@@ -50,21 +50,6 @@ def test_stripes_are_a_regression_of_probits() -> None:
     assert curve.data["exceeded"].sum() == over.sum()
 
 
-def test_likelihood_of_stripes_is_largest() -> None:
-    """Baker (2015), eq. 11, at the fit and next to it."""
-    im, over, records = striped(drawn(5))
-    curve = fit_stripes(im, over, records, resamples=5)
-
-    def log_likelihood(median: float, dispersion: float) -> float:
-        p = ndtr(np.log(im / median) / dispersion)
-        return float(np.where(over > 0.5, np.log(p), np.log1p(-p)).sum())
-
-    best = log_likelihood(curve.median, curve.dispersion)
-    for factor in (0.99, 1.01):
-        assert log_likelihood(curve.median * factor, curve.dispersion) < best
-        assert log_likelihood(curve.median, curve.dispersion * factor) < best
-
-
 def test_capacities_by_moments_in_closed_form() -> None:
     values = np.array([0.5, 0.8, 1.1, 1.9])
     curve = fit_capacities(values, names(4), resamples=50)
@@ -186,27 +171,24 @@ def test_tables() -> None:
 
 def test_what_determines_no_curve_is_refused() -> None:
     im, over, records = striped(drawn(3))
-    for outcome, words in (
-        (np.zeros_like(over), "no run exceeds"),
-        (np.ones_like(over), "all runs exceed"),
-        ((im > 0.8).astype(float), "must overlap"),
-        (1.0 - over, "grow with the intensity"),
+    four, curve = [1.0, 2.0, 3.0, 4.0], lognormal_fragility(1.0, 0.4)
+    for words, fit, *given in (
+        ("no run exceeds", fit_stripes, im, np.zeros_like(over), records),
+        ("all runs exceed", fit_stripes, im, np.ones_like(over), records),
+        ("must overlap", fit_stripes, im, (im > 0.8).astype(float), records),
+        ("grow with the intensity", fit_stripes, im, 1.0 - over, records),
+        ("one length", fit_stripes, im, over[1:], records),
+        ("positive", fit_stripes, -im, over, records),
+        ("3 at least", fit_capacities, [1.0, 2.0], ["a", "b"]),
+        ("a record once", fit_capacities, [1.0, 2.0, 3.0], ["a", "a", "b"]),
+        ("must be positive", fit_cloud, four, [0.0, 1.0, 2.0, 3.0], 1.0, names(4)),
+        ("no rising line", fit_cloud, four, four[::-1], 1.0, names(4)),
+        ("at least 0", curve.probability, [-1.0]),
+        ("confidence", curve.band, [1.0], 1.0),
     ):
-        refused(FragilityError, words, fit_stripes, im, outcome, records)
-    refused(FragilityError, "one length", fit_stripes, im, over[1:], records)
-    refused(FragilityError, "positive", fit_stripes, -im, over, records)
-    refused(FragilityError, "3 at least", fit_capacities, [1.0, 2.0], ["a", "b"])
-    refused(FragilityError, "a record once", fit_capacities, [1.0, 2.0, 3.0], ["a", "a", "b"])
-    with pytest.raises(FragilityError, match="censored"):
-        fit_capacities([1.0, 2.0, 3.0, 4.0], names(4), censored=[0, 0, 0, 1], method="moments")
-    with pytest.raises(FragilityError, match="must be positive"):
-        fit_cloud([1.0, 2.0, 3.0, 4.0], [0.0, 1.0, 2.0, 3.0], 1.0, names(4))
-    with pytest.raises(FragilityError, match="no rising line"):
-        fit_cloud([1.0, 2.0, 3.0, 4.0], [4.0, 3.0, 2.0, 1.0], 1.0, names(4))
-    with pytest.raises(FragilityError, match="confidence"):
-        lognormal_fragility(1.0, 0.4).band([1.0], confidence=1.0)
-    with pytest.raises(FragilityError, match="at least 0"):
-        lognormal_fragility(1.0, 0.4).probability([-1.0])
+        refused(FragilityError, words, fit, *given)
+    some = {"censored": [0, 0, 0, 1], "method": "moments"}
+    refused(FragilityError, "censored", fit_capacities, four, names(4), **some)
 
 
 def test_without_the_package_an_error_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,6 +3,7 @@
 import math
 import re
 import warnings
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -187,28 +188,25 @@ def test_a_wide_interval_of_an_index_is_told_with_a_remedy_that_works() -> None:
 
 
 def test_what_makes_no_sense_is_refused() -> None:
-    for im, rate, words in (
-        ([1.0], [0.1], "2 at least"),
-        ([1.0, 2.0], [0.1, 0.2], "fall"),
-        ([2.0, 1.0], [0.2, 0.1], "rise"),
-        ([1.0, 2.0], [0.1, 0.0], "positive"),
+    def same(value: float) -> Callable[[list[object]], list[float]]:
+        return lambda sets: [value for _ in sets]
+
+    one, curve = {"a": (0.0, 1.0, 3.0)}, lognormal_fragility(1.0, 0.4, unit="m/s")
+    for words, call, *given in (
+        ("2 at least", HazardCurve, [1.0], [0.1]),
+        ("fall", HazardCurve, [1.0, 2.0], [0.1, 0.2]),
+        ("rise", HazardCurve, [2.0, 1.0], [0.2, 0.1]),
+        ("positive", HazardCurve, [1.0, 2.0], [0.1, 0.0]),
+        ("one unit", mean_annual_frequency, curve, HazardCurve([1.0, 2.0], [0.2, 0.1])),
+        ("in this order", tornado, same(0.0), {"a": (2.0, 1.0, 3.0)}),
+        ("one number for each", tornado, lambda _: [0.0], one),
+        ("must be finite", tornado, same(math.nan), one),
+        ("nothing depends", sobol_indices, same(1.0), {"a": uniform(0, 1)}),
+        ("give distributions", sobol_indices, same(1.0), {"a": 1.0}),
     ):
-        refused(FragilityError, words, HazardCurve, im, rate)
-    with pytest.raises(FragilityError, match="one unit"):
-        mean_annual_frequency(
-            lognormal_fragility(1.0, 0.4, unit="m/s"), HazardCurve([1.0, 2.0], [0.2, 0.1])
-        )
-    with pytest.raises(FragilityError, match="in this order"):
-        tornado(lambda sets: [0.0 for _ in sets], {"a": (2.0, 1.0, 3.0)})
-    refused(FragilityError, "one number for each", tornado, lambda _: [0.0], {"a": (0.0, 1.0, 3.0)})
-    with pytest.raises(FragilityError, match="must be finite"):
-        tornado(lambda sets: [math.nan for _ in sets], {"a": (0.0, 1.0, 3.0)})
-    with pytest.raises(FragilityError, match="power of 2"):
-        sobol_indices(lambda sets: [0.0 for _ in sets], {"a": uniform(0, 1)}, samples=100)
-    with pytest.raises(FragilityError, match="nothing depends"):
-        sobol_indices(lambda sets: [1.0 for _ in sets], {"a": uniform(0, 1)})
-    with pytest.raises(FragilityError, match="give distributions"):
-        sobol_indices(lambda sets: [1.0 for _ in sets], {"a": 1.0})
+        refused(FragilityError, words, call, *given)
+    given = same(0.0), {"a": uniform(0, 1)}
+    refused(FragilityError, "power of 2", sobol_indices, *given, samples=100)
 
 
 def test_figures_of_risk_and_tornado() -> None:

@@ -36,6 +36,7 @@ from lir_element import (
 )
 from lir_element.element import heat_parts, initial_state
 from lir_element.kernels.friction_law import covered, heat_up
+from tests.refusals import refused
 from tests.scenes import plain_pendulum
 
 LOAD = 3e6
@@ -84,27 +85,25 @@ def test_pressure_factor():
 
 
 @pytest.mark.parametrize(
-    ("make", "words"),
+    ("kind", "given", "words"),
     [
-        (lambda: FrictionHeating(diffusivity=4.44), r"diffusivity = 4.44 .*4.44e-6 m2/s"),
-        (lambda: FrictionHeating(thickness=50.0), r"thickness = 50 .*\(50 mm are 0.05 m"),
-        (lambda: FrictionHeating(initial_temperature=293.15e1), "initial_temperature = 2931.5"),
-        (lambda: FrictionHeating(variant="quarter"), r"choose one of \('half', 'third'"),
-        (lambda: FrictionHeating(conductivity=0.0), "conductivity = 0 "),
-        (lambda: FrictionHeating(share=1.5), "share = 1.5"),
-        (lambda: PressureDependence(reference_pressure=30.0), r"\(30 MPa are 3e\+07 Pa\)"),
-        (lambda: PressureDependence(rate=0.0071), r"rate = 0.0071 .*1/Pa"),
+        (FrictionHeating, {"diffusivity": 4.44}, r"diffusivity = 4.44 .*4.44e-6 m2/s"),
+        (FrictionHeating, {"thickness": 50.0}, r"thickness = 50 .*\(50 mm are 0.05 m"),
+        (FrictionHeating, {"initial_temperature": 2931.5}, "initial_temperature = 2931.5"),
+        (FrictionHeating, {"variant": "quarter"}, r"choose one of \('half', 'third'"),
+        (FrictionHeating, {"conductivity": 0.0}, "conductivity = 0 "),
+        (FrictionHeating, {"share": 1.5}, "share = 1.5"),
+        (PressureDependence, {"reference_pressure": 30.0}, r"\(30 MPa are 3e\+07 Pa\)"),
+        (PressureDependence, {"rate": 0.0071}, r"rate = 0.0071 .*1/Pa"),
     ],
 )
-def test_bad_numbers_are_refused(make: Any, words: str):
-    with pytest.raises(ValueError, match=words):
-        make()
+def test_bad_numbers_are_refused(kind: Any, given: dict[str, Any], words: str):
+    refused(ValueError, words, kind, **given)
 
 
-@pytest.mark.parametrize("name", ["friction_heating", "pressure_dependence"])
+@pytest.mark.parametrize("name", BOTH)
 def test_a_bearing_takes_nothing_else(name: str):
-    with pytest.raises(TypeError, match=rf"{name} = 0.5 must be a .*\(\)"):
-        device(**{name: 0.5})
+    refused(TypeError, rf"{name} = 0.5 must be a .*\(\)", device, **{name: 0.5})
 
 
 def test_a_bearing_describes_them():
@@ -190,28 +189,27 @@ def test_cover_of_the_middle():
     assert_allclose([covered(0.08, 0.12, 0.1), covered(0.16, 0.06, 0.1)], [0.5, 0.4])
 
 
-def held(bearing: LIRBearing, x: np.ndarray, level: Any = "pendulum", **options: Any) -> Any:
+TOLD = ("temperature", "friction_coefficient", "friction_force", "work_friction", "eccentricity")
+
+
+def taken(element: Element, x: np.ndarray) -> dict[str, np.ndarray]:
     """Take an element along x (n,) in steps of `DT` at the height that carries the load."""
-    element = Element(bearing, level, **options)
+    bearing, u = element.bearing, np.zeros(12)
     length = bearing.effective_radius + LOAD / bearing.resolved()["axial_stiffness"]
-    names = (
-        "temperature",
-        "friction_coefficient",
-        "friction_force",
-        "work_friction",
-        "eccentricity",
-        "axial_force",
-        "force",
-    )
-    kept: dict[str, list[Any]] = {name: [] for name in names}
-    u = np.zeros(12)
+    kept: dict[str, list[Any]] = {name: [] for name in (*TOLD, "axial_force", "force")}
     for k, place in enumerate(x):
         u[6], u[8] = place, bearing.effective_radius - math.sqrt(length**2 - place**2)
         element.set_trial(u, np.zeros(12), DT * k)
         element.commit()
-        for name in names:
-            kept[name].append(np.array(element.response(name)))
-    return element, {name: np.array(values) for name, values in kept.items()}
+        for name, values in kept.items():
+            values.append(np.array(element.response(name)))
+    return {name: np.array(values) for name, values in kept.items()}
+
+
+def held(bearing: LIRBearing, x: np.ndarray, level: Any = "pendulum", **options: Any) -> Any:
+    """Return a new element that was taken along x, and what it told."""
+    element = Element(bearing, level, **options)
+    return element, taken(element, x)
 
 
 def sine(reach: float, count: int, period: float = 2.0) -> np.ndarray:
@@ -328,26 +326,16 @@ def test_copies_and_restarts_keep_their_own_heat():
     assert element.response("temperature")[0] > r["temperature"][-1, 0]
     element.revert_to_start()
     assert_array_equal(element.response("temperature"), 20.0)
-    again = [element.response("temperature")]
-    for k, place in enumerate(x[:40]):
-        u = np.zeros(12)
-        length = element.bearing.effective_radius
-        length += LOAD / element.bearing.resolved()["axial_stiffness"]
-        u[6] = place
-        u[8] = element.bearing.effective_radius - math.sqrt(length**2 - place**2)
-        element.set_trial(u, np.zeros(12), DT * k)
-        element.commit()
-        again.append(element.response("temperature"))
-    assert_array_equal(again[1:], r["temperature"][:40])
+    assert_array_equal(taken(element, x[:40])["temperature"], r["temperature"][:40])
 
 
-def test_the_level_rigid_body_refuses_them():
-    for name, law in BOTH.items():
-        bearing = device(**{name: law})
-        with pytest.raises(ValueError, match=rf'"rigid_body" does not know {name}: take level="co'):
-            cyclic_test(bearing, [0.0, 0.1], LOAD, level="rigid_body")
-        with pytest.raises(ValueError, match=rf'"rigid_body" does not know {name}: take level="co'):
-            time_history(lumped_mass(bearing, 1e4), motion(), level="rigid_body")
+@pytest.mark.parametrize("name", BOTH)
+def test_the_level_rigid_body_refuses_them(name: str):
+    bearing, level = device(**{name: BOTH[name]}), "rigid_body"
+    words = rf'"rigid_body" does not know {name}: take level="co'
+    refused(ValueError, words, cyclic_test, bearing, [0.0, 0.1], LOAD, level=level)
+    frame = lumped_mass(bearing, 1e4)
+    refused(ValueError, words, time_history, frame, motion(), level=level)
 
 
 # Time histories --------------------------------------------------------------------------------

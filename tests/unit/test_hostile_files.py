@@ -1,5 +1,6 @@
 """Files that are damaged, change, lead elsewhere or cannot be written; files of others."""
 
+import contextvars
 import csv
 import errno
 import hashlib
@@ -13,10 +14,12 @@ import sys
 import time
 import zipfile
 from collections.abc import Callable
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -36,6 +39,7 @@ from frames.design.project.reading import read_project
 from frames.exchange.reading import read_excel
 from frames.results.storage import csv_of, from_text
 from tests.patience import patience
+from tests.refusals import refused
 from tests.unit.test_project import SOON
 
 LAW = '{f_max = 0.06, f_min = "3 %", rate = "100 s/m"}'
@@ -109,9 +113,7 @@ def test_what_is_shown_is_what_was_analysed(done: Path, monkeypatch: pytest.Monk
         ("name,record", "one,a.txt | b.txt"),
     ],
 )
-def test_records_of_every_table_that_is_read_are_among_the_digests(
-    done: Path, head: str, row: str
-) -> None:
+def test_records_of_every_table_that_is_read_are_among_the_digests(done, head, row):
     folder = done / "motions"
     (folder / "motions.csv").write_text(f"{head}\n{row}\n", encoding="utf-8-sig")
     for name in ("a.txt", "b.txt"):
@@ -123,9 +125,7 @@ def test_records_of_every_table_that_is_read_are_among_the_digests(
     assert [str(folder / "b.txt") in said for said in parts.sources.changed()] == [True]
 
 
-def test_a_file_that_changes_before_anything_is_run_is_refused(
-    done: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_that_changes_before_anything_is_run_is_refused(done, monkeypatch):
     before = preliminary
 
     def edited(parts: Any) -> Any:
@@ -207,8 +207,6 @@ MARK = "from pathlib import Path\nPath({!r}).write_text('')\nraise ValueError('o
 
 def invoked(*words: str) -> Result:
     """Give a command; what it allows to run is for it alone."""
-    import contextvars
-
     return contextvars.copy_context().run(CliRunner().invoke, app, list(words))
 
 
@@ -231,8 +229,8 @@ def test_files_that_run_are_named_and_lie_in_the_folder(done: Path, way: str) ->
     if way == "link":
         (done / "inside.py").symlink_to(outside)
     file.write_text(text)
-    refused = one_line(invoked(command, str(file)), 2)
-    assert f"{outside} lies outside of the project's folder" in refused
+    said = one_line(invoked(command, str(file)), 2)
+    assert f"{outside} lies outside of the project's folder" in said
     assert not ran.exists()
     found = invoked("--scripts-from-anywhere", command, str(file))
     assert "ValueError: on purpose" in one_line(found, 2)
@@ -252,14 +250,12 @@ def cut(path: Path) -> None:
     path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
 
 
-def emptied(path: Path) -> None:
-    """Nothing in a file."""
-    path.write_bytes(b"")
-
-
-def binary(path: Path) -> None:
+def binary(path: Path, content: bytes = b"\x00\xff\xfe\x80" * 500) -> None:
     """Bytes that mean nothing."""
-    path.write_bytes(b"\x00\xff\xfe\x80" * 500)
+    path.write_bytes(content)
+
+
+emptied = partial(binary, content=b"")
 
 
 def flipped(path: Path) -> None:
@@ -267,11 +263,6 @@ def flipped(path: Path) -> None:
     whole = bytearray(path.read_bytes())
     whole[len(whole) // 2] ^= 1
     path.write_bytes(whole)
-
-
-def gone(path: Path) -> None:
-    """No file."""
-    path.unlink()
 
 
 def a_folder(path: Path) -> None:
@@ -300,7 +291,7 @@ def undigested(path: Path) -> None:
         (emptied, "out/runs-upper.nc", "report", 2, "runs-upper.nc is not as it was written"),
         (flipped, "out/runs-nominal.nc", "report", 2, "its SHA-256 is not the one in run.json"),
         (flipped, "out/governing.nc", "view", 2, "governing.nc is not as it was written"),
-        (gone, "out/governing.nc", "report", 2, "`lir run` writes all files anew"),
+        (Path.unlink, "out/governing.nc", "report", 2, "`lir run` writes all files anew"),
         (undigested, "out/governing.nc", "report", 2, "holds no results (netCDF)"),
         (binary, "out/run.json", "report", 2, "run.json is damaged"),
         (cut, "out/run.json", "view", 2, "run.json is damaged"),
@@ -311,7 +302,7 @@ def undigested(path: Path) -> None:
         (a_file, "out", "run", 4, "out is no folder and cannot be made one"),
         (a_file, "out", "compare", 4, "out is no folder and cannot be made one"),
         (binary, "motions/motions.csv", "check", 2, "motions.csv"),
-        (gone, "motions/motions.csv", "check", 2, "motions.csv"),
+        (Path.unlink, "motions/motions.csv", "check", 2, "motions.csv"),
         (binary, "motions/artificial-5-x.txt", "check", 2, "artificial-5-x.txt"),
         (emptied, "motions/artificial-5-y.txt", "check", 2, "artificial-5-y.txt"),
         (a_folder, "motions/artificial-5-y.txt", "check", 2, "artificial-5-y.txt"),
@@ -319,9 +310,7 @@ def undigested(path: Path) -> None:
         (a_folder, "small.toml", "check", 2, "give a file"),
     ],
 )
-def test_damage_is_a_line_with_its_code(
-    done: Path, damage: Callable[[Path], None], name: str, command: str, code: int, words: str
-) -> None:
+def test_damage_is_a_line_with_its_code(done, damage, name, command, code, words):
     damage(done / name)
     said = one_line(lir(command, done), code)
     assert words in said
@@ -339,9 +328,7 @@ def test_a_full_disk_is_a_line(done: Path, monkeypatch: pytest.MonkeyPatch, comm
 
 
 @pytest.mark.parametrize("instead", [False, True])
-def test_results_that_are_removed_while_running(
-    done: Path, monkeypatch: pytest.MonkeyPatch, instead: bool
-) -> None:
+def test_results_that_are_removed_while_running(done, monkeypatch, instead):
     """They are written where they belong; where a file stands now, a line says so."""
     out = done / "out"
     run = design_run.run_project
@@ -364,18 +351,15 @@ HOSTILE = ("=1+1", "+SUM(A1)", "-cmd|'/c calc'!A0", "@SUM(1)", "\t=1", " =1")
 
 
 def test_no_cell_of_a_table_is_a_formula() -> None:
-    table = pd.DataFrame(
-        {"=head": HOSTILE, "number": [-1.0, 2.0, 3.0, 4.0, 5.0, 6.0]},
-        index=pd.Index(HOSTILE, name="@index"),
-    )
+    index = pd.Index(HOSTILE, name="@index")
+    table = pd.DataFrame({"=head": HOSTILE, "number": np.arange(-1.0, 5.0)}, index=index)
     rows = list(csv.reader(csv_of(table).splitlines()))
     assert rows[0] == ["'@index", "'=head", "number"]
     assert [row[0] for row in rows[1:]] == [f"'{name}" for name in HOSTILE]
     assert rows[1][2] == "-1.0"
     assert [from_text(row[1]) for row in rows[1:]] == list(HOSTILE)
-    several = table.set_index("=head", append=True)
-    assert "\n=" not in csv_of(several)
-    assert csv_of(several).splitlines()[1].startswith("'=1+1,'=1+1,")
+    several = csv_of(table.set_index("=head", append=True))
+    assert several.splitlines()[1].startswith("'=1+1,'=1+1,")
     for plain in ("-1.5e3", "+3", "- ", "-", "'quoted", "a=b"):
         assert csv_of(pd.DataFrame({"a": [plain]}), index=False).splitlines()[1] == plain
 
@@ -461,11 +445,8 @@ def test_what_is_far_too_long_is_refused(done: Path, old: str, new: str, words: 
         said = one_line(found, 2)
         assert words in said
         assert len(said) < 1500
-
-
-def test_a_path_of_thousands_of_characters_is_refused() -> None:
-    found = CliRunner().invoke(app, ["check", f"{'p' * 6000}.toml"])
-    assert "File name too long" in one_line(found, 2)
+    far = CliRunner().invoke(app, ["check", f"{'p' * 6000}.toml"])
+    assert "File name too long" in one_line(far, 2)
 
 
 @pytest.mark.parametrize("content", ["<a>", "", "<Types/>"])
@@ -474,5 +455,5 @@ def test_what_is_no_workbook_is_refused(tmp_path: Path, content: str) -> None:
     path = tmp_path / "model.xlsx"
     with zipfile.ZipFile(path, "w") as whole:
         whole.writestr("[Content_Types].xml", content)
-    with pytest.raises(ModelError, match=r"model\.xlsx is no workbook that can be read .*export"):
-        read_excel(path)
+    words = r"model\.xlsx is no workbook that can be read .*export"
+    refused(ModelError, words, read_excel, path)

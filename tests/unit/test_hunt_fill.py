@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from frames.risk import FragilityError, HuntFill
+from tests.refusals import refused
 
 
 def played(rules: HuntFill, capacity: float, failing: object = None) -> tuple[list, list]:
@@ -80,14 +81,15 @@ def test_the_hunt_ends_at_the_highest() -> None:
     assert sorted(im[3:]) == [0.5, 1.5]
 
 
-def test_what_makes_no_sense_is_refused() -> None:
-    for wrong, words in (
-        ({"first": 0.0}, "first"),
-        ({"first": 1.0, "runs": 1}, "runs"),
-        ({"first": 1.0, "resolution": 1.5}, "resolution"),
-        ({"first": 2.0, "highest": 1.0}, "below"),
-    ):
-        with pytest.raises(FragilityError, match=words):
-            HuntFill(**wrong)
-    with pytest.raises(FragilityError, match="one length"):
-        HuntFill(first=1.0).next_intensities([1.0], [])
+@pytest.mark.parametrize(
+    ("words", "given"),
+    [
+        ("first", {"first": 0.0}),
+        ("runs", {"first": 1.0, "runs": 1}),
+        ("resolution", {"first": 1.0, "resolution": 1.5}),
+        ("below", {"first": 2.0, "highest": 1.0}),
+    ],
+)
+def test_what_makes_no_sense_is_refused(words, given):
+    refused(FragilityError, words, HuntFill, **given)
+    refused(FragilityError, "one length", HuntFill(first=1.0).next_intensities, [1.0], [])

@@ -55,13 +55,8 @@ def runs(rows: list[tuple[str, float, float | str]]) -> IntensityRuns:
 
 TWO = runs(
     [
-        ("a", 1.0, 0.1),
-        ("b", 1.0, 0.2),
-        ("a", 2.0, 0.3),
-        ("b", 2.0, "slip_exceeded"),
-        ("a", 4.0, "rim_overrun"),
-        ("b", 4.0, "slip_exceeded"),
-        ("a", 3.0, "newton_failed"),
+        *(("a", 1.0, 0.1), ("b", 1.0, 0.2), ("a", 2.0, 0.3), ("b", 2.0, "slip_exceeded")),
+        *(("a", 4.0, "rim_overrun"), ("b", 4.0, "slip_exceeded"), ("a", 3.0, "newton_failed")),
     ]
 )
 TWO_IDA = IDA(TWO, LimitState.bearing_failure(), HuntFill(first=1.0))
@@ -186,48 +181,37 @@ def test_periods_of_an_average_rise(periods: object) -> None:
 
 def test_intensities_that_make_no_sense_are_refused() -> None:
     silent = GroundMotion(x=[0.0, 1.0, 0.0], y=[0.0, 0.0, 0.0], dt=0.1)
-    refused(FragilityError, "period", Intensity, kind="Sa")
-    refused(FragilityError, "only kind", Intensity, kind="PGA", period=1.0)
-    refused(FragilityError, "only kind", Intensity, kind="Sa_avg", periods=[1.0, 2.0], period=1.0)
-    refused(FragilityError, "leave them out", Intensity, kind="Sa", period=1.0, periods=[1.0, 2.0])
-    refused(FragilityError, "measure", Intensity, kind="PGA", measure="mean")
-    with pytest.raises(FragilityError, match="leave it out"):
-        Intensity(kind="PGA", measure="y").of(silent)
-    with pytest.raises(MotionError, match="component"):
-        Intensity(kind="PGV").of(GroundMotion(x=[0.0, 1.0, 0.0], dt=0.1))
+    for words, given in (
+        ("period", {"kind": "Sa"}),
+        ("only kind", {"kind": "PGA", "period": 1.0}),
+        ("only kind", {"kind": "Sa_avg", "periods": [1.0, 2.0], "period": 1.0}),
+        ("leave them out", {"kind": "Sa", "period": 1.0, "periods": [1.0, 2.0]}),
+        ("measure", {"kind": "PGA", "measure": "mean"}),
+    ):
+        refused(FragilityError, words, Intensity, **given)
+    refused(FragilityError, "leave it out", Intensity(kind="PGA", measure="y").of, silent)
+    one = GroundMotion(x=[0.0, 1.0, 0.0], dt=0.1)
+    refused(MotionError, "component", Intensity(kind="PGV").of, one)
 
 
 @pytest.mark.parametrize("status", list(RunStatus))
 def test_every_status_has_a_meaning(status: RunStatus) -> None:
     """Only what fails physically is collapse; what is doubtful went to its end."""
-    expected = (
-        "complete"
-        if status in {RunStatus.OK, RunStatus.INACCURATE, RunStatus.BEARING_LOST}
-        else "bearing failure"
-        if status.is_bearing_failure
-        else "numerical failure"
-    )
-    assert outcome_of(status.name.lower()) == expected
+    failed = "bearing failure" if status.is_bearing_failure else "numerical failure"
+    done = status in {RunStatus.OK, RunStatus.INACCURATE, RunStatus.BEARING_LOST}
+    assert outcome_of(status.name.lower()) == ("complete" if done else failed)
 
 
 def test_limit_states() -> None:
-    bearing = bearing_for(1000e3)
-    slip = LimitState.interface_slip(bearing)
-    assert slip.limit == bearing.slip_stability
-    assert (
-        LimitState.floor_acceleration(3.0).name
-        == f"floor acceleration {3 / STANDARD_GRAVITY:.3g} g"
-    )
-    assert LimitState.rim_contact().limit == 0.0
-    refused(FragilityError, "is no limit", LimitState.interface_slip, bearing.as_dcfp())
-    refused(FragilityError, "or neither", LimitState, "drift", "storey drift, mean")
-    for make in (
-        LimitState.drift,
-        LimitState.ductility,
-        LimitState.displacement,
-        LimitState.plastic_rotation,
-        LimitState.residual_displacement,
-    ):
+    bearing, state = bearing_for(1000e3), LimitState
+    assert state.interface_slip(bearing).limit == bearing.slip_stability
+    said = f"floor acceleration {3 / STANDARD_GRAVITY:.3g} g"
+    assert state.floor_acceleration(3.0).name == said
+    assert state.rim_contact().limit == 0.0
+    refused(FragilityError, "is no limit", state.interface_slip, bearing.as_dcfp())
+    refused(FragilityError, "or neither", state, "drift", "storey drift, mean")
+    makers = state.drift, state.ductility, state.displacement, state.plastic_rotation
+    for make in (*makers, state.residual_displacement):
         refused(FragilityError, "limit", make, -1.0)
 
 
@@ -253,23 +237,13 @@ def test_capacities_by_hand() -> None:
 
 
 def test_capacities_that_are_not_reached_or_reached_twice() -> None:
-    found = IDA(
-        runs(
-            [
-                ("a", 1.0, 0.1),
-                ("a", 2.0, 0.2),
-                ("b", 1.0, 0.3),
-                ("b", 2.0, 0.1),
-                ("c", 2.0, "slip_exceeded"),
-            ]
-        ),
-        LimitState.displacement(0.25),
-        HuntFill(first=1.0),
-    ).capacities()
+    rows = [("a", 1.0, 0.1), ("a", 2.0, 0.2), ("b", 1.0, 0.3), ("b", 2.0, 0.1)]
+    limit, rules = LimitState.displacement(0.25), HuntFill(first=1.0)
+    found = IDA(runs([*rows, ("c", 2.0, "slip_exceeded")]), limit, rules).capacities()
     assert found["censored"].tolist() == [True, False, False]
     assert found["capacity"].tolist() == pytest.approx([2.0, 0.25 / 0.3, 1.0])
     assert found["resurrects"].tolist() == [False, True, False]
-    lost = IDA(runs([("a", 1.0, "singular")]), LimitState.drift(0.1), HuntFill(first=1.0))
+    lost = IDA(runs([("a", 1.0, "singular")]), LimitState.drift(0.1), rules)
     refused(FragilityError, "no run succeeded", lost.capacities, LimitState.bearing_failure())
 
 
@@ -289,13 +263,12 @@ def test_demands_between_runs_and_fractiles_by_hand() -> None:
 def test_runs_that_cannot_be_used_are_refused() -> None:
     refused(FragilityError, "no run", IntensityRuns, TWO.table.iloc[:0], SCALE, {})
     refused(FragilityError, "no column", IntensityRuns, TWO.table.drop(columns="im"), SCALE, {})
-    with pytest.raises(FragilityError, match="one measure"):
-        TWO.joined(IntensityRuns(TWO.table, Intensity(kind="PGA"), TWO.units))
+    other = IntensityRuns(TWO.table, Intensity(kind="PGA"), TWO.units)
+    refused(FragilityError, "one measure", TWO.joined, other)
     assert len(TWO.joined(TWO).table) == 14
-    with pytest.raises(FragilityError, match="no demand"):
-        fragility_of(TWO, LimitState.bearing_failure(), method="cloud")
-    with pytest.raises(FragilityError, match="of an IDA"):
-        fragility_of(TWO, LimitState.bearing_failure(), method="capacities")
+    for words, method in (("no demand", "cloud"), ("of an IDA", "capacities")):
+        limit = LimitState.bearing_failure()
+        refused(FragilityError, words, fragility_of, TWO, limit, method=method)
 
 
 def test_figures_hold_what_they_show() -> None:
@@ -316,17 +289,9 @@ def test_figures_hold_what_they_show() -> None:
 
 def test_figure_of_fragility() -> None:
     capacities = np.array([1.0, 2.0, 2.5, 3.0, 4.0])
-    found = IDA(
-        runs(
-            [
-                (f"r{k}", c * f, v)
-                for k, c in enumerate(capacities)
-                for f, v in ((0.99, 0.1), (1.01, "slip_exceeded"))
-            ]
-        ),
-        LimitState.bearing_failure(),
-        HuntFill(first=1.0),
-    )
+    outcomes = ((0.99, 0.1), (1.01, "slip_exceeded"))
+    rows = [(f"r{k}", c * f, v) for k, c in enumerate(capacities) for f, v in outcomes]
+    found = IDA(runs(rows), LimitState.bearing_failure(), HuntFill(first=1.0))
     curve = fragility_of(found, LimitState.bearing_failure(), resamples=50)
     assert curve.median == pytest.approx(np.exp(np.log(capacities).mean()), rel=1e-4)
     figure = fragility_curves({"device": curve})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,7 @@ from frames.library.models import lumped_mass, moment_frame, shear_building
 from frames.model.components import bearing_axial_stiffness
 from frames.model.damping import ModalDamping, RayleighDamping
 from frames.model.sections import Section
+from tests.refusals import refused
 
 if TYPE_CHECKING:
     from lir_element import LIRBearing
@@ -68,15 +69,10 @@ def test_shear_building_has_the_periods_of_a_shear_beam() -> None:
     system = assemble(shear_building(bearing(), [mass] * n, stiffness))
     modes = np.arange(1, n + 1)
     omega = 2.0 * np.sqrt(stiffness / mass) * np.sin((2 * modes - 1) * np.pi / (4 * n + 2))
-    expected = 2.0 * np.pi / omega
-    labels = [label for label in system.dof_labels if not label.startswith("base")]
-    lateral = [k for k, label in enumerate(labels) if label.endswith("ux")]
-    k = system.stiffness.toarray()
-    m = system.mass.toarray()
-    keep = [system.dof_labels.index(labels[place]) for place in lateral]
-    squares = scipy.linalg.eigh(k[np.ix_(keep, keep)], m[np.ix_(keep, keep)], eigvals_only=True)
-    assert_allclose(2.0 * np.pi / np.sqrt(squares), expected, rtol=1e-10, atol=0.0)
-    assert len(labels) == 3 * n  # ux, uy, uz
+    found = fixed_base_periods(system)
+    assert len(found) == 3 * n  # ux, uy, uz
+    for period in 2.0 * np.pi / omega:
+        assert (np.abs(found / period - 1.0) < 1e-10).sum() >= 2
 
 
 def test_shear_building_on_a_plan_turns_as_its_columns_hold_it() -> None:
@@ -135,16 +131,9 @@ def test_moment_frame_default_is_the_documented_building() -> None:
 
 def test_moment_frame_weight_goes_to_the_bearings_by_tributary_area() -> None:
     light = Section.box(0.4, 0.4, 0.02, density=0.0)
-    frame = moment_frame(
-        (2, 1),
-        2,
-        bearing=bearing(),
-        floor_load=1000.0,
-        gravity=10.0,
-        column=light,
-        beam=light,
-        base_beam=light,
-    )
+    sections = dict.fromkeys(("column", "beam", "base_beam"), light)
+    given = {"floor_load": 1000.0, "gravity": 10.0} | sections
+    frame = moment_frame((2, 1), 2, bearing=bearing(), **given)
     system = assemble(frame)
     assert_allclose(system.node_mass[:, 0].sum(), 3 * 72.0 * 1000.0, rtol=1e-14, atol=0.0)
     assert_allclose(system.load.sum(), -3 * 72.0 * 1e4, rtol=1e-13, atol=0.0)
@@ -157,13 +146,8 @@ def test_moment_frame_weight_goes_to_the_bearings_by_tributary_area() -> None:
 
 
 def test_moment_frame_floor_mass_is_that_of_each_level() -> None:
-    frame = moment_frame(
-        (1, 1),
-        1,
-        bearing=bearing(),
-        floor_mass=50e3,
-        column=Section.box(0.4, 0.4, 0.02, density=0.0),
-    )
+    light = Section.box(0.4, 0.4, 0.02, density=0.0)
+    frame = moment_frame((1, 1), 1, bearing=bearing(), floor_mass=50e3, column=light)
     lumped = sum(mass[0] for mass in frame.masses.values())
     assert_allclose(lumped, 2 * 50e3, rtol=1e-14, atol=0.0)
 
@@ -181,48 +165,36 @@ def test_moment_frame_takes_a_bearing_for_each_place() -> None:
         assert system.node_names[j] == f"base-{ix}-{iy}"
 
 
-REFUSALS: list[tuple[Callable[[], Frame], str]] = [
-    (lambda: lumped_mass(bearing(), -1.0), r"mass \[kg\] = -1 must be positive"),
-    (
-        lambda: moment_frame((1, 1), 1, bearing={(0, 0): bearing(), (1, 1): bearing()}),
-        r"without a bearing: \[\(0, 1\), \(1, 0\)\]",
-    ),
-    (
-        lambda: moment_frame(bearing=bearing(), floor_mass=1e5, floor_load=1e3),
-        r"floor_mass = 100000.0 kg and floor_load = 1000.0 kg/m2 both",
-    ),
-    (lambda: moment_frame((0, 2), bearing=bearing()), r"bays = 0 must be"),
-    (
-        lambda: moment_frame((1, 1), cast("int", 2.5), bearing=bearing()),
-        r"storeys = 2.5 must be whole",
-    ),
-    (lambda: shear_building(bearing(), [1e5, 1e5], [1e8] * 3), r"numbers of storeys differ"),
-    (lambda: shear_building(bearing(), [], []), r"differ or are 0"),
-    (lambda: shear_building(bearing(), 1e5, -1e8), r"storey_stiffness \[N/m\] = -1e\+08"),
-    (lambda: shear_building({(0, 0): bearing()}, 1e5, 1e8), r"give plan=\(bays, bay_width\)"),
+PAIR = {(0, 0): bearing(), (1, 1): bearing()}
+BOTH = {"floor_mass": 1e5, "floor_load": 1e3}
+WORDS = r"floor_mass = 100000.0 kg and floor_load = 1000.0 kg/m2 both"
+STRONG, LIGHT = {"eccentricity": (0.7, 0.0)}, {"eccentricity": (0.05, 0.0)}
+REFUSALS: list[tuple[str, Callable[..., Frame], tuple[Any, ...], dict[str, Any]]] = [
+    (r"mass \[kg\] = -1 must be positive", lumped_mass, (bearing(), -1.0), {}),
+    (r"without a bearing: \[\(0, 1\), \(1, 0\)\]", moment_frame, ((1, 1), 1), {"bearing": PAIR}),
+    (WORDS, moment_frame, (), {"bearing": bearing()} | BOTH),
+    (r"bays = 0 must be", moment_frame, ((0, 2),), {"bearing": bearing()}),
+    (r"storeys = 2.5 must be whole", moment_frame, ((1, 1), 2.5), {"bearing": bearing()}),
+    (r"numbers of storeys differ", shear_building, (bearing(), [1e5, 1e5], [1e8] * 3), {}),
+    (r"differ or are 0", shear_building, (bearing(), [], []), {}),
+    (r"storey_stiffness \[N/m\] = -1e\+08", shear_building, (bearing(), 1e5, -1e8), {}),
+    (r"give plan=\(bays, bay_width\)", shear_building, (PAIR, 1e5, 1e8), {}),
+    (r"without a plan: its floors do not ro", shear_building, (bearing(), 1e5, 1e7), LIGHT),
+    (r"\[-\] = 0\.7", shear_building, (bearing(), 1e5, 1e7), {"plan": ((1, 1), 6.0)} | STRONG),
 ]
 
 
-@pytest.mark.parametrize(("make", "words"), REFUSALS)
-def test_library_refuses(make: Callable[[], Frame], words: str) -> None:
-    with pytest.raises(ModelError, match=words):
-        make()
+@pytest.mark.parametrize(("words", "make", "given", "more"), REFUSALS)
+def test_library_refuses(words, make, given, more):
+    refused(ModelError, words, make, *given, **more)
 
 
 @pytest.mark.parametrize("off", [(0.05, 0.0), (-0.05, 0.1), (0.0, 0.0)])
 def test_floors_are_eccentric_as_far_as_asked(off: tuple[float, float]) -> None:
     light = Section.box(0.4, 0.4, 0.025, density=0.0)
-    frame = moment_frame(
-        (3, 2),
-        2,
-        bearing=bearing(),
-        bay_width=(6.0, 8.0),
-        floor_mass=1.2e5,
-        eccentricity=off,
-        column=light,
-        beam=light,
-        base_beam=light,
-    )
+    sections = dict.fromkeys(("column", "beam", "base_beam"), light)
+    given = {"bay_width": (6.0, 8.0), "floor_mass": 1.2e5, "eccentricity": off} | sections
+    frame = moment_frame((3, 2), 2, bearing=bearing(), **given)
     system = assemble(frame)
     middle = np.array([9.0, 8.0])
     for level in frame.levels:
@@ -235,14 +207,15 @@ def test_floors_are_eccentric_as_far_as_asked(off: tuple[float, float]) -> None:
 
 
 def test_eccentricities_that_leave_columns_without_mass() -> None:
-    with pytest.raises(ModelError, match=r"eccentricity = 0\.4 of the side.*at most 0\.\d+ here"):
-        moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(0.4, 0.0))
-    with pytest.raises(ModelError, match="together would leave a corner without"):
-        moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(0.15, 0.2))
     bound = 2.0 * (0.5 * 2 * 9.0**2 + 2 * 3.0**2) / 3.0 / 18.0**2
     moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(0.999 * bound, 0.0))
-    with pytest.raises(ModelError, match="eccentricity"):
-        moment_frame((3, 2), 1, bearing=bearing(), eccentricity=(1.001 * bound, 0.0))
+    for words, off in (
+        (r"eccentricity = 0\.4 of the side.*at most 0\.\d+ here", (0.4, 0.0)),
+        ("together would leave a corner without", (0.15, 0.2)),
+        ("eccentricity", (1.001 * bound, 0.0)),
+    ):
+        frame = {"bearing": bearing(), "eccentricity": off}
+        refused(ModelError, words, moment_frame, (3, 2), 1, **frame)
 
 
 def test_shear_building_with_eccentric_masses_twists() -> None:
@@ -265,10 +238,3 @@ def test_shear_building_with_eccentric_masses_twists() -> None:
         assert np.abs(periods - period).min() < 1e-6 * period
     plain = assemble(shear_building(bearing(), mass, stiffness, storeys=1, plan=plan))
     assert "floor-1-mass" not in plain.node_names
-
-
-def test_eccentric_masses_need_a_plan() -> None:
-    with pytest.raises(ModelError, match=r"without a plan: its floors do not rotate"):
-        shear_building(bearing(), 1e5, 1e7, eccentricity=(0.05, 0.0))
-    with pytest.raises(ModelError, match=r"eccentricity \[-\] = 0\.7"):
-        shear_building(bearing(), 1e5, 1e7, plan=((1, 1), 6.0), eccentricity=(0.7, 0.0))

@@ -1,5 +1,6 @@
 """``[loads]`` of a project: dead, live and snow load, their masses and combinations, by hand."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.structure_statement import structure_rows
 from frames.model.plane_faces import fields_of
+from tests.refusals import refused
 from tests.scenes import STICK
 from tests.unit.test_structure_file import GRID, MEMBERS, REST
 
@@ -142,26 +144,18 @@ REFUSED = {
     '[loads]\ndead = "3 kN/m2"\nmass = { dead = 0.0 }': "dead must be greater than 0",
     '[loads]\ndead = "3 kN/m2"\nspan = "z"': "loads.span",
     '[loads]\ndead = "3 kN/m2"\nfacade = "3 kN"': 'as "8 kN/m"',
+    STICK + '[loads]\ndead = "3 kN/m2"\n': "has its own masses and loads",
+    GRID.replace("1000 kg/m2", "4.5 kN/m2"): "is a pressure, and floor_load a mass",
 }
 
 
 @pytest.mark.parametrize(("text", "said"), REFUSED.items(), ids=list(REFUSED.values()))
 def test_what_is_refused(tmp_path: Path, text: str, said: str) -> None:
     """Each with what is wrong and what to write."""
-    with pytest.raises(ProjectError) as told:
-        parts_of(tmp_path, BARE + text).frame()
-    assert said in str(told.value)
-
-
-def test_a_pressure_as_floor_load_is_told_where_it_goes(tmp_path: Path) -> None:
-    with pytest.raises(ProjectError, match="is a pressure, and floor_load a mass"):
-        parts_of(tmp_path, GRID.replace("1000 kg/m2", "4.5 kN/m2") + MEMBERS)
-
-
-def test_loads_go_with_a_moment_frame(tmp_path: Path) -> None:
-    """A stick has masses of its own."""
-    with pytest.raises(ProjectError, match="has its own masses and loads"):
-        parts_of(tmp_path, STICK + '[loads]\ndead = "3 kN/m2"\n').frame()
+    structure = text if text.startswith("\n[structure]") else BARE + text
+    if "pressure" in said:
+        structure = text + MEMBERS
+    refused(ProjectError, re.escape(said), lambda: parts_of(tmp_path, structure).frame())
 
 
 def test_check_says_the_loads(tmp_path: Path) -> None:
