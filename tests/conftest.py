@@ -3,6 +3,7 @@
 import gc
 import itertools
 import os
+import re
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -60,6 +61,21 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     if config.option.markexpr != "quick" or collection_path.suffix != ".py":
         return None
     return None if has_quick_tests(collection_path) else True
+
+
+MISSING = re.compile(r"No module named '(pydantic|pint|typer)\b")
+"""Libraries of the command: modules of tests that import it are skipped without them."""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report() -> Iterator[Any]:
+    """Skip a module whose import fails because a library of the command is not installed."""
+    report = yield
+    found = MISSING.search(str(report.longrepr)) if report.failed else None
+    if found:
+        report.outcome = "skipped"
+        report.longrepr = report.nodeid, 0, f"{found[1]} is not installed"
+    return report
 
 
 @pytest.hookimpl(wrapper=True)

@@ -4,6 +4,12 @@ from __future__ import annotations
 
 Rows = dict[str, list[dict[str, object]]]
 
+FILLED = (
+    *("JOINT COORDINATES", "CONNECTIVITY - FRAME", "FRAME SECTION ASSIGNMENTS"),
+    *("CONNECTIVITY - AREA", "AREA SECTION ASSIGNMENTS", "JOINT RESTRAINT ASSIGNMENTS"),
+    *("CONSTRAINT DEFINITIONS - DIAPHRAGM", "JOINT CONSTRAINT ASSIGNMENTS"),
+    "AREA LOADS - UNIFORM",
+)
 UNITS = {"KN, m, C": (1e3, 1.0), "Kip, in, F": (4448.2216152605, 0.0254), "N, mm, C": (1.0, 1e-3)}
 
 
@@ -34,16 +40,8 @@ def _value(value: object) -> str:
 def concrete(units: str) -> list[dict[str, object]]:
     force, length = UNITS[units]
     stress, weight = force / length**2, force / length**3
-    return [
-        {
-            "Material": "C30",
-            "UnitWeight": 25e3 / weight,
-            "UnitMass": 2500.0 / (force / length**4),
-            "E1": 30e9 / stress,
-            "G12": 12.5e9 / stress,
-            "U12": 0.2,
-        }
-    ]
+    heavy = {"UnitWeight": 25e3 / weight, "UnitMass": 2500.0 / (weight / length)}
+    return [{"Material": "C30"} | heavy | {"E1": 30e9 / stress, "G12": 12.5e9 / stress, "U12": 0.2}]
 
 
 def rectangle(name: str, depth: float, width: float, one: float, shear: bool) -> dict[str, object]:
@@ -98,27 +96,13 @@ def building(
             {"LoadPat": "WIND", "DesignType": "Wind", "SelfWtMult": 0},
         ],
         "MASS SOURCE": [
-            {
-                "MassSource": "MSSSRC1",
-                "Elements": True,
-                "Masses": True,
-                "Loads": True,
-                "IsDefault": True,
-                "LoadPat": "LIVE",
-                "Multiplier": 0.3,
-            }
+            {"MassSource": "MSSSRC1"}
+            | dict.fromkeys(("Elements", "Masses", "Loads", "IsDefault"), True)
+            | {"LoadPat": "LIVE", "Multiplier": 0.3}
         ],
         "AREA SECTION PROPERTIES": [_shell("SLAB", 0.15, one), _shell("WALL", 0.25, one)],
-        "JOINT COORDINATES": [],
-        "CONNECTIVITY - FRAME": [],
-        "FRAME SECTION ASSIGNMENTS": [],
-        "CONNECTIVITY - AREA": [],
-        "AREA SECTION ASSIGNMENTS": [],
-        "JOINT RESTRAINT ASSIGNMENTS": [],
-        "CONSTRAINT DEFINITIONS - DIAPHRAGM": [],
-        "JOINT CONSTRAINT ASSIGNMENTS": [],
-        "AREA LOADS - UNIFORM": [],
     }
+    tables |= {name: [] for name in FILLED}
     nx, ny = bays[0] + 1, bays[1] + 1
 
     def joint(i: int, j: int, k: int) -> int:
@@ -177,55 +161,31 @@ def _add_details(tables: Rows, force: float, one: float, top: int) -> None:
     tables["FRAME RELEASE ASSIGNMENTS 1 - GENERAL"] = [
         {"Frame": across[0]} | {word: word in {"M3I", "M2I", "M3J"} for word in words}
     ]
+    stiff = {"LengthI": 0.25 / one, "LengthJ": 0.2 / one, "RigidFactor": 0.5}
     tables["FRAME OFFSET ALONG LENGTH ASSIGNMENTS"] = [
-        {
-            "Frame": n,
-            "Type": "User",
-            "LengthI": 0.25 / one,
-            "LengthJ": 0.2 / one,
-            "RigidFactor": 0.5,
-        }
-        for n in along
+        {"Frame": name, "Type": "User"} | stiff for name in along
     ]
-    tables["FRAME INSERTION POINT ASSIGNMENTS"] = [
-        {
-            "Frame": across[-1],
-            "CardinalPt": "8 (top center)",
-            "CoordSys": "GLOBAL",
-            "JtOffsetXI": 0.05 / one,
-            "JtOffsetXJ": 0.05 / one,
-            "Mirror2": False,
-            "Transform": True,
-        }
-    ]
+    shift = {
+        "JtOffsetXI": 0.05 / one,
+        "JtOffsetXJ": 0.05 / one,
+        "Mirror2": False,
+        "Transform": True,
+    }
+    place = {"CardinalPt": "8 (top center)", "CoordSys": "GLOBAL"}
+    tables["FRAME INSERTION POINT ASSIGNMENTS"] = [{"Frame": across[-1]} | place | shift]
     tables["FRAME PROPERTY MODIFIERS"] = [
         {"Frame": columns[0], "AMod": 1, "JMod": 0.4, "I22Mod": 0.7, "I33Mod": 0.8, "MassMod": 0.9}
     ]
     tables["FRAME LOADS - DISTRIBUTED"] = [
-        _line(across[1], "DEAD", "Gravity", (0.2, 0.7), (4e3, 9e3), force, one),
-        _line(along[0], "DEAD", "Z", (0.0, 1.0), (-5e3, -5e3), force, one),
-        _line(columns[2], "DEAD", "2", (0.0, 1.0), (700.0, 700.0), force, one),
+        _line(across[1], "Gravity", (0.2, 0.7), (4e3, 9e3), force / one),
+        _line(along[0], "Z", (0.0, 1.0), (-5e3, -5e3), force / one),
+        _line(columns[2], "2", (0.0, 1.0), (700.0, 700.0), force / one),
     ]
-    tables["FRAME LOADS - POINT"] = [
-        {
-            "Frame": along[-1],
-            "LoadPat": "DEAD",
-            "CoordSys": "GLOBAL",
-            "Type": "Force",
-            "Dir": "Gravity",
-            "DistType": "AbsDist",
-            "AbsDist": 2.0 / one,
-            "Force": 30e3 / force,
-        }
-    ]
+    dead = {"LoadPat": "DEAD", "CoordSys": "GLOBAL"}
+    where = {"Type": "Force", "Dir": "Gravity", "DistType": "AbsDist", "AbsDist": 2.0 / one}
+    tables["FRAME LOADS - POINT"] = [{"Frame": along[-1]} | dead | where | {"Force": 30e3 / force}]
     tables["JOINT LOADS - FORCE"] = [
-        {
-            "Joint": top,
-            "LoadPat": "DEAD",
-            "CoordSys": "GLOBAL",
-            "F1": 8e3 / force,
-            "F3": -2e4 / force,
-        }
+        {"Joint": top} | dead | {"F1": 8e3 / force, "F3": -2e4 / force}
     ]
     masses = {f"Mass{k}": 3000.0 / (force / one) for k in (1, 2, 3)}
     tables["JOINT ADDED MASS ASSIGNMENTS"] = [{"Joint": top} | masses]
@@ -251,23 +211,10 @@ def _area(tables: Rows, name: str, corners: list[int], section: str) -> None:
 
 
 def _line(
-    frame: str,
-    pattern: str,
-    way: str,
-    where: tuple[float, float],
-    size: tuple[float, float],
-    force: float,
-    one: float,
+    frame: str, way: str, at: tuple[float, float], size: tuple[float, float], unit: float
 ) -> dict[str, object]:
-    return {
-        "Frame": frame,
-        "LoadPat": pattern,
-        "CoordSys": "Local" if way == "2" else "GLOBAL",
-        "Type": "Force",
-        "Dir": way,
-        "DistType": "RelDist",
-        "RelDistA": where[0],
-        "RelDistB": where[1],
-        "FOverLA": size[0] / (force / one),
-        "FOverLB": size[1] / (force / one),
-    }
+    system = "Local" if way == "2" else "GLOBAL"
+    row: dict[str, object] = {"Frame": frame, "LoadPat": "DEAD", "CoordSys": system}
+    row |= {"Type": "Force", "Dir": way, "DistType": "RelDist"}
+    row |= {"RelDistA": at[0], "RelDistB": at[1]}
+    return row | {"FOverLA": size[0] / unit, "FOverLB": size[1] / unit}

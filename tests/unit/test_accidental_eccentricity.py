@@ -7,13 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import pytest
-
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
-pytest.importorskip("typer")
-
 import pandas as pd
+import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
@@ -281,8 +276,7 @@ def test_it_is_left_out_where_the_file_says_so(ran: Path, value: str) -> None:
 def test_shares_out_of_bounds_are_refused(ran: Path, value: str, words: str) -> None:
     file = ran / "odd.toml"
     file.write_text(f"{PROJECT}accidental_eccentricity = {value}\n")
-    with pytest.raises(ProjectError, match=words):
-        read_project(file)
+    refused(ProjectError, words, read_project, file)
 
 
 def test_both_devices_of_a_comparison_have_their_own_moved_masses(ran: Path) -> None:

@@ -7,11 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
-pytest.importorskip("typer")
-
 from typer.testing import CliRunner
 
 from frames import GroundMotion, MotionWarning, load
@@ -239,8 +234,7 @@ def test_near_fault_records_know_their_fault(kind: str) -> None:
 def test_what_lacks_a_strike_names_the_column() -> None:
     motion = GroundMotion(x=np.ones(50), y=np.ones(50), dt=0.01)
     lacking = MotionSet({"a": motion}, {"a": {"near_fault": True}})
-    with pytest.raises(ValueError, match=r"strike = None.* column strike of motions\.csv"):
-        lacking.fault_normal()
+    refused(ValueError, r"strike = None.* column strike of motions\.csv", lacking.fault_normal)
 
 
 def test_gal_is_a_unit_of_files(tmp_path: Path) -> None:

@@ -7,10 +7,6 @@ from typing import Any
 
 import pytest
 
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
-
-
 from frames.design import ProjectError
 from frames.design.project.derived import table_of
 from frames.design.project.inputs import ProjectInputs
@@ -25,6 +21,7 @@ from lir_element import (
     VelocityFriction,
 )
 from lir_element.fields import unit_of
+from tests.refusals import refused
 from tests.scenes import BOUNDS, MOTIONS, SOIL, STICK, project_head
 
 pytestmark = pytest.mark.plain
@@ -38,6 +35,7 @@ REQUIRED: dict[str, tuple[str, Any]] = {
     ),
     "interface_friction": ("0.2", 0.2),
 }
+GIVEN = {key: text for key, (text, _) in REQUIRED.items()}
 OTHERS: dict[str, tuple[str, Any]] = {
     "capacity": ('"180 mm"', 0.18),
     "rims": ('["90 mm", "0.11 m"]', (0.09, 0.11)),
@@ -115,7 +113,7 @@ def test_every_field_is_tried() -> None:
 @pytest.mark.parametrize("name", OTHERS)
 def test_a_field_of_the_file_arrives(tmp_path: Path, name: str) -> None:
     text, value = OTHERS[name]
-    given = {key: each[0] for key, each in REQUIRED.items()} | {name: text}
+    given = GIVEN | {name: text}
     if name != "rims":
         given["capacity"] = OTHERS["capacity"][0]
     found = of_file(tmp_path, given)
@@ -139,14 +137,12 @@ def test_a_field_of_the_file_arrives(tmp_path: Path, name: str) -> None:
     ],
 )
 def test_friction_is_given_in_each_way(tmp_path: Path, text: str, law: object) -> None:
-    given = {key: each[0] for key, each in REQUIRED.items()}
-    found = of_file(tmp_path, given | {"friction": text, "capacity": '"180 mm"'})
+    found = of_file(tmp_path, GIVEN | {"friction": text, "capacity": '"180 mm"'})
     assert found.frictions == (law, law)
 
 
 def test_rims_and_interface_can_be_left_out(tmp_path: Path) -> None:
-    given = {key: each[0] for key, each in REQUIRED.items()}
-    found = of_file(tmp_path, given | {"capacity": "inf", "interface_friction": "inf"})
+    found = of_file(tmp_path, GIVEN | {"capacity": "inf", "interface_friction": "inf"})
     assert found.is_dcfp
     assert math.isinf(found.lateral_capacity)
 
@@ -167,9 +163,8 @@ def test_rims_and_interface_can_be_left_out(tmp_path: Path) -> None:
     ],
 )
 def test_what_is_wrong_is_said_at_its_place(tmp_path, key, text, words):
-    given = {name: each[0] for name, each in REQUIRED.items()} | {"capacity": '"180 mm"'}
-    with pytest.raises(ProjectError, match=words):
-        of_file(tmp_path, given | {key: text})
+    given = GIVEN | {"capacity": '"180 mm"', key: text}
+    refused(ProjectError, words, of_file, tmp_path, given)
 
 
 def test_the_section_of_the_page_is_a_bearing(tmp_path: Path) -> None:

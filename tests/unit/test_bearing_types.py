@@ -5,13 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-import pytest
-
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
-pytest.importorskip("typer")
-
 import pandas as pd
+import pytest
 from typer.testing import CliRunner
 
 from frames import gravity, load
@@ -19,6 +14,7 @@ from frames.command.app import app
 from frames.design import ProjectError, device_checks
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
+from tests.refusals import refused
 
 PROJECT = """
 [project]
@@ -183,5 +179,4 @@ def test_what_cannot_be_is_refused(folder: Path, old: str, new: str, words: str)
 def test_types_need_a_standard_bearing(folder: Path) -> None:
     head, tail = BY_COLUMN.split("[bearing]")
     text = head + "[bounds]" + tail.split("[bounds]")[1]
-    with pytest.raises(ProjectError, match=r"bearings.middle.radius is missing"):
-        parts_of(folder, text)
+    refused(ProjectError, r"bearings.middle.radius is missing", parts_of, folder, text)

@@ -10,9 +10,6 @@ import pandas as pd
 import pytest
 
 pytest.importorskip("filelock")
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
-pytest.importorskip("typer")
 pytest.importorskip("pyFragility")
 
 import xarray as xr

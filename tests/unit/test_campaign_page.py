@@ -10,9 +10,6 @@ import pandas as pd
 import pytest
 
 pytest.importorskip("filelock")
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
-pytest.importorskip("typer")
 pytest.importorskip("pyFragility")
 
 import xarray as xr
@@ -35,6 +32,7 @@ STRONG = (
     .replace('{low = 0.04, high = "8 %"}', "{values = [0.05, 0.06]}")
     .replace('duration = "3 s"\n', "")
 )
+AVERAGE = '[fragility]\nintensity = "Sa_avg"\n'
 ASKED = """[fragility]
 intensity = "PGA"
 drift = [0.005, "40 %"]
@@ -64,9 +62,7 @@ def runs(store: Path, data: xr.Dataset) -> dict[str, IntensityRuns]:
     return runs_by_model(data, motions)
 
 
-def test_responses_are_those_of_the_database_with_failures_as_infinite(
-    store: Path, data: xr.Dataset
-) -> None:
+def test_responses_are_those_of_the_database_with_failures_as_infinite(store, data):
     table = pd.read_csv(store / "campaign-response.csv")
     assert len(table) == 2 * 4
     reached = data["peak_displacement"].max("bearing").to_numpy()
@@ -94,24 +90,18 @@ def test_failures_are_counted_by_cause(store: Path, data: xr.Dataset) -> None:
     assert table["from factor"].min() == first
 
 
-def test_curves_are_those_of_the_runs_or_say_why_there_is_none(
-    store: Path, data: xr.Dataset
-) -> None:
+def test_curves_are_those_of_the_runs_or_say_why_there_is_none(store, data):
     asked = fragility_in(store.parent / "strong.toml")
     assert asked is not None
-    assert [limit.name for limit in asked.limits()] == [
-        "storey drift 0.5 %",
-        "storey drift 40 %",
-        "failure of a bearing",
-    ]
+    names = ["storey drift 0.5 %", "storey drift 40 %", "failure of a bearing"]
+    assert [limit.name for limit in asked.limits()] == names
     motions = read_campaign(store.parent / "strong.toml").motions
     table = pd.read_csv(store / "campaign-fragility.csv", index_col=0, keep_default_na=False)
     assert len(table) == 6
     curves = 0
     for model in ("LIR-DCFP", "DCFP"):
-        own = IntensityRuns.from_dataset(
-            data, motions, asked.measured(), model=model, parameters="all"
-        )
+        chosen = {"model": model, "parameters": "all"}
+        own = IntensityRuns.from_dataset(data, motions, asked.measured(), **chosen)
         for limit in asked.limits():
             row = table.loc[f"{model}, {limit.name}"]
             drift = data["peak_drift"].max(set(data["peak_drift"].dims) - {"run"}).to_numpy()
@@ -162,11 +152,8 @@ def test_the_figure_shows_the_shares_that_failed(runs: dict[str, IntensityRuns])
     [
         ("[fragility]\n", "has no limit state"),
         ('[fragility]\nintensity = "Sa"\ndrift = [0.005]\n', "period goes with intensity"),
-        ('[fragility]\nintensity = "Sa_avg"\ndrift = [0.005]\n', "periods go with intensity"),
-        (
-            '[fragility]\nintensity = "Sa_avg"\nperiods = ["3 s", "1 s"]\ndrift = [0.005]\n',
-            "two or more that rise",
-        ),
+        (f"{AVERAGE}drift = [0.005]\n", "periods go with intensity"),
+        (f'{AVERAGE}periods = ["3 s", "1 s"]\ndrift = [0.005]\n', "two or more that rise"),
         ("[fragility]\ndrift = [0.0]\n", "drift"),
         ("[fragility]\ndisplacement = [0.3]\n", "has no unit"),
         ("[fragility]\ndrifts = [0.005]\n", 'is "drift" meant?'),

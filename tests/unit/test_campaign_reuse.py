@@ -10,6 +10,7 @@ from frames import Frame, GroundMotion, Recording, lumped_mass
 from frames.risk import Campaign, CampaignError, full_grid, open_campaign
 from frames.risk.campaign import batches
 from frames.risk.campaign.designs import with_parameters
+from tests.refusals import refused
 from tests.scenes import small_bearing
 
 pytest.importorskip("filelock")
@@ -118,7 +119,6 @@ def test_what_was_computed_otherwise_is_refused(first: Path, tmp_path: Path) -> 
         ("histories", {"record": Recording()}, r"(?s)reuse.*record"),
     ):
         other = campaign(tmp_path / name, PULSES["small"], [0.5], **more)
-        with pytest.raises(CampaignError, match=match):
-            other.run(workers=1, reuse=first)
+        refused(CampaignError, match, other.run, workers=1, reuse=first)
     with pytest.raises(CampaignError, match="holds no campaign"):
         campaign(tmp_path / "new", PULSES["small"], [0.5]).run(reuse=tmp_path / "nothing")

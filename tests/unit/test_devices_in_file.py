@@ -7,9 +7,6 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
-
 from frames import Frame, GroundMotion, time_histories, time_history
 from frames.batch.runs import Runs
 from frames.design import HISTORY_RULES, ProjectError

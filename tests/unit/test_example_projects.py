@@ -9,10 +9,6 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from frames.motion.spectra import response_spectrum
-
-pytest.importorskip("pydantic")
-
 from frames.command.app import app
 from frames.design import ProjectError, code_named, equivalent_linear
 from frames.design.codes.bounds import with_property_bounds
@@ -25,6 +21,8 @@ from frames.design.project.example import BUILDINGS, write_example
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
+from frames.motion.spectra import response_spectrum
+from tests.refusals import refused
 
 CODES = tuple(code.name for code in known_codes() if code.example is not None)
 
@@ -44,8 +42,7 @@ def test_whole_building_is_a_project(building: str, tmp_path: Path) -> None:
     parts = ProjectInputs(read_project(written[0]), tmp_path)
     assert parts.code().name in BUILDINGS[building]
     assert len(parts.motions()) == 1
-    with pytest.raises(FileExistsError, match=r"project\.toml"):
-        write_example(tmp_path, building=building)
+    refused(FileExistsError, r"project\.toml", write_example, tmp_path, building=building)
 
 
 def test_unknown_building_and_another_code(tmp_path: Path) -> None:

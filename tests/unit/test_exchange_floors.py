@@ -12,6 +12,7 @@ from scipy.sparse import csr_matrix
 
 from frames import Frame, ModelError
 from frames.assembly.assemble import assemble
+from frames.exchange.building import AreaObject
 from frames.exchange.mesh import joints_within
 from lir_element.opensees import opensees
 from tests import etabs_models, sap2000_models
@@ -97,28 +98,18 @@ def test_decks_in_no_diaphragm_are_refused_or_rigid(tmp_path: Path) -> None:
 
 
 def test_shares_of_a_joint_are_those_of_the_bilinear_surface() -> None:
-    corners = {
-        "a": (0.0, 0.0, 1.0),
-        "b": (6.0, 0.0, 1.0),
-        "c": (5.0, 4.0, 1.0),
-        "d": (1.0, 3.0, 1.0),
-    }
+    plan = {"a": (0.0, 0.0), "b": (6.0, 0.0), "c": (5.0, 4.0), "d": (1.0, 3.0)}
+    corners = {name: (*at, 1.0) for name, at in plan.items()}
     u, v = 0.3, 0.7
     weights = ((1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v)
     place = sum(w * np.array(p) for w, p in zip(weights, corners.values(), strict=True))
     x, y, z = place.tolist()
-    area = sap2000_area("F", "abcd")
+    area = AreaObject("F", tuple("abcd"), "", "here")
     points = {**corners, "in": (x, y, z), "above": (x, y, z + 0.1), "out": (9.0, 1.0, 1.0)}
     points |= {"edge": (3.0, 0.0, 1.0), "beside": (3.0, 5e-4, 1.0)}
     found = joints_within([area], points)["F"]
     assert list(found) == ["in"]
     assert_allclose(found["in"], (u, v), rtol=1e-9)
-
-
-def sap2000_area(name: str, joints: str) -> object:
-    from frames.exchange.building import AreaObject
-
-    return AreaObject(name, tuple(joints), "", "here")
 
 
 def test_a_triangle_does_not_meet_a_joint_within_it(tmp_path: Path) -> None:
@@ -143,7 +134,6 @@ def test_areas_of_sap2000_touch_joints_at_corners_and_edges_alone(tmp_path: Path
     path.write_text(sap2000_models.text(tables), encoding="utf-8")
     opensees().wipe()
     frame = Frame.from_sap2000(path, mesh=2.6)
-    assert "joints within shells that do not touch them, as in the program: 14" in str(
-        frame.imported
-    )
+    said = "joints within shells that do not touch them, as in the program: 14"
+    assert said in str(frame.imported)
     assert "14" not in frame.superelements["shells"].nodes

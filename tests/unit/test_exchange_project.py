@@ -22,7 +22,10 @@ from frames.design.project.reading import read_project
 from frames.design.project.source_files import TOLD
 from frames.design.project.structure_statement import structure_rows
 from tests import etabs_models, sap2000_models
+from tests.refusals import refused
 from tests.unit.test_exchange_etabs_links import LINKS, isolator, model
+
+ETABS = 'kind = "etabs"\nfile = "model.e2k"'
 
 
 def project(tmp_path: Path, structure: str) -> ProjectInputs:
@@ -52,21 +55,23 @@ def test_cases_are_in_full_and_combined_by_the_code(tmp_path: Path, kind: str, f
     assert any(what.startswith("read as") and "slabs in rigid" in how for what, how in rows)
 
 
-def test_what_cannot_be_is_an_error_of_the_section(tmp_path: Path) -> None:
-    with pytest.raises(ProjectError, match=r"file = model\.s3k is no file in"):
-        project(tmp_path, 'kind = "sap2000"\nfile = "model.s3k"').frame()
-    with pytest.raises(ProjectError, match=r'\[structure\] "CORE" is no group'):
-        project(tmp_path, 'kind = "etabs"\nfile = "model.e2k"\nbearings_at = ["CORE"]').frame()
-    with pytest.raises(ProjectError, match=r"mesh"):
-        project(tmp_path, 'kind = "etabs"\nfile = "model.e2k"\nmesh = "-1 m"')
+@pytest.mark.parametrize(
+    ("structure", "words"),
+    [
+        ('kind = "sap2000"\nfile = "model.s3k"', r"file = model\.s3k is no file in"),
+        (f'{ETABS}\nbearings_at = ["CORE"]', r'\[structure\] "CORE" is no group'),
+        (f'{ETABS}\nmesh = "-1 m"', "mesh"),
+    ],
+)
+def test_what_cannot_be_is_an_error_of_the_section(tmp_path, structure, words):
+    refused(ProjectError, words, lambda: project(tmp_path, structure).frame())
 
 
 def test_remedies_speak_the_language_of_the_file_and_cure(tmp_path: Path) -> None:
     model = tmp_path / "model.e2k"
-    kind = 'kind = "etabs"\nfile = "model.e2k"'
 
     def read(text: str, more: str = "") -> str:
-        parts = project(tmp_path, f"{kind}\n{more}")
+        parts = project(tmp_path, f"{ETABS}\n{more}")
         model.write_text(text, encoding="utf-8")
         try:
             parts.frame()
@@ -96,7 +101,7 @@ def test_remedies_speak_the_language_of_the_file_and_cure(tmp_path: Path) -> Non
 
 def test_sections_of_a_catalogue_have_the_constants_of_the_file(tmp_path: Path) -> None:
     own = 'sections = { "BEAM" = { i_shape = ["600 mm", "220 mm", "19 mm", "12 mm"] } }'
-    parts = project(tmp_path, f'kind = "etabs"\nfile = "model.e2k"\n{own}')
+    parts = project(tmp_path, f"{ETABS}\n{own}")
     path = tmp_path / "model.e2k"
     lines = path.read_text(encoding="utf-8").splitlines()
     at = next(k for k, line in enumerate(lines) if '"BEAM"' in line and "SHAPE" in line)
@@ -115,13 +120,13 @@ def test_sections_of_a_catalogue_have_the_constants_of_the_file(tmp_path: Path) 
     plain = project_of(parts, tmp_path, sections={}).frame()
     assert_allclose(plain.members["X1-Story1"].section.area, 156e-4, rtol=5e-3)  # of the tables
     path.write_text("\n".join(lines), encoding="utf-8")
-    with pytest.raises(ProjectError, match=r'"W24X62" without Area.*sections = \{ "BEAM"'):
-        project_of(parts, tmp_path, sections={}).frame()
+    words = r'"W24X62" without Area.*sections = \{ "BEAM"'
+    refused(ProjectError, words, project_of(parts, tmp_path, sections={}).frame)
     other = parts.file.structure.sections | {"BEAN": parts.file.structure.sections["BEAM"]}
-    with pytest.raises(ProjectError, match=r'no frame of model.e2k has a section "BEAN"'):
-        project_of(parts, tmp_path, sections=other).frame()
-    with pytest.raises(ProjectError, match="those of SAP2000 have them"):
-        project(tmp_path, f'kind = "sap2000"\nfile = "model.s2k"\n{own}')
+    words = r'no frame of model.e2k has a section "BEAN"'
+    refused(ProjectError, words, project_of(parts, tmp_path, sections=other).frame)
+    tables = f'kind = "sap2000"\nfile = "model.s2k"\n{own}'
+    refused(ProjectError, "those of SAP2000 have them", project, tmp_path, tables)
 
 
 def project_of(parts: ProjectInputs, folder: Path, **changes: object) -> ProjectInputs:

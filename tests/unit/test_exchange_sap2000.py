@@ -296,8 +296,7 @@ def test_a_friction_isolator_without_radius_needs_a_bearing(tmp_path: Path) -> N
     building = read_sap2000(isolated(tmp_path))
     link = building.link_properties["FP"]
     del link.dofs["U3"].values["radius"]
-    with pytest.raises(ModelError, match=r"needs nonlinear U2 and U3 with radius"):
-        equivalent_bearing(link, "here")
+    refused(ModelError, r"needs nonlinear U2 and U3 with radius", equivalent_bearing, link, "here")
 
 
 IDLE: models.Rows = {

@@ -13,6 +13,7 @@ from frames import Frame, ModelError
 from frames.design._errors import ProjectError
 from frames.exchange.properties import read_libraries
 from tests import etabs_models
+from tests.refusals import refused
 from tests.unit.test_exchange_project import project
 
 # the layout of these files; numbers of a W24X55 in inches, as in AISC's tables, and of an HEB 300
@@ -79,21 +80,16 @@ BAD = {
     "cut": (FILE[:400], r"AISC14.xml, line \d+: .*; it must be whole, as XML"),
     "encoding": (FILE.replace("utf-8", "utf-88", 1), r"AISC14.xml: unknown encoding: utf-88; it"),
     "other": ("<html></html>", r"is no property file of ETABS or SAP2000: it begins with PROPERTY"),
-    "units": (FILE.replace("<LENGTH_UNITS>in", "<LENGTH_UNITS>ell"), r"LENGTH_UNITS of MM, CM, M"),
-    "number": (
-        FILE.replace(">16.2<", ">sixteen<"),
-        r'line 7, table "STEEL_I_.*AREA = "sixteen" is',
-    ),
+    "units": (FILE.replace("UNITS>in", "UNITS>ell"), r"LENGTH_UNITS of MM, CM, M"),
+    "number": (FILE.replace(">16.2<", ">many<"), r'line 7, table "STEEL_I_.*AREA = "many" is'),
     "unused": (FILE.replace("W24X55", "W24X56"), r'is a "w24x55" without Area'),
 }
 
 
-@pytest.mark.parametrize("name", BAD)
-def test_bad_libraries_are_refused(tmp_path: Path, name: str) -> None:
-    library, message = BAD[name]
+@pytest.mark.parametrize(("library", "message"), BAD.values(), ids=list(BAD))
+def test_bad_libraries_are_refused(tmp_path: Path, library: str, message: str) -> None:
     model, file = files(tmp_path, library=library)
-    with pytest.raises(ModelError, match=message):
-        Frame.from_etabs(model, library=file)
+    refused(ModelError, message, Frame.from_etabs, model, library=file)
 
 
 def test_mutated_libraries_end_in_shapes_or_messages(tmp_path: Path) -> None:
@@ -110,10 +106,11 @@ def test_mutated_libraries_end_in_shapes_or_messages(tmp_path: Path) -> None:
 
 def test_a_library_that_nothing_needs_is_refused(tmp_path: Path) -> None:
     model, file = files(tmp_path, shape="IPE300")
-    with pytest.raises(ModelError, match=r"no frame of model.e2k has a section that it names"):
-        Frame.from_etabs(model, library=file)
-    with pytest.raises(ModelError, match=r"none.xml cannot be read: No such file"):
-        Frame.from_etabs(model, library=tmp_path / "none.xml")
+    for words, library in (
+        ("no frame of model.e2k has a section that it names", file),
+        ("none.xml cannot be read: No such file", tmp_path / "none.xml"),
+    ):
+        refused(ModelError, words, Frame.from_etabs, model, library=library)
 
 
 def test_a_project_names_its_library(tmp_path: Path) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import pytest
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from numpy.testing import assert_allclose
 
@@ -18,6 +17,7 @@ from frames.viewer.structure import structure_of
 from lir_element.opensees import opensees
 from tests import etabs_models
 from tests.fixed_base import periods, reactions
+from tests.refusals import refused
 from tests.unit.test_exchange_writing import same
 
 MESH = 2.5
@@ -27,15 +27,13 @@ CASES = {"D": 1.0, "L": 1.0}
 def walls(tmp_path: Path, **more: object) -> Frame:
     """Return a building with walls, a wall softer in bending and one stiffer, from ETABS' text."""
     text = etabs_models.building(bays=(2, 1), storeys=1, walls=True)
-    soft = 'AREAASSIGN  "W1"  "Story1"  SECTION "WALL"'
-    assert soft in text
-    factors = "  ".join(f"PROPMODM{d} 0.25" for d in ("11", "22", "12"))
-    text = text.replace(soft, f"{soft}  {factors}", 1)
-    stiff = 'AREAASSIGN  "W4"  "Story1"  SECTION "WALL"'
-    assert stiff in text
-    factors = "  ".join(f"PROPMODF{d} 0.35" for d in ("11", "22", "12"))
+    for wall, word, factor in (("W1", "M", 0.25), ("W4", "F", 0.35)):
+        line = f'AREAASSIGN  "{wall}"  "Story1"  SECTION "WALL"'
+        assert line in text
+        factors = "  ".join(f"PROPMOD{word}{d} {factor}" for d in ("11", "22", "12"))
+        text = text.replace(line, f"{line}  {factors}", 1)
     path = tmp_path / "walls.e2k"
-    path.write_text(text.replace(stiff, f"{stiff}  {factors}", 1), encoding="utf-8")
+    path.write_text(text, encoding="utf-8")
     opensees().wipe()
     return Frame.from_etabs(path, mesh=MESH, **more)  # type: ignore[arg-type]
 
@@ -91,28 +89,19 @@ def test_shells_that_would_be_read_otherwise_are_refused(tmp_path: Path) -> None
     shell = frame.superelements["shells"].elements.shells[0]
     frame.add_diaphragm("odd", list(shell.nodes[:2]))
     frame.to_sap2000(tmp_path / "fine.s2k")
-    floor = Frame("floor")
-    for k, (x, y) in enumerate(((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0))):
-        floor.add_node(str(k), x, y, 0.0)
-    floor.add_superelement(
-        "plate",
-        list("0123"),
-        np.eye(24),
-        np.zeros((24, 24)),
-        elements=no_elements(shells=[shell._replace(nodes=tuple("0123"))]),
-    )
+    own = shell._replace(nodes=tuple("0123"))
+
+    def plate(mass: np.ndarray) -> Frame:
+        floor = Frame("floor")
+        for k, (x, y) in enumerate(((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0))):
+            floor.add_node(str(k), x, y, 0.0)
+        parts = no_elements(shells=[own])
+        floor.add_superelement("plate", list("0123"), np.eye(24), mass, elements=parts)
+        return floor
+
+    floor = plate(np.zeros((24, 24)))
     floor.add_diaphragm("deck", list("0123"))
-    with pytest.raises(ModelError, match=r'lies within the rigid diaphragm "deck", where SAP2000'):
-        floor.to_sap2000(tmp_path / "model.s2k")
-    heavy = Frame("heavy")
-    for k, node in enumerate(floor.nodes.values()):
-        heavy.add_node(str(k), *node.position)
-    heavy.add_superelement(
-        "plate",
-        list("0123"),
-        np.eye(24),
-        np.eye(24),
-        elements=floor.superelements["plate"].elements,
-    )
-    with pytest.raises(ModelError, match=r'has superelements \("plate"\), which are not written'):
-        heavy.to_etabs(tmp_path / "model.e2k")
+    words = r'lies within the rigid diaphragm "deck", where SAP2000'
+    refused(ModelError, words, floor.to_sap2000, tmp_path / "model.s2k")
+    words = r'has superelements \("plate"\), which are not written'
+    refused(ModelError, words, plate(np.eye(24)).to_etabs, tmp_path / "model.e2k")

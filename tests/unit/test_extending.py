@@ -7,13 +7,6 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-
-from tests.refusals import refused
-
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
-pytest.importorskip("typer")
-
 from typer.testing import CliRunner
 
 from frames import MotionError
@@ -36,6 +29,7 @@ from frames.design.project import check_register, source_files
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project, schema
 from lir_element import FrictionLaw
+from tests.refusals import refused
 from tests.scenes import DEVICE, STICK
 
 PAGE = Path(__file__).parents[2] / "docs" / "extending.md"

@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 from lir_element import CoulombFriction, Element, Features
 from lir_element.device.features import apply
 from lir_element.layout import PROPS_FIELDS
+from tests.refusals import refused
 from tests.scenes import uneven_bearing
 
 device = partial(uneven_bearing, slider_radius=0.1, capacity=0.1, interface_friction=0.12)
@@ -45,8 +46,7 @@ def test_without_vertical_coupling_there_is_no_uplift():
 
 @pytest.mark.parametrize("value", [0, None, "no"])
 def test_only_bools_are_taken(value):
-    with pytest.raises(TypeError, match=r"rims = .* must be True"):
-        Features(rims=value)
+    refused(TypeError, r"rims = .* must be True", Features, rims=value)
 
 
 def test_unknown_names_are_refused():

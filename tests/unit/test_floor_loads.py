@@ -11,6 +11,7 @@ from frames.assembly.assemble import assemble
 from frames.model.floors import nearest_edges, one_way, turning
 from frames.model.load_combinations import applied_loads
 from frames.model.sanity_checks import sanity_warnings
+from tests.refusals import refused
 from tests.scenes import SECTION as BEAM
 
 Q = 5e3  # N/m2
@@ -201,12 +202,10 @@ def test_two_beams_along_one_edge_and_beams_that_have_gone():
     frame, names = floor([(0, 0), (4, 0), (4, 4), (0, 4)])
     frame.add_floor_load("slab", names, Q)
     frame.add_member("twin", "c0", "c1", BEAM)
-    with pytest.raises(ModelError, match=r'several members go on \("b0", "twin"\)'):
-        assemble(frame)
+    refused(ModelError, r'several members go on \("b0", "twin"\)', assemble, frame)
     frame.remove("member", "twin")
     frame.remove("member", "b2")
-    with pytest.raises(ModelError, match=r'"slab".*from "c2" to "c3" no member goes on'):
-        assemble(frame)
+    refused(ModelError, r'"slab".*from "c2" to "c3" no member goes on', assemble, frame)
 
 
 def test_a_load_in_kilonewtons_is_a_doubt():

@@ -22,11 +22,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
-pytest.importorskip("typer")
-
 from typer.testing import CliRunner, Result
 
 from frames import ModelError

@@ -1,15 +1,11 @@
 """Buildings from tables of columns and beams: plans like an L, setbacks, towers; refusals."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-pytest.importorskip("pydantic")
-pytest.importorskip("pint")
-pytest.importorskip("typer")
-
 from typer.testing import CliRunner
 
 from frames import gravity
@@ -19,6 +15,7 @@ from frames.design.project.inputs import ProjectInputs
 from frames.design.project.preliminary import inputs_of, preliminary
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.structure_statement import structure_rows
+from tests.refusals import refused
 from tests.unit.test_structure_file import GRID, MEMBERS, parts_of
 
 STRUCTURE = """
@@ -56,15 +53,12 @@ A3,B3,,B
 B1,C1,0-2,B
 B2,C2,0-2,B
 """
+NAMES = "Members.csv", "bearings.csv", "bench.csv"
 LOADS = '[loads]\ndead = "5 kN/m2"\n'
 
 
 def project(
-    folder: Path,
-    columns: str = COLUMNS,
-    beams: str = BEAMS,
-    rest: str = LOADS,
-    structure: str = STRUCTURE,
+    folder: Path, columns=COLUMNS, beams=BEAMS, rest=LOADS, structure=STRUCTURE
 ) -> ProjectInputs:
     """Return a project with its tables."""
     (folder / "columns.csv").write_text(columns)
@@ -178,8 +172,8 @@ def test_a_column_may_begin_on_beams(tmp_path: Path) -> None:
     frame = project(tmp_path, planted, beams).frame()
     assert "bearing-B2" not in frame.bearings
     assert frame.check().carried == pytest.approx(frame.check().weight)
-    with pytest.raises(ProjectError, match='no column on line "B2" has its head or its foot'):
-        project(tmp_path, planted, BEAMS).frame()
+    loose = project(tmp_path, planted, BEAMS)
+    refused(ProjectError, 'no column on line "B2" has its head or its foot', loose.frame)
 
 
 def test_sections_of_rows_may_be_turned_or_of_the_catalogue(tmp_path: Path) -> None:
@@ -205,65 +199,59 @@ def test_a_changed_table_is_another_input(tmp_path, put_example):
     assert {key for key in found if found[key] != changed[key]} == {"tables of members"}
 
 
-REFUSED = {
-    "unknown column of beams": ("", ("A1,A2,,B", "A1,Aa3,,B"), 'no column "Aa3": is "A3" meant?'),
-    "beam to itself": ("", ("A1,A2,,B", "A1,A1,,B"), "begins and ends at"),
-    "beam twice": ("", ("A1,A2,,B", "A1,A2,,B\nA2,A1,1,B"), "two beams between"),
-    "overlapping beams": ("", ("A1,A2,,B", "A1,A2,,B\nA1,A3,1,B"), "overlap or cross"),
-    "crossing beams": ("", ("A1,A2,,B", "A1,A2,,B\nA1,B2,1,B\nA2,B1,1,B"), "overlap or cross"),
-    "unknown section": ("", ("A1,A2,,B", "A1,A2,,D"), 'section "D": there is no rolled shape'),
-    "floor out of range": ("", ("A1,A2,,B", "A1,A2,2-4,B"), 'floors = "2-4" must be a number'),
-    "no section": ("", ("A1,A2,,B", "A1,A2,,"), "section is empty"),
-    "cells": ("", ("A1,A2,,B", "A1,A2,,B,3"), "has 5 cells, its head 4"),
-    "head of beams": ("", ("from,to", "from,too"), 'column "too" is not known'),
-    "no beam on a floor": ("", ("C1,C2,0-2,B", "C1,C2,0-3,B"), 'no column on line "C1"'),
-    "no base beam": (("C1,0,10,1-2,C,", "C1,0,10,1-2,C,\nD1,0,20,1,C,"), "", "reaches its foot"),
-    "storeys": (("C1,0,10,1-2", "C1,0,10,2-1"), "", 'storeys = "2-1" must be a number or a range'),
-    "a gap": (("C1,0,10,1-2,C,", "C1,0,10,1,C,\nC1,0,10,3,C,"), "", "is missing in storey 2"),
-    "storey twice": (
-        ("C1,0,10,1-2,C,", "C1,0,10,1-2,C,\nC1,0,10,2,C,"),
-        "",
-        "two sections in storey 2",
-    ),
-    "two places": (("C1,0,10,1-2,C,", "C1,0,10,1,C,\nC1,0,11,2,C,"), "", "a name has one place"),
-    "one place": (("C1,0,10,", "C1,6.01,10,"), "", 'columns "C1" and "C2" stand at one place'),
-    "no number": (("C1,0,10,", "C1,left,10,"), "", 'x = "left m" is no number with a unit'),
-    "no place": (("C1,0,10,", "C1,,10,"), "", "x is empty"),
-    "depth": (("C1,0,10,1-2,C,", "C1,0,10,1-2,C,z"), "", 'choose one of "x", "y"'),
-    "no unit": (("x [m]", "x"), "", 'x = "0" has no unit'),
-    "head twice": (("x [m]", "y [m]"), "", 'column "y" is there twice'),
-    "no head": (("name,x [m],y [m],storeys,section,depth_along\n", ""), "", "is not known"),
-    "lacks": (
-        ("name,x [m],y [m],storeys,section,depth_along\n", "name,y [m]\n"),
-        "",
-        'column "x" is missing',
-    ),
-    "no rows": ((COLUMNS, "name,x [m],y [m],section\n\n"), "", "has no rows"),
-}
+FIRST, LAST = "A1,A2,,B", "C1,0,10,1-2,C,"
+HEAD = "name,x [m],y [m],storeys,section,depth_along\n"
+REFUSED_BEAMS = [
+    (FIRST, "A1,Aa3,,B", 'no column "Aa3": is "A3" meant?'),
+    (FIRST, "A1,A1,,B", "begins and ends at"),
+    (FIRST, "A1,A2,,B\nA2,A1,1,B", "two beams between"),
+    (FIRST, "A1,A2,,B\nA1,A3,1,B", "overlap or cross"),
+    (FIRST, "A1,A2,,B\nA1,B2,1,B\nA2,B1,1,B", "overlap or cross"),
+    (FIRST, "A1,A2,,D", 'section "D": there is no rolled shape'),
+    (FIRST, "A1,A2,2-4,B", 'floors = "2-4" must be a number'),
+    (FIRST, "A1,A2,,", "section is empty"),
+    (FIRST, "A1,A2,,B,3", "has 5 cells, its head 4"),
+    ("from,to", "from,too", 'column "too" is not known'),
+    ("C1,C2,0-2,B", "C1,C2,0-3,B", 'no column on line "C1"'),
+]
+REFUSED_COLUMNS = [
+    (LAST, f"{LAST}\nD1,0,20,1,C,", "reaches its foot"),
+    ("C1,0,10,1-2", "C1,0,10,2-1", 'storeys = "2-1" must be a number or a range'),
+    (LAST, "C1,0,10,1,C,\nC1,0,10,3,C,", "is missing in storey 2"),
+    (LAST, f"{LAST}\nC1,0,10,2,C,", "two sections in storey 2"),
+    (LAST, "C1,0,10,1,C,\nC1,0,11,2,C,", "a name has one place"),
+    ("C1,0,10,", "C1,6.01,10,", 'columns "C1" and "C2" stand at one place'),
+    ("C1,0,10,", "C1,left,10,", 'x = "left m" is no number with a unit'),
+    ("C1,0,10,", "C1,,10,", "x is empty"),
+    (LAST, f"{LAST}z", 'choose one of "x", "y"'),
+    ("x [m]", "x", 'x = "0" has no unit'),
+    ("x [m]", "y [m]", 'column "y" is there twice'),
+    (HEAD, "", "is not known"),
+    (HEAD, "name,y [m]\n", 'column "x" is missing'),
+    (COLUMNS, "name,x [m],y [m],section\n\n", "has no rows"),
+]
+BOTH = [
+    *(("beams", *row) for row in REFUSED_BEAMS),
+    *(("columns", *row) for row in REFUSED_COLUMNS),
+]
 
 
-@pytest.mark.parametrize(("columns", "beams", "said"), REFUSED.values(), ids=list(REFUSED))
-def test_tables_that_are_refused(tmp_path, columns, beams, said):
+@pytest.mark.parametrize(("table", "old", "new", "said"), BOTH)
+def test_tables_that_are_refused(tmp_path, table, old, new, said):
     """Each with file, line and what to write."""
     pytest.importorskip("steel_sections")
-    tables = [
-        text.replace(*change, 1) if change else text
-        for text, change in ((COLUMNS, columns), (BEAMS, beams))
-    ]
-    assert tables != [COLUMNS, BEAMS]
-    with pytest.raises(ProjectError) as told:
-        project(tmp_path, *tables).frame()
-    assert said in str(told.value)
+    text = {"beams": BEAMS, "columns": COLUMNS}[table]
+    assert old in text
+    changed = {table: text.replace(old, new, 1)}
+    refused(ProjectError, re.escape(said), lambda: project(tmp_path, **changed).frame())
 
 
 def test_files_that_are_not_there_or_are_no_text(tmp_path: Path) -> None:
     parts = project(tmp_path)
     (tmp_path / "beams.csv").unlink()
-    with pytest.raises(ProjectError, match="give a CSV file with from, to, section"):
-        parts.frame()
+    refused(ProjectError, "give a CSV file with from, to, section", parts.frame)
     (tmp_path / "columns.csv").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(ProjectError, match="save it as UTF-8"):
-        parts.frame()
+    refused(ProjectError, "save it as UTF-8", parts.frame)
 
 
 def test_heights_of_storeys(tmp_path: Path) -> None:
@@ -276,8 +264,8 @@ def test_heights_of_storeys(tmp_path: Path) -> None:
     assert "storey_height of storey 2 is 0.03 m" in doubt
     (doubt,) = file_doubts(project(tmp_path, structure=STRUCTURE.replace("4 m", "4 ft")).file)
     assert "storey_height of storey 1 is 1.219 m" in doubt
-    with pytest.raises(ProjectError, match="2 heights for 3 storeys"):
-        parts_of(tmp_path, GRID.replace('"3.5 m"', '["4 m", "3 m"]') + MEMBERS)
+    few = GRID.replace('"3.5 m"', '["4 m", "3 m"]') + MEMBERS
+    refused(ProjectError, "2 heights for 3 storeys", parts_of, tmp_path, few)
 
 
 def test_from_tables_to_a_report(tmp_path: Path, put_example: Callable[[Path], object]) -> None:
@@ -313,13 +301,13 @@ accidental_eccentricity = 0.0
     assert "tables of members" in again.output
 
 
-@pytest.mark.parametrize("name", ["Members.csv", "bearings.csv", "bench.csv"])
-def test_a_table_named_as_a_result_is_refused(tmp_path: Path, name: str) -> None:
-    with pytest.raises(ProjectError, match=f'"{name}" has the name of a file of the results'):
-        project(tmp_path, structure=STRUCTURE.replace("columns.csv", name))
-
-
-def test_two_tables_of_one_name_are_refused(tmp_path: Path) -> None:
-    text = STRUCTURE.replace('"columns.csv"', '"a/table.csv"').replace('"beams.csv"', '"table.csv"')
-    with pytest.raises(ProjectError, match=r"are both named table\.csv"):
-        project(tmp_path, structure=text)
+@pytest.mark.parametrize(
+    ("columns", "beams", "words"),
+    [
+        *((name, "beams.csv", f'"{name}" has the name of a file of the results') for name in NAMES),
+        ("a/table.csv", "table.csv", r"are both named table\.csv"),
+    ],
+)
+def test_names_of_tables_that_are_refused(tmp_path, columns, beams, words):
+    text = STRUCTURE.replace("columns.csv", columns).replace("beams.csv", beams)
+    refused(ProjectError, words, project, tmp_path, structure=text)
