@@ -128,26 +128,6 @@ def test_portal_sways_as_slope_deflection(ratio: float, sign: float) -> None:
     assert_allclose(ends[[0, 2], 2].sum(), -force, rtol=axial, atol=0.0)
 
 
-def test_portal_under_beam_load() -> None:
-    # Clamped portal, load q on the beam: M_head = q L^2 / (6 (k + 2)), M_foot half of it.
-    height, span, q = 4.0, 6.0, 12e3
-    frame = portal(RIGID_AXIS, RIGID_AXIS, height, span)
-    frame.add_uniform_load("beam", (0.0, 0.0, -q))
-    system = assemble(frame)
-    _, u = solve(system)
-    ends = member_end_forces(system, u)
-    k = height / span
-    head = q * span**2 / (6.0 * (k + 2.0))
-    axial = 1e-5  # the members are not quite rigid along their axes
-    moments = [[head / 2, head], [head] * 2, [head / 2, head]]
-    assert_allclose(np.abs(ends[:, [4, 10]]), moments, rtol=axial, atol=0.0)
-    # Beam: hogging at both ends, moment -head about local y (global y) on the left end.
-    assert_allclose(ends[1, [4, 10]], [-head, head], rtol=axial, atol=0.0)
-    thrust = 1.5 * head / height
-    axials = member_axial_forces(system, spsolve(system.stiffness.tocsc(), system.load))
-    assert_allclose(axials, [-q * span / 2, -thrust, -q * span / 2], rtol=axial, atol=0.0)
-
-
 def space_frame(diaphragm: bool = True) -> Frame:
     """Return a one-storey frame of unequal columns on a rectangle, with twist."""
     frame = Frame("space", gravity=9.81)

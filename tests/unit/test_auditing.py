@@ -35,7 +35,6 @@ from lir_element import (
     Features,
     LIRBearing,
     VelocityFriction,
-    cyclic_test,
 )
 from lir_element.device.sliders import slider_record
 from lir_element.errors import RunStatus
@@ -286,17 +285,6 @@ def test_eccentricity_is_moment_equilibrium_of_each_slider(lateral):
     assert e > 1e-3
 
 
-def test_eccentricity_of_a_symmetric_bearing_is_half_its_slip():
-    rig = cyclic_test(device(capacity=0.1), [0.0, 0.13], 3e5)
-    slip = float(rig["interface_slip_size"][-1, 0])
-    assert slip > 0.02
-    data = run(device(capacity=0.08))
-    # the axial force stretches the string: some 1e-4 of its length
-    assert_allclose(
-        data["interface_eccentricity"], 0.5 * data["interface_slip_size"], rtol=0.0, atol=2e-4
-    )
-
-
 def test_full_contact_levels():
     data = run(device(capacity=0.08))
     share = found(data)["full_contact"].number
@@ -371,14 +359,6 @@ def test_audit_survives_a_file(tmp_path):
     assert sum("left out" in line for line in lines) == 3
 
 
-@pytest.mark.quick
-def test_missing_features_are_marked():
-    features = Features(rims=False, interface=False)
-    data = run(device(capacity=0.08), features=features)
-    assert "! rims left out: reached " in audit_report(data)
-    assert not found(data)["interface"].mattered  # it carries little while there is no rim
-
-
 def test_auto_settles_at_once_where_nothing_is_missing():
     data = run(device(), level="auto")
     assert data.attrs["level"] == "pendulum"
@@ -434,13 +414,6 @@ def test_auto_takes_contact_for_bearings_that_ask():
     lines = again.attrs["auto_runs"].splitlines()
     assert "again with a at the level 'contact'" in lines[0]
     assert lines[1].startswith("run 2: 1 of 2 bearings at contact")
-
-
-def test_auto_lifts_off_at_contact():
-    up = wave(15.0, 0.5)
-    data = run(device(), GroundMotion(x=0.2 * up, z=up, dt=DT), level="auto")
-    assert data.attrs["level"] == "contact"
-    assert "again with all bearings at the level 'contact'" in data.attrs["auto_runs"]
 
 
 def test_auto_names_runs_that_end_otherwise():

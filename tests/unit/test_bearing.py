@@ -370,50 +370,61 @@ def test_frozen() -> None:
         b.friction.coefficient = 0.5  # type: ignore[union-attr,misc]
 
 
+HEATING = FrictionHeating(variant="third", initial_temperature=5.0)
+OTHER: dict[str, Any] = {
+    "radius": (0.75, 1.1),
+    "slider_height": 0.09,
+    "slider_radius": 0.07,
+    "capacity": 0.18,
+    "friction": (VelocityFriction(0.07, 0.03, 12.0), CoulombFriction(0.05)),
+    "interface_friction": 0.127,
+    "axial_stiffness": 3e8,
+    "axial_damping": 2e5,
+    "rim_stiffness": 4e7,
+    "rim_damping": 5e4,
+    "rim_overrun": 0.006,
+    "rim_yield_force": 9e4,
+    "rim_hardening": 0.02,
+    "flange": 0.07,
+    "uplift_capacity": 0.03,
+    "backup": BackupSupport(drop=0.04, friction=0.25, damping=1e4),
+    "slip_capacity": 0.05,
+    "design_load": 2e5,
+    "yield_displacement": 3e-4,
+    "interface_yield_displacement": 2e-4,
+    "friction_law": "bouc-wen",
+    "bouc_wen_exponent": 3.0,
+    "torsional_friction": False,
+    "plate_thickness": (0.01, 0.04),
+    "allow_weak_interface": True,
+    "rims": (0.75 * 0.175 / 1.415,) * 2,
+    "slider_density": 7000.0,
+    "slider_mass": (3.0, 4.0),
+    "contact_points": 12,
+    "slider_inertia": ((0.1, 0.2), (0.1, 0.2)),
+    "pressure_dependence": PressureDependence(reference_pressure=1e7, rate=2e-9),
+    "friction_heating": HEATING,
+}
+"""Another value of each field."""
+SIZES = {"radius", "slider_height", "slider_radius", "capacity", "interface_friction", "rims"}
+SLIDERS = {"slider_density", "slider_mass", "contact_points", "slider_inertia"}
+
+
 def test_equality_and_hash() -> None:
     assert bearing() == bearing()
     assert hash(bearing()) == hash(bearing())
     assert len({bearing(), bearing(), bearing(radius=0.8)}) == 2
-    changes: dict[str, object] = {
-        "radius": 0.76,
-        "slider_height": 0.09,
-        "slider_radius": 0.07,
-        "capacity": 0.18,
-        "friction": CoulombFriction(0.067),
-        "interface_friction": 0.127,
-        "axial_stiffness": 1e8,
-        "axial_damping": 1e5,
-        "rim_stiffness": 1e7,
-        "rim_damping": 0.0,
-        "rim_overrun": 0.01,
-        "rim_yield_force": 1e5,
-        "rim_hardening": 0.01,
-        "flange": 0.1,
-        "uplift_capacity": 0.02,
-        "backup": BackupSupport(drop=0.05),
-        "slip_capacity": 0.05,
-        "design_load": 1e5,
-        "yield_displacement": 1e-3,
-        "interface_yield_displacement": 2e-4,
-        "friction_law": "bouc-wen",
-        "bouc_wen_exponent": 3.0,
-        "torsional_friction": False,
-        "plate_thickness": 0.02,
-        "allow_weak_interface": True,
-        "rims": (0.75 * 0.175 / 1.415,) * 2,
-        "slider_density": 7000.0,
-        "slider_mass": (3.0, 4.0),
-        "contact_points": 12,
-        "slider_inertia": ((0.1, 0.2), (0.1, 0.2)),
-        "pressure_dependence": PressureDependence(),
-        "friction_heating": FrictionHeating(),
-    }
-    assert set(changes) == {f.name for f in dataclasses.fields(LIRBearing)}
-    for name, value in changes.items():
-        other = dataclasses.replace(bearing(), **{name: value})
-        assert other != bearing(), name
-        if name not in {"allow_weak_interface", "rims"}:  # these do not change the device
-            assert records(other) != records(bearing()), name
+    assert set(OTHER) == {f.name for f in dataclasses.fields(LIRBearing)}
+
+
+@pytest.mark.meant(".")  # one of them alone is strange
+@pytest.mark.parametrize("name", OTHER)
+def test_every_field_makes_another_bearing(name: str) -> None:
+    more = {"slider_height": 0.11, "capacity": 0.17} if name == "radius" else {}
+    other, same = bearing(**more | {name: OTHER[name]}), bearing(**more)
+    assert other != same
+    if name not in {"allow_weak_interface", "rims"}:  # these do not change the device
+        assert records(other) != records(same)
 
 
 def records(b: LIRBearing) -> bytes:
@@ -422,35 +433,9 @@ def records(b: LIRBearing) -> bytes:
 
 
 def test_record_is_complete() -> None:
-    heating = FrictionHeating(variant="third", initial_temperature=5.0)
     area = math.pi * 0.08**2
-    b = LIRBearing(
-        **(
-            UNEQUAL
-            | {
-                "friction": (VelocityFriction(0.07, 0.03, 12.0), CoulombFriction(0.05)),
-                "axial_stiffness": 3e8,
-                "axial_damping": 2e5,
-                "rim_stiffness": 4e7,
-                "rim_damping": 5e4,
-                "rim_overrun": 0.006,
-                "rim_yield_force": 9e4,
-                "rim_hardening": 0.02,
-                "flange": 0.07,
-                "uplift_capacity": 0.03,
-                "backup": BackupSupport(drop=0.04, friction=0.25, damping=1e4),
-                "slip_capacity": 0.05,
-                "design_load": 2e5,
-                "yield_displacement": 3e-4,
-                "interface_yield_displacement": 2e-4,
-                "friction_law": "bouc-wen",
-                "bouc_wen_exponent": 3.0,
-                "plate_thickness": (0.01, 0.04),
-                "pressure_dependence": PressureDependence(reference_pressure=1e7, rate=2e-9),
-                "friction_heating": heating,
-            }
-        )
-    )
+    left = {"allow_weak_interface", "torsional_friction", *SIZES, *SLIDERS}
+    b = LIRBearing(**UNEQUAL | {name: OTHER[name] for name in OTHER.keys() - left})
     record = b.to_record()
     assert record.shape == (1,)
     assert record.dtype.names == tuple(f.name for f in PROPS_FIELDS)
@@ -498,9 +483,7 @@ def test_record_is_complete() -> None:
         "softening_rate": -0.029 * math.log(0.7),
         "softening_rest": 0.22,
         "initial_temperature": 5.0,
-        "heat_rate": heating.parts()[0],
-        "heat_gain": heating.parts()[1],
-        "heat_skin": heating.parts()[2],
+        **dict(zip(("heat_rate", "heat_gain", "heat_skin"), HEATING.parts(), strict=True)),
     }
     assert set(expected) == set(record.dtype.names)
     for name, value in expected.items():

@@ -15,6 +15,7 @@ from frames.design import ProjectError, device_checks
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
 from tests.refusals import refused
+from tests.scenes import DEVICE
 
 PROJECT = """
 [project]
@@ -37,13 +38,9 @@ s_m1 = 0.4
 folder = "motions"
 only = ["artificial-3"]
 scale = 0.6
-[bearing]
-radius = "1.5 m"
-slider_height = "200 mm"
-slider_radius = "200 mm"
-capacity = "180 mm"
-friction = 0.05
-interface_friction = 0.15
+"""
+PROJECT += DEVICE.replace("0.06", "0.05").replace("0.18", "0.15")
+PROJECT += """
 [bounds]
 friction = [0.8, 1.3]
 [limits]
@@ -53,16 +50,14 @@ level = "pendulum"
 bounds = ["lower"]
 accidental_eccentricity = "none"
 """
-BY_COLUMN = (
-    PROJECT
-    + """
+MIDDLE = """
 [bearings.middle]
 columns = ["1-0", "bearing-1-1"]
 slider_radius = "250 mm"
 friction = 0.06
 interface_friction = 0.18
 """
-)
+BY_COLUMN = PROJECT + MIDDLE
 run = CliRunner().invoke
 
 
@@ -79,13 +74,10 @@ def parts_of(folder: Path, text: str) -> ProjectInputs:
 def test_columns_and_loads_choose(folder: Path) -> None:
     parts = parts_of(folder, BY_COLUMN)
     frame, types = parts.frame(), parts.types()
-    assert [name for name, kind in types.items() if kind == "middle"] == [
-        "bearing-1-0",
-        "bearing-1-1",
-    ]
+    middle = ["bearing-1-0", "bearing-1-1"]
+    assert [name for name, kind in types.items() if kind == "middle"] == middle
     for name, link in frame.bearings.items():
-        middle = types[name] == "middle"
-        assert link.bearing.slider_radius == (0.25 if middle else 0.2)
+        assert link.bearing.slider_radius == (0.25 if name in middle else 0.2)
         assert link.bearing.lateral_capacity == pytest.approx(0.18)
     loads = dict(zip(frame.bearings, gravity(frame).axial_forces, strict=True))
     between = 0.5e-3 * (loads["bearing-1-0"] + loads["bearing-0-0"])
@@ -129,13 +121,9 @@ def test_each_type_is_checked_at_its_own_loads(folder: Path) -> None:
         rows = checks[checks["subject"].str.startswith(f"type {kind}")]
         [pressure] = rows[rows["title"] == "pressure on the sliders' overlap"]["demand"]
         slip = max(float(runs["peak_slip"][0, k]) for k in places)
-        [again] = [
-            check
-            for check in device_checks(
-                device, (1.0, most), slip=slip, bounds=parts.bounds(), limits=parts.limits()
-            )
-            if check.title == "pressure on the sliders' overlap"
-        ]
+        given = {"slip": slip, "bounds": parts.bounds(), "limits": parts.limits()}
+        checks_here = device_checks(device, (1.0, most), **given)
+        [again] = [c for c in checks_here if c.title == "pressure on the sliders' overlap"]
         assert pressure >= again.demand * (1.0 - 1e-9)  # combinations may load it more
         assert pressure < 1.5 * again.demand
         assert len(rows[rows["title"].str.startswith("interface holds until")]) == 2
@@ -170,10 +158,8 @@ def test_each_type_is_checked_at_its_own_loads(folder: Path) -> None:
 )
 def test_what_cannot_be_is_refused(folder: Path, old: str, new: str, words: str) -> None:
     assert BY_COLUMN.count(old) == 1 or old == '"1-0"'
-    head, tail = BY_COLUMN.split("[bearings.middle]")
-    text = head + ("[bearings.middle]" + tail).replace(old, new)
-    with pytest.raises(ProjectError, match=words):
-        parts_of(folder, text).frame()
+    text = PROJECT + MIDDLE.replace(old, new)
+    refused(ProjectError, words, lambda: parts_of(folder, text).frame())
 
 
 def test_types_need_a_standard_bearing(folder: Path) -> None:

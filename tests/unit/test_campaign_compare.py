@@ -29,28 +29,16 @@ from frames.risk.campaign.comparison import (
 from frames.risk.campaign.file import comparison_in, read_campaign
 from lir_element import AnalysisWarning
 from tests.refusals import refused
-from tests.scenes import wide_bearing
+from tests.scenes import DEVICE, STICK, wide_bearing
 
 BEARING = wide_bearing(capacity=0.2, friction=0.06, interface_friction=0.2, design_load=300e3)
-FILE = """
+ABOVE = STICK.replace("100 t", "60 t").replace("300 kN", "200 kN") + 'base_mass = "60 t"\n'
+SLIDERS = DEVICE.replace("180 mm", "200 mm").replace("0.18", "0.2") + 'design_load = "300 kN"\n'
+FILE = f"""
 [campaign]
 name = "Rims"
-[structure]
-kind = "shear building"
-bays = [1, 1]
-bay_width = ["6 m", "6 m"]
-storey_mass = ["60 t"]
-storey_stiffness = ["200 kN/mm"]
-storey_height = "3 m"
-base_mass = "60 t"
-[bearing]
-radius = "1.5 m"
-slider_height = "200 mm"
-slider_radius = "200 mm"
-capacity = "200 mm"
-friction = 0.06
-interface_friction = 0.2
-design_load = "300 kN"
+{ABOVE}{SLIDERS}"""
+FILE += """
 [motions]
 folder = "motions"
 intensities = ["2 m/s2", "2.5 m/s2", "3 m/s2", "4 m/s2", "5 m/s2"]

@@ -16,6 +16,7 @@ from frames.design import ProjectError
 from frames.risk import open_campaign
 from frames.risk.campaign.file import read_campaign
 from tests.refusals import refused
+from tests.scenes import DEVICE
 
 FILE = """
 [campaign]
@@ -29,14 +30,9 @@ storey_mass = ["100 t", "100 t"]
 storey_stiffness = ["400 kN/mm", "300 kN/mm"]
 storey_height = "3 m"
 base_mass = "100 t"
-[bearing]
-radius = "1.5 m"
-slider_height = "200 mm"
-slider_radius = "200 mm"
-capacity = "300 mm"
-friction = 0.06
-interface_friction = 0.2
-[motions]
+"""
+FILE += DEVICE.replace("180 mm", "300 mm").replace("0.18", "0.2")
+FILE += """[motions]
 folder = "motions"
 only = ["artificial-1"]
 scales = [1.0, 1.5]
@@ -112,9 +108,8 @@ def test_messages_name_key_value_and_remedy(folder: Path, old: str, new: str, wo
 
 def test_a_bad_file_of_motions_is_named(folder: Path) -> None:
     table = (folder / "motions/motions.csv").read_text()
-    name = next(line for line in table.splitlines() if line.startswith("artificial-1,")).split(",")[
-        1
-    ]
+    row = next(line for line in table.splitlines() if line.startswith("artificial-1,"))
+    name = row.split(",")[1]
     (folder / "motions" / name).write_text("0.1\nnan\nwhat\n")
     refused(ProjectError, name, read_campaign, folder / "friction.toml")
 
@@ -149,9 +144,9 @@ bays = [1, 1]
 bay_width = ["6 m", "5 m"]
 storeys = 1
 storey_height = "3 m"
-columns = { circle = "500 mm", material = { E = "30 GPa", nu = 0.2, density = "0 kg/m3" } }
-beams = { circle = "500 mm", material = { E = "30 GPa", nu = 0.2, density = "0 kg/m3" } }
-base_beams = { circle = "500 mm", material = { E = "30 GPa", nu = 0.2, density = "0 kg/m3" } }
+columns = ROUND
+beams = ROUND
+base_beams = ROUND
 [loads]
 dead = "5 kN/m2"
 live = "2 kN/m2"
@@ -160,7 +155,8 @@ mass = { dead = 1.0, live = 0.25 }
 [bearing]"""
         + FILE.partition("[bearing]")[2]
     )
-    (folder / "loads.toml").write_text(text)
+    round_ = '{ circle = "500 mm", material = { E = "30 GPa", nu = 0.2, density = "0 kg/m3" } }'
+    (folder / "loads.toml").write_text(text.replace("ROUND", round_))
     checked = read_campaign(folder / "loads.toml")._work.build("LIR-DCFP", 0).check()
     assert checked.carried == pytest.approx(2 * 30.0 * (5e3 + 0.5 * 2e3))
     assert checked.mass == pytest.approx(2 * 30.0 * (5e3 + 0.25 * 2e3) / 9.80665)

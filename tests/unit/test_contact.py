@@ -486,29 +486,6 @@ def test_derivative_of_all_forces(config: str, seed: int, kind: str) -> None:
     assert_allclose(k / scale, expected / scale, rtol=0.0, atol=3e-8)
 
 
-def test_weak_derivatives_of_the_turning_arms() -> None:
-    """Force times arm beside the stiffness of contacts: with soft ones it is seen apart from it."""
-    bodies = Bodies("pressed", 3, "points")
-    bodies.c.stiffness = 1e5
-    bodies.c.damping = 0.0
-    bodies.touch_old["closure"] = 0.0
-    bodies.touch_old["hysteresis"] = 0.3
-    direction = bodies.q[1][:, 2]
-    bodies.x[0] += 0.02 * direction  # deep: forces of 1e3 N against a stiffness of 1e5 N/m
-    bodies.x[3] -= 0.04 * direction
-    bodies.x[2] -= 0.01 * direction
-    bodies.p.yield_displacement[:] = 10.0
-    bodies.p.interface_yield = 10.0
-    bodies.p.friction_drop[:] = 0.0  # the points are where their motion turns: a corner of speed
-    bodies.press()
-    bodies.touch_old["push"] = 0.9 * bodies.touch_new["push"]
-    bodies.press(derive=True)
-    k = bodies.w.k.copy()
-    assert (bodies.touch_new["push"] > 0.0).all()
-    expected = bodies.slopes(1e-4)
-    assert_allclose(k, expected, rtol=0.0, atol=1e-9 * np.abs(k).max())
-
-
 def test_inverse_of_the_sliders_matrix() -> None:
     """With exchanged rows, by columns; a singular matrix has none."""
     rng = np.random.default_rng(5)

@@ -11,7 +11,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 from frames import MotionWarning
@@ -427,31 +426,7 @@ class TestCopies:
         assert "y: peak 0.500 m/s2 (0.051 g)" in motion.summary()
 
 
-def solved_peak(motion: GroundMotion, period: float, damping: float) -> float:
-    """Largest displacement by a Runge-Kutta solver, step by step of the record."""
-    omega = 2.0 * math.pi / period
-
-    def rate(time: float, state: np.ndarray) -> list[float]:
-        ground = np.interp(time, motion.time, motion.components[:, 0])
-        return [state[1], -2.0 * damping * omega * state[1] - omega**2 * state[0] - ground]
-
-    steps = {"max_step": 0.5 * motion.dt, "rtol": 1e-9, "atol": 1e-12}
-    times = np.linspace(0.0, motion.duration, 4001)
-    solution = solve_ivp(rate, (0.0, motion.duration), [0.0, 0.0], t_eval=times, **steps)
-    return float(np.abs(solution.y[0]).max())
-
-
 class TestSpectrum:
-    @pytest.mark.parametrize(("period", "damping"), [(0.06, 0.05), (0.5, 0.02), (1.5, 0.2)])
-    def test_against_a_solver(self, period: float, damping: float) -> None:
-        noise = np.random.default_rng(7).normal(size=60)
-        motion = GroundMotion(x=np.r_[0.0, noise, np.zeros(60)], dt=0.02)
-        spectrum = motion.response_spectrum([period], damping)
-        # both search the peak at points: 1 - cos(pi/40) = 0.3 % apart at most
-        assert_allclose(
-            spectrum["displacement"], solved_peak(motion, period, damping), rtol=3e-3, atol=0.0
-        )
-
     @pytest.mark.parametrize(("period", "damping"), [(0.4, 0.0), (1.0, 0.05), (9.0, 0.3)])
     def test_against_the_matrix_exponential(self, period: float, damping: float) -> None:
         """The same exact step another way: displacement, velocity, ground and its slope."""

@@ -150,33 +150,36 @@ def test_given_points() -> None:
         spectrum.parameters["S"] = 1.0  # type: ignore[index]
 
 
+ASCE, POINTS, GIVEN = Spectrum.asce7, Spectrum.asce7_multi_period, Spectrum.given
+
+
 @pytest.mark.parametrize(
-    ("make", "words"),
+    ("words", "make", "given"),
     [
-        (lambda: Spectrum.asce7(14.7, 8.8), "1.5 g"),
-        (lambda: Spectrum.asce7(0.0, 0.9), "s_ms"),
-        (lambda: Spectrum.asce7(0.1, 0.9), "T_S"),
-        (lambda: Spectrum.asce7(1.5, 0.9).acceleration(-1.0), "period = -1"),
-        (lambda: Spectrum.asce7(1.5, 0.9).acceleration(float("nan")), "period = nan"),
-        (lambda: Spectrum.asce7(1.5, 0.9).acceleration(1.0, damping=5.0), "0.05"),
-        (lambda: Spectrum.asce7(1.5, 0.9).scaled(-1.0), "factor"),
-        (lambda: Spectrum.asce7_multi_period([0.5, 1.0, 3.0], [1.0, 0.5, 0.2]), "begin at 0"),
-        (lambda: Spectrum.asce7_multi_period([0.0, 1.0, 3.0], [9.8, 14.7, 2.0]), "unit"),
-        (lambda: Spectrum.en1998(250.0), "m/s2"),
-        (lambda: Spectrum.en1998(2.5, "F"), "ground_type"),
-        (lambda: Spectrum.en1998(2.5, kind=3), "kind"),
-        (lambda: Spectrum.nch2745("IV"), "soil"),
-        (lambda: Spectrum.nch2745(zone=4), "zone"),
-        (lambda: Spectrum.nch433("F"), "soil"),
-        (lambda: Spectrum.given([0.0, 1.0], [1.0]), "one length"),
-        (lambda: Spectrum.given([1.0, 0.0], [1.0, 2.0]), "rising"),
-        (lambda: Spectrum.given([0.0, 1.0], [1.0, -2.0]), "positive"),
-        (lambda: Spectrum.given([0.0, 1.0], [1.0, 2.0], code="UBC"), "code"),
-        (lambda: damping_factor("UBC", 0.1), "code"),
+        ("1.5 g", ASCE, (14.7, 8.8)),
+        ("s_ms", ASCE, (0.0, 0.9)),
+        ("T_S", ASCE, (0.1, 0.9)),
+        ("period = -1", ALL[0].acceleration, (-1.0,)),
+        ("period = nan", ALL[0].acceleration, (math.nan,)),
+        ("0.05", ALL[0].acceleration, (1.0, 5.0)),
+        ("factor", ALL[0].scaled, (-1.0,)),
+        ("begin at 0", POINTS, ([0.5, 1.0, 3.0], [1.0, 0.5, 0.2])),
+        ("unit", POINTS, ([0.0, 1.0, 3.0], [9.8, 14.7, 2.0])),
+        ("m/s2", Spectrum.en1998, (250.0,)),
+        ("ground_type", Spectrum.en1998, (2.5, "F")),
+        ("kind", Spectrum.en1998, (2.5, "A", 3)),
+        ("soil", Spectrum.nch2745, ("IV",)),
+        ("zone", Spectrum.nch2745, ("II", 4)),
+        ("soil", Spectrum.nch433, ("F",)),
+        ("one length", GIVEN, ([0.0, 1.0], [1.0])),
+        ("rising", GIVEN, ([1.0, 0.0], [1.0, 2.0])),
+        ("positive", GIVEN, ([0.0, 1.0], [1.0, -2.0])),
+        ("code", damping_factor, ("UBC", 0.1)),
     ],
 )
-def test_what_makes_no_sense_is_refused(make: object, words: str) -> None:
-    refused(MotionError, words, make)
+def test_what_makes_no_sense_is_refused(words, make, given):
+    refused(MotionError, words, make, *given)
+    refused(MotionError, "code", GIVEN, [0.0, 1.0], [1.0, 2.0], code="UBC")
 
 
 def test_a_spectrum_keeps_the_site_that_it_was_made_for() -> None:
