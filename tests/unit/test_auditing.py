@@ -67,13 +67,8 @@ def found(data: xr.Dataset) -> dict[str, Finding]:
 
 def test_one_finding_a_feature():
     names = [finding.feature for finding in audit(run(device()))]
-    assert names == [
-        *Features.names(),
-        "full_contact",
-        "slip_stability",
-        "equilibrium",
-        "time_step",
-    ]
+    more = ("full_contact", "slip_stability", "equilibrium", "time_step")
+    assert names == [*Features.names(), *more]
 
 
 def test_rims_left_out_that_were_not_needed():
@@ -240,12 +235,7 @@ def resultant(bearing: LIRBearing, element: Element, *, top: bool) -> float:
     """Return the eccentricity from moment equilibrium of one slider, with vectors in space."""
     n, p = element.response("axis"), bearing.to_record()[0]
     k = 1.0 / (1.0 + n[2])
-    t = np.array(
-        [
-            [1.0 - k * n[0] ** 2, -k * n[0] * n[1], -n[0]],
-            [-k * n[0] * n[1], 1.0 - k * n[1] ** 2, -n[1]],
-        ]
-    )
+    t = np.eye(3)[:2] - np.outer(n[:2], [k * n[0], k * n[1], 1.0])
     load, sliders = element.response("axial_force"), slider_record(bearing)
     height = abs(sliders["vertex"] - sliders["plane"])[0, int(top)]  # of the bodies themselves
     pushed = -load * n + element.response("interface_force") @ t  # down on the bottom slider
@@ -264,13 +254,8 @@ def resultant(bearing: LIRBearing, element: Element, *, top: bool) -> float:
 
 @pytest.mark.parametrize("lateral", [0.02, 0.09, 0.115])
 def test_eccentricity_is_moment_equilibrium_of_each_slider(lateral):
-    bearing = device(
-        radius=(1.4, 0.5),
-        slider_radius=0.12,
-        capacity=0.1,
-        axial_stiffness=1e9,
-        friction=(CoulombFriction(0.03), CoulombFriction(0.06)),
-    )
+    plates = {"radius": (1.4, 0.5), "slider_radius": 0.12, "friction": (0.03, 0.06)}
+    bearing = device(capacity=0.1, axial_stiffness=1e9, **plates)
     element = Element(bearing)
     length = bearing.effective_radius + 2e5 / bearing.resolved()["axial_stiffness"]
     for share in np.linspace(0.0, 1.0, 200):
@@ -394,14 +379,9 @@ def test_auto_takes_contact_for_bearings_that_ask():
     rows = run(device(capacity=0.08)), run(device())
     known = rows[0].assign_coords(bearing=["a"])
     calm = rows[1].assign_coords(bearing=["b"])
-    both = xr.concat(
-        [known, calm],
-        "bearing",
-        data_vars="minimal",
-        coords="minimal",
-        compat="override",
-        combine_attrs="override",
-    )
+    how = dict.fromkeys(("data_vars", "coords"), "minimal")
+    how |= dict.fromkeys(("compat", "combine_attrs"), "override")
+    both = xr.concat([known, calm], "bearing", **how)
     levels = []
 
     def analyse(features: Features, level: object) -> xr.Dataset:
@@ -431,10 +411,8 @@ def test_auto_names_runs_that_end_otherwise():
         lines[name] = [line for line in doubts_of(data) if line.startswith("ends:")]
         assert data.attrs["auto_runs"].count("\n") == len(lines[name])
     assert lines["alike"] == []
-    assert (
-        "run 1 completed at t = 3 s, run 2 stopped (slip_exceeded) at t = 1.25 s"
-        in (lines["last fails"][0])
-    )
+    said = "run 1 completed at t = 3 s, run 2 stopped (slip_exceeded) at t = 1.25 s"
+    assert said in lines["last fails"][0]
     assert "run 1 stopped (step_too_small) at t = 1 s, run 2 completed" in lines["first fails"][0]
 
 

@@ -298,14 +298,9 @@ def test_derived_values(r_1: float, r_2: float, share_1: float, share_2: float) 
     edge = min(share_1 * r_1, share_2 * r_2) + 0.08
     rise = sum(r - math.sqrt(r**2 - edge**2) for r in (r_1, r_2))
     h, t = max(0.12, 1.1 * rise), (0.02, 0.05)
-    b = bearing(
-        radius=(r_1, r_2),
-        slider_height=h,
-        capacity=None,
-        rims=(share_1 * r_1, share_2 * r_2),
-        plate_thickness=t,
-        interface_friction=0.3,
-    )
+    rims = {"capacity": None, "rims": (share_1 * r_1, share_2 * r_2)}
+    sizes = {"radius": (r_1, r_2), "slider_height": h, "interface_friction": 0.3}
+    b = bearing(plate_thickness=t, **sizes, **rims)
     length = r_1 + r_2 - h
     assert_allclose(b.effective_radius, length, rtol=1e-14, atol=0.0)
     assert_allclose(b.lateral_capacity, length * min(share_1, share_2), rtol=1e-13, atol=0.0)
@@ -314,10 +309,8 @@ def test_derived_values(r_1: float, r_2: float, share_1: float, share_2: float) 
     assert_allclose(b.effective_friction, 0.066 * (r_1 + r_2) / length, rtol=1e-13, atol=0.0)
     angle = math.asin(min(share_1, share_2)) + math.atan(0.3)
     assert_allclose(b.force_limit(2.0), 2.0 * math.tan(angle), rtol=1e-12, atol=0.0)
-    both = bearing(radius=(r_1, r_2), slider_height=h, capacity=0.05, interface_friction=0.3)
-    assert_allclose(
-        both.rim_displacement, [0.05 * r_1 / length, 0.05 * r_2 / length], rtol=1e-13, atol=0.0
-    )
+    rims = [0.05 * r_1 / length, 0.05 * r_2 / length]
+    assert_allclose(bearing(**sizes, capacity=0.05).rim_displacement, rims, rtol=1e-13, atol=0.0)
 
 
 def test_force_without_limit() -> None:

@@ -55,9 +55,7 @@ def small(store: Path, sets: int = 16) -> Campaign:
     return Campaign(frame, pulse, store=store, batch=2, sample=sample, measures=end)
 
 
-def test_workers_that_are_slow_or_killed_change_nothing(
-    tmp_path: Path, client: Any, whole: str
-) -> None:
+def test_workers_that_are_slow_or_killed_change_nothing(tmp_path, client, whole):
     """One worker stands still for two seconds, the other is killed; a new one takes its place."""
     killed: list[int] = []
     slow, lost = client.run(os.getpid).values()
@@ -77,9 +75,7 @@ def test_workers_that_are_slow_or_killed_change_nothing(
 
 
 @pytest.mark.nightly
-def test_a_scheduler_that_is_lost_is_told_and_the_rest_is_run_here(
-    tmp_path: Path, client: Any, whole: str
-) -> None:
+def test_a_scheduler_that_is_lost_is_told_and_the_rest_is_run_here(tmp_path, client, whole):
     """The last test of the cluster, which is closed by it."""
     campaign = small(tmp_path / "store")
 

@@ -128,9 +128,7 @@ def broken(data: xr.Dataset) -> float:
         (lambda data: math.nan, r'measure "own" of run 0 .* is not a number'),
     ],
 )
-def test_errors_are_named_with_their_run(
-    tmp_path: Path, function: Callable[[xr.Dataset], float], words: str
-) -> None:
+def test_errors_are_named_with_their_run(tmp_path, function, words):
     with pytest.raises(CampaignError, match=words):
         small(tmp_path / "store", measures={"own": Measure(function, "1")}).run(workers=1)
     assert open_campaign(tmp_path / "store").status().done in {0, 3}

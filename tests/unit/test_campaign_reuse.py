@@ -3,24 +3,16 @@
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
-from frames import Frame, GroundMotion, Recording, lumped_mass
+from frames import Frame, Recording, lumped_mass
 from frames.risk import Campaign, CampaignError, full_grid, open_campaign
 from frames.risk.campaign import batches
 from frames.risk.campaign.designs import with_parameters
 from tests.refusals import refused
-from tests.scenes import small_bearing
+from tests.unit.test_campaign import BEARING, PULSES
 
 pytest.importorskip("filelock")
-
-BEARING = small_bearing(interface_friction=0.16)
-TIME = np.linspace(0.0, 1.0, 101)
-PULSES = {
-    name: GroundMotion(x=size * np.sin(2.0 * np.pi * TIME), dt=0.01, name=name)
-    for name, size in (("small", 1.0), ("large", 2.0))
-}
 
 
 def campaign(store: Path, motions: object, scales: list[float], **more: object) -> Campaign:
@@ -57,9 +49,7 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return computed
 
 
-def test_what_is_known_is_not_computed_again(
-    first: Path, whole: Campaign, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_is_known_is_not_computed_again(first, whole, tmp_path, monkeypatch):
     computed = counted(monkeypatch)
     found = campaign(tmp_path / "runs", PULSES, [0.5, 1.0, 1.5])
     found.run(workers=1, reuse=first)
@@ -69,9 +59,7 @@ def test_what_is_known_is_not_computed_again(
     assert found.digest() == whole.digest()
 
 
-def test_campaigns_are_merged(
-    first: Path, whole: Campaign, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_campaigns_are_merged(first, whole, tmp_path, monkeypatch):
     """Several campaigns that hold all runs of one make it without a computation."""
     others = [first]
     for k, (motions, scales) in enumerate(

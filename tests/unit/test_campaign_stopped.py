@@ -7,7 +7,6 @@ import re
 import signal
 import subprocess  # noqa: S404  # of this interpreter
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -125,9 +124,7 @@ def test_after_ctrl_c_the_rest_is_run(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no limit of the size of files there")
-def test_a_full_disk_is_told_and_the_store_stays(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_full_disk_is_told_and_the_store_stays(tmp_path, monkeypatch):
     """No file can grow at all: as on a full disk, each write fails, in reality."""
     import resource  # not on Windows
 
@@ -157,9 +154,7 @@ def test_a_full_disk_is_told_and_the_store_stays(
     assert campaign.digest() == whole.digest()
 
 
-def test_a_store_that_cannot_be_made_leaves_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_store_that_cannot_be_made_leaves_nothing(tmp_path, monkeypatch):
     def full(*_: object, **__: object) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
@@ -177,9 +172,7 @@ def test_a_store_that_cannot_be_made_leaves_nothing(
     ],
 )
 @pytest.mark.parametrize("junk", [b"", b"\x00\xff" * 40, b"[]", b"{}", None])
-def test_damaged_databases_say_where(
-    tmp_path: Path, made_once: Callable[..., Path], name: str, words: str, junk: bytes | None
-) -> None:
+def test_damaged_databases_say_where(tmp_path, made_once, name, words, junk):
     """Another content, or cut in the middle."""
     made_once("small campaign", lambda part: small(part / "store").run(), tmp_path)
     store = tmp_path / "store"
@@ -196,9 +189,7 @@ def test_damaged_databases_say_where(
         small(store).digest()
 
 
-def test_a_chunk_under_another_name_is_no_result(
-    tmp_path: Path, made_once: Callable[..., Path]
-) -> None:
+def test_a_chunk_under_another_name_is_no_result(tmp_path, made_once):
     made_once("small campaign", lambda part: small(part / "store").run(), tmp_path)
     runs = tmp_path / "store" / "runs"
     (runs / "000001.npz").write_bytes((runs / "000000.npz").read_bytes())

@@ -104,15 +104,8 @@ def plain_sphere(
     on = float(np.linalg.norm(old.hysteresis + dw / b.yield_displacement)) - before
     slip = b.yield_displacement * max(on, 0.0)
     mu = law.at_speed(slip / dt if dt > 0.0 else static)
-    return SimpleNamespace(
-        normal=-push * m,
-        tangential=-push * mu * z @ t,
-        push=push,
-        friction=mu,
-        slid=slip,
-        dw=dw,
-        z=z,
-    )
+    forces = {"normal": -push * m, "tangential": -push * mu * z @ t, "push": push}
+    return SimpleNamespace(**forces, friction=mu, slid=slip, dw=dw, z=z)
 
 
 def point_case(b: LIRBearing, side: int, seed: int, regime: str) -> tuple[np.ndarray, Any]:
@@ -366,14 +359,8 @@ class Bodies:
         assert_allclose(turn.apply([0.0, 0.0, 1.0]), n, rtol=0.0, atol=1e-14)
         length = self.bearing.effective_radius + 3e-4
         place = self.c.place
-        self.x = np.array(
-            [
-                place[0],
-                turn.apply(place[1]) - 1e-4 * n,
-                turn.apply(place[2]) - 2e-4 * n,
-                -length * n + [0.0, 0.0, self.p.lever[1]],
-            ]
-        )
+        sliders = [turn.apply(place[k]) - 1e-4 * k * n for k in (1, 2)]
+        self.x = np.array([place[0], *sliders, [0.0, 0.0, self.p.lever[1]] - length * n])
         self.q = np.array([np.eye(3), turn.as_matrix(), turn.as_matrix(), np.eye(3)])
         self.jolt(rng, 0.1 * noise)
         self.press()

@@ -255,12 +255,8 @@ def test_axial_load_history(sign: float) -> None:
     assert_allclose(force[3], -sign * friction * 2e5, rtol=1e-3, atol=0.0)
     between = cyclic_test(bearing(), sign * np.array([-0.1, -0.05, 0.0]), [1e5, 2e5, 3e5])
     direct = cyclic_test(bearing(), sign * np.array([-0.1, 0.0]), [1e5, 3e5])
-    assert_allclose(
-        along_x(between, "bearing_force")[-1],
-        along_x(direct, "bearing_force")[-1],
-        rtol=1e-6,
-        atol=0.0,
-    )
+    ends = [along_x(each, "bearing_force")[-1] for each in (between, direct)]
+    assert_allclose(*ends, rtol=1e-6, atol=0.0)
 
 
 def test_axial_force_on_the_tilted_slider() -> None:
@@ -510,14 +506,8 @@ def test_bouc_wen_in_the_rig(sign: float) -> None:
 )
 def test_below_its_capacity_it_is_a_dcfp(radius, height, slider_radius, low, level, most):
     """The actuator holds its load as well as the sliders' own equilibrium is found."""
-    device = bearing(
-        radius=radius,
-        slider_height=height,
-        slider_radius=slider_radius,
-        capacity=0.28,
-        friction=tuple(map(CoulombFriction, low)),
-        interface_friction=0.2,
-    )
+    sizes = {"radius": radius, "slider_height": height, "slider_radius": slider_radius}
+    device = bearing(capacity=0.28, friction=low, interface_friction=0.2, **sizes)
     turn = 6.0 * math.pi * np.linspace(0.0, 0.5, 120)
     path = np.column_stack([np.sin(turn), 0.6 * np.sin(2.0 * turn / 3.0)])
     path = (0.85 * device.capacity / np.hypot(*path.T).max() * path)[:14]

@@ -12,12 +12,8 @@ from frames import envelope, write_tables
 
 def history() -> xr.DataArray:
     values = np.array([[1.0, -2.0, np.nan], [5.0, 0.5, np.nan], [-3.0, 7.0, np.nan]])
-    return xr.DataArray(
-        values,
-        dims=("time", "end"),
-        coords={"time": [0.0, 0.1, 0.2], "end": ["i", "j", "k"]},
-        attrs={"units": "N"},
-    )
+    labels = {"time": [0.0, 0.1, 0.2], "end": ["i", "j", "k"]}
+    return xr.DataArray(values, labels, ("time", "end"), attrs={"units": "N"})
 
 
 def test_extremes_and_when():
@@ -52,10 +48,8 @@ def test_tables_as_files(tmp_path):
 
 def test_tables_as_a_workbook(tmp_path):
     pytest.importorskip("openpyxl")
-    write_tables(
-        {**tables(), "a name that is longer than 31 characters": tables()["members"]},
-        tmp_path / "forces.xlsx",
-    )
+    more = {"a name that is longer than 31 characters": tables()["members"]}
+    write_tables(tables() | more, tmp_path / "forces.xlsx")
     read = pd.read_excel(tmp_path / "forces.xlsx", sheet_name=None, index_col=0)
     assert [len(name) for name in read] == [7, 31]
     assert read["members"].loc["i", "smallest"] == -3.0
