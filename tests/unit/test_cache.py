@@ -2,7 +2,6 @@
 
 import importlib
 import os
-import shutil
 import subprocess  # what a new process does  # noqa: S404
 import sys
 import warnings
@@ -15,7 +14,6 @@ import pytest
 from numba.core.dispatcher import Dispatcher
 
 import lir_element
-from frames.bundles.peak_data import ENERGY_TERMS
 from lir_element._compile import cache
 from lir_element._compile.jit import kernels_of
 from lir_element._compile.sources import compiled_sources
@@ -306,38 +304,6 @@ def test_a_limit_on_files_ends_nothing(tmp_path: Path) -> None:
     assert "File too large" in done.stderr
     assert done.stderr.count("Set LIR_CACHE_DIR to a folder") == 1
     assert not [p for p in tmp_path.rglob("*") if p.is_file()]
-
-
-PEAKS = """
-import numpy as np
-from frames.kernels.peaks import peak_energy
-from frames.bundles.peak_data import Reached
-flat = {"storey", "shear", "line", "total", "last", "axis", "whole"}
-names = [name.removesuffix("_at") for name in Reached._fields]
-sizes = [5 if name in flat else (1, 5) for name in names]
-reached = Reached(*map(np.zeros, sizes))
-peak_energy(reached, 2.0 ** np.arange(TERMS), 0.5)
-print(*reached.whole, *reached.total, sum(peak_energy.stats.cache_misses.values()))
-"""
-
-
-def test_swapped_fields_of_the_peaks_bundle_are_noticed_with_a_warm_cache(tmp_path: Path) -> None:
-    for name in ("lir_element", "frames"):
-        skipped = shutil.ignore_patterns("__pycache__", "_kernels")
-        shutil.copytree(ROOT / name, tmp_path / name, ignore=skipped)
-    code = PEAKS.replace("TERMS", str(len(ENERGY_TERMS)))
-    cache = str(tmp_path / "cache")
-    *right, first = run(code, tmp_path, LIR_CACHE_DIR=cache).stdout.split()
-    assert float(right[1]) > 0.0
-    assert first == "1"
-    assert run(code, tmp_path, LIR_CACHE_DIR=cache).stdout.split() == [*right, "0"]
-    source = tmp_path / "frames" / "bundles" / "peak_data.py"
-    text = source.read_text(encoding="utf-8")
-    whole, total = "    whole: Array ", "    total: Array "
-    swapped = text.replace(whole, "    ?").replace(total, whole).replace("    ?", total)
-    assert swapped != text
-    source.write_text(swapped, encoding="utf-8")
-    assert run(code, tmp_path, LIR_CACHE_DIR=cache).stdout.split() == [*right, "1"]
 
 
 def test_importing_needs_no_cache(tmp_path: Path) -> None:

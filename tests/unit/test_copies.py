@@ -1,7 +1,6 @@
 """Copies and pickles: equal to the bit, and independent; errors and inputs keep what they carry."""
 
 import copy
-import multiprocessing
 import pickle  # noqa: S403
 from collections.abc import Callable
 from typing import Any
@@ -12,7 +11,6 @@ import xarray as xr
 
 from frames import Frame, GroundMotion, MotionError, Section
 from lir_element import AnalysisError, CoulombFriction, Element, RunStatus, VelocityFriction
-from tests.patience import patience
 from tests.refusals import refused
 from tests.scenes import rimmed_bearing
 
@@ -91,15 +89,6 @@ def test_an_analysis_error(duplicate: Callable[[Any], Any]) -> None:
     assert (other.status, other.time, other.where) == (RunStatus.RIM_OVERRUN, 1.5, 'bearing "b"')
     assert other.__notes__ == ["of run 7"]
     xr.testing.assert_identical(other.data, caught.value.data)
-
-
-def test_an_analysis_error_out_of_a_pool() -> None:
-    """What a process of a pool raises arrives, with what was computed."""
-    with multiprocessing.get_context("fork").Pool(1) as pool:
-        result = pool.map_async(failing, [0])
-        with pytest.raises(AnalysisError, match="rim") as caught:
-            result.get(timeout=patience())
-    assert caught.value.data["u"][-1] == 1.0
 
 
 @each_copy

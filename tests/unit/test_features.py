@@ -95,12 +95,8 @@ def test_an_element_refuses_what_is_not_its_own(name):
 
 def test_pendulum_without_vertical_coupling():
     """H = W U / sqrt(l^2 - U^2), whatever the height; the spring answers the height alone."""
-    bearing = device(
-        friction=CoulombFriction(0.0),
-        interface_friction=math.inf,
-        capacity=math.inf,
-        design_load=2e5,
-    )
+    free = dict.fromkeys(("interface_friction", "capacity"), math.inf)
+    bearing = device(friction=0.0, design_load=2e5, **free)
     element = Element(bearing, features=Features(vertical_coupling=False))
     k = bearing.resolved()["axial_stiffness"]
     for lateral, down in ((0.05, 1e-4), (0.2, 1e-4), (0.2, -3e-4)):

@@ -43,10 +43,8 @@ def chain(count: int) -> tuple[sparse.csr_array, sparse.csr_array]:
                              offsets=[-1, 0, 1])  # fmt: skip
     mass = np.ones(count)
     mass[[0, -1]] = 0.0
-    return (
-        sparse.csr_array(sparse.block_diag([one, one])),
-        sparse.csr_array(sparse.diags_array(np.tile(mass, 2))),
-    )
+    both = sparse.block_diag([one, one]), sparse.diags_array(np.tile(mass, 2))
+    return tuple(map(sparse.csr_array, both))
 
 
 def test_equal_periods_are_all_found() -> None:

@@ -280,12 +280,7 @@ def test_levels_agree():
 
 def test_the_interface_is_heated_by_its_slip():
     """The dissipation of an impact's slip; its friction stays as it is."""
-    bearing = device(
-        slider_radius=0.15,
-        capacity=0.15,
-        interface_friction=0.12,
-        friction_heating=FrictionHeating(),
-    )
+    bearing = device(slider_radius=0.15, capacity=0.15, interface_friction=0.12, **HEATED)
     path = np.concatenate([np.linspace(0.0, 0.2, 30), np.linspace(0.2, 0.1, 20)])
     data = cyclic_test(bearing, path, LOAD, velocity=0.5)
     assert data["temperature"].dims == ("step", "bearing", "contact")

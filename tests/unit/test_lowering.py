@@ -110,13 +110,8 @@ def bundle() -> Outer:
     state["turn"] = 0.1 * np.arange(18.0).reshape(3, 2, 3)
     state["count"] = [4, 5, 6]
     table = np.linspace(-1.0, 1.0, 12).reshape(2, 2, 3)
-    return Outer(
-        np.array([1.0, 2.0, 4.0, 8.0]),
-        np.arange(6.0).reshape(2, 3) ** 1.5,
-        state,
-        Inner(0.3, table),
-        4,
-    )
+    powers, squares = np.array([1.0, 2.0, 4.0, 8.0]), np.arange(6.0).reshape(2, 3) ** 1.5
+    return Outer(powers, squares, state, Inner(0.3, table), 4)
 
 
 @pytest.mark.parametrize("i", [0, 1])
