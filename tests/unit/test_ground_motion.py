@@ -487,8 +487,7 @@ class TestSpectrum:
         ],
     )
     def test_refusals(self, options: dict[str, object], message: str) -> None:
-        with pytest.raises(MotionError, match=message):
-            two_components().response_spectrum(**options)
+        refused(MotionError, message, lambda: two_components().response_spectrum(**options))
 
 
 MOVING_AT_ITS_END = "5071"
