@@ -181,7 +181,7 @@ def test_damaged_databases_say_where(tmp_path, made_once, name, words, junk):
     is_json = name == "plan.json" and junk in {b"[]", b"{}"}
     read = CampaignStore.digest if name.startswith("runs") else CampaignStore.results
     for use in (read, lambda own: own.results().load()):
-        said = "" if is_json else rf"{re.escape(Path(name).name)} is {words}"
+        said = "." if is_json else rf"{re.escape(Path(name).name)} is {words}"
         refused(CampaignError, said, use, CampaignStore(store))
     if "remove" in words and not junk:
         (store / name).unlink()
