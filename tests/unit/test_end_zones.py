@@ -148,6 +148,36 @@ def test_loads_and_end_forces_are_those_of_stiff_members(section, releases):
     assert_allclose(forces, ref, rtol=0.0, atol=1e-4 * np.abs(ref).max())
 
 
+def test_as_opensees_joint_offsets():
+    """The stiffness of geomTransf -jntOffset, from unit forces (Timoshenko's has none)."""
+    pytest.importorskip("openseespy")
+    from validation.opensees.frames import build as write  # needs openseespy
+    from validation.opensees.model import empty_model
+
+    frame = build(PLAIN, zones=True)
+    frame.remove("spring", "soft")
+    ours = assemble(frame).stiffness.toarray()
+    flexibility = np.zeros((6, 6))
+    for dof in range(6):
+        with empty_model() as ops:
+            built = write(ops, frame, transformation="Linear")
+            ops.timeSeries("Linear", 1)
+            ops.pattern("Plain", 1, 1)
+            ops.load(built.nodes["b"], *(1.0 if k == dof else 0.0 for k in range(6)))
+            for command, *options in (
+                ("system", "FullGeneral"),
+                ("numberer", "Plain"),
+                ("constraints", "Plain"),
+                ("integrator", "LoadControl", 1),
+                ("algorithm", "Linear"),
+                ("analysis", "Static"),
+            ):
+                getattr(ops, command)(*options)
+            assert ops.analyze(1) == 0
+            flexibility[:, dof] = ops.nodeDisp(built.nodes["b"])
+    assert_allclose(np.linalg.inv(flexibility), ours, rtol=0.0, atol=1e-9 * np.abs(ours).max())
+
+
 def test_mass_is_of_the_length_between_the_ends():
     heavy = Section.box(0.3, 0.3, 0.02)
     frame = build(heavy, zones=True)
