@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 MOST_HALVINGS = 14
 """Largest number of halvings of a step: a step of 0.005 s down to 0.3 microseconds."""
 
-_SECANTS = 8  # corrections of Newton's method that are remembered within a step
+_SECANTS = 8  # of Newton's method that are remembered with a tangent
 
 CLOCK_FIELDS = (
     Field("time", "s", "t", "time of the committed state"),
@@ -38,6 +38,8 @@ CLOCK_FIELDS = (
     Field("recent", "m", "", "mean of those of the accepted steps of late"),
     Field("worst", "m", "", "largest of these means"),
     Field("equal", "-", "", "accepted steps since one of another size", (), "i8"),
+    Field("guessed", "-", "", "accepted steps since one without such a guess", (), "i8"),
+    Field("secants", "-", "", "of Newton's method since the tangent was made", (), "i8"),
     Field("kept", "-", "", "1 + halvings of the step whose tangent is kept, 0: none", (), "i8"),
     Field("elastic_start", "J", "", "strain energy of the structure under gravity"),
 )
@@ -103,8 +105,11 @@ class IntegrationState(NamedTuple):
     of_nodes: Array  # (4, 12) scratch
     weights: Array  # (n_b,) of the coordinates in products of corrections
     corrections: Array  # (m, n_b) of Newton's method since the tangent was renewed
-    corrections_linear: Array  # (m, n_b) what the linear structure makes of them
-    corrections_size: Array  # (m,) their squares
+    corrections_next: Array  # (m, n_b) that followed them in their step
+    corrections_linear: Array  # (m, n_s) what the linear structure makes of those
+    corrections_size: Array  # (m,) squares of the former
+    missed: Array  # (3, n_b) by what guesses fell short in the last two steps; the last guess
+    missed_linear: Array  # (3, n_s) and what the linear structure makes of them
     reduced: Array  # (halvings, n_b, n_b) linear effective stiffness of each step size
     has_reduced: Array
     inverse_e: Array  # (halvings, n_e, n_e) with full damping: effective flexibility of modes
@@ -283,10 +288,13 @@ def tangent_arrays(n_b: int, n_h: int, bearings: int) -> dict[str, Any]:
         "flows": zeros(6, n_s),
         "element_whole": zeros(bearings if n_h else 0, 12, 12),
         "of_nodes": zeros(4, 12),
-        "weights": np.ones(n_s),
-        "corrections": zeros(_SECANTS, n_s),
+        "weights": np.ones(n_b),
+        "corrections": zeros(_SECANTS, n_b),
+        "corrections_next": zeros(_SECANTS, n_b),
         "corrections_linear": zeros(_SECANTS, n_s),
         "corrections_size": zeros(_SECANTS),
+        "missed": zeros(3, n_b),
+        "missed_linear": zeros(3, n_s),
     }
 
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from frames._jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.backup import give_up
-from lir_element.kernels.pendulum.trial import copy_words, is_about_to_snap
+from lir_element.kernels.linear import copy_words
+from lir_element.kernels.pendulum.trial import is_about_to_snap
 
 if TYPE_CHECKING:
     from lir_element.layout import Records, Words

@@ -21,8 +21,7 @@ from frames.kernels.step_error import is_rough, keep_motion
 from frames.kernels.stepping import commit_bearings, newton, predict, solve_gravity
 from frames.kernels.yielding import begin_parts, part_load_on_modes
 from lir_element.errors import RunStatus
-from lir_element.kernels.linear import add_product, set_product, subtract_squares
-from lir_element.kernels.pendulum.trial import copy_words
+from lir_element.kernels.linear import add_product, copy_words, set_product, subtract_squares
 from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
@@ -236,7 +235,9 @@ def try_step(
         begin_parts(model, run, parts, settings)
     if foreseen:
         predict(model, run, run.reduced[clock.halvings], 1.0 - settings.alpha_f)
-    elif model.shared.shape[0] > 0:
+    else:
+        clock.guessed = -1
+    if not foreseen and model.shared.shape[0] > 0:
         set_product(run.reduced[clock.halvings], run.step, run.linear_step)
     code = newton(
         model,
@@ -301,14 +302,17 @@ def accept_step(
         if pushed:
             push_parts(run, parts)
         add_part_energy(run, parts)
+    clock.guessed += 1
     clock.equal = clock.equal + 1 if clock.dt == clock.dt_before else 0
     for a in range(run.b.shape[0]):
         run.mean_v_before[a] = run.mean_v_b[a]
         run.mean_v_b[a] = run.step[a] / clock.dt
+        run.missed[1, a], run.missed[0, a] = run.missed[0, a], run.step[a] - run.missed[2, a]
         run.b[a], run.v_b[a], run.a_b[a] = run.b_new[a], run.v_b_new[a], run.a_b_new[a]
     for a in range(run.linear_step.shape[0]):
         run.linear_before[1, a] = run.linear_before[0, a]
         run.linear_before[0, a] = run.linear_step[a]
+        run.missed_linear[0, a] = run.linear_step[a] - run.missed_linear[2, a]
     for k in range(run.e.shape[0]):
         run.e[k], run.v_e[k], run.a_e[k] = run.e_new[k], run.v_e_new[k], run.a_e_new[k]
         run.flow_v[k], run.flow_a[k] = run.flow_v_new[k], run.flow_a_new[k]

@@ -181,42 +181,75 @@ def linear_part_of_correction(
 @kernel
 def with_secants(
     weights: Floats,
-    corrections: Floats,
+    taken: Floats,
+    following: Floats,
     linear: Floats,
     sizes: Floats,
     count: int,
     x: Floats,
     flow: Floats,
-) -> int:
-    """Improve Newton's correction `x` by what the ones before it did: Broyden's method.
+) -> None:
+    """Improve Newton's correction `x` by what those before it left over: Broyden's method.
 
-    Kelley 1995, Iterative Methods for Linear and Nonlinear Equations, algorithm brsol.
-
-    Shapes: weights (n_b,), corrections, linear, sizes (m, n_b), x, flow (n_b,).
+    Kelley 1995, Iterative Methods for Linear and Nonlinear Equations, algorithm brsol. Its secants
+    serve as long as the tangent does. Shapes: weights (n_b,), taken and following (m, n_b), linear
+    (m, n_s), sizes (m,), x (n_b,), flow (n_s,): what the structure makes of `x`, or of no size.
     """
-    n_b = x.shape[0]
-    if count == sizes.shape[0]:
-        count = 0
     for j in range(count):
         along = 0.0
-        for a in range(n_b):
-            along += weights[a] * corrections[j, a] * x[a]
+        for a in range(x.shape[0]):
+            along += weights[a] * taken[j, a] * x[a]
         along /= sizes[j]
-        if j + 1 < count:
-            for a in range(n_b):
-                x[a] += along * corrections[j + 1, a]
-                flow[a] += along * linear[j + 1, a]
-        else:
-            growth = 1.0 / max(1.0 - along, _LEAST)
-            for a in range(n_b):
-                x[a] *= growth
-                flow[a] *= growth
+        for a in range(x.shape[0]):
+            x[a] += along * following[j, a]
+        for a in range(flow.shape[0]):
+            flow[a] += along * linear[j, a]
+
+
+@kernel
+def keep_secant(
+    weights: Floats,
+    taken: Floats,
+    following: Floats,
+    linear: Floats,
+    sizes: Floats,
+    count: int,
+    follows: bool,
+    x: Floats,
+    flow: Floats,
+) -> int:
+    """Keep the correction `x`, improved by the one that it `follows`; return how many secants."""
+    if follows and sizes[count] > 0.0:
+        along = 0.0
+        for a in range(x.shape[0]):
+            along += weights[a] * taken[count, a] * x[a]
+        growth = 1.0 / max(1.0 - along / sizes[count], _LEAST)
+        for a in range(x.shape[0]):
+            x[a] *= growth
+            following[count, a] = x[a]
+        for a in range(flow.shape[0]):
+            flow[a] *= growth
+            linear[count, a] = flow[a]
+        count = (count + 1) % sizes.shape[0]
     size = 0.0
-    for a in range(n_b):
-        corrections[count, a], linear[count, a] = x[a], flow[a]
+    for a in range(x.shape[0]):
+        taken[count, a] = x[a]
         size += weights[a] * x[a] * x[a]
     sizes[count] = size
-    return count + 1 if size > 0.0 else 0
+    return count
+
+
+@kernel
+def goes_on_missing(weights: Floats, missed: Floats) -> bool:
+    """Return whether guesses miss by what they missed by before, rather than by nothing.
+
+    Rows of `missed` (3, n_b): by what the guesses of the last two steps fell short.
+    """
+    before, change = 0.0, 0.0
+    for a in range(weights.shape[0]):
+        before += weights[a] * missed[0, a] ** 2
+        change += weights[a] * (missed[0, a] - missed[1, a]) ** 2
+    return change < before
 
 
 @kernel

@@ -14,6 +14,8 @@ from frames._jit import inlined_before_typing, inlined_by_llvm, kernel
 from frames.kernels.shared_tangent import (
     add_element_to_blocks,
     factorise_blocks,
+    goes_on_missing,
+    keep_secant,
     linear_part_of_correction,
     set_linear_blocks,
     substitute_blocks,
@@ -55,9 +57,12 @@ _GRAVITY_WORTH = 3.0  # iterations that save a tangent of all coordinates under 
 
 @inlined_by_llvm
 def bearing_forces(
-    model: ReducedModel, run: IntegrationState, contacts: Contacts | None, b: Floats, v_b: Floats
+    model: ReducedModel, run: IntegrationState, contacts: Contacts | None, b: Floats
 ) -> int:
-    """Run all bearings at `b`; set `run.force`. Returns a status code (limits included)."""
+    """Run all bearings at `b`; set `run.force`. Returns a status code (limits included).
+
+    Velocities matter to a bearing in static steps alone, where they are zero: `run.v`.
+    """
     n_b = b.shape[0]
     time = run.clock[0].time + run.clock[0].dt
     run.counts[0].trials += 1
@@ -66,7 +71,6 @@ def bearing_forces(
     worst = _OK
     for k in range(model.props.shape[0]):
         gather(model.start[k], model.columns, model.values, b, run.u)
-        gather(model.start[k], model.columns, model.values, v_b, run.v)
         code = bearing_trial(
             model.props, run.old, run.new, run.work, contacts, k, run.u, run.v, time
         )
@@ -147,11 +151,9 @@ def set_residual(
     structure have no state. Of many bearings `run.linear_trial` is linear step.
     """
     n_b = step.shape[0]
-    dt = run.clock[0].dt
     for a in range(n_b):
         run.trial_b[a] = run.b[a] + step[a]
-        run.v_b_new[a] = step[a] / dt if dt > 0.0 else 0.0
-    code = bearing_forces(model, run, contacts, run.trial_b, run.v_b_new)
+    code = bearing_forces(model, run, contacts, run.trial_b)
     run.counts[0].code = code
     if has_no_state(code):
         return math.inf
@@ -203,12 +205,33 @@ def solve_tangent(model: ReducedModel, run: IntegrationState, share: float, x: F
 
 
 @inlined_by_llvm
+def correct(model: ReducedModel, run: IntegrationState, share: float, x: Floats) -> None:
+    """Make of a residual `x` (n_b,) Newton's correction, with the present tangent and secants."""
+    if model.shared.shape[0] == 0:
+        substitute(run.tangent, run.order, x)
+    else:
+        copy(x, run.linear_change)
+        solve_tangent(model, run, share, x)
+    with_secants(
+        run.weights,
+        run.corrections,
+        run.corrections_next,
+        run.corrections_linear,
+        run.corrections_size,
+        run.clock[0].secants,
+        x,
+        run.linear_change,
+    )
+
+
+@inlined_by_llvm
 def predict(model: ReducedModel, run: IntegrationState, linear: Floats, share: float) -> None:
     """Set a guess of ``run.step`` that takes no state determination.
 
     One iteration with the kept tangent, as if displacements and forces of the bearings went on as
     in the last steps, quadratically after three equal ones: what is linear in a bearing is met,
-    however it rings, and the horizontal motion is that of a mass under a known force.
+    however it rings, and the horizontal motion is that of a mass under a known force. Where the
+    last guess fell short as the one before it did, this one counts on it.
     """
     clock = run.clock[0]
     n_b = run.step.shape[0]
@@ -222,7 +245,6 @@ def predict(model: ReducedModel, run: IntegrationState, linear: Floats, share: f
         run.residual[a] = run.rhs_b[a] - share * (run.force_old[a] + ratio * gain + turn)
     if model.shared.shape[0] == 0:
         add_product(linear, run.step, -1.0, run.residual)
-        substitute(run.tangent, run.order, run.residual)
     else:
         if ratio == 1.0:
             for a in range(n_b):
@@ -232,12 +254,15 @@ def predict(model: ReducedModel, run: IntegrationState, linear: Floats, share: f
             set_product(linear, run.step, run.linear_step)
         for a in range(n_b):
             run.residual[a] -= run.linear_step[a]
-            run.linear_change[a] = run.residual[a]
-        solve_tangent(model, run, share, run.residual)
-        for a in range(n_b):
-            run.linear_step[a] += run.linear_change[a]
+    correct(model, run, share, run.residual)
+    lasts = min(clock.guessed, clock.equal) >= 2 and ratio == 1.0
+    again = 1.0 if lasts and goes_on_missing(run.weights, run.missed) else 0.0
     for a in range(n_b):
-        run.step[a] += run.residual[a]
+        run.missed[2, a] = run.step[a] + run.residual[a]
+        run.step[a] = run.missed[2, a] + again * run.missed[0, a]
+    for a in range(run.linear_step.shape[0]):
+        run.missed_linear[2, a] = run.linear_step[a] + run.linear_change[a]
+        run.linear_step[a] = run.missed_linear[2, a] + again * run.missed_linear[0, a]
 
 
 @inlined_before_typing
@@ -261,14 +286,15 @@ def renew_tangent(
         for a in range(n_b):
             for c in range(n_b):
                 run.tangent[a, c] = linear[a, c]
+    if whole:
+        for a in range(n_b):
+            run.weights[a] = abs(linear[a, a])
     bearing_tangents(model, run, contacts, share, whole)
     if model.shared.shape[0] > 0:
         if whole:
             for k in range(run.element_k.shape[0]):
                 for a in range(12):
                     copy(run.element_k[k, a], run.element_whole[k, a])
-            for a in range(n_b):
-                run.weights[a] = abs(linear[a, a])
         run.counts[0].shared_tangents += 1 - int(whole)
         run.counts[0].tangents += int(whole)
         return factorise_blocks(
@@ -327,29 +353,6 @@ def needed_tangent(
 
 
 @inlined_by_llvm
-def set_correction(model: ReducedModel, run: IntegrationState, share: float, secants: int) -> int:
-    """Set Newton's correction `run.h_b` with the present tangent.
-
-    Returns how many corrections of this step are remembered, given how many were.
-    """
-    copy(run.residual, run.h_b)
-    if model.shared.shape[0] == 0:
-        substitute(run.tangent, run.order, run.h_b)
-        return secants
-    copy(run.residual, run.linear_change)
-    solve_tangent(model, run, share, run.h_b)
-    return with_secants(
-        run.weights,
-        run.corrections,
-        run.corrections_linear,
-        run.corrections_size,
-        secants,
-        run.h_b,
-        run.linear_change,
-    )
-
-
-@inlined_by_llvm
 def newton(
     model: ReducedModel,
     run: IntegrationState,
@@ -365,13 +368,13 @@ def newton(
     """Find ``run.step`` with a residual below `tolerance`; returns a status code.
 
     `run.step` holds the first guess. The tangent is kept from step to step and from iteration to
-    iteration while it serves (`needed_tangent`).
+    iteration while it serves (`needed_tangent`), improved by secants.
     """
     clock = run.clock[0]
     need = _KEPT if clock.kept == clock.halvings + 1 else _WHOLE
     less = _SHARED if model.shared.shape[0] > 0 else _WHOLE
     size, factor = math.inf, 1.0
-    at, tries, passes, secants = _GUESS, 0, 0, 0
+    at, tries, passes = _GUESS, 0, 0
     while True:  # one place where the bearings are run: they are its code
         set_trial(run, at == _CORRECTED, factor)
         trial = run.g_b if at == _CORRECTED else run.step
@@ -405,14 +408,25 @@ def newton(
         if size <= tolerance:
             return _OK
         run.counts[0].iterations += 1
-        if need != _KEPT or factor != 1.0:
-            secants = 0
+        follows = at == _CORRECTED and factor == 1.0 and need == _KEPT
         if need != _KEPT:
-            clock.kept = 0
+            clock.kept, clock.secants = 0, 0
             if not renew_tangent(model, run, contacts, parts, linear, share, need == _WHOLE):
                 return _SINGULAR
             clock.kept = clock.halvings + 1
-        secants = set_correction(model, run, share, secants)
+        copy(run.residual, run.h_b)
+        correct(model, run, share, run.h_b)
+        clock.secants = keep_secant(
+            run.weights,
+            run.corrections,
+            run.corrections_next,
+            run.corrections_linear,
+            run.corrections_size,
+            clock.secants,
+            follows,
+            run.h_b,
+            run.linear_change,
+        )
         at, tries, factor = _CORRECTED, 0, 1.0
 
 

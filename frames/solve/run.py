@@ -43,7 +43,8 @@ _SMALLEST_REACH = 1e-3  # of the effective radius: what counts as reached from t
 _ERROR_VERTICAL = 0.1  # share of a vertical error, which friction passes on, while pressed
 _ERROR_OPEN = 1.0  # share of it off the ground
 _PRODUCT = 3e-4  # cost of a multiplication over that of a bearing's state determination (measured)
-_SERVES = 5.0  # steps that a new tangent serves (measured)
+_PART = 0.5  # cost of a part that may yield over that of a bearing (measured)
+_SERVES = 2.0  # steps for which a new tangent is better than secants (measured)
 _SECANTS_SAVE = 2.5  # of what bearings share of a tangent, by secants (measured)
 _ENERGY_TOLERANCE = 2e-4  # of the energy moved, that contacts may make or lose in a step
 _ENERGY_FLOOR = 1e-6  # of weight times effective radius
@@ -168,8 +169,8 @@ def settings_of(state: GravityState, options: Options) -> IntegratorSettings:
         gamma=float(0.5 - alpha_m + alpha_f),
         force_tolerance=float(force_tolerance(state.system, _FORCE_TOLERANCE)),
         max_iterations=_MAX_ITERATIONS,
-        tangent_worth=_tangent_worth(state.model),
-        shared_worth=_shared_worth(state.model),
+        tangent_worth=_tangent_worth(state.model, len(state.system.parts.kind)),
+        shared_worth=_shared_worth(state.model, len(state.system.parts.kind)),
         energy_tolerance=_ENERGY_TOLERANCE,
         energy_floor=float(_ENERGY_FLOOR * length * np.abs(state.system.load).sum()),
         error_tolerance=float(tolerance),
@@ -205,18 +206,18 @@ def _least_halvings(base: float, tolerance: float) -> int:
     return min(max(wanted, 0), MOST_HALVINGS // 2)
 
 
-def _tangent_worth(model: ReducedModel) -> float:
+def _tangent_worth(model: ReducedModel, parts: int) -> float:
     # Cost of a new tangent in iterations with a kept one, over the steps that it serves.
     bearings, unknowns = len(model.props), len(model.load_b)
-    new = bearings + _PRODUCT * unknowns**3 / 3.0
-    kept = bearings + _PRODUCT * unknowns**2
-    return max(new / kept - 1.0, 0.0) / _SERVES
+    kept = bearings + _PART * parts + _PRODUCT * unknowns**2
+    more = bearings + _PRODUCT * (unknowns**3 / 3.0 - unknowns**2)
+    return max(more / kept, 0.0) / _SERVES
 
 
-def _shared_worth(model: ReducedModel) -> float:
+def _shared_worth(model: ReducedModel, parts: int) -> float:
     # The same of what bearings share of it. Secants of the corrections make up for much of it.
     if not len(model.shared):
-        return _tangent_worth(model)
+        return _tangent_worth(model, parts)
     bearings, unknowns = len(model.props), len(model.load_b)
     kept = bearings + _PRODUCT * unknowns**2
     return _SECANTS_SAVE * (bearings + _PRODUCT * len(model.shared) * unknowns**2) / kept

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
-from lir_element.kernels.pendulum.trial import copy_words, has_no_state
+from lir_element.kernels.linear import copy_words
+from lir_element.kernels.pendulum.trial import has_no_state
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import Contacts

@@ -22,8 +22,9 @@ from lir_element.kernels.contact.chord import keep_search
 from lir_element.kernels.contact.condensed import contact_tangent, contact_trial, look_at_committed
 from lir_element.kernels.contact.state import contact_accumulate, points_defect
 from lir_element.kernels.friction_law import heat_up
+from lir_element.kernels.linear import copy_words
 from lir_element.kernels.pendulum.nodes import fill_tangent
-from lir_element.kernels.pendulum.trial import copy_words, trial
+from lir_element.kernels.pendulum.trial import trial
 from lir_element.kernels.pendulum.work import accumulate, contact_defect
 
 if TYPE_CHECKING:

@@ -73,6 +73,13 @@ def copy(source: Floats, target: Floats) -> None:
 
 
 @kernel
+def copy_words(source: Words, target: Words) -> None:
+    """Copy one record, seen as a row of 64-bit words."""
+    for k in range(source.shape[0]):
+        target[k] = source[k]
+
+
+@kernel
 def subtract_squares(rows: Floats, weights: Floats, out: Floats) -> None:
     """Take ``rows.T @ diag(weights) @ rows`` from `out` (n, n); rows (m, n), weights (m,).
 

@@ -42,9 +42,11 @@ def add_cross(k: Floats, row: int, col: int, x: float, y: float, z: float, facto
 @kernel
 def turn_matrix(x: float, y: float, z: float, q: Floats) -> None:
     """Fill `q` (3, 3) with the matrix of the rotation vector."""
-    s, c, _ = coefficients(x * x + y * y + z * z)
     xx, yy, zz = x * x, y * y, z * z
-    xy, yz, zx = c * x * y, c * y * z, c * z * x
+    s, c, xy, yz, zx = 0.0, 0.0, 0.0, 0.0, 0.0
+    if xx + yy + zz > 0.0:  # a plate on the ground does not turn
+        s, c, _ = coefficients(xx + yy + zz)
+        xy, yz, zx = c * x * y, c * y * z, c * z * x
     q[0, 0] = 1.0 - c * (yy + zz)
     q[1, 1] = 1.0 - c * (zz + xx)
     q[2, 2] = 1.0 - c * (xx + yy)

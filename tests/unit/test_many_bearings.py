@@ -13,6 +13,8 @@ from frames.demo import bearing_for
 from frames.kernels.shared_tangent import (
     carry_products,
     factorise_blocks,
+    goes_on_missing,
+    keep_secant,
     linear_part_of_correction,
     set_linear_blocks,
     substitute_blocks,
@@ -102,29 +104,39 @@ def test_blocks_solve_the_whole_tangent() -> None:
 
 
 def test_secants_find_what_a_wrong_tangent_does_not() -> None:
-    """A tangent 40 % off in three directions: few corrections in place of many."""
+    """A tangent 40 % off in three directions: few corrections, and fewer for the next load."""
     random = np.random.default_rng(3)
     n = 40
     base = np.diag(random.uniform(1.0, 100.0, n))
     off = random.normal(size=(n, 3)) * np.sqrt(np.diag(base))[:, None] / np.sqrt(n)
-    true = base + 0.4 * off @ off.T
-    right, counts = random.normal(size=n), []
-    for remembers in (False, True):
-        x, flow = np.zeros(n), np.zeros(n)
-        memory = np.zeros((8, n)), np.zeros((8, n)), np.zeros(8)
-        count, turns = 0, 0
+    true, weights = base + 0.4 * off @ off.T, np.diag(base).copy()
+    memory = np.zeros((16, n)), np.zeros((16, n)), np.zeros((16, n)), np.zeros(16)
+    count, counts = 0, []
+    loads = random.normal(size=(2, n))
+    for remembers, right in ((False, loads[0]), (True, loads[0]), (True, loads[1])):
+        x, flow, turns = np.zeros(n), np.zeros(n), 0
         residual = right.copy()
         while np.linalg.norm(residual) > 1e-9 and turns < 200:
             step = np.linalg.solve(base, residual)
             made = true @ step
             if remembers:
-                count = with_secants(np.diag(base).copy(), *memory, count, step, made)
+                with_secants(weights, *memory, count, step, made)
+                count = keep_secant(weights, *memory, count, turns > 0, step, made)
             x, flow, turns = x + step, flow + made, turns + 1
             assert flow == pytest.approx(true @ x, abs=1e-9)
             residual = right - flow
         counts.append(turns)
         assert x == pytest.approx(np.linalg.solve(true, right), abs=1e-9)
     assert counts[1] < 0.7 * counts[0]
+    assert counts[2] < counts[1]
+
+
+def test_a_guess_counts_on_what_the_last_two_missed_by() -> None:
+    """Alike in both: the next misses by it too; of unlike signs: by nothing."""
+    weights, missed = np.array([1.0, 1e3]), np.array([[1e-3, 1e-4], [0.8e-3, 1.2e-4], [0.0, 0.0]])
+    assert goes_on_missing(weights, missed)
+    missed[1] *= -1.0
+    assert not goes_on_missing(weights, missed)
 
 
 def test_products_are_carried_with_the_motion() -> None:

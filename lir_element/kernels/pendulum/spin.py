@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from lir_element._compile.jit import kernel
+from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.rim import bent, gives_way
 from lir_element.layout import SPIN_BALANCE
 
@@ -27,11 +27,18 @@ _LAG = 0.005  # s, of speeds and centres of pressure: steps must not answer each
 _CREEP = 1e-5  # m/s, with which a surface that sticks counts as sliding (a choice)
 
 
-@kernel
-def turn_with_sliders(spin: float, x: float, y: float) -> tuple[float, float]:
-    """Return (x, y) of the interface's plane turned by `spin` about the axis."""
-    c, s = math.cos(spin), math.sin(spin)
+@inlined_by_llvm
+def turn_with_sliders(c: float, s: float, x: float, y: float) -> tuple[float, float]:
+    """Return (x, y) of the interface's plane turned about the axis; cosine, sine."""
     return c * x - s * y, s * x + c * y
+
+
+@inlined_by_llvm
+def to_blend(x: float) -> float:
+    """Return ``x**_BLEND``, without a logarithm."""
+    square = x * x
+    fourth = square * square
+    return fourth * fourth * x * math.sqrt(x)
 
 
 @kernel
@@ -46,8 +53,9 @@ def torque_of_spin(ratio: float) -> tuple[float, float]:
     slow, d_slow = _SLOW * ratio * (1.0 + _BENDS * square), _SLOW * (1.0 + 3.0 * _BENDS * square)
     fast = 1.0 - _FAST / (square + _BEFORE)
     d_fast = 2.0 * _FAST * ratio / (square + _BEFORE) ** 2
-    part = slow * (1.0 + (slow / fast) ** _BLEND) ** (-1.0 / _BLEND)  # (2.4)
-    by_slow, by_fast = (part / slow) ** (_BLEND + 1.0), (part / fast) ** (_BLEND + 1.0)
+    part = slow * (1.0 + to_blend(slow / fast)) ** (-1.0 / _BLEND)  # (2.4)
+    of_slow, of_fast = part / slow, part / fast
+    by_slow, by_fast = of_slow * to_blend(of_slow), of_fast * to_blend(of_fast)
     return part, by_slow * d_slow + by_fast * d_fast
 
 
@@ -89,7 +97,7 @@ def spin_by(p: Props, old: State, w: Work, spin: float) -> None:
         drift = w.dt * slides_with(p, old, k)
         ratio = p.slider_radius * abs(spin) / drift
         base = 1.0 + ratio**4
-        w.left[k] = base**-0.25  # (2.5)
+        w.left[k] = 1.0 / math.sqrt(math.sqrt(base))  # (2.5)
         w.left_rate[k] = -math.copysign(ratio**3 / base * p.slider_radius / drift, spin)
 
 

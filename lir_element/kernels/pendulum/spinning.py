@@ -49,7 +49,7 @@ _TRIES = 5  # of a spin for which no axis is found, each a quarter of the last o
 @kernel
 def first_spin(p: Props, old: State, dt: float) -> float:
     """Return the spin from which the search begins: that of the step before, at the same rate."""
-    if dt < own_time(p) * _LEAST_STEP or max(old.rim_force[0], old.rim_force[1]) == 0.0:
+    if max(old.rim_force[0], old.rim_force[1]) == 0.0 or dt < own_time(p) * _LEAST_STEP:
         return 0.0
     return old.spin_rate * dt
 
@@ -148,8 +148,8 @@ def spin_with_axis(p: Props, old: State, w: Work) -> int:
     step gains any more, round-off does. It gives up where it does not settle quickly: then the spin
     is found around the axis (`spin_sliders`).
     """
-    first = first_spin(p, old, w.dt)
-    if p.fused or first == 0.0 or max(old.axis_speed[0], old.axis_speed[1]) == 0.0:
+    first = 0.0 if p.fused else first_spin(p, old, w.dt)
+    if first == 0.0 or max(old.axis_speed[0], old.axis_speed[1]) == 0.0:
         return -1
     spin_by(p, old, w, first)
     aim_on(p, old, w)

@@ -245,9 +245,11 @@ def interface(p: Props, old: State, w: Work) -> None:
     """
     before = old.slip_increment
     spins = w.spin != 0.0
+    cos, sin = 1.0, 0.0
     x, y = w.sigma[0], w.sigma[1]
     if spins:
-        x, y = turn_with_sliders(-w.spin, x, y)
+        cos, sin = math.cos(w.spin), math.sin(w.spin)
+        x, y = turn_with_sliders(cos, -sin, x, y)
     d_1, d_2 = x - old.slip[0], y - old.slip[1]
     z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2 = friction_step(
         p.bouc_wen,
@@ -267,13 +269,13 @@ def interface(p: Props, old: State, w: Work) -> None:
         w.share,
     )
     if spins:
-        d_1, d_2 = turn_with_sliders(w.spin, d_1, d_2)
-        z_1, z_2 = turn_with_sliders(w.spin, z_1, z_2)
-        n_1, n_2 = turn_with_sliders(w.spin, n_1, n_2)
-        h_11, h_21 = turn_with_sliders(w.spin, h_11, h_21)
-        h_12, h_22 = turn_with_sliders(w.spin, h_12, h_22)
-        h_11, h_12 = turn_with_sliders(w.spin, h_11, h_12)
-        h_21, h_22 = turn_with_sliders(w.spin, h_21, h_22)
+        d_1, d_2 = turn_with_sliders(cos, sin, d_1, d_2)
+        z_1, z_2 = turn_with_sliders(cos, sin, z_1, z_2)
+        n_1, n_2 = turn_with_sliders(cos, sin, n_1, n_2)
+        h_11, h_21 = turn_with_sliders(cos, sin, h_11, h_21)
+        h_12, h_22 = turn_with_sliders(cos, sin, h_12, h_22)
+        h_11, h_12 = turn_with_sliders(cos, sin, h_11, h_12)
+        h_21, h_22 = turn_with_sliders(cos, sin, h_21, h_22)
     mu = p.interface_friction
     w.slip_step[0], w.slip_step[1] = d_1, d_2
     w.z_s[0], w.z_s[1] = z_1, z_2

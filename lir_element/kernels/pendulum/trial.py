@@ -26,7 +26,7 @@ from lir_element.kernels.rim import gives_way, keep_dents, largest_dent
 from lir_element.kernels.slip import friction_map
 
 if TYPE_CHECKING:
-    from lir_element.layout import Floats, Props, State, Words, Work
+    from lir_element.layout import Floats, Props, State, Work
 
 _OK = int(RunStatus.OK)
 _NOT_FINITE = int(RunStatus.NOT_FINITE)
@@ -83,7 +83,13 @@ def torsion(p: Props, old: State, w: Work, new: State) -> None:
     Full circular contacts under uniform pressure; the friction coefficients are those of the
     committed state.
     """
+    new.twist_hysteresis = 0.0
+    new.torque, w.torque, w.torque_axial = 0.0, 0.0, 0.0
     mu = min(old.friction_coefficient[0], old.friction_coefficient[1], p.interface_friction)
+    if new.twist == old.twist and old.twist_hysteresis == 0.0:
+        slope = 0.5 * (1.0 + w.kept) * (1.0 / p.torsion_yield)
+        w.torque_stiffness = p.torsion_lever * mu * w.n_pos * slope
+        return
     z, _, slope, _, _, _, _, _, _, by_n, _ = friction_map(
         p.bouc_wen,
         p.exponent,
@@ -193,10 +199,10 @@ def limit_status(p: Props, new: State) -> int:
 
 @kernel
 def is_finite(x: Floats) -> bool:
-    """Return whether all entries are finite."""
+    """Return whether all 12 entries are finite."""
     total = 0.0
-    for k in range(x.shape[0]):
-        total += abs(x[k])
+    for k in range(0, 12, 4):  # sums that do not wait for one another
+        total += (abs(x[k]) + abs(x[k + 1])) + (abs(x[k + 2]) + abs(x[k + 3]))
     return math.isfinite(total)
 
 
@@ -329,10 +335,3 @@ def trial(p: Props, old: State, new: State, w: Work, u: Floats, v: Floats, time:
 def has_no_state(code: int) -> bool:
     """Return whether a bearing has no state at all (a limit exceeded is a state)."""
     return code in (_NOT_FINITE, _NO_EQUILIBRIUM, _SPHERE_EXCEEDED, _SLIP_UNSTABLE)
-
-
-@kernel
-def copy_words(source: Words, target: Words) -> None:
-    """Copy one record, seen as a row of 64-bit words."""
-    for k in range(source.shape[0]):
-        target[k] = source[k]

@@ -15,7 +15,7 @@ from lir_element.errors import RunStatus
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import place_bodies, turn_between
 from lir_element.kernels.contact.state import bodies_status, contact_accumulate, fill_state
-from lir_element.kernels.pendulum.trial import copy_words
+from lir_element.kernels.linear import copy_words
 from lir_element.kernels.rigid_body.step import explicit_step, implicit_step, set_accelerations
 from lir_element.kernels.sampling import ground_acceleration
 

@@ -16,8 +16,8 @@ from lir_element.bundles.contact_data import Contacts
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.chord import forget
 from lir_element.kernels.levels import bearing_commit, bearing_look, bearing_tangent, bearing_trial
-from lir_element.kernels.linear import gather, scatter
-from lir_element.kernels.pendulum.trial import copy_words, has_no_state
+from lir_element.kernels.linear import copy_words, gather, scatter
+from lir_element.kernels.pendulum.trial import has_no_state
 from lir_element.layout import (
     BODIES,
     HEAT_PARTS,
