@@ -1,9 +1,14 @@
-"""Errors and warnings of structural models and of ground motions."""
+"""Errors and warnings of models and ground motions; how messages name arguments and parts."""
 
 from __future__ import annotations
 
+import difflib
 import re
+from collections.abc import Collection, Generator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 
+from lir_element.argument_checks import require_type
 from lir_element.errors import AnalysisWarning
 from lir_element.texts import TextWarning
 
@@ -91,3 +96,81 @@ class AuditWarning(AnalysisWarning):
     >>> told[0].category.__name__
     'AuditWarning'
     """
+
+
+_IN_FILE = ContextVar("_IN_FILE", default=False)
+_KEYS = {"at": "bearings_at"}
+_UNITS = {"gravity": "m/s2", "mesh": "m", "plate_thickness": "m"}
+
+
+@contextmanager
+def in_project_file() -> Generator[None, None, None]:
+    """Let remedies speak the language of a project's file while a model is imported for it."""
+    token = _IN_FILE.set(True)
+    try:
+        yield
+    finally:
+        _IN_FILE.reset(token)
+
+
+def argument(name: str, value: object) -> str:
+    """Return an argument with its value: ``at=["X"]``, or ``bearings_at = ["X"]`` in a file."""
+    if not _IN_FILE.get():
+        return f"{name}={_text(value, file=False)}"
+    if name in _UNITS:
+        value = f"{value:g} {_UNITS[name]}"
+    return f"{_KEYS.get(name, name)} = {_text(value, file=True)}"
+
+
+def in_python(text: str) -> str:
+    """Return a remedy that Python alone has, nothing for a project's file."""
+    return "" if _IN_FILE.get() else text
+
+
+def bearing_for(place: str) -> str:
+    """Return how a bearing is put in the place of links: by a mapping, or by ``bearings_at``."""
+    if _IN_FILE.get():
+        return f"{argument('at', [place])}, which puts that of [bearing] there"
+    return f'bearing={{"{place}": LIRBearing(...)}}'
+
+
+def _text(value: object, *, file: bool) -> str:
+    if isinstance(value, bool):
+        return str(value).lower() if file else str(value)
+    if isinstance(value, Mapping):
+        pairs = [f'"{k}"{" = " if file else ": "}{_text(v, file=file)}' for k, v in value.items()]
+        return f"{{ {', '.join(pairs)} }}" if file else f"{{{', '.join(pairs)}}}"
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(_text(each, file=file) for each in value)}]"
+    if value is ...:
+        return "..."
+    return f'"{value}"' if isinstance(value, str) else f"{value}"
+
+
+def new_name(name: str, taken: Collection[str], kind: str) -> str:
+    """Accept a name that is not empty and not taken."""
+    require_type(f"name of a {kind}", name, str, "a string: write it in quotes")
+    if not name.strip():
+        message = f"the name of a {kind} is empty: give it at least one visible character"
+        raise ModelError(message)
+    if name in taken:
+        message = f'a {kind} "{name}" exists already: names are unique, choose another one'
+        raise ModelError(message)
+    return name
+
+
+def likely(name: object, known: Collection[str]) -> str:
+    """Return what the caller may have meant instead of `name`; empty where nothing is known."""
+    close = difflib.get_close_matches(str(name), list(known), n=3)
+    if close:
+        return "did you mean " + " or ".join(f'"{other}"' for other in close) + "?"
+    return f'{len(known)} exist, the first is "{next(iter(known))}"' if known else ""
+
+
+def known_name(name: object, known: Collection[str], kind: str) -> str:
+    """Accept a name that exists."""
+    if isinstance(name, str) and name in known:
+        return name
+    hint = likely(name, known) or f"the model has no {kind} yet"
+    message = f'there is no {kind} "{name}": add it before it is used ({hint})'
+    raise ModelError(message)

@@ -8,7 +8,6 @@ import lir_element
 from lir_element._compile.cache import Sources
 from lir_element._compile.jit import inlined_before_typing as inlined_before_typing
 from lir_element._compile.jit import kernels_of
-from lir_element._compile.jit import on_arrays as on_arrays
 
 _SOURCES = Sources(Path(lir_element.__file__).parent, Path(__file__).parent)
 

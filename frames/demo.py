@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from frames.library.models import lumped_mass
-from frames.library.moment_frames import moment_frame
+from frames.library.models import lumped_mass, moment_frame
 from frames.library.shear_buildings import shear_building
 from frames.motion.ground_motion import GroundMotion
 from frames.results.findings import doubts_of

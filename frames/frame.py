@@ -1,443 +1,339 @@
-"""The frame as the engineer describes it: built by its verbs or imported, and checked."""
+"""The frame as the engineer describes it: built by its verbs, checked, copied, changed."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Literal, Self, cast
+import copy as copying
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Self
 
-from frames.model.editing import FrameEditor
+import numpy as np
+
+from frames._errors import ModelError, known_name, new_name
+from frames.model.builder import FrameBuilder
+from frames.model.components import DEFAULT_CASE, DOFS, BearingLink, Link, bearing_height
+from frames.model.geometry_checks import fits, require_bearing_place, require_two_nodes
+from frames.model.laws import LAWS, Gap, HertzGap, Law, PlasticHinge
+from frames.model.load_combinations import combination, factor_all, factor_loads
+from lir_element.argument_checks import require_choice, require_type, require_vector
 
 if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
-
-    from frames.exchange.import_report import BaseRotations, ImportReport
-    from frames.model.sections import Section
-    from frames.motion.ground_motion import GroundMotion
-    from frames.statics.model_check import ModelCheck
+    from frames._types import FloatArray
     from lir_element import LIRBearing
 
+_SIDES = {"x+": (1.0, 0.0), "x-": (-1.0, 0.0), "y+": (0.0, 1.0), "y-": (0.0, -1.0)}
 
-class Frame(FrameEditor):
-    """A structure on bearings, built one verb at a time; `frames.assembly` reads it.
 
-    Units are SI, axes are global and right-handed with z up. Every call checks what it is given
-    and leaves the frame as it was when it refuses.
+class NonlinearBuilder(FrameBuilder):
+    """A frame that may yield."""
 
-    Parameters
-    ----------
-    name : str
-        Name of the model.
-    gravity : float
-        Acceleration of gravity [m/s2], >= 0: every mass weighs mass * gravity along -z.
-
-    Examples
-    --------
-    >>> from frames.model.sections import Section
-    >>> frame = Frame("mast")
-    >>> frame.add_node("foot", 0.0, 0.0, 0.0)
-    >>> frame.add_node("top", 0.0, 0.0, 4.0)
-    >>> frame.fix("foot", "all")
-    >>> frame.add_member("mast", "foot", "top", Section.box(0.3, 0.3, 0.01))
-    >>> frame.add_mass("top", 5000.0)
-    """
-
-    @classmethod
-    def from_opensees(
-        cls,
-        base_nodes: Sequence[int],
-        bearing: LIRBearing | Mapping[int, LIRBearing],
-        *,
-        vertical: Literal["y", "z"] | None = None,
-        base_rotations: Literal["kept", "free", "fixed"] = "kept",
-        base_diaphragm: bool = True,
-        gravity: float | None = None,
-        damping: bool = True,
-        levels: Mapping[str, Sequence[int]] | None = None,
-        other_supports: Collection[int] = (),
-        accept_nonlinear: bool = False,
-        vertical_mass: Literal["horizontal"] | Mapping[int, float] | None = None,
-        length_unit: float = 1.0,
-        force_unit: float = 1.0,
-        name: str = "OpenSees model",
-    ) -> Self:
-        """Take over the current model of OpenSeesPy, linear as it stands, and put it on bearings.
-
-        Parameters
-        ----------
-        base_nodes : sequence of int
-            Tags of the nodes that stand on a bearing. Fixed ones are released: their translations
-            and the rotation about the vertical.
-        bearing : LIRBearing or mapping
-            One bearing for all base nodes, or one by tag.
-        vertical : {None, "z", "y"}
-            Axis of the OpenSees model that points up: None is z in three dimensions and y in
-            the plane. Results are in the axes of docs/conventions.md, z up.
-        base_rotations : {"kept", "free", "fixed"}
-            Rotations of the base nodes about horizontal axes: held where the model holds them (as
-            stiff base beams would), free (of a model that has base beams), or held.
-        base_diaphragm : bool
-            Whether base nodes at one elevation move in plan as one rigid body, as on a base slab.
-        gravity : float, optional
-            Acceleration of gravity [m/s2] for a model without loads: its masses then weigh. None:
-            its loads, as they stand, are what the bearings carry.
-        damping : bool
-            Whether to take over the damping of the model (Rayleigh, modal, dashpots).
-        levels : mapping, optional
-            Tags of nodes by name of level, for storey drifts. None: "level-0" at the base, and
-            one at each elevation with mass.
-        other_supports : collection of int
-            Tags of supports that carry elements and shall stay as they are.
-        accept_nonlinear : bool
-            Whether to freeze the present stiffness of elements that have left their initial one,
-            and of gaps, bars that only pull or push, and dashpots that are not linear.
-        vertical_mass : {None, "horizontal"} or mapping
-            Vertical mass besides that of the model: "horizontal" lets masses act along the
-            vertical as along x, a mapping gives kg by tag. It adds no weight to a loaded model.
-        length_unit, force_unit : float
-            Units of the OpenSees model [m], [N]: 1e-3 and 1e3 for mm and kN. Time is in seconds.
-        name : str
-            Name of the frame.
-
-        Returns
-        -------
-        Frame
-            Nodes are named by their tags; "ground-<tag>" and "bearing-<tag>" stand below the base
-            nodes. The model is the superelement "opensees", whose `notes` repeat the warnings.
-
-        Raises
-        ------
-        ModelError
-            If the model cannot be imported; the message says what to change.
-        ImportError
-            If openseespy is not installed.
-
-        Warns
-        -----
-        ModelWarning
-            On what should be known: elements that are or may be nonlinear with the share of the
-            strain energy that they hold, damping of the isolation.
-
-        Notes
-        -----
-        The OpenSees model stays as it is, time and recorders too, but its analysis objects are
-        wiped (`wipeAnalysis`), and copies of its nonlinear uniaxial materials are added under tags
-        from 2,147,000,000 on to be tried; no element has them. Displacements count from its present
-        state. What OpenSees does not show cannot be seen: damping by `modalDampingQ` and by
-        elements' option ``-damp``. See docs/choices.md.
-        """
-        from frames.opensees.frame import imported  # needs the optional openseespy
-        from frames.opensees.structure import Options
-
-        options = Options(
-            base_nodes,
-            bearing,
-            vertical,
-            base_rotations,
-            base_diaphragm,
-            gravity,
-            damping,
-            levels,
-            other_supports,
-            accept_nonlinear,
-            vertical_mass,
-            length_unit,
-            force_unit,
-        )
-        return imported(cls, options, name)
-
-    @classmethod
-    def from_sap2000(
-        cls,
-        path: str | Path,
-        bearing: LIRBearing | Mapping[str, LIRBearing] | None = None,
-        *,
-        at: Sequence[str] | None = None,
-        loads: Mapping[str, float] | str | None = None,
-        mass: Mapping[str, float] | None = None,
-        allow: Collection[str] = (),
-        mesh: float = 1.25,
-        base_rotations: BaseRotations = "kept",
-        base_diaphragm: bool = True,
-        decimal: Literal[".", ","] = ".",
-        name: str | None = None,
-    ) -> Self:
-        """Read a SAP2000 model, and put it on bearings; docs/exchange.md says what is read and how.
-
-        Parameters
-        ----------
-        path : str or Path
-            A .s2k or .$2k text file, or an .xlsx workbook with the same tables.
-        bearing : LIRBearing or mapping, optional
-            One for all joints that are restrained vertically and in plan, or one by name of a
-            group, joint, link or link property. None: supports and links as the file has them.
-        at : sequence of str, optional
-            Groups, joints, links or link properties at which the one bearing stands.
-        loads : mapping or str, optional
-            Permanent loads: factors by load pattern, or the name of a combination of static loads.
-            "all": dead, live and snow patterns in full, as the cases "D", "L" and "S" that codes
-            combine. None: dead loads, and others by their share in the mass source.
-        mass : mapping, optional
-            Shares of load patterns that are mass, instead of the file's mass source.
-        allow : collection of str
-            What may be left out although it changes the answer, by the key in the refusal.
-        mesh : float
-            Longest side of the shell elements of walls and slabs [m].
-        base_rotations : {"kept", "free", "fixed"}
-            Rotations of joints on bearings about horizontal axes: as the supports hold them, free,
-            or held.
-        base_diaphragm : bool
-            Whether joints on bearings at one elevation move in plan as one rigid body.
-        decimal : {".", ","}
-            Decimal sign of a text file.
-        name : str, optional
-            Name of the frame; that of the file if None.
-
-        Returns
-        -------
-        Frame
-            Nodes and members have the names of joints and frame objects; `imported` says what was
-            read, what as something else, and what was left out.
-
-        Raises
-        ------
-        ModelError
-            If the file cannot be used, or holds what would change the answer if left out: the
-            message has line, table and remedy.
-        ImportError
-            If openseespy, which has the shells, or openpyxl, which reads workbooks, is needed and
-            not installed.
-
-        Warns
-        -----
-        ModelWarning
-            On what was probably not meant: words that are not known, mass without weight, supports
-            that do not let each bearing carry its column, a level on the bearings without mass.
-        """
-        from frames.exchange.import_report import Options
-        from frames.exchange.to_frame import imported
-
-        options = Options(
-            bearing, at, loads, mass, mesh, base_rotations, base_diaphragm, allow, decimal
-        )
-        return imported(cls, "SAP2000", path, options, name)
-
-    @classmethod
-    def from_etabs(
-        cls,
-        path: str | Path,
-        bearing: LIRBearing | Mapping[str, LIRBearing] | None = None,
-        *,
-        at: Sequence[str] | None = None,
-        loads: Mapping[str, float] | str | None = None,
-        mass: Mapping[str, float] | None = None,
-        allow: Collection[str] = (),
-        mesh: float = 1.25,
-        base_rotations: BaseRotations = "kept",
-        base_diaphragm: bool = True,
-        decimal: Literal[".", ","] = ".",
-        sections: Mapping[str, Section] | None = None,
-        library: str | Path | Sequence[str | Path] = (),
-        name: str | None = None,
-    ) -> Self:
-        """Read an ETABS model, and put it on bearings; docs/exchange.md says what is read and how.
-
-        Parameters
-        ----------
-        path : str or Path
-            A .e2k or .$et text file.
-        bearing, at, loads, mass, allow, mesh, base_rotations, base_diaphragm, decimal, name
-            As in `from_sap2000`; joints are named by point and story, "12-Story2".
-        sections : mapping, optional
-            Constants of frame sections that the file has by the name of a catalogue alone, or in
-            place of its own: {"W24X55": Section(...)}, local z along axis 2. Materials and
-            modifiers are those of the file.
-        library : str, Path or sequence of them
-            Files of the program that have sections by their names ("AISC14.xml", among its
-            property libraries): constants of those that the model only names.
-
-        Returns
-        -------
-        Frame
-            Nodes are points at stories, members lines at stories, "C1-Story2"; levels are the
-            stories. `imported` says what was read, what as something else, what was left out.
-
-        Raises
-        ------
-        ModelError
-            If the file cannot be used, or holds what would change the answer if left out: the
-            message has line, section and remedy.
-        ImportError
-            If openseespy, which has the shells, is needed and not installed.
-
-        Warns
-        -----
-        ModelWarning
-            As `from_sap2000` does.
-        """
-        from frames.exchange.import_report import Options
-        from frames.exchange.to_frame import imported
-
-        options = Options(
-            bearing,
-            at,
-            loads,
-            mass,
-            mesh,
-            base_rotations,
-            base_diaphragm,
-            allow,
-            decimal,
-            sections,
-            library,
-        )
-        return imported(cls, "ETABS", path, options, name)
-
-    def to_sap2000(
-        self, path: str | Path, *, displacement: float | None = None, units: str = "KN, m, C"
+    def add_link(
+        self, name: str, i: str, j: str, law: Law, direction: str | Sequence[float] = "axial"
     ) -> None:
-        """Write the frame as SAP2000's text tables, to check one program by the other.
+        """Add a nonlinear spring, brace, damper or stop between two nodes.
 
         Parameters
         ----------
-        path : str or Path
-            The .s2k file.
-        displacement : float, optional
-            Of the equivalent-linear analysis [m]: bearings become friction isolator links with
-            their effective stiffness and damping at it. Needed where there are bearings.
-        units : str
-            Units of the file.
+        name : str
+            New name.
+        i, j : str
+            Its nodes. It sits at node j; where the nodes are apart, a rigid lever joins it to node
+            i, so that rigid motions of both nodes are free of force.
+        law : Bilinear, BoucWen, Tie, ViscousDamper, Gap or HertzGap
+            Law of its force. The first two are part of the structure, carry permanent loads and
+            must be elastic under them; the others are put in afterwards.
+        direction : str or sequence of 3 floats
+            "axial" for the line from i to j, one of "ux", "uy", "uz", "rx", "ry", "rz", or a
+            vector. The deformation is positive where node j moves along it against node i.
 
         Raises
         ------
         ModelError
-            If the frame has superelements other than shells of an imported model, nonlinear links,
-            plastic hinges, or something else that the tables cannot hold; the message names it.
-
-        Notes
-        -----
-        Shells are areas, one for each element, without mass: read them again with `mesh` no shorter
-        than their sides.
-        Weights of masses and members are loads of joints, as here, not self weight. A link has the
-        radius, Q/W by the speed and the axial stiffness of its bearing
-        (`frames.exchange.pendulum_link.pendulum_link`). Rims, interface and slip have no link:
-        write `frame.with_bearings(bearing.as_dcfp(rims=False))` to compare like with like.
+            If a name is unknown or taken, or nodes at one place have the direction "axial".
+        TypeError
+            If the law is none.
         """
-        from frames.exchange.from_frame import building_of
-        from frames.exchange.write_sap2000 import tables_of, text_of
-        from frames.results.storage import write_whole
+        new_name(name, self._links, "link")
+        require_two_nodes(self._nodes, i, j, f'link "{name}"')
+        require_type(
+            f'law of link "{name}"',
+            law,
+            LAWS,
+            "a law such as Bilinear(stiffness=..., yield_force=...)",
+        )
+        vector, turns = self._link_direction(name, i, j, direction)
+        self._links[name] = Link(name, i, j, law, vector, turns)
 
-        write_whole(path, text_of(tables_of(building_of(self, displacement, units))))
-
-    def to_etabs(
-        self, path: str | Path, *, displacement: float | None = None, units: str = "KN, m, C"
-    ) -> dict[str, str]:
-        """Write the frame as ETABS' text, to check one program by the other.
-
-        Parameters
-        ----------
-        path : str or Path
-            The .e2k file.
-        displacement, units
-            As in `to_sap2000`.
-
-        Returns
-        -------
-        dict of str to str
-            What nodes ("12-Story2") and members ("C1-Story2") are called in the file.
-
-        Raises
-        ------
-        ModelError
-            As in `to_sap2000`; and if two nodes stand at one place, which ETABS merges.
-
-        Notes
-        -----
-        Stories are the frame's levels or diaphragms, the lowest node the base; other nodes are
-        points below the next story. Springs to a held node at one place are springs of points.
-        docs/exchange.md says what of the file no file of ETABS confirms.
-        """
-        from frames.exchange.from_frame import building_of
-        from frames.exchange.write_etabs import EtabsWriter
-        from frames.results.storage import write_whole
-
-        writer = EtabsWriter(building_of(self, displacement, units, program="ETABS"))
-        write_whole(path, writer.text())
-        return writer.names
-
-    def program_tables(
+    def add_hinges(
         self,
-        data: xr.Dataset | Mapping[str, xr.Dataset],
+        member: str,
+        hinge: PlasticHinge | Mapping[str, PlasticHinge],
+    ) -> None:
+        """Give a member plastic hinges at its ends.
+
+        Parameters
+        ----------
+        member : str
+            Name of the member.
+        hinge : PlasticHinge or mapping
+            One for both ends, or hinges by end: ``{"i": ...}``.
+
+        Raises
+        ------
+        ModelError
+            If the member is unknown, has hinges already, or releases.
+        """
+        known_name(member, self._members, "member")
+        new_name(member, self._hinges, "pair of hinges on member")
+        given = hinge if isinstance(hinge, Mapping) else {"i": hinge, "j": hinge}
+        for end, each in given.items():
+            require_choice(f'end of the hinge on member "{member}"', end, ("i", "j"))
+            require_type(
+                f'hinge at end {end} of member "{member}"',
+                each,
+                PlasticHinge,
+                "a PlasticHinge(moment_y=..., moment_z=...)",
+            )
+        if any(self._members[member].releases):
+            message = (
+                f'member "{member}" has releases, and plastic hinges do not go with them: leave '
+                "out one of the two"
+            )
+            raise ModelError(message)
+        if not given:
+            message = f'add_hinges("{member}", {{}}) names no end: give "i", "j" or one hinge'
+            raise ModelError(message)
+        self._hinges[member] = (given.get("i"), given.get("j"))
+
+    def add_moat(
+        self,
+        name: str,
+        nodes: Sequence[str],
+        law: Gap | HertzGap | Mapping[str, Gap | HertzGap],
+    ) -> None:
+        """Put walls around nodes of the isolated base: what is met when the clearance is used up.
+
+        Parameters
+        ----------
+        name : str
+            Name of the moat; its walls are links "<name>-<node>-<side>" from ground nodes
+            "<name>-<node>", which are fixed.
+        nodes : sequence of str
+            Nodes that may run into a wall, as the corners of the base slab: each has walls on all
+            sides that the law names.
+        law : Gap, HertzGap or mapping
+            Of one node's part of a wall, on all four sides, or by side "x+", "x-", "y+", "y-":
+            where the wall stands, seen from the node.
+
+        Raises
+        ------
+        ModelError
+            If a name is unknown or taken.
+        """
+        given = law if isinstance(law, Mapping) else dict.fromkeys(_SIDES, law)
+        for side, each in given.items():
+            require_choice(f'side of moat "{name}"', side, tuple(_SIDES))
+            require_type(
+                f'law of moat "{name}", side {side}',
+                each,
+                (Gap, HertzGap),
+                "a Gap(gap=..., stiffness=...) or a HertzGap",
+            )
+        for node in nodes:
+            known_name(node, self._nodes, "node")
+            new_name(f"{name}-{node}", self._nodes, "node")
+            for side in given:
+                new_name(f"{name}-{node}-{side}", self._links, "link")
+        for node in nodes:
+            ground = f"{name}-{node}"
+            self.add_node(ground, *self._nodes[node].position)
+            self.fix(ground, "all")
+            for side, each in given.items():
+                self.add_link(f"{ground}-{side}", ground, node, each, (*_SIDES[side], 0.0))
+
+    def _link_direction(
+        self, name: str, i: str, j: str, direction: str | Sequence[float] | FloatArray
+    ) -> tuple[tuple[float, ...], bool]:
+        # Unit vector, and whether it is an axis of rotation.
+        if isinstance(direction, str):
+            what = f'direction of link "{name}"'
+            require_choice(what, direction, ("axial", *DOFS), error=ModelError)
+            if direction == "axial":
+                ends = [np.array(self._nodes[node].position) for node in (i, j)]
+                vector, turns = ends[1] - ends[0], False
+            else:
+                place = DOFS.index(direction)
+                vector, turns = np.eye(3)[place % 3], place >= 3
+        else:
+            vector = require_vector(f'direction of link "{name}"', direction, 3, error=ModelError)
+            turns = False
+        size = float(np.linalg.norm(vector))
+        if not size > 0.0:
+            message = (
+                f'direction of link "{name}" has no length: its nodes "{i}" and "{j}" stand at one '
+                'place, give "ux", "uy", "uz" or a vector'
+            )
+            raise ModelError(message)
+        return tuple((vector / size).tolist()), turns
+
+
+class Frame(NonlinearBuilder):
+    """A frame that can be copied, put on other bearings, and lose parts."""
+
+    def copy(self, name: str | None = None) -> Self:
+        """Return a copy that shares nothing that can be changed.
+
+        Parameters
+        ----------
+        name : str, optional
+            Name of the copy; that of this frame if None.
+
+        Returns
+        -------
+        Frame
+            What is added to one is not added to the other.
+        """
+        found = copying.copy(self)
+        if name is not None:
+            found._name = new_name(name, (), "frame")
+        return found
+
+    def with_bearings(
+        self, bearing: LIRBearing | Mapping[str, LIRBearing], name: str | None = None
+    ) -> Self:
+        """Return a copy on other bearings.
+
+        Parameters
+        ----------
+        bearing : LIRBearing or mapping
+            One device for all bearings, or devices by name of bearing; those that are not named
+            stay.
+        name : str, optional
+            Name of the copy; that of this frame if None.
+
+        Returns
+        -------
+        Frame
+            The same structure. Where a device has another height, the node below it is moved up
+            or down, which a node of the ground can be that carries nothing else.
+
+        Raises
+        ------
+        ModelError
+            If there is no bearing of a name, or a device does not fit between its nodes.
+        """
+        found = self.copy(name)
+        chosen = bearing if isinstance(bearing, Mapping) else dict.fromkeys(self._bearings, bearing)
+        for each, device in chosen.items():
+            known_name(each, self._bearings, "bearing")
+            link = self._bearings[each]
+            found._settle_under(each, link, bearing_height(each, device))
+            require_bearing_place(found._nodes, each, link.i, link.j, device)
+            found._bearings[each] = replace(link, bearing=device)
+        return found
+
+    def combined(
+        self,
+        factors: Mapping[str, float],
+        name: str | None = None,
         *,
-        units: str = "KN, m",
-        stations: int = 3,
-    ) -> dict[str, pd.DataFrame]:
-        """Return largest and smallest results in the columns of SAP2000's and ETABS' tables.
+        weight: str = DEFAULT_CASE,
+        masses: bool = False,
+    ) -> Self:
+        """Return a copy whose permanent loads are a combination of the load cases.
 
         Parameters
         ----------
-        data : xarray.Dataset or mapping
-            Of `time_history` with this frame; or several by name of the output case.
-        units : str
-            Units of force and length: "KN, m", "N, m", "N, mm", "Kip, in" or "Kip, ft".
-        stations : int
-            Stations of each member at equal distances, both ends among them.
+        factors : mapping of str to float
+            Factor of each load case [-], as in ``{"D": 1.2, "L": 0.5}``; `isolator_combinations`
+            has those of ASCE 7. A case of the frame that is left out is refused, one that the
+            frame does not have does no harm.
+        name : str, optional
+            Name of the copy; that of this frame if None.
+        weight : str
+            The case to which the weight of masses, members and superelements belongs.
+        masses : bool
+            False: masses stay as they are, those that loads make (`set_mass_source`) included.
+            True: all that weighs in the combination is mass, lumped masses and those of members
+            by the factor of `weight`, loads by their own.
 
         Returns
         -------
-        dict of str to pandas.DataFrame
-            "Joint Displacements", "Joint Reactions", "Base Reactions", "Element Forces - Frames"
-            and "Story Drifts", as far as the model has them; `write_tables` writes them as a
-            workbook or CSV. A row "Max" and a row "Min" over the recorded steps of each case,
-            whose values are not of one instant; stations along members, signs by axes 1, 2 and 3
-            (docs/exchange.md).
+        Frame
+            The copy; `weight_factor` says by what masses weigh.
 
         Raises
         ------
         ModelError
-            If the frame is not the one that was analysed, or the units are not known.
-        ValueError
-            If the recording does not have what is needed.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> from frames import GroundMotion, moment_frame, time_history
-        >>> from frames.demo import bearing_for
-        >>> frame = moment_frame((1, 1), 1, bearing=bearing_for(400e3))
-        >>> data = time_history(frame, GroundMotion(x=np.ones(11), dt=0.01))
-        >>> list(frame.program_tables(data)["Element Forces - Frames"])[:6]
-        ['Frame', 'Station', 'OutputCase', 'CaseType', 'StepType', 'P']
+            If a case has no factor, or masses cannot follow.
         """
-        from frames.recording.program_tables import program_tables
+        found = self.copy(name)
+        chosen = combination(self, factors, weight)
+        (factor_all if masses else factor_loads)(found, chosen, weight)
+        return found
 
-        return program_tables(self, data, units=units, stations=stations)
-
-    @property
-    def imported(self) -> ImportReport | None:
-        """What became of the file that the frame was read from; None of one that was built."""
-        return cast("ImportReport | None", self._imported)
-
-    def check(self, motion: GroundMotion | None = None) -> ModelCheck:
-        """Add the model up, and say what looks as if given in other units or put in a wrong place.
+    def remove(self, kind: str, name: str) -> None:
+        """Take a part out of the frame.
 
         Parameters
         ----------
-        motion : GroundMotion, optional
-            The motion it is meant for.
-
-        Returns
-        -------
-        ModelCheck
-            Mass, weight and loads; periods on a fixed base and on the bearings; axial force,
-            pressure and settlement of each bearing; what is strange. It prints as a table.
+        kind : str
+            "member", "spring", "link", "hinges", "bearing", "diaphragm", "level", "mass", "load" or
+            "floor load": a mass or a load has the name of its node, and goes in all load cases;
+            hinges have that of their member. A member's hinges and own loads go with it, a floor
+            load that rests on it must go as well.
+        name : str
+            Its name.
 
         Raises
         ------
         ModelError
-            If the model cannot be assembled. Where only the equilibrium fails, the table says so.
+            If there is no such part.
         """
-        from frames.statics.model_check import check_model  # the analysis reads the model
+        groups: dict[str, dict[str, Any]] = {
+            "member": self._members,
+            "spring": self._springs,
+            "link": self._links,
+            "hinges": self._hinges,
+            "bearing": self._bearings,
+            "diaphragm": self._diaphragms,
+            "level": self._levels,
+            "mass": self._masses,
+            "load": self._loads,
+            "floor load": self._floor_loads,
+        }
+        if kind not in groups:
+            msg = f"kind = {kind!r}: choose one of {', '.join(groups)}"
+            raise ModelError(msg)
+        known_name(name, groups[kind], kind)
+        del groups[kind][name]
+        if kind == "member":
+            self._uniform_loads.pop(name, None)
+            self._hinges.pop(name, None)
+            self._tapered_loads.pop(name, None)
+        elif kind == "mass":
+            self._weightless.pop(name, None)
 
-        return check_model(self, motion)
+    def _settle_under(self, name: str, link: BearingLink, height: float) -> None:
+        # Moves the node below a bearing so that a device of another height fits.
+        low, high = self._nodes[link.i], self._nodes[link.j]
+        if fits(high.z - low.z, height):
+            return
+        ends: list[tuple[str, ...]] = [
+            *((member.i, member.j) for member in self._members.values()),
+            *((spring.i, spring.j) for spring in self._springs.values()),
+            *((part.i, part.j) for part in self._links.values()),
+            *((other.i, other.j) for key, other in self._bearings.items() if key != name),
+            *(part.nodes for part in self._superelements.values()),
+        ]
+        ground = {"ux", "uy", "uz"} <= self._fixed.get(link.i, frozenset())
+        if ground and not any(link.i in nodes for nodes in ends):
+            self._nodes[link.i] = replace(low, z=high.z - height)
+
+
+def stand(frame: Frame, node: str, name: str, bearing: LIRBearing, mark: str) -> None:
+    """Put a bearing under a node, on the fixed node "ground-<mark>"."""
+    x, y, z = frame.nodes[node].position
+    frame.add_node(f"ground-{mark}", x, y, z - bearing.height)
+    frame.fix(f"ground-{mark}", "all")
+    frame.add_bearing(name, f"ground-{mark}", node, bearing)

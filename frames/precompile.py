@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.library.models import lumped_mass, shear_building
+from frames.library.models import lumped_mass
+from frames.library.shear_buildings import shear_building
 from frames.model.laws import Tie
 from frames.motion.ground_motion import GroundMotion
 from frames.solve.time_history import time_history

@@ -2,50 +2,30 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from lir_element.argument_checks import require_choice
-from lir_element.bundles.contact_data import as_rows, contact_arrays, detached, reset
-from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.device.features import Features, apply
-from lir_element.device.friction import least_coefficients
+from lir_element.bundles.contact_data import (
+    as_rows,
+    contact_arrays,
+    detached,
+    heat_parts,
+    initial_state,
+    reset,
+)
+from lir_element.device.features import LEVELS, Features, Level, apply
 from lir_element.errors import AnalysisError, RunStatus
 from lir_element.kernels import levels
 from lir_element.kernels.pendulum.trial import has_no_state, is_about_to_snap, last_slip
-from lir_element.layout import HEAT_PARTS, STATE, STATE_BY_NAME, WORK, Floats, Records
+from lir_element.layout import STATE_BY_NAME, WORK, Floats, Records
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from lir_element.device.bearing import LIRBearing
-
-Level = Literal["pendulum", "contact"]
-AnyLevel = Literal["pendulum", "contact", "rigid_body"]
-LEVELS = ("pendulum", "contact")
-ALL_LEVELS = (*LEVELS, "rigid_body")
-
-
-def initial_state(props: Records) -> Records:
-    """Return the state records (n,) of undeformed, unloaded bearings with properties `props`."""
-    state = np.zeros(len(props), dtype=STATE)
-    state["axis"][:, 2] = 1.0
-    state["axis_top"][:, 2] = 1.0
-    string = props["length"] + props["fixed_load"] / props["axial_stiffness"]
-    state["string"] = string
-    state["centres"][:, 2] = -string
-    state["friction_coefficient"] = least_coefficients(props)
-    state["temperature"] = props["initial_temperature"][:, None]
-    return state
-
-
-def heat_parts(props: Records) -> Floats:
-    """Return the parts of the temperatures of bearings with properties `props` (n,), at the start.
-
-    Shapes: result (n, 3, HEAT_PARTS).
-    """
-    return np.zeros((len(props) if props["heats"].any() else 0, 3, HEAT_PARTS))
 
 
 class Element:

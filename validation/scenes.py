@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from frames import Frame
-    from lir_element.element import AnyLevel
+    from lir_element.device.features import AnyLevel
     from lir_element.layout import Floats
 
 LEVELS_STATIC: tuple[AnyLevel, ...] = ("pendulum", "contact", "rigid_body")

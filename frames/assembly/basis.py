@@ -25,7 +25,7 @@ from frames.model.damping import ModalDamping, RayleighDamping
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray, SparseMatrix
-    from frames.assembly.assemble import System
+    from frames.assembly.system import System
     from frames.model.damping import Damping
 
 

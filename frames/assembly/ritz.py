@@ -27,7 +27,7 @@ from frames.assembly.solvers import Factors, positive_factors
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
-    from frames.assembly.assemble import System
+    from frames.assembly.system import System
     from frames.model.damping import Damping
 
 RIGID_A_TURN = 3

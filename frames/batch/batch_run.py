@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
     from frames.solve.options import Options
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element.device.features import Features
 
 

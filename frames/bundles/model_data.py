@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from frames._types import IntArray, SparseMatrix
-    from frames.assembly.assemble import System
-    from frames.assembly.basis import Basis
+    from frames.assembly.coordinates import Basis
+    from frames.assembly.system import System
 
     Array = npt.NDArray[Any]
 

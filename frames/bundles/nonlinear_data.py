@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from frames._types import SparseMatrix
-    from frames.assembly.basis import Basis
+    from frames.assembly.coordinates import Basis
     from frames.assembly.system import NonlinearParts
 
     Array = npt.NDArray[Any]

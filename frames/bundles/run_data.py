@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, get_type_hints
 import numpy as np
 
 from frames.bundles.peak_data import ENERGY_TERMS
-from lir_element.bundles.contact_data import Contacts, as_rows
-from lir_element.element import heat_parts, initial_state
+from lir_element.bundles.contact_data import Contacts, as_rows, heat_parts, initial_state
 from lir_element.layout import BODIES, STATE, WORK, Field, dtype_of
 
 if TYPE_CHECKING:

@@ -105,7 +105,7 @@ def check(file: File = FILE) -> None:
     from frames.design.project.moat_and_dampers import columns_by_type
     from frames.design.project.preliminary import preliminary
     from frames.design.project.structure_statement import structure_rows
-    from lir_element.tables import text_table
+    from lir_element.texts import text_table
 
     with exit_codes():
         parts = project_in(file)
@@ -347,7 +347,7 @@ def _say_each(sentences: Iterable[str]) -> None:
 
 def _frame_table(title: str, frame: pd.DataFrame) -> None:
     from frames.design.report.tables import rows_of
-    from lir_element.tables import text_table
+    from lir_element.texts import text_table
 
     out.print(f"\n[bold]{title}[/]")
     say(text_table(rows_of(frame), ("", *map(str, frame.columns))))

@@ -206,7 +206,7 @@ def _verify(
     from frames.design.project.verification import verification_table, verified
     from frames.design.report.tables import in_mm_and_kn, rows_of
     from frames.results.storage import csv_of, write_whole
-    from lir_element.tables import text_table
+    from lir_element.texts import text_table
 
     say(f"\nTime histories of the best {len(candidates)}: {said_of_runs(parts, parts.motions())}")
     done: list[Verified] = []
@@ -271,7 +271,7 @@ def _summary(found: Design, objective: str, top: int) -> None:
 def _listed(shown: Sequence[Candidate], chosen: Candidate) -> str:
     from frames.design.report.tables import in_mm_and_kn, rows_of
     from frames.design.sizing.selection import table_of
-    from lir_element.tables import text_table
+    from lir_element.texts import text_table
 
     table = table_of(shown, chosen)[_SHOWN]
     table = table.rename(columns={"pressure, typical [Pa]": "pressure [MPa]"})

@@ -50,7 +50,7 @@ def compare(
     from frames.design.report.comparison_page import verdicts, write_comparison
     from frames.design.report.tables import rows_of
     from frames.results.storage import make_folder
-    from lir_element.tables import text_table
+    from lir_element.texts import text_table
 
     with exit_codes():
         parts = project_in(file)
@@ -88,7 +88,7 @@ def export(
     from frames.design.report.tables import in_mm_and_kn, rows_of
     from frames.results.storage import csv_of, make_folder, write_whole
     from lir_element.argument_checks import require_choice
-    from lir_element.tables import text_table
+    from lir_element.texts import text_table
 
     with exit_codes():
         require_choice("--to", to, get_args(Program), error=ProjectError)

@@ -10,12 +10,12 @@ from frames.design.codes.analysis import equivalent_linear as equivalent_linear
 from frames.design.codes.asce7 import ASCE7 as ASCE7
 from frames.design.codes.bounds import PropertyBounds as PropertyBounds
 from frames.design.codes.bounds import PropertyModificationFactors as PropertyModificationFactors
-from frames.design.codes.bounds import with_property_bounds as with_property_bounds
 from frames.design.codes.en1998 import EN1998 as EN1998
 from frames.design.codes.history_rules import ActionLevel as ActionLevel
 from frames.design.codes.history_rules import HistoryRules as HistoryRules
 from frames.design.codes.history_rules import LoadRule as LoadRule
 from frames.design.codes.isolation import IsolationSystem as IsolationSystem
+from frames.design.codes.isolation import with_property_bounds as with_property_bounds
 from frames.design.codes.nch2745 import NCh2745 as NCh2745
 from frames.design.codes.outcome import EquivalentLinear as EquivalentLinear
 from frames.design.codes.pendulum import FrictionPendulum as FrictionPendulum

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from frames._remedies import argument
+from frames._errors import argument
 from frames.exchange.building import AreaLoad, JointLoad
+from frames.exchange.geometry import is_offset
 from frames.exchange.loads import OWN_MASS, Sizes, own_loads
-from frames.exchange.member_splitting import is_offset
 from frames.exchange.members import LEAST_FACTOR
 from lir_element.elevations import SAME_PLACE
 from lir_element.texts import joined, worded
@@ -16,12 +16,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from frames.exchange.building import Building, LineLoad, MassSource
+    from frames.exchange.geometry import SplitMember
     from frames.exchange.import_report import Options
-    from frames.exchange.member_splitting import SplitMember
-    from frames.exchange.members import Sections
+    from frames.exchange.members import Places, Sections
     from frames.exchange.mesh import Mesh
     from frames.exchange.slabs import Slabs
-    from frames.exchange.supports import Places
     from frames.model.frame_data import FrameData
 
 

@@ -14,7 +14,6 @@ from frames.exchange.building import (
     Building,
     FrameSection,
     JointLoad,
-    MassSource,
     Modifiers,
     Pattern,
 )
@@ -26,8 +25,9 @@ from frames.exchange.loads import (
     add_area_load,
     add_combinations,
     add_line_load,
+    add_mass_source,
     cases_of,
-    mass_shares,
+    default_source,
 )
 from frames.exchange.properties import (
     FILLED,
@@ -177,21 +177,12 @@ def _read_source(tables: Tables, building: Building) -> None:
         key[0]: values(row, dialect.MASS_SOURCE, building)
         for key, row in merged(tables.rows("MASSSOURCE"), "Source").items()
     }
-    name = next((k for k, given in sources.items() if given["default"]), next(iter(sources), ""))
+    name = default_source(sources)
     own = [row for row in tables.rows("MASSSOURCELOAD") if row.text("Source") == name]
-    loads = mass_shares(own, dialect.MASS_SHARE, building)
-    if not sources:
-        return
-    given = sources[name]
-    loads = loads if given["loads"] else {}
-    building.mass_source = MassSource(given["elements"], given["added"], loads)
-    account = building.account
-    account.read("MASS SOURCE", "mass source", 1)
-    others = [other for other in sources if other != name]
-    account.left_out("MASS SOURCE", "mass sources besides the default", others)
-    if given["lumped"]:
+    add_mass_source(building, name, sources, own, dialect.MASS_SHARE)
+    if sources and sources[name]["lumped"]:
         what = "masses lumped at stories by ETABS, here where they are"
-        account.read_as("MASS SOURCE", what, [name])
+        building.account.read_as("MASS SOURCE", what, [name])
 
 
 def read_stories(tables: Tables, building: Building) -> None:

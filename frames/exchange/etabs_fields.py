@@ -4,11 +4,14 @@ import math
 
 from frames.exchange.fields import (
     NOT_NEGATIVE,
+    OF_FRAMES,
+    OF_SHELLS,
     POISSON,
     POSITIVE,
     SHARE,
     Field,
     Refusal,
+    factors,
     fields,
     has,
     is_none_of,
@@ -43,17 +46,9 @@ SECTION = (
     *fields("inertia_33=I33 inertia_22=I22", "inertia", None),
     *fields("torsion=TORSION", "inertia"),
 )
-MODIFIERS = fields(
-    "area=AMOD shear_2=A2MOD shear_3=A3MOD torsion=JMOD inertia_22=I2MOD inertia_33=I3MOD "
-    "mass=MMOD weight=WMOD",
-    default=1.0,
-    bound=NOT_NEGATIVE,
-)
-FRAME_MODIFIERS = fields(
-    "area=PROPMODA shear_2=PROPMODA2 shear_3=PROPMODA3 torsion=PROPMODT inertia_22=PROPMODI22 "
-    "inertia_33=PROPMODI33 mass=PROPMODM weight=PROPMODW",
-    default=1.0,
-    bound=NOT_NEGATIVE,
+MODIFIERS = factors(OF_FRAMES, "AMOD A2MOD A3MOD JMOD I2MOD I3MOD MMOD WMOD")
+FRAME_MODIFIERS = factors(
+    OF_FRAMES, "PROPMODA PROPMODA2 PROPMODA3 PROPMODT PROPMODI22 PROPMODI33 PROPMODM PROPMODW"
 )
 THICKNESS = fields("thickness=SLABTHICKNESS|WALLTHICKNESS|OVERALLDEPTH|TM", "length")
 DECK = (
@@ -62,16 +57,9 @@ DECK = (
     *fields("bottom=DECKRIBWIDTHBOTTOM|DECKRIBWIDTHTOP", "length"),
     *fields("extra_weight=DECKUNITWEIGHT", "stress"),
 )
-SHELL = fields(
-    "F11=F11MOD F22=F22MOD F12=F12MOD M11=M11MOD M22=M22MOD M12=M12MOD mass=MMOD weight=WMOD",
-    default=1.0,
-    bound=NOT_NEGATIVE,
-)
-AREA_MODIFIERS = fields(
-    "F11=PROPMODF11 F22=PROPMODF22 F12=PROPMODF12 M11=PROPMODM11 M22=PROPMODM22 M12=PROPMODM12 "
-    "mass=PROPMODM weight=PROPMODW",
-    default=1.0,
-    bound=NOT_NEGATIVE,
+SHELL = factors(OF_SHELLS, "F11MOD F22MOD F12MOD M11MOD M22MOD M12MOD MMOD WMOD")
+AREA_MODIFIERS = factors(
+    OF_SHELLS, "PROPMODF11 PROPMODF22 PROPMODF12 PROPMODM11 PROPMODM22 PROPMODM12 PROPMODM PROPMODW"
 )
 END_ZONES = (
     *fields("end_i=LENGTHOFFI end_j=LENGTHOFFJ", "length", bound=NOT_NEGATIVE),

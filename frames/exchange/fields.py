@@ -61,6 +61,17 @@ def fields(
     return tuple(Field(ours, names, unit, default, bound, zero, said) for ours, names in split)
 
 
+def factors(ours: str, names: str) -> Fields:
+    """Return fields of factors on a stiffness, a mass or a weight by our names and theirs."""
+    pairs = zip(ours.split(), names.split(), strict=True)
+    return tuple(Field(word, name, default=1.0, bound=NOT_NEGATIVE) for word, name in pairs)
+
+
+OF_FRAMES = "area shear_2 shear_3 torsion inertia_22 inertia_33 mass weight"
+OF_SHELLS = "F11 F22 F12 M11 M22 M12 mass weight"
+"""Our names of the factors of frame objects and of shells."""
+
+
 class Refusal(NamedTuple):
     """A field whose loss would change the answer: its names, the key of `allow`, and what it is.
 

@@ -6,11 +6,9 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from frames._errors import ModelError
-from frames._remedies import argument
+from frames._errors import ModelError, argument
 from lir_element.argument_checks import require_choice, require_positive, require_type
-from lir_element.tables import text_table
-from lir_element.texts import joined, worded
+from lir_element.texts import joined, text_table, worded
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._errors import ModelError
-from frames._remedies import argument, bearing_for
+from frames._errors import ModelError, argument, bearing_for
 from frames.assembly.assemble import assemble
 from frames.exchange.building import LINK_DOFS
 from frames.exchange.geometry import frame_axes
-from frames.model.editing import stand
+from frames.frame import stand
 from frames.model.laws import Bilinear, Gap, ViscousDamper
 from frames.statics.springs import first_displacement, spring_forces
 from lir_element import CoulombFriction, FrictionLaw, LIRBearing, VelocityFriction
@@ -25,8 +24,8 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.exchange.building import Building, LinkDof, LinkObject, LinkProperty
-    from frames.exchange.supports import Places
-    from frames.model.editing import FrameEditor
+    from frames.exchange.members import Places
+    from frames.frame import Frame
     from frames.model.frame_data import FrameData
 
 SLIDER_HEIGHT, SLIDER_RADIUS = 0.1, 0.15
@@ -116,7 +115,7 @@ def yield_displacements(frame: FrameData, stiffness: Mapping[str, float]) -> dic
 class Links:
     """Adds the links of a building to a frame that has the nodes."""
 
-    def __init__(self, frame: FrameEditor, building: Building, places: Places) -> None:
+    def __init__(self, frame: Frame, building: Building, places: Places) -> None:
         self.frame, self.building, self.places = frame, building, places
         self._as: dict[str, list[str]] = {}
         self.stiffness: dict[str, float] = {}  # of isolators before they slide [N/m]

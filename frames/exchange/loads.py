@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames.exchange.building import AreaLoad, JointLoad, LineLoad
+from frames.exchange.building import AreaLoad, JointLoad, LineLoad, MassSource
 from frames.exchange.fields import values
 from frames.exchange.geometry import area_normal, direction_of, frame_axes
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator
+    from collections.abc import Collection, Iterable, Iterator, Mapping
+    from typing import Any
 
     from frames._types import FloatArray
     from frames.exchange.building import Building, Vector
@@ -143,6 +144,30 @@ def mass_shares(rows: Iterable[Row], map_: Fields, building: Building) -> dict[s
     """Return the shares of load patterns that are mass [-]."""
     given = [values(row, map_, building) for row in rows]
     return {each["pattern"]: each["share"] for each in given}
+
+
+def default_source(sources: Mapping[str, Mapping[str, Any]]) -> str:
+    """Return the name of the mass source that counts: the default one, or the first."""
+    return next((k for k, given in sources.items() if given["default"]), next(iter(sources), ""))
+
+
+def add_mass_source(
+    building: Building,
+    name: str,
+    sources: Mapping[str, Mapping[str, Any]],
+    rows: Iterable[Row],
+    map_: Fields,
+) -> None:
+    """Add the mass source of a name with its shares of load patterns, if there is any."""
+    loads = mass_shares(rows, map_, building)
+    if not sources:
+        return
+    given, account = sources[name], building.account
+    loads = loads if given["loads"] else {}
+    building.mass_source = MassSource(given["elements"], given["added"], loads)
+    account.read("MASS SOURCE", "mass source", 1)
+    others = sorted(other for other in sources if other != name)
+    account.left_out("MASS SOURCE", "mass sources besides the default", others)
 
 
 def cases_of(

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from frames._errors import ModelError
-from frames.exchange.member_splitting import Points
+from frames.exchange.geometry import Points
 from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 from xml.parsers import expat
 
-from frames._errors import ModelError
-from frames._remedies import argument
+from frames._errors import ModelError, argument
 from frames.exchange.building import Building, FrameSection, Material, Modifiers
 from frames.exchange.fields import values
 from frames.exchange.members import MOMENTS

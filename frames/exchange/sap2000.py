@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -29,8 +30,10 @@ from frames.exchange.loads import (
     add_area_load,
     add_combinations,
     add_line_load,
+    add_mass_source,
     area_weight,
     cases_of,
+    default_source,
     frame_weight,
     mass_shares,
     vector_of,
@@ -230,21 +233,17 @@ def _add_gravity(row: Row, building: Building, *, on_area: bool) -> None:
 
 def _read_source(tables: Tables, building: Building) -> None:
     rows = [(row, values(row, dialect.MASS_SOURCE, building)) for row in tables.rows("MASS SOURCE")]
-    if rows:
-        name = next((given["name"] for _, given in rows if given["default"]), rows[0][1]["name"])
-        own = [(row, given) for row, given in rows if given["name"] == name]
-        elements, added, counted = (
-            any(given[word] for _, given in own) for word in ("elements", "added", "loads")
-        )
-        shares = [row for row, _ in own if row.has("LoadPat")]
-        loads = mass_shares(shares, dialect.MASS_SHARE, building)
-        building.mass_source = MassSource(elements, added, loads if counted else {})
-        others = sorted({given["name"] for _, given in rows} - {name})
-        building.account.left_out("MASS SOURCE", "mass sources besides the default", others)
+    sources: dict[str, dict[str, Any]] = {}
+    for _, given in rows:  # of which any row may say so
+        before = sources.setdefault(given["name"], given)
+        sources[given["name"]] = {word: before[word] or given[word] for word in given}
+    name = default_source(sources)
+    shares = [row for row, given in rows if given["name"] == name and row.has("LoadPat")]
+    add_mass_source(building, name, sources, shares, dialect.MASS_SHARE)
     old = tables.rows("MASSES 1 - MASS SOURCE")
     if old and building.mass_source is None:
         elements = any("element" in r.text("MassFrom", "Elements").lower() for r in old)
         shares = [r for r in old if r.has("LoadPat") or r.has("LoadCase")]
         loads = mass_shares(shares, dialect.MASS_SHARE, building)
         building.mass_source = MassSource(elements, elements, loads)
-    building.account.read("MASS SOURCE", "mass source", int(building.mass_source is not None))
+        building.account.read("MASS SOURCE", "mass source", 1)

@@ -5,11 +5,14 @@ import math
 from frames.exchange.building import RELEASES as RELEASED
 from frames.exchange.fields import (
     NOT_NEGATIVE,
+    OF_FRAMES,
+    OF_SHELLS,
     POISSON,
     POSITIVE,
     SHARE,
     Field,
     Refusal,
+    factors,
     fields,
     has,
     is_none_of,
@@ -51,21 +54,17 @@ SECTION = (
     *fields("inertia_33=I33 inertia_22=I22", "inertia", None),
     *fields("shear_2=AS2 shear_3=AS3", "area", zero=math.inf),
 )
-MODIFIERS = fields(
-    "area=AMod shear_2=A2Mod|AS2Mod shear_3=A3Mod|AS3Mod torsion=JMod inertia_22=I2Mod|I22Mod "
-    "inertia_33=I3Mod|I33Mod mass=MassMod|MMod weight=WeightMod|WMod",
-    default=1.0,
-    bound=NOT_NEGATIVE,
+MODIFIERS = factors(
+    OF_FRAMES,
+    "AMod A2Mod|AS2Mod A3Mod|AS3Mod JMod I2Mod|I22Mod I3Mod|I33Mod MassMod|MMod WeightMod|WMod",
 )
 THICKNESS = (
     Field("thickness", "Thickness", "length", bound=POSITIVE),
     Field("bending_thickness", "BendThick", "length"),
 )
-SHELL = fields(
-    "F11=F11Mod|f11 F22=F22Mod|f22 F12=F12Mod|f12 M11=M11Mod|m11 M22=M22Mod|m22 M12=M12Mod|m12 "
-    "mass=MMod|MassMod weight=WMod|WeightMod",
-    default=1.0,
-    bound=NOT_NEGATIVE,
+SHELL = factors(
+    OF_SHELLS,
+    "F11Mod|f11 F22Mod|f22 F12Mod|f12 M11Mod|m11 M22Mod|m22 M12Mod|m12 MMod|MassMod WMod|WeightMod",
 )
 END_ZONES = (
     *fields(

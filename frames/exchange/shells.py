@@ -17,14 +17,14 @@ from frames.model.superelement import ShellElement, WithoutForces, no_elements
 from frames.opensees.model import read_model
 from lir_element.argument_checks import listed
 from lir_element.elevations import SAME_PLACE
-from lir_element.opensees import opensees
+from lir_element.opensees.library import opensees
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
     from frames.exchange.building import Building
-    from frames.exchange.member_splitting import Points
+    from frames.exchange.geometry import Points
     from frames.exchange.mesh import Inside, Mesh
-    from frames.model.editing import FrameEditor
+    from frames.frame import Frame
     from frames.model.frame_data import FrameData
     from frames.model.superelement import Superelement
 
@@ -101,7 +101,7 @@ QUAD, TRIANGLE = "ShellMITC4", "ShellDKGT"
 """Elements of OpenSees: Dvorkin & Bathe (1984); discrete Kirchhoff triangle with a membrane."""
 
 
-def add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
+def add_shells(frame: Frame, building: Building, mesh: Mesh) -> None:
     """Add the stiffness of all shells to a frame that has their nodes."""
     if not mesh.elements:
         return

@@ -13,9 +13,9 @@ from frames.exchange.building import AreaLoad, JointLoad, LineLoad
 from frames.exchange.geometry import Levels, area_normal
 from frames.exchange.loads import OWN_MASS, own_loads
 from frames.exchange.members import add_line_load
+from frames.model.axes import area_of, corners_of, faces_of
 from frames.model.components import FloorLoad
 from frames.model.floors import floor_panel, members_at, panel_loads
-from frames.model.plane_faces import area_of, corners_of, faces_of
 from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from frames.exchange.building import AreaObject, Building
-    from frames.exchange.member_splitting import SplitMember
+    from frames.exchange.geometry import SplitMember
     from frames.exchange.mesh import Mesh
-    from frames.model.editing import FrameEditor
+    from frames.frame import Frame
     from frames.model.floors import PanelLoads
 
 
@@ -60,7 +60,7 @@ class Slabs:
     edges that carry, the corners of the area get it. The frame has all members.
     """
 
-    def __init__(self, frame: FrameEditor, building: Building) -> None:
+    def __init__(self, frame: Frame, building: Building) -> None:
         self.frame, self.building = frame, building
         self._around = members_at(frame.members)
         self._beside = _along_horizontal(frame)
@@ -68,7 +68,7 @@ class Slabs:
         self._unit: dict[str, list[PanelLoads] | None] = {}
         self.at_corners: dict[str, None] = {}  # in the order of the loads
 
-    def onto(self, frame: FrameEditor) -> Slabs:
+    def onto(self, frame: Frame) -> Slabs:
         """Return slabs that put loads on a copy of the frame, their panels found once for both."""
         found = copy(self)
         found.frame, found.at_corners = frame, {}
@@ -138,7 +138,7 @@ class Slabs:
         return [corners_of(plan, face) for face in faces]
 
 
-def _along_horizontal(frame: FrameEditor) -> dict[str, list[str]]:
+def _along_horizontal(frame: Frame) -> dict[str, list[str]]:
     # Nodes and their neighbours along horizontal members.
     found: dict[str, list[str]] = {}
     for member in frame.members.values():
@@ -157,7 +157,7 @@ class Loading:
         self._elements = mesh.by_area()
 
     def put(
-        self, frame: FrameEditor, slabs: Slabs, factors: Mapping[str, tuple[float, str]], own: bool
+        self, frame: Frame, slabs: Slabs, factors: Mapping[str, tuple[float, str]], own: bool
     ) -> None:
         """Put the loads of patterns on a frame."""
         building = self.building
@@ -188,7 +188,7 @@ class Loading:
                 self._on_area(frame, slabs, load, factor, case)
 
     def _on_area(
-        self, frame: FrameEditor, slabs: Slabs, load: AreaLoad, factor: float, case: str
+        self, frame: Frame, slabs: Slabs, load: AreaLoad, factor: float, case: str
     ) -> None:
         vector = factor * np.array(load.load)
         if load.area not in self._elements:

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, Literal, TypeAlias
 
-from frames._errors import ModelError
-from frames._remedies import argument
+from frames._errors import ModelError, argument
 from lir_element.units import STANDARD_GRAVITY
 
 Value: TypeAlias = str | float | bool

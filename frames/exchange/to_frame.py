@@ -6,22 +6,27 @@ import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 
-from frames._errors import ModelError, ModelWarning
-from frames._remedies import argument
+from frames._errors import ModelError, ModelWarning, argument
 from frames.exchange.building import MassSource
 from frames.exchange.doubts import doubt_base, doubt_weights, note_areas, note_members
 from frames.exchange.etabs import read_etabs
+from frames.exchange.geometry import divide, under_loads
 from frames.exchange.import_report import Options
 from frames.exchange.links import Links, yield_displacements
 from frames.exchange.loads import OWN_MASS, Sizes
-from frames.exchange.member_splitting import divide, under_loads
-from frames.exchange.members import Sections, add_members
+from frames.exchange.members import (
+    Places,
+    Sections,
+    add_constraints,
+    add_members,
+    add_supports,
+    levels_of,
+)
 from frames.exchange.mesh import Mesh, mesh_areas
 from frames.exchange.sap2000 import read_sap2000
 from frames.exchange.shells import add_shells, choose_shells, meet_joints
 from frames.exchange.slabs import Loading, Slabs
-from frames.exchange.supports import Places, add_constraints, add_supports, levels_of
-from frames.model.editing import FrameEditor
+from frames.frame import Frame
 from frames.model.load_combinations import applied_loads, load_masses
 from lir_element._compile.front_end import gc_paused
 from lir_element.elevations import SAME_PLACE
@@ -31,7 +36,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from frames.exchange.building import Building
-    from frames.exchange.member_splitting import Points, SplitMember
+    from frames.exchange.geometry import Points, SplitMember
     from lir_element import LIRBearing
 
 _KINDS = (
@@ -42,7 +47,7 @@ _KINDS = (
 """Load cases of the frame, and the kinds of patterns that belong to them."""
 
 
-F = TypeVar("F", bound=FrameEditor)
+F = TypeVar("F", bound=Frame)
 
 READERS = {"SAP2000": read_sap2000, "ETABS": read_etabs}
 """Readers of files by program."""
@@ -67,7 +72,7 @@ def imported(
     return frame
 
 
-def fill(frame: FrameEditor, building: Building, options: Options) -> dict[str, LIRBearing]:
+def fill(frame: Frame, building: Building, options: Options) -> dict[str, LIRBearing]:
     """Add all of a building to an empty frame, on bearings."""
     places = Places(building, options)
     factors = permanent(building, options)
@@ -210,7 +215,7 @@ def _points(building: Building) -> Points:
 
 
 def _add_nodes(
-    frame: FrameEditor, building: Building, points: Points, mesh: Mesh, divided: list[SplitMember]
+    frame: Frame, building: Building, points: Points, mesh: Mesh, divided: list[SplitMember]
 ) -> None:
     for name, place in points.items():
         frame.add_node(name, *place)
@@ -235,7 +240,7 @@ def _add_nodes(
         frame.fix(name, *(dof for dof in held if dof not in free))
 
 
-def _add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
+def _add_shells(frame: Frame, building: Building, mesh: Mesh) -> None:
     if mesh.elements:
         add_shells(frame, building, mesh)
         areas = list(dict.fromkeys(area for area, _ in mesh.elements))
@@ -243,7 +248,7 @@ def _add_shells(frame: FrameEditor, building: Building, mesh: Mesh) -> None:
         building.account.read_as("areas", what, areas, *Sizes(building).shares(areas))
 
 
-def _hold_edges(frame: FrameEditor, building: Building, places: Places, mesh: Mesh) -> None:
+def _hold_edges(frame: Frame, building: Building, places: Places, mesh: Mesh) -> None:
     # Nodes of a mesh along an edge whose corners are both held: held as they are.
     fixed, free = [], []
     for node, (one, two) in mesh.between.items():
@@ -261,9 +266,7 @@ def _hold_edges(frame: FrameEditor, building: Building, places: Places, mesh: Me
     building.account.read_as("supports", what, free)
 
 
-def _hold_pins(
-    frame: FrameEditor, building: Building, divided: list[SplitMember], mesh: Mesh
-) -> None:
+def _hold_pins(frame: Frame, building: Building, divided: list[SplitMember], mesh: Mesh) -> None:
     # Nodes at which every member is hinged: nothing holds their rotations.
     ends: dict[str, list[bool]] = {}
     for one in divided:
@@ -282,7 +285,7 @@ def _hold_pins(
 
 
 def _add_masses(
-    frame: FrameEditor,
+    frame: Frame,
     building: Building,
     loading: Loading,
     slabs: Slabs,
@@ -321,7 +324,7 @@ def _add_masses(
     building.account.read_as("masses", "masses in plan, which act vertically as well", vertical)
 
 
-def _add_levels(frame: FrameEditor, building: Building, places: Places) -> None:
+def _add_levels(frame: Frame, building: Building, places: Places) -> None:
     nodes = frame.nodes
     joints = [name for name in building.joints if name in nodes]
     groups = {nodes[group[0]].z: group for group in levels_of(frame, joints)}

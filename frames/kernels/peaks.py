@@ -1,6 +1,6 @@
 """Kernels that keep the largest values of a run and their times, step by step.
 
-The formulas are those of kernels/quantities.py, by which Datasets are read as well.
+The formulas are those of frames/formulas.py, by which Datasets are read as well.
 """
 
 from __future__ import annotations

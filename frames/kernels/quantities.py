@@ -1,18 +1,12 @@
-"""Formulas of the quantities whose largest values are kept, and what a bearing shows of them.
-
-A formula takes numbers in compiled code, and arrays as the Python that it is (`on_arrays`): what is
-taken up step by step and what is read off a Dataset is one formula. None calls another. Names,
-units and meanings are in `frames.results.quantities`.
-"""
+"""Formulas of the quantities that are kept, compiled; what a bearing shows of them at a step."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from numpy import absolute, maximum, sqrt
-
+from frames import formulas
 from frames._jit import inlined_by_llvm
-from frames.bundles.peak_data import FULL_SLIP, LEAST_SHARE, LOADED, PRESSED
+from frames.bundles.peak_data import LOADED, PRESSED
 from lir_element.kernels.derived import eccentricity, in_plan, in_space, resultant_offset
 
 if TYPE_CHECKING:
@@ -20,113 +14,21 @@ if TYPE_CHECKING:
 
     from lir_element.layout import Props, State
 
-
-@inlined_by_llvm
-def opposite(value: float) -> float:
-    """Return what is largest where a value is least."""
-    return -value
-
-
-@inlined_by_llvm
-def size(value: float) -> float:
-    """Return the size of a number."""
-    return absolute(value)
-
-
-@inlined_by_llvm
-def presses(force: float) -> float:
-    """Return 1 where a force presses, else 0."""
-    return 1.0 * (force > 0.0)
-
-
-@inlined_by_llvm
-def either(first: float, second: float) -> float:
-    """Return the larger of two."""
-    return maximum(first, second)
-
-
-@inlined_by_llvm
-def over_static(vertical_force: float, static: float) -> float:
-    """Return a vertical force over the one under permanent loads."""
-    return vertical_force / static
-
-
-@inlined_by_llvm
-def vertical_change(ratio: float) -> float:
-    """Return by how much a vertical force differs from the static one, over it."""
-    return absolute(ratio - 1.0)
-
-
-@inlined_by_llvm
-def is_lifted(ratio: float) -> float:
-    """Return 1 where nothing presses, else 0."""
-    return 1.0 * (ratio <= 0.0)
-
-
-@inlined_by_llvm
-def by_tilt(lever_bottom: float, lever_top: float, bottom: float, top: float) -> float:
-    """Return by how much turns of the plates shift the centres of their spheres, C2 - C1 [m]."""
-    return lever_bottom * bottom + lever_top * top
-
-
-@inlined_by_llvm
-def open_gap(
-    across_x: float, across_y: float, rise: float, length: float, slip: float, axial_force: float
-) -> float:
-    """Return how far the axial contact is open [m]; 0 where it is closed.
-
-    `across` is the place of the upper sphere's centre over the lower one in plan, `rise` that of
-    the upper node. Where the contact just closes it is ``c = L n + s`` (docs/theory.md, section 1).
-    """
-    down = length - rise
-    square = across_x * across_x + across_y * across_y + down * down - slip * slip
-    gap = maximum(length - sqrt(maximum(square, 0.0)), 0.0)
-    return gap * (axial_force <= 0.0)
-
-
-@inlined_by_llvm
-def interface_share(force: float, axial_force: float, static: float, friction: float) -> float:
-    """Return the force of the interface over what its friction holds."""
-    return force / (friction * maximum(axial_force, LEAST_SHARE * static))
-
-
-@inlined_by_llvm
-def slips(share: float) -> float:
-    """Return 1 where the interface slips, else 0."""
-    return 1.0 * (share >= FULL_SLIP)
-
-
-@inlined_by_llvm
-def pressed_eccentricity(
-    eccentricity: float, slider_radius: float, axial_force: float, static: float, share: float
-) -> float:
-    """Return an eccentricity over the slider's radius; 0 up to this share of the load at rest."""
-    return eccentricity / slider_radius * (axial_force > share * static)
-
-
-@inlined_by_llvm
-def closing_speed(
-    slip_x: float, slip_y: float, way_x: float, way_y: float, time: float, length: float
-) -> float:
-    """Return how fast both sliders close on each other if the slider's tilt is held [m/s].
-
-    The mass turns about the centre of the bottom sphere at ``sqrt(L^2 + s^2)`` (docs/theory.md,
-    section 2): it closes where it moves against the slip. `way` is what it moves in the `time`.
-    """
-    closes = maximum(0.0 - slip_x * way_x - slip_y * way_y, 0.0)
-    return closes / (time * sqrt(length * length + slip_x * slip_x + slip_y * slip_y))
-
-
-@inlined_by_llvm
-def sliding_power(load: float, friction: float, speed: float) -> float:
-    """Return what the friction of a surface takes up under a load [N m/s]."""
-    return load * friction * speed
-
-
-@inlined_by_llvm
-def balance_gap(given: float, absorbed: float) -> float:
-    """Return by how much the terms of the energy differ from the input [J]."""
-    return absolute(given - absorbed)
+opposite = inlined_by_llvm(formulas.opposite)
+size = inlined_by_llvm(formulas.size)
+presses = inlined_by_llvm(formulas.presses)
+either = inlined_by_llvm(formulas.either)
+over_static = inlined_by_llvm(formulas.over_static)
+vertical_change = inlined_by_llvm(formulas.vertical_change)
+is_lifted = inlined_by_llvm(formulas.is_lifted)
+by_tilt = inlined_by_llvm(formulas.by_tilt)
+open_gap = inlined_by_llvm(formulas.open_gap)
+interface_share = inlined_by_llvm(formulas.interface_share)
+slips = inlined_by_llvm(formulas.slips)
+pressed_eccentricity = inlined_by_llvm(formulas.pressed_eccentricity)
+closing_speed = inlined_by_llvm(formulas.closing_speed)
+sliding_power = inlined_by_llvm(formulas.sliding_power)
+balance_gap = inlined_by_llvm(formulas.balance_gap)
 
 
 @inlined_by_llvm

@@ -8,12 +8,11 @@ from dataclasses import replace
 from itertools import accumulate
 from typing import TYPE_CHECKING, TypeAlias
 
-from frames._errors import ModelError
-from frames.frame import Frame
+from frames._errors import ModelError, likely
+from frames.io import Frame
 from frames.library.building_plan import BuildingPlan, level_name, wall_node
+from frames.model.axes import fields_of
 from frames.model.damping import ModalDamping
-from frames.model.names import likely
-from frames.model.plane_faces import fields_of
 from lir_element.argument_checks import require_positive, shown
 from lir_element.units import STANDARD_GRAVITY
 

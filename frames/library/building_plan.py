@@ -11,6 +11,9 @@ if TYPE_CHECKING:
     from frames.model.components import Vector
     from frames.model.sections import Section
 
+DEFAULT_BASE_DEPTH = 0.8
+"""Depth of the base beams with their slab [m]."""
+
 
 class ColumnPart(NamedTuple):
     """A column over one storey."""

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 from scipy import sparse
 
 from frames._errors import ModelError
 from frames.assembly.assemble import assemble
+from frames.frame import Frame
 from lir_element.argument_checks import require_between
 from lir_element.elevations import by_elevation
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, IntArray
     from frames.assembly.system import System
-    from frames.frame import Frame
 
 MOST = 0.25
 """Largest share of a side by which masses may be moved [-]; codes ask for 0.05."""
@@ -28,6 +28,8 @@ _SPREAD = 0.5  # of its mass that a node may lose or gain, where a floor's masse
 _ALONG = 1e-9  # of the structure's plan, below which a floor has no extent
 _RZ = 5
 
+F = TypeVar("F", bound=Frame)
+
 
 class _Floor(NamedTuple):
     # Masses of one level: which nodes, and the sides of its plan.
@@ -36,7 +38,7 @@ class _Floor(NamedTuple):
     sides: FloatArray
 
 
-def with_moved_masses(frame: Frame, shares: tuple[float, float], name: str | None = None) -> Frame:
+def with_moved_masses(frame: F, shares: tuple[float, float], name: str | None = None) -> F:
     """Return a copy of a frame whose floors' masses are moved in plan; what they weigh stays.
 
     Floors are the levels of the frame, or the elevations of its masses above the bearings where it

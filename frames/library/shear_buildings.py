@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from frames._errors import ModelError
-from frames.frame import Frame
+from frames.io import Frame
 from frames.library.building import DEFAULT_DAMPING, add_bearings, bearings_at, pair, require_device
 from frames.library.tilting_base import VERTICAL_PERIOD, GridPlan, add_tilting_base
 from frames.model.components import bearing_axial_stiffness

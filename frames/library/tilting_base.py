@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from frames.library.building import pair
-from frames.library.moment_frames import DEFAULT_BASE_DEPTH
+from frames.library.building_plan import DEFAULT_BASE_DEPTH
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from frames._errors import ModelError
+from frames._errors import ModelError, known_name, new_name
 from frames.model.components import DOFS, BearingLink, Diaphragm, Level, Member, Node, Spring
 from frames.model.damping import Damping, ModalDamping, RayleighDamping
 from frames.model.geometry_checks import (
@@ -20,7 +20,6 @@ from frames.model.geometry_checks import (
     require_two_nodes,
 )
 from frames.model.loading import FrameLoader
-from frames.model.names import known_name, new_name
 from frames.model.sections import Section
 from frames.model.superelement import superelement
 from lir_element.argument_checks import require_type, require_vector

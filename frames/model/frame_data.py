@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames._errors import ModelError
+from frames._errors import ModelError, new_name
 from frames.model.components import (
     BearingLink,
     Diaphragm,
@@ -23,10 +23,9 @@ from frames.model.components import (
 )
 from frames.model.damping import Damping
 from frames.model.laws import PlasticHinge
-from frames.model.names import new_name
 from frames.model.superelement import Superelement
 from lir_element.argument_checks import require_non_negative
-from lir_element.tables import html_table
+from lir_element.texts import html_table
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

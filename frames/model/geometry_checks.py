@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._errors import ModelError
+from frames._errors import ModelError, known_name
 from frames.model.axes import local_axes
 from frames.model.components import (
     RELEASABLE,
@@ -19,7 +19,6 @@ from frames.model.components import (
     Vector,
     bearing_height,
 )
-from frames.model.names import known_name
 from lir_element.argument_checks import require_finite, require_type, require_vector
 from lir_element.elevations import SAME_PLACE
 from lir_element.units import OTHER_UNITS, meant

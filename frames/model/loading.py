@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._errors import ModelError
+from frames._errors import ModelError, known_name, new_name
 from frames.model.components import DEFAULT_CASE, FloorLoad, TaperedLoad
 from frames.model.floors import floor_panel, members_at, panel_loads
 from frames.model.frame_data import FrameData, frozen
 from frames.model.geometry_checks import member_span
-from frames.model.names import known_name, new_name
 from lir_element.argument_checks import (
     require_non_negative,
     require_positive,

@@ -7,15 +7,14 @@ import re
 from dataclasses import dataclass, field, fields, replace
 from typing import Self
 
-from frames._errors import ModelError
-from frames.model.names import likely
+from frames._errors import ModelError, likely
 from lir_element.argument_checks import (
     require_finite,
     require_non_negative,
     require_positive,
 )
 from lir_element.fields import check_numbers, number
-from lir_element.tables import html_table
+from lir_element.texts import html_table
 from lir_element.units import meant
 
 LARGEST_SIDE = 100.0

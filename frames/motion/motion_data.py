@@ -14,8 +14,7 @@ from frames._errors import MotionError, MotionWarning
 from frames._types import FloatArray
 from frames.motion.records import AXES, checked_component, checked_step, equal_lengths
 from frames.motion.transforms import Drift, drift_of, left_at_end
-from lir_element.tables import html_table
-from lir_element.texts import worded
+from lir_element.texts import html_table, worded
 from lir_element.units import STANDARD_GRAVITY
 
 

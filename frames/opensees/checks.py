@@ -8,8 +8,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from frames._errors import ModelError
-from frames._remedies import argument
+from frames._errors import ModelError, argument
 from frames.assembly.constraints import eliminate
 from frames.assembly.natural_modes import is_stable, weakest
 from frames.model.superelement import asymmetry

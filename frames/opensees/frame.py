@@ -12,8 +12,8 @@ from scipy import sparse
 
 from frames._errors import ModelError, ModelWarning
 from frames.assembly.assemble import assemble
+from frames.frame import Frame, stand
 from frames.model.components import DOFS, bearing_height
-from frames.model.editing import FrameEditor, stand
 from frames.model.superelement import lumped
 from frames.opensees.checks import (
     judge_elements,
@@ -36,8 +36,8 @@ from frames.opensees.structure import (
 )
 from lir_element.argument_checks import listed, require_choice, require_positive
 from lir_element.elevations import by_elevation
-from lir_element.opensees import opensees
 from lir_element.opensees.base_nodes import BASE_ROTATIONS
+from lir_element.opensees.library import opensees
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ NAME = "opensees"
 """Name of the superelement that holds the model."""
 
 
-F = TypeVar("F", bound=FrameEditor)
+F = TypeVar("F", bound=Frame)
 
 
 def imported(kind: type[F], options: Options, name: str) -> F:
@@ -182,7 +182,7 @@ def _released(structure: Structure, options: Options) -> Structure:
     )
 
 
-def _add_nodes(frame: FrameEditor, structure: Structure) -> None:
+def _add_nodes(frame: Frame, structure: Structure) -> None:
     places = structure.coordinates.tolist()
     for tag, place, fixed in zip(structure.tags, places, structure.fixed, strict=True):
         frame.add_node(str(tag), *place)
@@ -191,7 +191,7 @@ def _add_nodes(frame: FrameEditor, structure: Structure) -> None:
             frame.fix(str(tag), *held)
 
 
-def _add_bearings(frame: FrameEditor, options: Options) -> None:
+def _add_bearings(frame: Frame, options: Options) -> None:
     for tag, device in options.bearings.items():
         stand(frame, str(tag), f"bearing-{tag}", device, str(tag))
     if not options.base_diaphragm:
@@ -202,7 +202,7 @@ def _add_bearings(frame: FrameEditor, options: Options) -> None:
         frame.add_diaphragm("base" if len(groups) == 1 else f"base-{k + 1}", group)
 
 
-def _add_levels(frame: FrameEditor, structure: Structure, options: Options) -> None:
+def _add_levels(frame: Frame, structure: Structure, options: Options) -> None:
     # The base, and every elevation with mass; or as given.
     at = dict(zip(map(str, structure.tags), structure.coordinates[:, 2].tolist(), strict=True))
     if options.levels is not None:

@@ -19,8 +19,8 @@ import numpy as np
 from scipy import sparse
 
 from frames._errors import ModelError
-from lir_element.opensees import opensees
 from lir_element.opensees.base_nodes import leftovers
+from lir_element.opensees.library import opensees
 
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix

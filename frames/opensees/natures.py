@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames._errors import ModelError
-from frames._remedies import argument, in_python
+from frames._errors import ModelError, argument, in_python
 from frames.opensees.materials import DASHPOTS, DEPARTURE, Printed, law_of, printed_model
 from lir_element.argument_checks import listed
 

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import sparse
 
-from frames._errors import ModelError
-from frames._remedies import argument, in_python
+from frames._errors import ModelError, argument, in_python
 from frames.model.superelement import lumped
 from lir_element.argument_checks import listed, require_non_negative
 from lir_element.elevations import SAME_PLACE

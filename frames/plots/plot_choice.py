@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.lines import Line2D
 
-from frames.model.names import likely
+from frames._errors import likely
 from frames.plots.plot_style import PALETTE, line_of
 from frames.results.findings import doubts_of
 from frames.results.recorded import largest_kept, require_steps

@@ -11,7 +11,8 @@ from matplotlib.patches import Patch
 
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
-from frames.results.measures import floor_acceleration, spectra_of
+from frames.results.floor_spectra import spectra_of
+from frames.results.measures import floor_acceleration
 from frames.results.peak_response import extreme_of, largest, storeys_of_lines
 from frames.results.quantities import QUANTITIES
 

@@ -12,7 +12,7 @@ from frames.bundles.peak_data import ENERGY_TERMS
 from frames.model.components import DOFS
 from frames.recording.nonlinear_results import part_coordinates, part_variables
 from frames.recording.section_cuts import storey_rows
-from frames.statics.gravity import expand
+from frames.statics.gravity_state import expand
 from frames.statics.resultants import Resultants, moving_mass
 from lir_element.results.dataset import (
     bearing_coordinates,
@@ -28,11 +28,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from frames._types import FloatArray
-    from frames.assembly.assemble import System
+    from frames.assembly.system import System
     from frames.bundles.run_data import Ground, Output
     from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element.layout import Records
 
 

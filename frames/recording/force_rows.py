@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from frames.bundles.run_data import Output
     from frames.model.components import Level
     from frames.model.frame_data import FrameData
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element.layout import Records
 
 MEMBER_FORCES = ("N", "Vy", "Vz", "T", "My", "Mz")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from frames.bundles.run_data import Output
     from frames.model.frame_data import FrameData
     from frames.recording.force_rows import ForceKind, ForceMaps
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element.layout import Records
 
 WAYS = ("largest", "smallest")

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from frames.bundles.run_data import Output
     from frames.model.components import HingedEnd
     from frames.model.frame_data import FrameData
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
 
 HINGE_FORCES = ("N", "My", "Mz")
 """Forces on a hinge, in local axes of its member."""

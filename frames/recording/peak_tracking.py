@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray, IntArray, SparseMatrix
     from frames.bundles.run_data import Ground, Output
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element.layout import Records
 
 

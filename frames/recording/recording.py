@@ -7,8 +7,8 @@ import os
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Self
 
+from frames._errors import likely
 from frames.bundles.nonlinear_data import part_sizes
-from frames.model.names import likely
 from frames.results.recorded import ENDS, EVERY_STEP
 from lir_element.argument_checks import require_non_negative, require_positive, require_type
 from lir_element.layout import BODIES, STATE
@@ -17,7 +17,7 @@ from lir_element.units import meant
 if TYPE_CHECKING:
     import xarray as xr
 
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
 
 _NAMES = {
     "channels": "variables (docs/results.md)",

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from lir_element.device.features import Features
-from lir_element.tables import html_table
-from lir_element.texts import Text, text_from, worded
+from lir_element.texts import Text, html_table, text_from, worded
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

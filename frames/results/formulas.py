@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames._jit import on_arrays
 from frames.bundles.peak_data import LOOSE
-from frames.kernels.quantities import (
+from frames.formulas import (
     balance_gap,
     closing_speed,
     either,
@@ -21,9 +20,8 @@ from frames.kernels.quantities import (
 )
 from frames.results.measures import ABSORBED, floor_acceleration
 from frames.results.recorded import require_recorded, standing
-from lir_element.kernels import derived
-from lir_element.kernels.friction_law import fill_left
-from lir_element.layout import FRICTION_TABLE
+from lir_element import formulas as of_bearing
+from lir_element.device.friction_table import FrictionValues
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -40,7 +38,7 @@ VIOLENT = 50.0 * STANDARD_GRAVITY
 def in_plan(values: FloatArray) -> FloatArray:
     """Return the sizes of the horizontal parts of vectors (..., 3) or (..., 2)."""
     vectors = np.asarray(values)
-    return np.asarray(on_arrays(derived.in_plan)(vectors[..., 0], vectors[..., 1]))
+    return np.asarray(of_bearing.in_plan(vectors[..., 0], vectors[..., 1]))
 
 
 def displacement(data: xr.Dataset) -> FloatArray:
@@ -111,9 +109,9 @@ def values_of(data: xr.Dataset, name: str, *dims: str) -> FloatArray:
     return np.asarray(data.variables[name].transpose(*dims).to_numpy())
 
 
-def formed(formula: Callable[..., float], *of: FloatArray) -> FloatArray:
-    """Return what a formula of kernels makes of whole histories."""
-    return np.asarray(on_arrays(formula)(*of))
+def formed(formula: Callable[..., Any], *of: FloatArray) -> FloatArray:
+    """Return what a formula makes of whole histories."""
+    return np.asarray(formula(*of))
 
 
 def known(data: xr.Dataset, name: str) -> FloatArray:
@@ -209,18 +207,14 @@ def sliding_work_lower(data: xr.Dataset, first: int, last: int) -> FloatArray:
     """Return the same sum of what friction is below that at high speed."""
     speed, load = _slid(data, first, last)
     drop, rate = (data.variables[f"friction_{name}"].to_numpy() for name in ("drop", "rate"))
-    tables = np.zeros((*drop.shape, FRICTION_TABLE))
+    lower = drop * np.exp(-rate * speed)  # (3.1)
     if "friction_table" in data:
         tables = data.variables["friction_table"].transpose("bearing", "surface", ...).to_numpy()
-    lower = np.zeros((len(speed), drop.size))
-    fill_left(
-        drop.ravel(),
-        rate.ravel(),
-        np.ascontiguousarray(tables).reshape(drop.size, -1),
-        np.ascontiguousarray(speed).reshape(lower.shape),
-        lower,
-    )
-    return np.asarray(formed(sliding_power, load, lower.reshape(speed.shape), speed).sum())
+        for place in np.argwhere(tables[..., 0] > 0.0):
+            at = (..., *place)
+            values = FrictionValues(0.0, 0.0, 0.0, tuple(tables[tuple(place)].tolist()))
+            lower[at] = drop[tuple(place)] * values.left(speed[at])
+    return np.asarray(formed(sliding_power, load, lower, speed).sum())
 
 
 def sliding_work_pressed(data: xr.Dataset, first: int, last: int) -> FloatArray:

@@ -7,23 +7,18 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import xarray as xr
 
-from frames._jit import on_arrays
 from frames.bundles.peak_data import ENERGY_TERMS
-from frames.kernels.quantities import by_tilt, open_gap
-from frames.motion.spectra import response_spectrum
+from frames.formulas import by_tilt, open_gap
 from frames.results.recorded import (
     largest_kept,
     noted,
     require_recorded,
-    require_steps,
     require_whole_levels,
     standing,
 )
 from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from frames._types import FloatArray, IntArray
 
 _ROUND_OFF = 1e-9  # m, of coordinates
@@ -245,70 +240,6 @@ def lines_of(data: xr.Dataset) -> Lines:
     return Lines(lower, upper, storey, np.where(np.abs(arm) < _ROUND_OFF, 0.0, arm))
 
 
-def floor_spectrum(data: xr.Dataset, periods: npt.ArrayLike, damping: float = 0.05) -> xr.DataArray:
-    """Return the response spectra of the levels' total accelerations, for what stands on floors.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        Of a time history of a model with levels.
-    periods : array_like, shape (m,)
-        Natural periods of what stands there [s], >= 0.
-    damping : float
-        Its part of the critical damping [-], in [0, 1).
-
-    Returns
-    -------
-    xarray.DataArray
-        Pseudo-acceleration (level, axis, period) [m/s2] of the mean motion of each level's nodes.
-
-    Raises
-    ------
-    MotionError
-        If a period or the damping is out of its bounds.
-    ValueError
-        If the records are not equally spaced in time, or are the first and the last step only.
-
-    Examples
-    --------
-    >>> from frames import floor_spectrum, time_history
-    >>> from frames.demo import example
-    >>> frame, pulse = example(1.0, storeys=2)
-    >>> data = time_history(frame, pulse)
-    >>> spectrum = floor_spectrum(data, periods=[0.1, 0.5, 1.0])
-    >>> spectrum.dims
-    ('level', 'axis', 'period')
-    """
-    require_steps(data, "floor_spectrum")
-    return spectra_of(floor_acceleration(data), periods, damping)
-
-
-def spectra_of(motions: xr.DataArray, periods: npt.ArrayLike, damping: float) -> xr.DataArray:
-    """Return the spectra (level, axis, period) of motions (time, level, axis): `floor_spectrum`."""
-    steps = np.diff(motions["time"].to_numpy())
-    if len(steps) == 0 or np.ptp(steps) > 1e-6 * steps.mean():
-        msg = "spectra need records equally spaced in time, at least two: run with a fixed record"
-        raise ValueError(msg)
-    moves = motions.transpose("level", "axis", "time")
-    values = [
-        [
-            response_spectrum(one, float(steps[0]), periods, damping)["pseudo_acceleration"]
-            for one in each
-        ]
-        for each in moves.to_numpy()
-    ]
-    return xr.DataArray(
-        np.asarray(values),
-        dims=("level", "axis", "period"),
-        coords={
-            "level": moves["level"],
-            "axis": moves["axis"],
-            "period": np.atleast_1d(np.asarray(periods, dtype=np.float64)),
-        },
-        attrs={"units": "m/s2", "long_name": "pseudo-acceleration", "damping": damping},
-    )
-
-
 def uplift_gap(data: xr.Dataset) -> xr.DataArray:
     """Return how far the bearings' contacts are open.
 
@@ -352,7 +283,7 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
         data[name].transpose("time", "bearing").to_numpy()
         for name in ("interface_slip_size", "axial_force")
     )
-    open_by = on_arrays(open_gap)(
+    open_by = open_gap(
         across[..., 0], across[..., 1], moves[..., 2], data["length"].to_numpy(), slip, load
     )
     return xr.DataArray(
@@ -381,8 +312,8 @@ def centre_shift(data: xr.Dataset) -> FloatArray:
     ends = [data["bearing_node"].isel(end=end).to_numpy() for end in (0, 1)]
     levers = [data["lever"].sel(surface=name).to_numpy() for name in ("bottom", "top")]
     # C1 = x_i + l_1 e_i and C2 = x_j - l_2 e_j, with the plates' axes e = (r_y, -r_x, 1)
-    x = on_arrays(by_tilt)(*levers, *(-turns[:, place, 1] for place in ends))
-    y = on_arrays(by_tilt)(*levers, *(turns[:, place, 0] for place in ends))
+    x = by_tilt(*levers, *(-turns[:, place, 1] for place in ends))
+    y = by_tilt(*levers, *(turns[:, place, 0] for place in ends))
     return np.stack([x, y], axis=-1)
 
 

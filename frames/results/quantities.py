@@ -1,6 +1,6 @@
 """The quantities of time histories: the one table that says what is known of each.
 
-A quantity is added by its row here and its formula in `frames.kernels.quantities`
+A quantity is added by its row here and its formula in `frames.formulas`
 (docs/extending.md).
 """
 
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from frames.bundles.peak_data import LOADED, PRESSED
-from frames.kernels.quantities import (
+from frames.formulas import (
     is_lifted,
     opposite,
     size,

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from frames.recording.dataset import Common
     from frames.recording.force_rows import ForceMaps
     from frames.recording.reduction import PeakState
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element import Features
 
 MOST_BYTES = 64e6

@@ -9,8 +9,7 @@ from frames.bundles.run_data import CORRECTED
 from frames.recording.recording import number_of_steps
 from frames.solve.rigid import LARGEST_STEP
 from lir_element.argument_checks import require_between, require_choice, require_positive
-from lir_element.device.features import Features
-from lir_element.element import ALL_LEVELS
+from lir_element.device.features import ALL_LEVELS, Features
 from lir_element.results.dataset import require_on_failure
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from lir_element.units import STANDARD_GRAVITY
 if TYPE_CHECKING:
     import xarray as xr
 
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
 
 PROMISE = 1e-3
 """Largest share of the input by which the energy balance of a completed run may be open [-]."""

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from frames.recording.recording import Recording
     from frames.results.peak_response import Extreme
     from frames.solve.analysis import PreparedFrame
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element.layout import Records
 
 BUFFER = 64e6

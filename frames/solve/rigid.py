@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
     from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element.bundles.rigid_data import RigidInput, RigidRun, RigidSetup
 
 LARGEST_STEP = 0.005

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from frames.results.findings import Findings
     from frames.solve.analysis import PreparedFrame
     from frames.solve.options import Options
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element.device.features import Features
 
 _FORCE_TOLERANCE = 1e-7  # of the total weight

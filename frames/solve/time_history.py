@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from frames.recording.recording import Recording
     from frames.results.peak_response import Extreme
     from frames.solve.outcome import Outcome
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
 
 
 def time_history(

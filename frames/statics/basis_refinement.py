@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.model.frame_data import FrameData
     from frames.results.peak_response import Extreme
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element.device.features import Features
 
     Reached = Mapping[str, Extreme]

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from frames._types import FloatArray
-    from frames.assembly.basis import Basis
+    from frames.assembly.coordinates import Basis
     from frames.assembly.system import NonlinearParts, System
     from frames.bundles.nonlinear_data import NonlinearElements
     from lir_element.bundles.contact_data import Contacts

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -18,119 +17,24 @@ from frames.assembly.assemble import (
     member_axial_forces,
     node_geometric_stiffness,
 )
-from frames.assembly.basis import Basis, build_basis
+from frames.assembly.basis import build_basis
 from frames.assembly.nonlinear import with_axial_forces
-from frames.assembly.supports import LoadPath, load_path
+from frames.assembly.supports import load_path
 from frames.bundles.nonlinear_data import parts_arrays
 from frames.model import sanity_checks
 from frames.model.frame_data import FrameData
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.equilibrium import find_equilibrium, put_at_rest
-from frames.statics.sanity_checks import held_periods, sanity_warnings
+from frames.statics.gravity_state import GravityState, expand
 from frames.statics.springs import first_displacement, have_same_springs
 from lir_element.argument_checks import require_choice, require_type
-from lir_element.element import LEVELS
-from lir_element.tables import html_table
+from lir_element.device.features import LEVELS
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
-    from frames.assembly.assemble import System
-    from frames.bundles.model_data import ReducedModel
-    from frames.bundles.nonlinear_data import NonlinearElements
-    from frames.bundles.run_data import IntegrationState
+    from frames.assembly.coordinates import Basis
+    from frames.assembly.system import System
     from lir_element import Features
-    from lir_element.bundles.contact_data import Contacts
-
-
-@dataclass(frozen=True, repr=False)
-class GravityState:
-    """A frame in equilibrium under its permanent loads.
-
-    Attributes
-    ----------
-    system : System
-        Matrices over the free degrees of freedom.
-    linear : ndarray, (n_free,)
-        Displacements under permanent loads on linear springs in place of bearings.
-    geometric : csr_array, (n_free, n_free)
-        Geometric stiffness of the members under gravity.
-    node_geometric : csr_array, (6 n_nodes, 6 n_nodes)
-        The same over all nodal displacements.
-    member_forces : ndarray, (n_members,)
-        The members' axial forces it was made with, tension positive [N].
-    basis : Basis
-        The frame in bearing coordinates.
-    model, run : ReducedModel, IntegrationState
-        What the kernels work on; `run` holds the equilibrium as committed state.
-    contacts : Contacts or None
-        Sliders of the bearings at the level 'contact'.
-    displacement : ndarray, (n_free,)
-        Displacements q under gravity.
-    axial_forces : ndarray, (n_bearings,)
-        Axial forces of the bearings, compression positive [N].
-    seconds : float
-        Time of computation, compilation aside [s].
-    load_path : LoadPath
-        What the bearings carry of the weight above them, and what supports take past them.
-    parts : NonlinearElements or None
-        Links and hinged members, at rest.
-
-    Examples
-    --------
-    >>> from frames import gravity, lumped_mass
-    >>> from frames.demo import bearing_for
-    >>> state = gravity(lumped_mass(bearing_for(2000e3), mass=204e3))
-    >>> str(state).split(";")[0]
-    'GravityState: 2001 kN on 1 bearings, 2001 to 2001 kN each'
-    """
-
-    system: System
-    linear: FloatArray
-    geometric: SparseMatrix
-    node_geometric: SparseMatrix
-    member_forces: FloatArray
-    basis: Basis
-    model: ReducedModel
-    run: IntegrationState
-    contacts: Contacts | None
-    displacement: FloatArray
-    axial_forces: FloatArray
-    seconds: float
-    load_path: LoadPath
-    parts: NonlinearElements | None
-
-    @cached_property
-    def part_shift(self) -> FloatArray:
-        """How forces of nonlinear parts displace what has no mass, (n_free, m) [m/N, ...]."""
-        return self.basis.shift(self.system.part_rows.T.toarray())
-
-    @property
-    def held_periods(self) -> tuple[float, ...]:
-        """Periods of the structure with its bearings and their plates held, longest first [s]."""
-        return held_periods(self.basis.omega2, self.basis.mass_e)
-
-    @property
-    def doubts(self) -> tuple[str, ...]:
-        """What is strange about the model, a sentence each: lost loads, numbers in other units."""
-        found = sanity_warnings(self.system, self.axial_forces, self.held_periods)
-        lost = self.load_path.sentence()
-        return (lost, *found) if lost else found
-
-    def __repr__(self) -> str:
-        """Return sizes and axial forces on one line."""
-        low, high = 1e-3 * self.axial_forces.min(), 1e-3 * self.axial_forces.max()
-        return (
-            f"GravityState: {1e-3 * self.axial_forces.sum():.4g} kN on {len(self.axial_forces)} "
-            f"bearings, {low:.4g} to {high:.4g} kN each; {len(self.displacement)} degrees of "
-            f"freedom, {len(self.basis.omega2)} fixed-base modes"
-        )
-
-    def _repr_html_(self) -> str:
-        rows = [
-            (name, f"{1e-3 * force:.4g} kN")
-            for (name, _, _, _), force in zip(self.system.bearings, self.axial_forces, strict=True)
-        ]
-        return html_table(repr(self), rows, ("bearing", "axial force"))
 
 
 def gravity(
@@ -316,9 +220,3 @@ def levels_of(names: tuple[str, ...], level: str | Mapping[str, str]) -> dict[st
     for value in given.values():
         require_choice("level of a bearing", value, LEVELS)
     return {name: given.get(name, "pendulum") for name in names}
-
-
-def expand(basis: Basis, b: FloatArray, e: FloatArray, *, offset: bool = True) -> FloatArray:
-    """Return displacements q (..., n_free) of the free DOFs from b (..., n_b) and eta."""
-    q: FloatArray = b @ basis.expand_b.T + e @ basis.expand_e.T
-    return q + basis.offset if offset else q

@@ -22,7 +22,7 @@ from frames.statics.sanity_checks import (
 )
 from lir_element.device.sanity_checks import sanity_warnings as device_doubts
 from lir_element.errors import AnalysisError
-from lir_element.tables import html_table, text_table
+from lir_element.texts import html_table, text_table
 
 if TYPE_CHECKING:
     from frames.model.frame_data import FrameData

@@ -14,10 +14,11 @@ from frames.assembly.ritz import RitzSpace
 from frames.model.components import bearing_axial_stiffness
 from frames.model.frame_data import FrameData
 from frames.statics.blas_threads import blas_threads_for
-from frames.statics.gravity import GravityState, at_rest, gravity, prepare
+from frames.statics.gravity import at_rest, gravity, prepare
+from frames.statics.gravity_state import GravityState
 from frames.statics.springs import spring_matrix
 from lir_element.argument_checks import require_choice, require_type
-from lir_element.tables import html_table, text_table
+from lir_element.texts import html_table, text_table
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix

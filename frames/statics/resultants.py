@@ -28,7 +28,7 @@ from frames.statics.springs import spring_matrix
 if TYPE_CHECKING:
     from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
     from frames.bundles.run_data import Output
-    from frames.statics.gravity import GravityState
+    from frames.statics.gravity_state import GravityState
     from lir_element.layout import Records
 
 FASTEST = 1e-3

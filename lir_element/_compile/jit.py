@@ -96,11 +96,6 @@ cannot return: a bundle of records.
 """
 
 
-def on_arrays(formula: Callable[..., float]) -> Callable[..., Any]:
-    """Return the Python of a kernel that is a formula of numbers: it takes arrays as well."""
-    return cast("Callable[..., Any]", getattr(formula, "py_func", formula))
-
-
 def _ours(dispatcher: Any) -> bool:
     return isinstance(getattr(dispatcher, "_cache", None), KernelCache)
 

@@ -1,4 +1,4 @@
-"""Bundle of records of bearings at the level 'contact', as kernels read it."""
+"""Records of bearings at the start, and their bundle at the level 'contact' as kernels read it."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from lir_element.device.friction import least_coefficients
 from lir_element.device.sliders import face_records, initial_bodies, slider_record
-from lir_element.layout import SCRATCH, SEARCH, Records, Words
+from lir_element.layout import HEAT_PARTS, SCRATCH, SEARCH, STATE, Floats, Records, Words
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -60,6 +61,27 @@ class BodyStep(NamedTuple):
     search_old: Any  # record of SEARCH; None in a rigid-body run
     search_new: Any
     scratch: Any  # record of SCRATCH
+
+
+def initial_state(props: Records) -> Records:
+    """Return the state records (n,) of undeformed, unloaded bearings with properties `props`."""
+    state = np.zeros(len(props), dtype=STATE)
+    state["axis"][:, 2] = 1.0
+    state["axis_top"][:, 2] = 1.0
+    string = props["length"] + props["fixed_load"] / props["axial_stiffness"]
+    state["string"] = string
+    state["centres"][:, 2] = -string
+    state["friction_coefficient"] = least_coefficients(props)
+    state["temperature"] = props["initial_temperature"][:, None]
+    return state
+
+
+def heat_parts(props: Records) -> Floats:
+    """Return the parts of the temperatures of bearings with properties `props` (n,), at the start.
+
+    Shapes: result (n, 3, HEAT_PARTS).
+    """
+    return np.zeros((len(props) if props["heats"].any() else 0, 3, HEAT_PARTS))
 
 
 def contact_arrays(

@@ -15,7 +15,7 @@ from lir_element.device.friction import as_laws
 from lir_element.device.specification import Specification
 from lir_element.fields import check_numbers
 from lir_element.layout import FRICTION_TABLE, PROPS, PROPS_FIELDS, Records
-from lir_element.tables import html_table, text_table
+from lir_element.texts import html_table, text_table
 from lir_element.units import STANDARD_GRAVITY as STANDARD_GRAVITY
 
 _FACTORS = (

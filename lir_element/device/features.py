@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -11,6 +11,12 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from lir_element.layout import Records
+
+Level = Literal["pendulum", "contact"]
+AnyLevel = Literal["pendulum", "contact", "rigid_body"]
+LEVELS = ("pendulum", "contact")
+ALL_LEVELS = (*LEVELS, "rigid_body")
+"""Levels of fidelity: of an element, and of a whole analysis."""
 
 
 @dataclass(frozen=True, kw_only=True)

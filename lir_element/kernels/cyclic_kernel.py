@@ -13,7 +13,7 @@ from lir_element.kernels.pendulum.trial import has_no_state
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import Contacts
-    from lir_element.bundles.rig_data import RigRun
+    from lir_element.bundles.rigid_data import RigRun
 
 _OK = int(RunStatus.OK)
 _NEWTON_FAILED = int(RunStatus.NEWTON_FAILED)

@@ -92,14 +92,6 @@ def steepest(p: Props, k: int) -> float:
     return p.friction_drop[k] * p.friction_rate[k]
 
 
-@kernel
-def fill_left(drop: Floats, rate: Floats, tables: Floats, speeds: Floats, out: Floats) -> None:
-    """Fill `out` (n, m) with what `speeds` (n, m) leave of the drop of m surfaces."""
-    for i in range(speeds.shape[0]):
-        for j in range(speeds.shape[1]):
-            out[i, j], _ = left_of_drop(drop[j], rate[j], tables[j], speeds[i, j])
-
-
 _FADED = 1e-15  # K
 
 

@@ -11,10 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lir_element.bundles.contact_data import contact_arrays
-from lir_element.device.bearing import STANDARD_GRAVITY
+from lir_element.bundles.contact_data import contact_arrays, initial_state
 from lir_element.device.sliders import face_records, initial_bodies
-from lir_element.element import initial_state
 from lir_element.errors import RunStatus
 from lir_element.layout import BODIES, HEAT_PARTS, STATE, STATE_BY_NAME, WORK
 from lir_element.opensees.block.layout import (
@@ -25,6 +23,7 @@ from lir_element.opensees.block.layout import (
     STATE_WORDS,
 )
 from lir_element.opensees.block.responses import bearing_messages, host_responses
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,7 +9,7 @@ from typing import Literal
 
 from lir_element.argument_checks import listed, require_choice, require_positive
 from lir_element.device.bearing import LIRBearing
-from lir_element.element import LEVELS, Level
+from lir_element.device.features import LEVELS, Level
 from lir_element.opensees.base_nodes import (
     BASE_ROTATIONS,
     bearings_by_node,

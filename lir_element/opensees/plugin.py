@@ -12,7 +12,7 @@ import numpy as np
 
 from lir_element.argument_checks import require_choice
 from lir_element.device.bearing import LIRBearing
-from lir_element.element import LEVELS, Level
+from lir_element.device.features import LEVELS, Level
 from lir_element.opensees.connection import add_host_element, restart_reads, signals_held
 from lir_element.opensees.element_memory import ElementMemory, entries_of
 from lir_element.opensees.in_process.in_process_element import InProcessElement

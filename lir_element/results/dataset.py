@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from lir_element._compile.jit import on_arrays
 from lir_element._version import package_version
 from lir_element.errors import (
     AnalysisError,
@@ -17,10 +16,9 @@ from lir_element.errors import (
     RunStatus,
     failure_message,
 )
-from lir_element.kernels.derived import in_plan, in_space
+from lir_element.formulas import in_plan, in_space
 from lir_element.layout import PROPS_BY_NAME
-from lir_element.results.deferred import deferred
-from lir_element.results.other_arrays import spare
+from lir_element.results.deferred import deferred, spare
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -118,7 +116,7 @@ def bearing_variables(
         ),
         "interface_slip_size": labelled(
             each,
-            of(lambda: on_arrays(in_space)(slip[..., 0], slip[..., 1], slip[..., 2])),
+            of(lambda: in_space(slip[..., 0], slip[..., 1], slip[..., 2])),
             "m",
             "size of the interface slip",
         ),
@@ -127,7 +125,7 @@ def bearing_variables(
         ),
         "interface_force": labelled(
             each,
-            of(lambda: on_arrays(in_plan)(passed[..., 0], passed[..., 1])),
+            of(lambda: in_plan(passed[..., 0], passed[..., 1])),
             "N",
             "force that the interface passes in its plane",
         ),

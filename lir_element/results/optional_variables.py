@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from lir_element._compile.jit import on_arrays
 from lir_element.device.sliders import interface_height
-from lir_element.kernels.derived import eccentricity, resultant_offset
+from lir_element.formulas import eccentricity, resultant_offset
 from lir_element.results.dataset import SURFACES, labelled, rims_give_way
 
 if TYPE_CHECKING:
@@ -79,12 +78,12 @@ def interface_eccentricity(props: Records, states: Records) -> Floats:
         states["friction_force"][..., 0, :],
         states["slip"],
     )
-    by_forces: Floats = on_arrays(eccentricity)(
+    by_forces: Floats = eccentricity(
         states["axial_force"],
         props["axial_floor"],
         props["radius"][:, 0],
         interface_height(props["radius"], props["slider_radius"], slider_height),
         *(vector[..., k] for vector in vectors for k in range(vector.shape[-1])),
     )
-    larger: Floats = on_arrays(resultant_offset)(by_forces, states["offset"])
+    larger: Floats = resultant_offset(by_forces, states["offset"])
     return larger

@@ -10,16 +10,15 @@ import numpy as np
 import xarray as xr
 
 from lir_element.argument_checks import require_choice, require_positive, unreal
-from lir_element.bundles.contact_data import contact_arrays
-from lir_element.bundles.rig_data import rig_run
-from lir_element.bundles.rigid_data import FIRST_STEP, rigid_input, rigid_run, rigid_setup
-from lir_element.device.bearing import STANDARD_GRAVITY
+from lir_element.bundles.contact_data import contact_arrays, heat_parts, initial_state
+from lir_element.bundles.rigid_data import FIRST_STEP, rig_run, rigid_input, rigid_run, rigid_setup
 from lir_element.device.bearing_checks import (
     AT_RIGID_BODY,
     DesignWarning,
     require_constant_friction,
 )
-from lir_element.element import ALL_LEVELS, AnyLevel, heat_parts, initial_state, limit_detail
+from lir_element.device.features import ALL_LEVELS, AnyLevel
+from lir_element.element import limit_detail
 from lir_element.errors import RunStatus
 from lir_element.interruptible import interruptible, ready
 from lir_element.kernels.cyclic_kernel import begin_path, follow_path
@@ -33,13 +32,13 @@ from lir_element.results.dataset import (
     require_on_failure,
 )
 from lir_element.results.optional_variables import optional_variables
-from lir_element.units import meant
+from lir_element.units import STANDARD_GRAVITY, meant
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from lir_element.bundles.contact_data import Contacts
-    from lir_element.bundles.rig_data import RigRun
+    from lir_element.bundles.rigid_data import RigRun
     from lir_element.device.bearing import LIRBearing
     from lir_element.layout import Floats, Records
 

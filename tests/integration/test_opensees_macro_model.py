@@ -12,8 +12,8 @@ pytest.importorskip("openseespy")
 
 from frames import GroundMotion
 from lir_element import DesignWarning, VelocityFriction
-from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import macro_model, opensees
+from lir_element.units import STANDARD_GRAVITY
 from tests.patience import patience
 from validation.claims import static_test
 from validation.claims.opensees_macro_model import (

@@ -7,7 +7,7 @@ import pytest
 
 from frames import GroundMotion, lumped_mass, time_history
 from lir_element import CoulombFriction, VelocityFriction
-from lir_element.element import Level
+from lir_element.device.features import Level
 from tests.scenes import small_bearing
 
 COULOMB = CoulombFriction(0.066)

@@ -18,7 +18,7 @@ from frames import (
     time_history,
 )
 from frames.assembly.assemble import assemble
-from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
+from frames.library.models import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from frames.model.axes import to_global
 from lir_element.opensees import bearing_element
 from tests.scenes import simple_bearing as bearing

@@ -25,7 +25,7 @@ from frames.assembly.assemble import (
 )
 from frames.assembly.solvers import solve_positive
 from frames.demo import bearing_for
-from frames.frame import Frame
+from frames.io import Frame
 from frames.library.models import moment_frame
 from frames.model.sections import Section
 from frames.statics.gravity import gravity

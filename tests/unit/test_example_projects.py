@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from frames.command.app import app
 from frames.design import ProjectError, code_named, equivalent_linear
-from frames.design.codes.bounds import with_property_bounds
+from frames.design.codes.isolation import with_property_bounds
 from frames.design.codes.registry import known_codes
 from frames.design.devices.capacity import engagement_checks
 from frames.design.devices.device import device_checks

@@ -12,7 +12,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames import Frame, ModelError, gravity
-from frames._remedies import in_project_file
+from frames._errors import in_project_file
 from frames.demo import bearing_for
 from frames.exchange.links import SLIDER_HEIGHT
 from frames.model.laws import Bilinear, Gap

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from frames import io
 from tests.patience import fresh
 
 PACKAGES = [
@@ -66,6 +67,12 @@ def defined(node: ast.AST, prefix: str = "") -> Iterator[tuple[str, ast.Function
             yield from defined(child, f"{name}.<locals>.")
         else:
             yield from defined(child, f"{name}." if isinstance(child, ast.ClassDef) else prefix)
+
+
+def test_frames_read_and_write_by_functions_of_their_module() -> None:
+    for program in ("etabs", "opensees", "sap2000"):
+        assert getattr(io.Frame, f"from_{program}") is getattr(io, f"read_{program}")
+    assert (io.Frame.to_etabs, io.Frame.to_sap2000) == (io.write_etabs, io.write_sap2000)
 
 
 def test_internal_functions_are_described_in_prose() -> None:

@@ -34,7 +34,7 @@ from lir_element import (
     PressureDependence,
     cyclic_test,
 )
-from lir_element.element import heat_parts, initial_state
+from lir_element.bundles.contact_data import heat_parts, initial_state
 from lir_element.kernels.friction_law import covered, heat_up
 from tests.refusals import refused
 from tests.scenes import plain_pendulum

@@ -15,8 +15,9 @@ from numpy.testing import assert_allclose
 
 from frames._errors import ModelError
 from frames.assembly.assemble import System, assemble, member_axial_forces
-from frames.frame import Frame
-from frames.library.models import lumped_mass, moment_frame, shear_building
+from frames.io import Frame
+from frames.library.models import lumped_mass, moment_frame
+from frames.library.shear_buildings import shear_building
 from frames.model.components import bearing_axial_stiffness
 from frames.model.damping import ModalDamping, RayleighDamping
 from frames.model.sections import Section

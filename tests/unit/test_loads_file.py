@@ -12,7 +12,7 @@ from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.structure_statement import structure_rows
-from frames.model.plane_faces import fields_of
+from frames.model.axes import fields_of
 from tests.refusals import refused
 from tests.scenes import STICK
 from tests.unit.test_structure_file import GRID, MEMBERS, REST

@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from frames._errors import ModelError
-from frames.frame import Frame
+from frames.io import Frame
 from frames.model.components import bearing_axial_stiffness
 from frames.model.damping import ModalDamping, RayleighDamping
 from frames.model.sections import Section

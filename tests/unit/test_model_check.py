@@ -12,7 +12,7 @@ from scipy import sparse
 from frames.assembly import check
 from frames.assembly.assemble import assemble
 from frames.assembly.check import ModelError, free_motions
-from frames.frame import Frame
+from frames.io import Frame
 from frames.library.models import lumped_mass, moment_frame
 from frames.model.sections import Section
 from tests.refusals import refused

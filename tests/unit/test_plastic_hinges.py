@@ -15,7 +15,7 @@ from frames.assembly.nonlinear import BASIC, _hinges
 from frames.assembly.system import HINGE, STATE_SIZE, STRIDE
 from frames.kernels.hinges import hinged_member, place, surface, turn_hinges
 from frames.laws import PlasticHinge
-from frames.library.moment_frames import DEFAULT_BEAM, DEFAULT_COLUMN
+from frames.library.models import DEFAULT_BEAM, DEFAULT_COLUMN
 
 LENGTH = 3.5
 YIELD = 3.45e8  # Pa

@@ -51,6 +51,11 @@ def test_imports_leave_out_what_most_runs_do_without() -> None:
     assert out.stdout.strip() == "[]"
 
 
+def test_frames_are_described_and_results_read_without_a_compiler() -> None:
+    code = "import frames.io, frames.results.peaks, sys; print('numba' in sys.modules)"
+    assert fresh(code).stdout.strip() == "False"
+
+
 def told_by(code: str) -> str:
     """Return what a new process prints."""
     done = fresh(code)

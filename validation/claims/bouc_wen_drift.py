@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from frames._types import FloatArray
-    from lir_element.element import AnyLevel
+    from lir_element.device.features import AnyLevel
 
 CLAIM = Claim(
     "bouc_wen_drift",

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from lir_element import LIRBearing
-    from lir_element.element import AnyLevel
+    from lir_element.device.features import AnyLevel
 
 CLAIM = Claim(
     "newhall",

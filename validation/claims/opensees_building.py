@@ -22,7 +22,7 @@ from frames import (
     moment_frame,
     time_history,
 )
-from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
+from frames.library.models import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from lir_element import CoulombFriction, Features, LIRBearing
 from lir_element.opensees import builtin_element
 from validation.claims.opensees_causes import F_MAX, LARGE, SLIP, STEP, VERTICAL, Gap, Rung

@@ -14,8 +14,8 @@ import numpy as np
 
 from frames import GroundMotion, lumped_mass, time_history
 from lir_element import CoulombFriction, Features, LIRBearing, VelocityFriction
-from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import builtin_element
+from lir_element.units import STANDARD_GRAVITY
 from validation.opensees.runs import Track, lumped
 from validation.scenes import EXAMPLE_MASS, example_bearing
 

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
     from frames._types import FloatArray
     from lir_element import LIRBearing
-    from lir_element.element import Level
+    from lir_element.device.features import Level
 
 CLAIM = Claim(
     "opensees_element",

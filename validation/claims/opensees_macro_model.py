@@ -17,8 +17,8 @@ import numpy as np
 
 from frames import GroundMotion, lumped_mass, time_history
 from lir_element import cyclic_test
-from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import opensees
+from lir_element.units import STANDARD_GRAVITY
 from validation.claims.opensees_macro_runs import (
     SCENE_STEP,
     SCENES,

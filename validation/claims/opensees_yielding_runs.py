@@ -10,7 +10,7 @@ import numpy as np
 
 from frames import GroundMotion, moment_frame, shear_building, time_history
 from frames.laws import Bilinear, BoucWen, Gap, HertzGap, PlasticHinge
-from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
+from frames.library.models import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_element
 from validation.opensees.frames import Built, add_loads, build

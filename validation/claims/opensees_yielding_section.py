@@ -13,7 +13,7 @@ from frames.assembly.assemble import assemble
 from frames.bundles.nonlinear_data import STATE_SIZE
 from frames.kernels.hinges import hinged_member
 from frames.laws import PlasticHinge
-from frames.library.moment_frames import DEFAULT_COLUMN
+from frames.library.models import DEFAULT_COLUMN
 from validation.opensees.model import advance, empty_model, lead, solver, static_steps
 from validation.opensees.nonlinear import hinged_member as hinged_in_opensees
 from validation.opensees.nonlinear import plastic_rotations

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-    from lir_element.element import AnyLevel
+    from lir_element.device.features import AnyLevel
 
 CLAIM = Claim(
     "static_test",

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from frames import Frame, GroundMotion, gravity, lumped_mass, moment_frame, time_history
-from frames.library.moment_frames import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
+from frames.library.models import DEFAULT_BASE_BEAM, DEFAULT_BEAM, DEFAULT_COLUMN
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.opensees import bearing_element, builtin_element, macro_model, opensees
 from validation.claims.opensees_building import slender

@@ -18,8 +18,8 @@ import numpy as np
 
 from frames import lumped_mass, time_history
 from lir_element import CoulombFriction, Element
-from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import opensees
+from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.hard_cases import given_back, outcome, quiet
 from validation.measurements.hard_scenes import Case, impact, vertical
 from validation.opensees.trials import (

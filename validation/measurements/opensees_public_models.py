@@ -21,8 +21,8 @@ import numpy as np
 
 from frames import Frame, ModelWarning, energy_error, gravity, modes, time_history
 from lir_element import LIRBearing, VelocityFriction
-from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import bearing_response, isolate, opensees
+from lir_element.units import STANDARD_GRAVITY
 from validation.opensees.isolators import waves
 from validation.opensees.model import empty_model, gravity_analysis, permanent_loads, settle
 from validation.opensees.runs import respond

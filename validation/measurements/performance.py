@@ -38,11 +38,17 @@ from frames._jit import kernel
 from frames.laws import Bilinear, PlasticHinge
 from frames.risk import Campaign, latin_hypercube
 from lir_element import CoulombFriction, LIRBearing
-from lir_element.bundles.contact_data import Contacts, as_rows, contact_arrays
-from lir_element.device.bearing import STANDARD_GRAVITY
-from lir_element.element import Level, heat_parts, initial_state
+from lir_element.bundles.contact_data import (
+    Contacts,
+    as_rows,
+    contact_arrays,
+    heat_parts,
+    initial_state,
+)
+from lir_element.device.features import Level
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
 from lir_element.layout import WORK, Floats, Records, Words
+from lir_element.units import STANDARD_GRAVITY
 from validation.measurements.benchmark_models import Structure, strong
 from validation.page import FOLDER, render
 from validation.scenes import example_bearing

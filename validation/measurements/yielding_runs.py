@@ -31,7 +31,7 @@ from frames import (
 )
 from frames.demo import bearing_for, design, pacoima
 from frames.laws import Gap, PlasticHinge
-from frames.library.moment_frames import DEFAULT_BEAM, DEFAULT_COLUMN
+from frames.library.models import DEFAULT_BEAM, DEFAULT_COLUMN
 from frames.results.formulas import in_plan
 from lir_element.errors import AnalysisWarning
 from lir_element.units import STANDARD_GRAVITY

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from lir_element.device.bearing import STANDARD_GRAVITY
+from lir_element.units import STANDARD_GRAVITY
 from validation.opensees.model import (
     ABOVE,
     BELOW,

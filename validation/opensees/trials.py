@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.opensees import builtin_commands, builtin_element, macro_model, opensees
+from lir_element.units import STANDARD_GRAVITY
 from validation.opensees.model import (
     ABOVE,
     AXES,

@@ -12,8 +12,7 @@ from frames.design.calculation.rendering import quantity, scale, usual_unit
 from frames.design.calculation.standing import FROM_MEMORY, Standing
 from frames.design.calculation.trace import Trace
 from lir_element.argument_checks import as_number, require_choice, require_type
-from lir_element.tables import html_table, text_table
-from lir_element.texts import joined, worded
+from lir_element.texts import html_table, joined, text_table, worded
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -11,8 +11,8 @@ from frames.design._errors import CheckError
 from frames.design.calculation.check import Checks
 from frames.design.calculation.standing import PROJECT
 from frames.design.calculation.trace import Trace
-from frames.design.codes.bounds import ENDS, BoundName, PropertyBounds, with_property_bounds
-from frames.design.codes.isolation import Extremes, IsolationSystem
+from frames.design.codes.bounds import ENDS, BoundName, PropertyBounds
+from frames.design.codes.isolation import Extremes, IsolationSystem, with_property_bounds
 from frames.design.codes.outcome import BoundResult, EquivalentLinear
 from frames.design.codes.registry import (
     AnalysisMethod,

@@ -1,32 +1,20 @@
-"""Bounds of the friction of bearings: property modification factors, and what they are put on."""
+"""Bounds of the friction of bearings: factors of their properties, put together by each code."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal, TypeVar
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
 
 from frames.design._errors import CheckError
 from frames.design.calculation.trace import Trace
-from frames.design.codes.isolation import IsolationSystem
-from frames.design.codes.pendulum import FrictionPendulum
-from frames.frame import Frame
-from lir_element import LIRBearing
-from lir_element.argument_checks import (
-    require_choice,
-    require_non_negative,
-    require_type,
-    require_within,
-)
-from lir_element.texts import worded
+from lir_element.argument_checks import require_choice, require_non_negative, require_within
 
 if TYPE_CHECKING:
     Range = tuple[float, float]
     """A lower and an upper factor [-]."""
 
+
 BoundName = Literal["lower", "nominal", "upper"]
-Bounded = TypeVar("Bounded", LIRBearing, FrictionPendulum, IsolationSystem, Frame)
-Device = TypeVar("Device", bound=LIRBearing)
-Pendulum = TypeVar("Pendulum", bound=FrictionPendulum)
 ENDS: tuple[BoundName, BoundName] = ("lower", "upper")
 """Bounds that a design is made with."""
 _BOUNDS = ("lower", "nominal", "upper")
@@ -204,87 +192,6 @@ class PropertyBounds:
         return self.interface or self.friction
 
 
-def with_property_bounds(
-    what: Bounded,
-    bound: BoundName,
-    bounds: PropertyBounds,
-    *,
-    interface: BoundName | None = None,
-) -> Bounded:
-    """Return a bearing, a frame or an isolation system with friction at a bound.
-
-    Parameters
-    ----------
-    what : LIRBearing, FrictionPendulum, Frame or IsolationSystem
-        What has nominal friction; of a frame or system all bearings are taken.
-    bound : {"lower", "nominal", "upper"}
-        The bound.
-    bounds : PropertyBounds
-        The factors.
-    interface : {"lower", "nominal", "upper"}, optional
-        Bound of the interface friction, where another than that of the surfaces is wanted.
-
-    Returns
-    -------
-    LIRBearing, FrictionPendulum, Frame or IsolationSystem
-        A copy; a frame's name gets the bound.
-
-    Raises
-    ------
-    CheckError
-        If a word is no bound, or a bearing cannot be at it: friction of 1 and more, an interface
-        that slides before the surfaces do.
-
-    Examples
-    --------
-    >>> from lir_element import CoulombFriction
-    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
-    ...                      friction=CoulombFriction(0.05), interface_friction=0.15)
-    >>> bounds = PropertyBounds(PropertyModificationFactors(0.6, 1.8))
-    >>> upper = with_property_bounds(bearing, "upper", bounds)
-    >>> round(upper.frictions[0].f_max, 4), round(upper.interface_friction, 4)
-    (0.09, 0.27)
-    """
-    require_type("bounds", bounds, PropertyBounds, "PropertyBounds")
-    factor = bounds.friction.at(bound)
-    inner = bounds.interface_factors.at(bound if interface is None else interface)
-    try:
-        return _with_factors(what, factor, inner, bound)
-    except ValueError as cause:
-        msg = (
-            f"at the {bound} bound, friction times {factor:g} and interface friction times "
-            f"{inner:g}: {cause}; or give narrower factors (`bounds`)"
-        )
-        raise CheckError(msg) from cause
-
-
-def _with_factors(what: Bounded, factor: float, inner: float, bound: str) -> Bounded:
-    if isinstance(what, LIRBearing):
-        return _bearing(what, factor, inner)
-    if isinstance(what, FrictionPendulum):
-        return _pendulum(what, factor)
-    if isinstance(what, IsolationSystem):
-        found = (
-            _bearing(b, factor, inner) if isinstance(b, LIRBearing) else _pendulum(b, factor)
-            for b in what.bearings
-        )
-        return replace(what, bearings=tuple(found))
-    require_type("what", what, Frame, "an LIRBearing, a Frame or an IsolationSystem")
-    links = what.bearings.items()
-    devices = {name: _bearing(link.bearing, factor, inner) for name, link in links}
-    return what.with_bearings(devices, worded("{name}, {bound} bound", name=what.name, bound=bound))
-
-
-def _bearing(bearing: Device, factor: float, inner: float) -> Device:
-    bottom, top = bearing.frictions
-    laws = (bottom.scaled(factor), top.scaled(factor))
-    return replace(bearing, friction=laws, interface_friction=inner * bearing.interface_friction)
-
-
-def _pendulum(pendulum: Pendulum, factor: float) -> Pendulum:
-    return replace(pendulum, frictions=tuple(factor * mu for mu in pendulum.frictions))
-
-
 def _enter(t: Trace, name: str, pair: Range) -> None:
     low, high = require_around_one(name, pair)
     t.given(f"lambda_{name}_min", low)
@@ -300,3 +207,108 @@ def require_around_one(name: str, pair: Range) -> Range:
         for end, factor, within in ends
     )
     return low, high
+
+
+_SYMBOLS = {
+    "ageing": "age",
+    "contamination": "cont",
+    "temperature": "temp",
+    "wear": "wear",
+    "test": "test",
+    "specification": "spec",
+}
+
+
+def factors_by_source(**given: Any) -> PropertyModificationFactors:
+    """Return the product of factors by source: a code without a rule of its own.
+
+    Nothing is taken off for effects that are not at their worst at once, which is on the safe side.
+
+    Parameters
+    ----------
+    **given
+        Lower and upper factor [-] of ageing, contamination, temperature, wear, test (heating, rate
+        and cycling, by prototype tests), and specification.
+
+    Returns
+    -------
+    PropertyModificationFactors
+        The products, with their calculation.
+
+    Raises
+    ------
+    CheckError
+        If a factor is out of bounds, or a key belongs to the rule of another code.
+    """
+    _refuse_others(given, tuple(_SYMBOLS))
+    t, names = Trace(), []
+    for source, (low, high) in given.items():
+        require_around_one(source, (low, high))
+        name = _SYMBOLS[source]
+        t.given(f"lambda_{name}_min", low, note=source)
+        t.given(f"lambda_{name}_max", high, note=source)
+        names.append(name)
+    for end in ("max", "min"):
+        formula = " * ".join(f"lambda_{name}_{end}" for name in names) or "1"
+        t(f"lambda_{end}", f"{formula} * 1" if len(names) == 1 else formula, note="no reduction")
+    return PropertyModificationFactors(t.value("lambda_min"), t.value("lambda_max"), t)
+
+
+def factors_of_asce7(
+    *,
+    ageing: Range = _AS_IT_IS,
+    contamination: Range = _AS_IT_IS,
+    test: Range = _AS_IT_IS,
+    specification: Range = _AS_IT_IS,
+    full_scale_tests: bool = False,
+    **others: Any,
+) -> PropertyModificationFactors:
+    """Return the factors of ASCE 7-22, 17.2.8.4, of their sources."""
+    _refuse_others(others, ("ageing", "contamination", "test", "specification", "full_scale_tests"))
+    return PropertyModificationFactors.asce7(
+        ageing=ageing,
+        contamination=contamination,
+        test=test,
+        spec=specification,
+        full_scale_tests=full_scale_tests,
+    )
+
+
+def factors_of_en1998(
+    *,
+    ageing: Range = _AS_IT_IS,
+    temperature: Range = _AS_IT_IS,
+    contamination: Range = _AS_IT_IS,
+    wear: Range = _AS_IT_IS,
+    specification: Range = _AS_IT_IS,
+    importance_class: str = "II",
+    **others: Any,
+) -> PropertyModificationFactors:
+    """Return the factors of EN 1998-2, annexes J and JJ, of their sources."""
+    raising = {
+        "ageing": ageing,
+        "temperature": temperature,
+        "contamination": contamination,
+        "wear": wear,
+    }
+    _refuse_others(others, (*raising, "specification", "importance_class"))
+    for source, (low, high) in raising.items():
+        require_around_one(source, (low, high))
+        if low < 1.0:
+            msg = (
+                f"{source} = [{low:g}, {high:g}]: EN 1998-2 annex JJ has factors that raise "
+                f"friction, give [1, {high:g}]; what lowers it belongs into specification"
+            )
+            raise CheckError(msg)
+    return PropertyModificationFactors.en1998(
+        **{source: high for source, (_, high) in raising.items()},
+        spec=specification,
+        importance=importance_class,  # type: ignore[arg-type]  # checked there
+    )
+
+
+def _refuse_others(given: dict[str, Any], known: tuple[str, ...]) -> None:
+    odd = [name for name in given if name not in known]
+    if odd:
+        msg = f"{odd[0]} is no source of factors of this code: it has {', '.join(known)}"
+        raise CheckError(msg)

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, final
+from typing import NamedTuple, TypeAlias, TypeVar, cast, final
 
 import numpy as np
 
 from frames.design._errors import CheckError
 from frames.design.calculation.rendering import quantity
+from frames.design.codes.bounds import BoundName, PropertyBounds
 from frames.design.codes.pendulum import FrictionPendulum
+from frames.frame import Frame
 from frames.model.load_combinations import isolator_combinations
 from frames.statics.gravity import gravity
 from frames.statics.overturning import mass_centre, overturning_share
-from lir_element.argument_checks import require_positive, require_vector
+from lir_element import LIRBearing
+from lir_element.argument_checks import require_positive, require_type, require_vector
+from lir_element.texts import worded
 from lir_element.units import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    from frames.frame import Frame
-    from lir_element import LIRBearing
 
 AVERAGE = "average"
 """Name of the combination of loads under which bearings are stiff and rub as on average."""
@@ -240,3 +240,91 @@ class Extremes(NamedTuple):
 
     nominal: IsolationSystem
     upper: IsolationSystem
+
+
+Boundable: TypeAlias = LIRBearing | FrictionPendulum | IsolationSystem | Frame
+Bounded = TypeVar("Bounded", bound=Boundable)
+Device = TypeVar("Device", bound=LIRBearing)
+Pendulum = TypeVar("Pendulum", bound=FrictionPendulum)
+
+
+def with_property_bounds(
+    what: Bounded,
+    bound: BoundName,
+    bounds: PropertyBounds,
+    *,
+    interface: BoundName | None = None,
+) -> Bounded:
+    """Return a bearing, a frame or an isolation system with friction at a bound.
+
+    Parameters
+    ----------
+    what : LIRBearing, FrictionPendulum, Frame or IsolationSystem
+        What has nominal friction; of a frame or system all bearings are taken.
+    bound : {"lower", "nominal", "upper"}
+        The bound.
+    bounds : PropertyBounds
+        The factors.
+    interface : {"lower", "nominal", "upper"}, optional
+        Bound of the interface friction, where another than that of the surfaces is wanted.
+
+    Returns
+    -------
+    LIRBearing, FrictionPendulum, Frame or IsolationSystem
+        A copy; a frame's name gets the bound.
+
+    Raises
+    ------
+    CheckError
+        If a word is no bound, or a bearing cannot be at it: friction of 1 and more, an interface
+        that slides before the surfaces do.
+
+    Examples
+    --------
+    >>> from frames.design import PropertyModificationFactors
+    >>> from lir_element import CoulombFriction
+    >>> bearing = LIRBearing(radius=0.75, slider_height=0.085, slider_radius=0.08, capacity=0.175,
+    ...                      friction=CoulombFriction(0.05), interface_friction=0.15)
+    >>> bounds = PropertyBounds(PropertyModificationFactors(0.6, 1.8))
+    >>> upper = with_property_bounds(bearing, "upper", bounds)
+    >>> round(upper.frictions[0].f_max, 4), round(upper.interface_friction, 4)
+    (0.09, 0.27)
+    """
+    require_type("bounds", bounds, PropertyBounds, "PropertyBounds")
+    factor = bounds.friction.at(bound)
+    inner = bounds.interface_factors.at(bound if interface is None else interface)
+    try:
+        return cast("Bounded", _with_factors(what, factor, inner, bound))
+    except ValueError as cause:
+        msg = (
+            f"at the {bound} bound, friction times {factor:g} and interface friction times "
+            f"{inner:g}: {cause}; or give narrower factors (`bounds`)"
+        )
+        raise CheckError(msg) from cause
+
+
+def _with_factors(what: Boundable, factor: float, inner: float, bound: str) -> Boundable:
+    if isinstance(what, LIRBearing):
+        return _bearing(what, factor, inner)
+    if isinstance(what, FrictionPendulum):
+        return _pendulum(what, factor)
+    if isinstance(what, IsolationSystem):
+        found = (
+            _bearing(b, factor, inner) if isinstance(b, LIRBearing) else _pendulum(b, factor)
+            for b in what.bearings
+        )
+        return replace(what, bearings=tuple(found))
+    require_type("what", what, Frame, "an LIRBearing, a Frame or an IsolationSystem")
+    links = what.bearings.items()
+    devices = {name: _bearing(link.bearing, factor, inner) for name, link in links}
+    return what.with_bearings(devices, worded("{name}, {bound} bound", name=what.name, bound=bound))
+
+
+def _bearing(bearing: Device, factor: float, inner: float) -> Device:
+    bottom, top = bearing.frictions
+    laws = (bottom.scaled(factor), top.scaled(factor))
+    return replace(bearing, friction=laws, interface_friction=inner * bearing.interface_friction)
+
+
+def _pendulum(pendulum: Pendulum, factor: float) -> Pendulum:
+    return replace(pendulum, frictions=tuple(factor * mu for mu in pendulum.frictions))

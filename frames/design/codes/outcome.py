@@ -10,7 +10,7 @@ from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Checks
 from frames.design.calculation.rendering import quantity
 from frames.design.calculation.trace import Trace
-from lir_element.tables import html_table, text_table
+from lir_element.texts import html_table, text_table
 
 if TYPE_CHECKING:
     import pandas as pd

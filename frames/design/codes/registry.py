@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, cast, runtime_checkable
 
 from frames.design._errors import CheckError
 from frames.design.calculation.standing import FROM_MEMORY, Standing
-from frames.design.codes.factor_sources import factors_by_source
+from frames.design.codes.bounds import factors_by_source
 from frames.design.codes.history_rules import LOADS_OF_ASCE, HistoryRules, LoadRule
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest, no_tests
 from frames.design.hazard.code_rules import (

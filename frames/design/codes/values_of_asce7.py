@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from frames.design.codes.bounds import factors_of_asce7
 from frames.design.codes.code_values import (
     BNBC,
     E031,
@@ -16,7 +17,6 @@ from frames.design.codes.code_values import (
     common,
     yours,
 )
-from frames.design.codes.factor_sources import factors_of_asce7
 from frames.design.codes.history_rules import LOADS_OF_ASCE, MCE_R, ActionLevel, HistoryRules
 from frames.design.codes.prototype_programme import AcceptanceRule
 from frames.design.codes.registry import NO_LIMITS, ExampleProject, RimRule, SpectrumKey

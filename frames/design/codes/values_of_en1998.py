@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, Literal
 
+from frames.design.codes.bounds import factors_of_en1998
 from frames.design.codes.code_values import (
     NO_CODE,
     NTC,
@@ -14,7 +15,6 @@ from frames.design.codes.code_values import (
     common,
     yours,
 )
-from frames.design.codes.factor_sources import factors_of_en1998
 from frames.design.codes.history_rules import HistoryRules, LoadRule, fixed_combinations
 from frames.design.codes.prototype_programme import AcceptanceRule
 from frames.design.codes.registry import (

@@ -16,8 +16,7 @@ from frames._types import FloatArray
 from frames.design.hazard import spectral_shapes as sh
 from frames.design.hazard.code_rules import damping_factor, known_names
 from lir_element.argument_checks import require_between, require_positive
-from lir_element.tables import html_table
-from lir_element.texts import worded
+from lir_element.texts import html_table, worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

@@ -16,8 +16,7 @@ from frames.design.hazard.motion_measures import motion_measures, pair_spectrum
 from frames.design.hazard.scaling import Scaling
 from frames.motion.ground_motion import GroundMotion
 from lir_element.argument_checks import require_choice, require_type
-from lir_element.tables import html_table
-from lir_element.texts import joined, worded
+from lir_element.texts import html_table, joined, worded
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

@@ -12,8 +12,9 @@ from frames.batch.runs import BOUND, HAZARD, MASS_SHIFT, Runs
 from frames.batch.time_histories import time_histories
 from frames.design._errors import CheckError
 from frames.design.calculation.check import Bound, Check, Checks
-from frames.design.codes.bounds import BoundName, PropertyBounds, with_property_bounds
+from frames.design.codes.bounds import BoundName, PropertyBounds
 from frames.design.codes.history_rules import HistoryRules
+from frames.design.codes.isolation import with_property_bounds
 from frames.design.codes.registry import code_named
 from frames.design.devices.limits import DesignLimits
 from frames.design.histories.bound_checks import BoundChecks

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.histories.eccentricity import Case
-    from frames.frame import Frame
+    from frames.io import Frame
     from lir_element import LIRBearing
 
 

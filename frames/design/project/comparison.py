@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from frames.batch.cases import BatchProgress
     from frames.design.project.check_register import Preliminary
     from frames.design.project.inputs import ProjectInputs
-    from frames.frame import Frame
+    from frames.io import Frame
 
 OURS, PLAIN = "LIR-DCFP", "DCFP"
 

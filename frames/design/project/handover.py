@@ -8,8 +8,9 @@ import numpy as np
 import pandas as pd
 
 from frames._errors import ModelError
-from frames.design.codes.bounds import with_property_bounds
+from frames.design.codes.isolation import with_property_bounds
 from frames.exchange.pendulum_link import pendulum_link
+from frames.io import write_etabs, write_sap2000
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -69,9 +70,9 @@ def handed_over(
 def _written(frame: Frame, result: BoundResult, program: Program, folder: Path) -> str:
     # The model with links at the displacement of this bound; a line on it.
     path = folder / f"model-{result.bound}.{'e2k' if program == 'etabs' else 's2k'}"
-    write = frame.to_etabs if program == "etabs" else frame.to_sap2000
+    write = write_etabs if program == "etabs" else write_sap2000
     try:
-        write(path, displacement=result.displacement)
+        write(frame, path, displacement=result.displacement)
     except ModelError as cause:
         return f"{path.name} is not written: {cause}"
     return f"{path.name}: links at {1e3 * result.displacement:.1f} mm"

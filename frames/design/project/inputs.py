@@ -9,7 +9,7 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
-from frames._remedies import in_project_file
+from frames._errors import in_project_file
 from frames.assembly.assemble import assemble
 from frames.design._errors import ProjectError
 from frames.design.codes.bounds import PropertyBounds, PropertyModificationFactors
@@ -34,8 +34,8 @@ from frames.design.project.source_files import RunningScript, SourceFiles, tell
 from frames.design.project.structure_loads import BuildingLoads, loads_of
 from frames.design.project.structure_plan import building_frame
 from frames.design.sizing.target import INTERFACE_PRESSURE, DesignTarget
-from frames.frame import Frame
-from frames.library.models import shear_building
+from frames.io import Frame
+from frames.library.shear_buildings import shear_building
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.argument_checks import shown
 

@@ -11,7 +11,7 @@ from frames._errors import ModelError, MotionError
 from frames.batch.runs import BOUND, HAZARD, MASS_SHIFT, Runs, tagged
 from frames.batch.time_histories import time_histories
 from frames.design._errors import ProjectError
-from frames.design.codes.bounds import with_property_bounds
+from frames.design.codes.isolation import with_property_bounds
 from frames.design.histories.eccentricity import WAYS, cases_of
 from frames.design.histories.suite import stopped_in
 from frames.recording.recording import Recording
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from frames.design.histories.eccentricity import Case
     from frames.design.project.check_register import Preliminary
     from frames.design.project.inputs import ProjectInputs
-    from frames.frame import Frame
+    from frames.io import Frame
     from frames.motion.ground_motion import GroundMotion
 
 _WATCHED = ("displacement", "base_shear", "rim_force", "slip")

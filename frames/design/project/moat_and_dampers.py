@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from frames.design.codes.registry import DesignCode
     from frames.design.histories.eccentricity import Case
     from frames.design.project.schema_bearing import BearingType, DamperTable, MoatTable
-    from frames.frame import Frame
+    from frames.io import Frame
     from lir_element import LIRBearing
 
 

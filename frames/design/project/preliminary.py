@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
     from frames.design.project.inputs import ProjectInputs
-    from frames.frame import Frame
+    from frames.io import Frame
 
 
 def preliminary(parts: ProjectInputs) -> Preliminary:

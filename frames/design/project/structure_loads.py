@@ -11,15 +11,14 @@ from pydantic import Field, model_validator
 from frames._errors import ModelError
 from frames.design.project.derived import Table
 from frames.design.project.quantities import AreaLoad, LineLoad, NotNegative, Ratio
-from frames.library.building_plan import level_name
-from frames.library.moment_frames import DEFAULT_BASE_DEPTH
+from frames.library.building_plan import DEFAULT_BASE_DEPTH, level_name
+from frames.model.axes import fields_of
 from frames.model.load_combinations import applied_loads, load_masses
-from frames.model.plane_faces import fields_of
 
 if TYPE_CHECKING:
     from frames._types import FloatArray
     from frames.design.codes.history_rules import LoadRule
-    from frames.frame import Frame
+    from frames.io import Frame
     from frames.library.building_plan import BuildingPlan
 
 Downwards = Annotated[AreaLoad, NotNegative]

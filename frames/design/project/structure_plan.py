@@ -20,10 +20,15 @@ from frames.design.project.schema_sections import BeamsTable, ColumnsTable, Sect
 from frames.design.project.schema_structure import MomentFrame
 from frames.design.project.structure_loads import BuildingLoads, LoadsTable, apply_loads
 from frames.library.building import build
-from frames.library.building_plan import BracePart, BuildingPlan, WallPart, regular_plan
-from frames.library.moment_frames import (
-    DEFAULT_BASE_BEAM,
+from frames.library.building_plan import (
     DEFAULT_BASE_DEPTH,
+    BracePart,
+    BuildingPlan,
+    WallPart,
+    regular_plan,
+)
+from frames.library.models import (
+    DEFAULT_BASE_BEAM,
     DEFAULT_BEAM,
     DEFAULT_COLUMN,
     add_floor_masses,
@@ -39,7 +44,7 @@ if TYPE_CHECKING:
 
     from frames.design.project.schema_sections import BraceTable, WallTable
     from frames.design.project.schema_structure import BuildingTable, IrregularFrame
-    from frames.frame import Frame
+    from frames.io import Frame
     from lir_element import LIRBearing
 
 T = TypeVar("T")

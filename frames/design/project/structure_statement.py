@@ -26,8 +26,8 @@ from frames.design.project.schema_structure import (
 )
 from frames.design.project.structure_loads import loads_of
 from frames.design.project.structure_plan import DIRECTIONS, sections_of
+from frames.model.axes import area_of
 from frames.model.components import DEFAULT_CASE
-from frames.model.plane_faces import area_of
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from frames.design.project.schema_sections import BraceTable, WallTable
     from frames.design.project.structure_loads import LoadsTable
     from frames.exchange.import_report import ImportReport
-    from frames.frame import Frame
+    from frames.io import Frame
 
 Rows = list[tuple[str, str]]
 

@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 from frames.design.calculation.not_evaluated import NOT_EVALUATED
 from frames.design.codes.registry import code_named
-from frames.design.report.page import Table
+from frames.design.report.tables import Table
 from lir_element._version import package_version
 from lir_element.texts import joined, worded
 

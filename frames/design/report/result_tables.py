@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from frames.design.calculation.rendering import number as written
-from frames.design.codes.bounds import with_property_bounds
+from frames.design.codes.isolation import with_property_bounds
 from frames.design.histories.demand_table import demands_by_motion, link_demands
 from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands, raises_by_case

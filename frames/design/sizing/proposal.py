@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from frames.design._errors import CheckError
 from frames.design.codes.analysis import equivalent_linear
@@ -26,7 +26,7 @@ from frames.design.sizing.target import DesignTarget
 from frames.frame import Frame
 from lir_element import DesignWarning
 from lir_element.argument_checks import require_choice, require_type
-from lir_element.tables import html_table, text_table
+from lir_element.texts import html_table, text_table
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
     from lir_element.device.friction import FrictionLaw
 
+F = TypeVar("F", bound=Frame)
 Device = Literal["LIR-DCFP", "DCFP", "DCFP without rim contact"]
 DEVICES: tuple[Device, ...] = ("LIR-DCFP", "DCFP", "DCFP without rim contact")
 
@@ -138,7 +139,7 @@ class Design:
                 raise CheckError(msg) from cause
         return tuple(made[size] for size in self.sizes)
 
-    def isolated(self, frame: Frame, device: Device = "LIR-DCFP") -> Frame:
+    def isolated(self, frame: F, device: Device = "LIR-DCFP") -> F:
         """Return a frame on the proposed bearings, its name with that of the device.
 
         Parameters

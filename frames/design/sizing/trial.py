@@ -10,7 +10,7 @@ import xarray as xr
 
 from frames.batch.runs import BOUND, HAZARD, Runs, tagged
 from frames.batch.time_histories import time_histories
-from frames.design.codes.bounds import with_property_bounds
+from frames.design.codes.isolation import with_property_bounds
 from frames.design.codes.registry import code_named
 from frames.design.hazard.motion_measures import pair_spectrum
 from frames.design.histories.suite import peaks_of_runs, suite_of

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 from frames.design._errors import CheckError
 from frames.design.calculation.standing import PROJECT, Standing
-from frames.design.codes.bounds import ENDS, with_property_bounds
+from frames.design.codes.bounds import ENDS
 from frames.design.codes.code_values import CodeValue, weakest
+from frames.design.codes.isolation import with_property_bounds
 from frames.design.codes.pendulum import FrictionPendulum
 from frames.design.codes.prototype_programme import (
     AcceptanceRule,

@@ -28,7 +28,7 @@ from frames.risk.fragility.intensity import OWN, IntensityMeasure
 from frames.risk.fragility.scaled_motions import at_one
 from lir_element.argument_checks import require_positive, require_type
 from lir_element.errors import AnalysisWarning
-from lir_element.tables import html_table
+from lir_element.texts import html_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

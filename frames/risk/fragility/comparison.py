@@ -14,7 +14,7 @@ from frames.risk.fragility.hazard_curve import HazardCurve
 from frames.risk.fragility.intensity import require_one_measure
 from frames.risk.fragility.risk import mean_annual_frequency
 from lir_element.argument_checks import require_type
-from lir_element.tables import Shown
+from lir_element.texts import Shown
 
 
 @dataclass(frozen=True, eq=False, repr=False)

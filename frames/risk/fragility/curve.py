@@ -14,7 +14,7 @@ from frames._types import FloatArray
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.intensity import IntensityMeasure, unit_of
 from lir_element.argument_checks import require_between, require_non_negative, require_positive
-from lir_element.tables import Shown
+from lir_element.texts import Shown
 
 if TYPE_CHECKING:
     import numpy.typing as npt

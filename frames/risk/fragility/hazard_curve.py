@@ -11,7 +11,7 @@ import pandas as pd
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.intensity import IntensityMeasure, unit_of
 from lir_element.argument_checks import require_positive
-from lir_element.tables import Shown
+from lir_element.texts import Shown
 
 if TYPE_CHECKING:
     import numpy.typing as npt

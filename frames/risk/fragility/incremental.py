@@ -13,7 +13,7 @@ from frames.risk._errors import FragilityError
 from frames.risk.fragility.hunt_fill import HuntFill
 from frames.risk.fragility.limit_state import LimitState
 from frames.risk.fragility.runs import GIVEN, HUNT, IntensityRuns
-from lir_element.tables import Shown
+from lir_element.texts import Shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

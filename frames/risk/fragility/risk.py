@@ -15,7 +15,7 @@ from frames.risk.fragility.curve import CollapseFragility, Estimate, Fragility, 
 from frames.risk.fragility.hazard_curve import HazardCurve
 from frames.risk.fragility.intensity import IntensityMeasure, require_one_measure
 from lir_element.argument_checks import require_non_negative, require_positive, require_type
-from lir_element.tables import Shown
+from lir_element.texts import Shown
 
 POINTS = 2000
 """Intensities of the integration, equally spaced in their logarithms; and those of the hazard."""

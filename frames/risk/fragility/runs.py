@@ -19,7 +19,7 @@ from frames.risk.fragility.reading import Sets, motions_of, rows_of
 from frames.risk.fragility.scaled_motions import values_of
 from lir_element.argument_checks import require_choice, require_type
 from lir_element.errors import RunStatus
-from lir_element.tables import Shown
+from lir_element.texts import Shown
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -1,4 +1,4 @@
-"""The block of a bearing that stands in an OpenSees model, as compiled callbacks read it.
+"""The blocks that compiled callbacks read: of a bearing in an OpenSees model, and of a guard.
 
 Addresses are those of arrays and objects that Python owns (`ElementMemory` keeps them), or of
 functions of the OpenSees library.

@@ -14,7 +14,6 @@ import math
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from lir_element.argument_checks import require_choice, require_non_negative, require_positive
-from lir_element.device.bearing import STANDARD_GRAVITY
 from lir_element.device.bearing_checks import (
     TO_OPENSEES,
     require_constant_friction,
@@ -23,6 +22,7 @@ from lir_element.device.bearing_checks import (
 )
 from lir_element.opensees.compare.builtin_mapping import laws_of_opensees
 from lir_element.opensees.library import opensees
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
