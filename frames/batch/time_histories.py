@@ -160,14 +160,14 @@ def time_histories(
         todo = sorted({*range(len(runs))} - {row.place for row in before})
         rest = [runs[k] for k in todo]
         runner = Runner(structures, grounds, options, rest, chosen, level, histories)
-        new, is_whole = _all(runner, min(count, len(todo)), tell(progress), keeper, len(before))
+        new, is_stopped = _all(runner, min(count, len(todo)), tell(progress), keeper, len(before))
         rows = before + [row._replace(place=todo[row.place]) for row in new]
     if not rows:
         raise KeyboardInterrupt
     data = stack(rows, runs, {name: motion_digest(each) for name, each in grounds.items()})
     data.attrs = {
         "title": f"{len(runs)} time histories",
-        "status": "ok" if is_whole else "interrupted",
+        "status": "ok" if len(rows) == len(runs) else "interrupted",
         "runs_asked_for": len(runs),
         "level": level if isinstance(level, str) else str(dict(level)),
         "features_left_out": ", ".join(chosen.left_out) or "none",
@@ -179,7 +179,7 @@ def time_histories(
         "lir_dcfp_version": package_version(),
         **provenance(dated=False),
     }
-    if not is_whole:
+    if is_stopped:
         stop: AnalysisInterrupted = _Interrupted(_computed(data), data)
         raise stop
     _warn_of_runs(rows)
@@ -209,11 +209,11 @@ def _all(
     keeper: KeptRuns | None,
     taken: int,
 ) -> tuple[list[RunResult], bool]:
-    # All rows, and whether they are all: Ctrl-C leaves those that are done.
+    # The rows, and whether Ctrl-C came: it leaves those that are done, which may be all.
     if taken and told is not None:
         told(BatchProgress(0, len(runner.cases), 0.0, 0, taken))
     if not runner.cases:
-        return [], True
+        return [], False
     results: queue.SimpleQueue[RunResult | None] = queue.SimpleQueue()  # None: a worker has ended
     todo, lock, stop = iter(range(len(runner.cases))), threading.Lock(), threading.Event()
 
@@ -234,7 +234,7 @@ def _all(
                 stop.set()
             results.put(None)
 
-    rows, is_whole = list[RunResult](), True
+    rows, is_stopped = list[RunResult](), False
 
     def take(row: RunResult) -> None:
         rows.append(row)  # those that came before an interruption stay
@@ -247,7 +247,7 @@ def _all(
             for row in _arriving(results, workers, len(runner.cases), told, taken):
                 take(row)
         except KeyboardInterrupt:
-            is_whole = False
+            is_stopped = True
         finally:
             stop.set()
     for future in futures:
@@ -256,7 +256,7 @@ def _all(
         late = results.get()
         if late is not None:
             take(late)
-    return rows, is_whole or len(rows) == len(runner.cases)
+    return rows, is_stopped
 
 
 def _arriving(

@@ -127,8 +127,8 @@ def test_plane_motion_of_a_plane_model_is_exact(run, pulse, kind):
     assert float(full["interface_slip_size"].max()) > 1e-3
     for name in ("node_displacement", "bearing_force", "interface_slip", "energy"):
         size = float(np.abs(full[name]).max())
-        # the same numbers but for the order of sums
-        assert_allclose(plane[name], full[name], rtol=0.0, atol=1e-9 * size)
+        # the same numbers but for the order of sums, on which iterations depend
+        assert_allclose(plane[name], full[name], rtol=0.0, atol=1e-7 * size)
 
 
 def test_the_plane_is_left_only_where_that_is_exact(pulse):

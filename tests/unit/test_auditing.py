@@ -39,7 +39,7 @@ from lir_element import (
 )
 from lir_element.device.sliders import slider_record
 from lir_element.errors import RunStatus
-from lir_element.results.deferred import interface_eccentricity
+from lir_element.results.optional_variables import interface_eccentricity
 from tests.scenes import paper_bearing, simple_bearing
 
 DT = 0.005
