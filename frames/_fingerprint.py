@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Callable, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import fields, is_dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from scipy.sparse import issparse
@@ -15,6 +15,10 @@ from lir_element.device.friction import FrictionLaw
 
 if TYPE_CHECKING:
     from frames.motion.ground_motion import GroundMotion
+
+Key = TypeVar("Key")
+
+_MOST_KNOWN = 5000  # dataclasses whose content is kept: some megabytes
 
 
 def fingerprint(value: object) -> str:
@@ -25,19 +29,39 @@ def fingerprint(value: object) -> str:
     >>> fingerprint({"a": {"x", "y"}}) == fingerprint({"a": {"y", "x"}})
     True
     """
-    found = hashlib.sha256()
-    _tell(value, found.update)
-    return found.hexdigest()[:16]
+    return fingerprints({None: value})[None]
 
 
-def _tell(value: Any, told: Callable[[bytes], object]) -> None:
-    # Hands over the content of a value piece by piece.
-    told(f"<{type(value).__name__}>".encode())
+def fingerprints(values: Mapping[Key, object]) -> dict[Key, str]:
+    """Return the digest of each value; parts that several share are read once."""
+    known: dict[int, tuple[object, bytes]] = {}
+    found = {}
+    for key, value in values.items():
+        digest = hashlib.sha256()
+        _tell(value, digest.update, known)
+        found[key] = digest.hexdigest()[:16]
+        if len(known) > _MOST_KNOWN:
+            known.clear()
+    return found
+
+
+def _tell(
+    value: Any, told: Callable[[bytes], object], known: dict[int, tuple[object, bytes]]
+) -> None:
+    # Hands over the content of a value piece by piece; `known` are dataclasses with their content.
+    name = type(value).__name__
     if value is None or isinstance(value, (str, bytes, bool, int, float, np.generic)):
-        told(repr(value).encode())
-    elif isinstance(value, (tuple, list)):
+        told(f"<{name}>{value!r}</>".encode())
+        return
+    if is_dataclass(value):
+        if id(value) not in known:
+            known[id(value)] = value, _content(value, known)
+        told(known[id(value)][1])
+        return
+    told(f"<{name}>".encode())
+    if isinstance(value, (tuple, list)):
         for each in value:
-            _tell(each, told)
+            _tell(each, told, known)
     elif isinstance(value, np.ndarray):
         told(f"{value.dtype.str}{value.shape}".encode())
         told(np.ascontiguousarray(value).tobytes())
@@ -45,33 +69,30 @@ def _tell(value: Any, told: Callable[[bytes], object]) -> None:
         given: Any = value
         whole = given.tocsr(copy=True)
         whole.sum_duplicates()
-        _tell((whole.shape, whole.data, whole.indices, whole.indptr), told)
+        _tell((whole.shape, whole.data, whole.indices, whole.indptr), told, known)
     elif isinstance(value, Mapping):
         for key, each in value.items():
-            _tell(key, told)
-            _tell(each, told)
+            _tell(key, told, known)
+            _tell(each, told, known)
     elif isinstance(value, AbstractSet):
-        for piece in sorted(map(_whole, value)):
+        pieces: list[list[bytes]] = [[] for _ in value]
+        for each, own in zip(value, pieces, strict=True):
+            _tell(each, own.append, known)
+        for piece in sorted(map(b"".join, pieces)):
             told(piece)
-    elif is_dataclass(value):
-        _tell({field.name: getattr(value, field.name) for field in fields(value)}, told)
-        _tell_table(value, told)
     else:
-        _tell(vars(value), told)
+        _tell(vars(value), told, known)
     told(b"</>")
 
 
-def _whole(value: object) -> bytes:
-    pieces: list[bytes] = []
-    _tell(value, pieces.append)
-    return b"".join(pieces)
-
-
-def _tell_table(value: object, told: Callable[[bytes], object]) -> None:
-    # Of a friction law from a table: what its class says its fields do not tell.
+def _content(value: Any, known: dict[int, tuple[object, bytes]]) -> bytes:
+    # Of a dataclass; of a friction law from a table also what its class says, not its fields.
+    pieces = [f"<{type(value).__name__}>".encode()]
+    _tell({field.name: getattr(value, field.name) for field in fields(value)}, pieces.append, known)
     values = value.kernel_values() if isinstance(value, FrictionLaw) else None
     if values and values.table:
-        _tell(values, told)
+        _tell(values, pieces.append, known)
+    return b"".join((*pieces, b"</>"))
 
 
 def motion_digest(motion: GroundMotion) -> str:

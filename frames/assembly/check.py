@@ -11,7 +11,7 @@ from scipy.sparse import csgraph
 from scipy.sparse import linalg as sparse_linalg
 
 from frames._errors import ModelError
-from frames.assembly.solvers import Factors
+from frames.assembly.solvers import Factors, positive_factors
 from frames.model.components import DOFS
 from frames.model.laws import elastic_stiffness
 
@@ -32,6 +32,7 @@ MOTIONS = 12
 NO_STIFFNESS = 1e-13
 """Eigenvalue of the scaled stiffness (unit diagonal) below which a motion is free [-]."""
 
+_PLAIN = 1e-9  # eigenvalue of the same, beyond round-off: if all are larger, no motion is free
 _SHIFT = 1e-8  # of the scaled stiffness, which makes that of a mechanism regular
 
 NAMED = 4
@@ -152,7 +153,7 @@ def free_motions(stiffness: SparseMatrix) -> FloatArray:
     """Return the motions that meet no stiffness.
 
     The stiffness is scaled to a unit diagonal first, which makes translations and rotations
-    comparable. Its smallest eigenvalues come from a dense solver for small matrices, from Lanczos
+    comparable. If some of its eigenvalues are small, the smallest ones come from a dense solver for small matrices, from Lanczos
     iterations on the shifted inverse for large ones.
 
     Shapes: stiffness (n, n), result (n, n_motions).
@@ -162,6 +163,9 @@ def free_motions(stiffness: SparseMatrix) -> FloatArray:
     scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
     scaling = sparse.diags_array(scale)
     scaled = sparse.csc_array(scaling @ stiffness @ scaling)
+    more = sparse.csr_array(scaled - _PLAIN * sparse.eye_array(size))
+    if positive_factors(more) is not None:
+        return np.zeros((size, 0))
     wanted = min(MOTIONS, size)
     if size <= max(DENSE_LIMIT, 2 * MOTIONS):
         dense = scaled.toarray()

@@ -7,7 +7,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from frames._errors import ModelWarning
-from frames._fingerprint import fingerprint, motion_digest
+from frames._fingerprint import fingerprint, fingerprints, motion_digest
 from frames._provenance import sources_hash
 from frames.batch.batch_dataset import Layout, RunResult, row_of, stack
 from frames.results.chunks import ENDING, load_chunk, write_chunk
@@ -40,7 +40,7 @@ class KeptRuns:
         asked: object,
     ) -> None:
         self._folder = make_folder(folder)
-        self._models = {name: fingerprint(model) for name, model in models.items()}
+        self._models = fingerprints(models)
         self._digests = {name: motion_digest(motion) for name, motion in motions.items()}
         self._options = {n: fingerprint(o._replace(progress=None)) for n, o in options.items()}
         self._common = fingerprint([asked, sources_hash(), package_version()])

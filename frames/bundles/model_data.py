@@ -12,6 +12,7 @@ import numpy as np
 
 from lir_element.bundles.contact_data import Contacts, contact_arrays
 from lir_element.device.features import apply
+from lir_element.layout import PROPS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -99,7 +100,10 @@ def model_arrays(system: System, basis: Basis, static_load: Array | None = None)
 
 def device_records(system: System) -> Array:
     """Return the properties of all bearings with everything modelled."""
-    return np.concatenate([placed.bearing.to_record() for placed in system.bearings])
+    found = np.zeros(len(system.bearings), dtype=PROPS)
+    for k, placed in enumerate(system.bearings):
+        found[k : k + 1] = placed.bearing.to_record()
+    return found
 
 
 def contacts_of(system: System, levels: Sequence[str]) -> Contacts | None:

@@ -6,6 +6,7 @@ section pass without a word. What lies beyond was probably given in another unit
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -80,13 +81,12 @@ def _of_gravity(frame: FrameData) -> list[str]:
 
 
 def _of_members(frame: FrameData) -> list[str]:
-    ratios = []
+    ratios, nodes = [], frame.nodes
     for member in frame.members.values():
-        ends = (np.array(frame.nodes[node].position) for node in (member.i, member.j))
-        length = float(np.linalg.norm(np.subtract(*ends)))
+        length = math.dist(nodes[member.i].position, nodes[member.j].position)
         section = member.section
         inertia = min(section.inertia_y, section.inertia_z)
-        ratios.append(length / float(np.sqrt(inertia / section.area)))
+        ratios.append(length / math.sqrt(inertia / section.area))
     if not ratios:
         return []
     middle = float(np.median(ratios))

@@ -248,12 +248,11 @@ def _acceleration_rows(state: GravityState, places: Places) -> SparseMatrix:
     nodes = transform[_nodes_dofs(np.arange(len(state.system.node_names)), 3)]
     if not len(places.height):
         return sparse.csr_array(nodes)
-    blocks = [nodes]
-    for level in range(len(places.height)):
-        on = np.flatnonzero(places.level == level)
-        mean = sparse.hstack([sparse.diags_array(places.shares[node]) for node in on])
-        blocks.append(sparse.csr_array(mean @ transform[_nodes_dofs(on, 3)]))
-    return sparse.csr_array(sparse.vstack(blocks))
+    node, axis = np.nonzero((places.level >= 0)[:, None] & (places.shares != 0.0))
+    at = 3 * places.level[node] + axis, 3 * node + axis
+    shape = 3 * len(places.height), nodes.shape[0]
+    means = sparse.csr_array((places.shares[node, axis], at), shape=shape)
+    return sparse.csr_array(sparse.vstack([nodes, means @ nodes]))
 
 
 def _shear_rows(state: GravityState) -> tuple[SparseMatrix, FloatArray]:

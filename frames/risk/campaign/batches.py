@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from frames._fingerprint import fingerprint, motion_digest
+from frames._fingerprint import fingerprint, fingerprints, motion_digest
 from frames.batch.cases import NOT_BUILT
 from frames.batch.time_histories import time_histories
 from frames.frame import Frame
@@ -217,7 +217,7 @@ class _Runs:
     ) -> dict[str, list[int]]:
         # Rows to run, by model. Parameters that change nothing of a model, such as the interface
         # of a plain DCFP, give one run.
-        digests = {key: fingerprint(frame) for key, frame in frames.items()}
+        digests = fingerprints(frames)
         for key, own in rows.items():
             for row in own:
                 self.same.setdefault(self._work.digest(row, digests[key]), []).append(row)

@@ -38,8 +38,10 @@ FIELDS = (
 
 def with_parameters(frame: Frame, parameters: Mapping[str, float]) -> Frame:
     """Return a structure whose bearings all have the given parameters."""
-    devices = {name: _device(link.bearing, parameters) for name, link in frame.bearings.items()}
-    return frame.with_bearings(devices)
+    before = {name: link.bearing for name, link in frame.bearings.items()}
+    distinct = {id(each): each for each in before.values()}
+    made = {key: _device(each, parameters) for key, each in distinct.items()}
+    return frame.with_bearings({name: made[id(each)] for name, each in before.items()})
 
 
 def _device(bearing: LIRBearing, parameters: Mapping[str, float]) -> LIRBearing:
