@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Callable, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import fields, is_dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -85,10 +86,20 @@ def _tell(
     told(b"</>")
 
 
+@cache
+def _fields(kind: type) -> tuple[tuple[str, bytes], ...]:
+    # Of a dataclass: their names, and what `_tell` says of these.
+    return tuple((each.name, f"<str>{each.name!r}</>".encode()) for each in fields(kind))
+
+
 def _content(value: Any, known: dict[int, tuple[object, bytes]]) -> bytes:
     # Of a dataclass; of a friction law from a table also what its class says, not its fields.
-    pieces = [f"<{type(value).__name__}>".encode()]
-    _tell({field.name: getattr(value, field.name) for field in fields(value)}, pieces.append, known)
+    kind = value if isinstance(value, type) else type(value)
+    pieces = [f"<{type(value).__name__}><dict>".encode()]
+    for name, told in _fields(kind):
+        pieces.append(told)
+        _tell(getattr(value, name), pieces.append, known)
+    pieces.append(b"</>")
     values = value.kernel_values() if isinstance(value, FrictionLaw) else None
     if values and values.table:
         _tell(values, pieces.append, known)

@@ -144,12 +144,12 @@ def node_geometric_stiffness(system: System, axial_forces: FloatArray) -> Sparse
     return scatter(blocks, table.nodes, len(system.node_names))
 
 
-def geometric_stiffness(system: System, axial_forces: FloatArray) -> SparseMatrix:
-    """Assemble the geometric stiffness of the members over the free DOFs.
+def geometric_stiffness(system: System, of_nodes: SparseMatrix) -> SparseMatrix:
+    """Return the geometric stiffness over the free DOFs, of that over all nodal displacements.
 
-    Shapes: axial_forces (n_members,), result (n_free, n_free).
+    Shapes: of_nodes (6 n_nodes, 6 n_nodes), result (n_free, n_free).
     """
-    return _project(system.transform, node_geometric_stiffness(system, axial_forces))
+    return _project(system.transform, of_nodes)
 
 
 def member_end_forces(
@@ -262,5 +262,7 @@ def _reduced(
 
 def _project(transform: SparseMatrix, matrix: SparseMatrix) -> SparseMatrix:
     # transform.T @ matrix @ transform, exactly symmetric.
+    if not matrix.nnz:
+        return sparse.csr_array((transform.shape[1], transform.shape[1]))
     product = sparse.csr_array(transform.T @ matrix @ transform)
     return sparse.csr_array(0.5 * (product + product.T))

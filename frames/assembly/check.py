@@ -153,8 +153,8 @@ def free_motions(stiffness: SparseMatrix) -> FloatArray:
     """Return the motions that meet no stiffness.
 
     The stiffness is scaled to a unit diagonal first, which makes translations and rotations
-    comparable. If some of its eigenvalues are small, the smallest ones come from a dense solver for small matrices, from Lanczos
-    iterations on the shifted inverse for large ones.
+    comparable. If some of its eigenvalues are small, the smallest ones come from a dense solver
+    for small matrices, from Lanczos iterations on the shifted inverse for large ones.
 
     Shapes: stiffness (n, n), result (n, n_motions).
     """

@@ -186,14 +186,24 @@ class System:
     def above_bearings(self) -> BoolArray:
         """Whether members, springs, superelements, ties or diaphragms join a node to a bearing."""
         count = len(self.node_names)
-        of_node = sparse.csr_array(
-            (np.ones(6 * count), (np.arange(6 * count) // 6, np.arange(6 * count))),
-            shape=(count, 6 * count),
+        held, tied = self.node_stiffness.tocoo(), self.transform.tocoo()
+        rows = np.concatenate([held.coords[0], tied.coords[0]]) // 6
+        columns = np.concatenate([held.coords[1] // 6, count + tied.coords[1]])
+        joins = np.concatenate([held.data, tied.data]).astype(bool)
+        size = count + tied.shape[1]  # of nodes and free displacements
+        joined = sparse.coo_array(
+            (np.ones(np.count_nonzero(joins)), (rows[joins], columns[joins])), shape=(size, size)
         )
-        tied = of_node @ abs(self.transform)
-        joined = sparse.csr_array(of_node @ abs(self.node_stiffness) @ of_node.T + tied @ tied.T)
         _, part = csgraph.connected_components(joined, directed=False)
-        return np.isin(part, list({int(part[placed.j]) for placed in self.bearings}))
+        return np.isin(part[:count], [part[placed.j] for placed in self.bearings])
+
+    def moves_as(self, other: System) -> bool:
+        """Return whether the nodes follow the free displacements as those of another one do."""
+        own, others = self.transform, other.transform
+        return own.shape == others.shape and all(
+            np.array_equal(getattr(own, name), getattr(others, name))
+            for name in ("data", "indices", "indptr")
+        )
 
     def on(self, devices: Iterable[LIRBearing]) -> System:
         """Return the same structure on other bearings; what was formed of it alone is shared."""

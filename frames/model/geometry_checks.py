@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from operator import add, mul, sub
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -81,9 +82,9 @@ def member_up(
     offsets: tuple[Vector, Vector],
 ) -> Vector | None:
     """Return `up` as a member keeps it, or raise where it has no length or no local axes."""
-    first, second = (np.array([nodes[node].position]) for node in (i, j))
-    start, end = first + np.array([offsets[0]]), second + np.array([offsets[1]])
-    length = float(np.linalg.norm(end - start))
+    first, second = nodes[i].position, nodes[j].position
+    start, end = tuple(map(add, first, offsets[0])), tuple(map(add, second, offsets[1]))
+    length = math.dist(start, end)
     between = f'"{i}" to "{j}"' + (" less its offsets" if any(map(any, offsets)) else "")
     if length < SAME_PLACE:
         message = (
@@ -91,7 +92,7 @@ def member_up(
             f"than {SAME_PLACE:g} m: join coincident nodes by add_spring"
         )
         raise ModelError(message)
-    if float(((end - start) * (second - first)).sum()) < 0.0:
+    if sum(map(mul, map(sub, end, start), map(sub, second, first))) < 0.0:
         message = (
             f'member "{name}" from {between} runs backwards, its ends overlap by {length:g} m: '
             "give shorter offsets, as vectors from node to end in global axes [m]"
@@ -101,7 +102,7 @@ def member_up(
         return None
     given = require_vector(f'up of member "{name}"', up, 3, error=ModelError)
     try:
-        local_axes(start, end, given[None, :])
+        local_axes(np.array([start]), np.array([end]), given[None, :])
     except ModelError as cause:
         message = f'member "{name}" has no local axes: {cause}'
         raise ModelError(message) from cause
@@ -124,8 +125,11 @@ def member_offsets(
         raise ModelError(message)
     found = []
     for end in "ij":
+        if end not in given:
+            found.append((0.0, 0.0, 0.0))
+            continue
         what = f'offset [m] of member "{name}" at end {end}'
-        x, y, z = require_vector(what, given.get(end, (0.0, 0.0, 0.0)), 3, error=ModelError)
+        x, y, z = require_vector(what, given[end], 3, error=ModelError)
         size = math.hypot(x, y, z)
         if size > LARGEST_OFFSET:
             message = (

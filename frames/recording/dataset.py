@@ -52,11 +52,16 @@ class Common(NamedTuple):
     def is_laid_out_as(self, other: Common) -> bool:
         """Return whether its results differ from those of another one in numbers alone."""
         own, others = self.variables, other.variables
-        return (
-            self.coordinates is other.coordinates
-            and own.keys() == others.keys()
-            and all(np.array_equal(own[name].data, others[name].data) for name in _PLACES)
-        )
+        return own.keys() == others.keys() and self._has(_PLACES, other)
+
+    def moves_as(self, other: Common) -> bool:
+        """Return whether its nodes and masses are at the places of another one's."""
+        return self._has((*_PLACES, "node_mass"), other)
+
+    def _has(self, names: tuple[str, ...], other: Common) -> bool:
+        own, others = self.variables, other.variables
+        same = (np.array_equal(own[name].data, others[name].data) for name in names)
+        return self.coordinates is other.coordinates and all(same)
 
     def of_structure(self) -> xr.Dataset:
         """Return it as a Dataset."""

@@ -50,10 +50,19 @@ class Places(NamedTuple):
     shares: FloatArray  # (n_nodes, 3) of each node in its level's mean acceleration
 
 
-def places_of(data: xr.Dataset) -> Places:
-    """Return where the nodes of a result stand."""
+class Kinematics(NamedTuple):
+    """What geometry, supports and masses of a structure give, whatever its stiffness."""
+
+    places: Places
+    drifts: SparseMatrix  # drifts of storeys and lines along x and y, over free displacements
+    accelerations: SparseMatrix  # of nodes, and means of levels, over those of free displacements
+
+
+def kinematics_of(transform: SparseMatrix, data: xr.Dataset) -> Kinematics:
+    """Return where the nodes of a result stand, and how they move."""
     levels = data["level_node"].to_numpy(), data["level_height"].to_numpy()
-    return Places(*levels, lines_of(data), floor_shares(data))
+    places = Places(*levels, lines_of(data), floor_shares(data))
+    return Kinematics(places, _drift_rows(transform, places), _acceleration_rows(transform, places))
 
 
 class StoreyMaps(NamedTuple):
@@ -89,12 +98,12 @@ def devices_of(state: GravityState) -> Devices:
     )
 
 
-def shape_of(state: GravityState, accelerating: FloatArray, places: Places) -> Shape:
+def shape_of(state: GravityState, accelerating: FloatArray, kinematics: Kinematics) -> Shape:
     """Return what the peaks of the structure are formed with; `accelerating` of `Resultants`."""
     basis, system = state.basis, state.system
-    drifts, shear = _drift_rows(state, places), _shear_rows(state)
+    places, drifts, over_a = kinematics
+    shear = _shear_rows(state)
     over_u = sparse.csr_array(sparse.vstack([drifts, shear[0]]))
-    over_a = _acceleration_rows(state, places)
     expand = np.hstack([basis.expand_b, basis.expand_e])
     whole = expand if state.parts is None else np.hstack([expand, -state.part_shift])
     u_used, u_place = np.unique(over_u.indices, return_inverse=True)
@@ -223,9 +232,9 @@ def _nodes_dofs(nodes: IntArray, dofs: int) -> IntArray:
     return np.asarray((6 * nodes[:, None] + np.arange(dofs)).ravel(), dtype=np.int64)
 
 
-def _drift_rows(state: GravityState, places: Places) -> SparseMatrix:
+def _drift_rows(transform: SparseMatrix, places: Places) -> SparseMatrix:
     # Drifts along x and y: of storeys, the means of their lines; then of lines.
-    transform, heights = sparse.csr_array(state.system.transform), places.height
+    heights = places.height
     if len(heights) < 2:
         return sparse.csr_array((0, transform.shape[1]))
     lower, upper, level, arm = places.lines
@@ -242,13 +251,12 @@ def _drift_rows(state: GravityState, places: Places) -> SparseMatrix:
     return sparse.csr_array(sparse.vstack([means @ lines, lines]))
 
 
-def _acceleration_rows(state: GravityState, places: Places) -> SparseMatrix:
+def _acceleration_rows(transform: SparseMatrix, places: Places) -> SparseMatrix:
     # Accelerations of nodes, then means of levels.
-    transform = sparse.csr_array(state.system.transform)
-    nodes = transform[_nodes_dofs(np.arange(len(state.system.node_names)), 3)]
+    nodes = transform[_nodes_dofs(np.arange(len(places.level)), 3)]
     if not len(places.height):
         return sparse.csr_array(nodes)
-    node, axis = np.nonzero((places.level >= 0)[:, None] & (places.shares != 0.0))
+    node, axis = np.nonzero((places.level >= 0)[:, None] & places.shares.astype(bool))
     at = 3 * places.level[node] + axis, 3 * node + axis
     shape = 3 * len(places.height), nodes.shape[0]
     means = sparse.csr_array((places.shares[node, axis], at), shape=shape)

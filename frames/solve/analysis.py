@@ -17,6 +17,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy import sparse
 
 from frames._errors import ModelWarning
 from frames._fingerprint import fingerprint
@@ -28,7 +29,7 @@ from frames.model.components import bearing_axial_stiffness, bearing_rocking_sti
 from frames.model.superelement import Superelement
 from frames.recording.dataset import build_dataset, common_of
 from frames.recording.force_rows import force_maps
-from frames.recording.peak_tracking import can_track, devices_of, places_of, shape_of
+from frames.recording.peak_tracking import can_track, devices_of, kinematics_of, shape_of
 from frames.recording.reduction import with_peak_state, without_histories_of
 from frames.statics.gravity import equilibrium_of
 from frames.statics.springs import plane_coupling
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from frames.model.frame_data import FrameData
     from frames.recording.dataset import Common
     from frames.recording.force_rows import ForceMaps
+    from frames.recording.peak_tracking import Kinematics
     from frames.recording.reduction import PeakState
     from frames.statics.gravity_state import GravityState
     from lir_element import Features
@@ -95,6 +97,9 @@ class PreparedFrame:
         self.common = common_of(self.model, self.state, like.common)
         if "shape" in vars(like) and self.common.resultants is like.common.resultants:
             self.shape = like.shape
+        moves = self.state.system.moves_as(like.state.system) and self.common.moves_as(like.common)
+        if "kinematics" in vars(like) and moves:
+            self.kinematics = like.kinematics
         same = all(
             self.state.model.props[name].any() == like.state.model.props[name].any()
             for name in ("heats", "goes_on")
@@ -172,10 +177,16 @@ class PreparedFrame:
         return devices_of(self.state)
 
     @cached_property
+    def kinematics(self) -> Kinematics:
+        """Where the nodes stand and how they move."""
+        transform = sparse.csr_array(self.state.system.transform)
+        return kinematics_of(transform, self.common.of_structure())
+
+    @cached_property
     def shape(self) -> Shape:
         """What peaks of the structure are formed with."""
         accelerating = self.common.resultants.accelerating
-        return shape_of(self.state, accelerating, places_of(self.common.of_structure()))
+        return shape_of(self.state, accelerating, self.kinematics)
 
     @cached_property
     def force_maps(self) -> ForceMaps:

@@ -158,8 +158,8 @@ def prepare(
     if like is not None and member_forces.tobytes() == like.member_forces.tobytes():
         geometric, of_nodes = like.geometric, like.node_geometric
     else:
-        geometric = geometric_stiffness(system, member_forces)
         of_nodes = node_geometric_stiffness(system, member_forces)
+        geometric = geometric_stiffness(system, of_nodes)
         parts = with_axial_forces(system.parts, system.members, member_forces)
         system = system if parts is system.parts else replace(system, parts=parts)
     seconds = perf_counter() - began

@@ -22,6 +22,7 @@ from frames.assembly.assemble import (
     geometric_stiffness,
     member_axial_forces,
     member_end_forces,
+    node_geometric_stiffness,
 )
 from frames.assembly.solvers import solve_positive
 from frames.demo import bearing_for
@@ -287,7 +288,8 @@ def test_cantilever_mast_buckles_at_the_euler_load() -> None:
     system = assemble(mast(count))
     length = math.sqrt(41.0)
     euler = math.pi**2 * SLENDER.elastic_modulus * SLENDER.inertia_y / (4.0 * length**2)
-    geometric = geometric_stiffness(system, np.full(count, -1.0)).toarray()
+    of_nodes = node_geometric_stiffness(system, np.full(count, -1.0))
+    geometric = geometric_stiffness(system, of_nodes).toarray()
     factors = scipy.linalg.eigh(-geometric, system.stiffness.toarray(), eigvals_only=True)
     # Half a wave over 8 members, error (pi/16)^4 / 720 = 2e-6; both planes of a square box.
     assert_allclose(1.0 / factors[-2:], euler, rtol=5e-6, atol=0.0)
@@ -302,7 +304,8 @@ def test_end_forces_balance_the_loads_with_and_without_second_order() -> None:
     for forces in (None, axial):
         stiffness = system.stiffness
         if forces is not None:
-            stiffness = stiffness + geometric_stiffness(system, forces)
+            of_nodes = node_geometric_stiffness(system, forces)
+            stiffness = stiffness + geometric_stiffness(system, of_nodes)
         u = nodal(system, np.asarray(spsolve(stiffness.tocsc(), system.load)))
         local = member_end_forces(system, u, forces)
         ends = local.reshape(5, 4, 3) @ system.members.arrays.axes
