@@ -11,6 +11,7 @@ from scipy.sparse import csgraph
 from scipy.sparse import linalg as sparse_linalg
 
 from frames._errors import ModelError
+from frames.assembly.natural_modes import is_stable
 from frames.assembly.solvers import Factors, positive_factors
 from frames.model.components import DOFS
 from frames.model.laws import elastic_stiffness
@@ -163,11 +164,12 @@ def free_motions(stiffness: SparseMatrix) -> FloatArray:
     scale = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, 1.0))
     scaling = sparse.diags_array(scale)
     scaled = sparse.csc_array(scaling @ stiffness @ scaling)
-    more = sparse.csr_array(scaled - _PLAIN * sparse.eye_array(size))
-    if positive_factors(more) is not None:
-        return np.zeros((size, 0))
     wanted = min(MOTIONS, size)
-    if size <= max(DENSE_LIMIT, 2 * MOTIONS):
+    is_small = size <= max(DENSE_LIMIT, 2 * MOTIONS)
+    less = scaled - _PLAIN * sparse.eye_array(size)
+    if is_stable(less.toarray()) if is_small else positive_factors(less) is not None:
+        return np.zeros((size, 0))
+    if is_small:
         dense = scaled.toarray()
         _, vectors = scipy.linalg.eigh(dense, subset_by_index=[0, wanted - 1])
     else:

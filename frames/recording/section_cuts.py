@@ -47,10 +47,15 @@ class StoreyRows:
     crossed: BoolArray  # (n_storeys, n_bearings)
 
 
-def cuts(system: System, axial: FloatArray, heights: Sequence[float]) -> list[SectionCut]:
-    """Return the cuts of the storeys: below the lowest level, then above each but the last.
+def feet(heights: Sequence[float]) -> list[float]:
+    """Return where storeys are cut: below the lowest level, then above each but the last."""
+    return [heights[0] - _LEVEL, *(height + _LEVEL for height in heights[:-1])]
 
-    Shapes: axial (n_members,), heights (n_levels,).
+
+def cuts(system: System, axial: FloatArray, elevations: Sequence[float]) -> list[SectionCut]:
+    """Return the cuts of a frame at some elevations.
+
+    Shapes: axial (n_members,).
     """
     table = system.members
     own, whole = (
@@ -61,7 +66,7 @@ def cuts(system: System, axial: FloatArray, heights: Sequence[float]) -> list[Se
     others = system.node_stiffness - scatter(own, table.nodes, count)
     fixed_end = to_global(table.fixed_end, table.arrays.axes)
     found = []
-    for z in (heights[0] - _LEVEL, *(height + _LEVEL for height in heights[:-1])):
+    for z in elevations:
         above = system.coordinates[:, 2] > z
         crosses = above[table.nodes].any(axis=1) & ~above[table.nodes].all(axis=1)
         constant = np.zeros(6 * count)
@@ -77,7 +82,8 @@ def storey_feet(
 ) -> Iterator[tuple[SectionCut, SparseMatrix, SparseMatrix]]:
     """Yield the cut at each storey's foot, and rows that sum up forces below and above it."""
     # moments are about the middle of the nodes of the level below
-    for k, cut in enumerate(cuts(system, axial, [level.z for level in levels]) if levels else ()):
+    elevations = feet([level.z for level in levels]) if levels else []
+    for k, cut in enumerate(cuts(system, axial, elevations)):
         nodes = [system.node_names.index(name) for name in levels[max(k - 1, 0)].nodes]
         middle = system.coordinates[nodes].mean(axis=0)
         lower, upper = (
@@ -89,7 +95,7 @@ def storey_feet(
 def storey_rows(system: System, axial: FloatArray, heights: Sequence[float]) -> StoreyRows:
     """Return the forces of the storeys above the lowest level."""
     over_q, over_beyond, constant, crossed = [], [], [], []
-    for cut in cuts(system, axial, heights)[1:]:
+    for cut in cuts(system, axial, feet(heights)[1:]):
         below = np.repeat(~cut.above, 6).astype(np.float64)
         lower = sparse.csr_array(np.tile(np.eye(3, 6), len(cut.above)) * -below)
         over_q.append(lower @ cut.rows @ system.transform)

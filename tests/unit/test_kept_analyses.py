@@ -19,7 +19,9 @@ from frames import (
     Frame,
     GroundMotion,
     ModalDamping,
+    ModelError,
     ModelWarning,
+    Section,
     lumped_mass,
     moment_frame,
     time_histories,
@@ -238,6 +240,7 @@ def test_memory_stays_within_its_bound(monkeypatch) -> None:
     assert held < 1.5 * most  # what the last run formed is weighed when another one is kept
 
 
+STIFFER = Section.rectangle(0.6, 0.6, elastic_modulus=33e9)
 STRONGER = replace(bearing_for(400e3), friction=CoulombFriction(0.09))
 OTHERS: dict[str, Callable[[Frame], Frame]] = {
     "friction": lambda f: f.with_bearings(STRONGER),
@@ -248,6 +251,7 @@ OTHERS: dict[str, Callable[[Frame], Frame]] = {
     "size": lambda f: f.with_bearings(bearing_for(500e3)),
     "floors": lambda _: moment_frame((1, 1), 1, bearing=STRONGER, floor_mass=15e3),
     "places": lambda _: moment_frame((1, 1), 1, bearing=STRONGER, bay_width=5.0),
+    "columns": lambda _: moment_frame((1, 1), 1, bearing=STRONGER, column=STIFFER),
     "storeys": lambda _: moment_frame((1, 1), 2, bearing=STRONGER),
 }
 
@@ -266,7 +270,7 @@ def test_what_sets_of_parameters_share_changes_no_bit(monkeypatch) -> None:
     single = {name: run(frame) for name, frame in frames.items()}
     monkeypatch.setattr(gravity_module, "assemble", counted)
     together = time_histories(frames, MOTION, workers=1)
-    assert len(assembled) == 4  # the first, and other structures
+    assert len(assembled) == 5  # the first, and other structures
     for k, (name, runs) in enumerate(alone.items()):
         own = runs.isel(run=0).drop_sel(quantity="seconds of the time loop")
         shared = together.isel(run=k)
@@ -275,3 +279,15 @@ def test_what_sets_of_parameters_share_changes_no_bit(monkeypatch) -> None:
             assert_array_equal(own[key], shared[key].sel(labels), f"{name}: {key}")
         analysis._KEPT.clear()
         assert same(single[name], run(frames[name])), name
+
+
+def test_a_mechanism_among_frames_of_one_geometry_is_refused() -> None:
+    frames = {}
+    for name, held in (("held", 1e6), ("loose", 0.0)):
+        frames[name] = frame = building()
+        frame.add_node("tank", 0.0, 0.0, 9.0)
+        frame.add_mass("tank", 100.0)
+        frame.add_spring("feet", next(iter(frame.members.values())).j, "tank", [1e6] + 5 * [held])
+    refused(ModelError, "mechanism.*tank", time_histories, frames, MOTION, workers=1)
+    frames["loose"] = frames["held"]
+    assert (time_histories(frames, MOTION, workers=1)["status"] == "ok").all()
