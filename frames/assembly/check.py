@@ -166,7 +166,7 @@ def free_motions(stiffness: SparseMatrix) -> FloatArray:
     scaled = sparse.csc_array(scaling @ stiffness @ scaling)
     wanted = min(MOTIONS, size)
     is_small = size <= max(DENSE_LIMIT, 2 * MOTIONS)
-    less = scaled - _PLAIN * sparse.eye_array(size)
+    less = sparse.csr_array(scaled - _PLAIN * sparse.eye_array(size))
     if is_stable(less.toarray()) if is_small else positive_factors(less) is not None:
         return np.zeros((size, 0))
     if is_small:
