@@ -27,6 +27,7 @@ from frames import (
     time_histories,
     time_history,
 )
+from frames import _fingerprint as digests
 from frames.demo import bearing_for
 from frames.solve import analysis
 from frames.statics import gravity as gravity_module
@@ -291,3 +292,13 @@ def test_a_mechanism_among_frames_of_one_geometry_is_refused() -> None:
     refused(ModelError, "mechanism.*tank", time_histories, frames, MOTION, workers=1)
     frames["loose"] = frames["held"]
     assert (time_histories(frames, MOTION, workers=1)["status"] == "ok").all()
+
+
+@pytest.mark.parametrize("most", [0, 5000])
+def test_digests_of_frames_together_are_those_of_each(most: int, monkeypatch) -> None:
+    monkeypatch.setattr(digests, "_MOST_KNOWN", most)
+    first = building()
+    frames = {"first": first, **{name: other(first) for name, other in OTHERS.items()}}
+    found = digests.fingerprints(frames)
+    assert found == {name: digests.fingerprint(frame) for name, frame in frames.items()}
+    assert len({*found.values()}) == len(frames)
