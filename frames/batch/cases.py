@@ -45,6 +45,8 @@ class BatchProgress(NamedTuple):
         Of those done, runs that stopped before their end.
     taken : int
         Runs besides these that were complete before.
+    reused : int
+        Of those done, runs that a campaign took over in place of computing them.
 
     Examples
     --------
@@ -62,6 +64,7 @@ class BatchProgress(NamedTuple):
     elapsed: float
     failed: int
     taken: int = 0
+    reused: int = 0
 
     @property
     def rate(self) -> float:
@@ -76,6 +79,8 @@ class BatchProgress(NamedTuple):
     def __str__(self) -> str:
         """Return it on one line."""
         before = f" ({self.taken} more were complete before)" if self.taken else ""
+        if self.reused:
+            before += f" ({self.done - self.reused} computed, {self.reused} taken over)"
         if not self.done:
             return f"{self.done} of {self.total} runs{before}"
         left = f", {_clock(self.remaining)} left" if self.done < self.total else ""

@@ -259,9 +259,9 @@ def test_parameters_that_change_nothing_give_one_run(tmp_path: Path, monkeypatch
     assert "12 runs, none done" in campaign._repr_html_()
     data = campaign.run(workers=1)
     assert sum(computed) == 4
-    assert "8 of them taken over" in campaign._repr_html_()
+    assert "(4 computed, 8 taken over)" in campaign._repr_html_()
     assert campaign.status().reused == 8
-    assert "12 of 12 runs done (8 of them taken over): 12 ok" in str(campaign.status())
+    assert "12 of 12 runs done (4 computed, 8 taken over): 12 ok" in str(campaign.status())
     table = data["peak"].to_numpy().reshape(3, 4, -1)
     assert np.array_equal(table[0], table[1], equal_nan=True)
     assert np.array_equal(table[0], table[2], equal_nan=True)

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 
 from frames import Frame, Recording, lumped_mass
+from frames.batch.cases import BatchProgress
 from frames.risk import Campaign, CampaignError, full_grid, open_campaign
 from frames.risk.campaign import batches
 from frames.risk.campaign.designs import with_parameters
@@ -55,7 +56,7 @@ def test_what_is_known_is_not_computed_again(first, whole, tmp_path, monkeypatch
     found.run(workers=1, reuse=first)
     assert sum(computed) == 12 - 4
     assert found.status().reused == 4
-    assert "(4 of them taken over)" in str(found.status())
+    assert "(8 computed, 4 taken over)" in str(found.status())
     assert found.digest() == whole.digest()
 
 
@@ -74,6 +75,29 @@ def test_campaigns_are_merged(first, whole, tmp_path, monkeypatch):
     assert merged.status().reused == 12
     assert merged.digest() == whole.digest()
     assert open_campaign(merged.store.path).digest() == whole.digest()
+
+
+def test_what_reads_the_same_is_computed_once_in_a_campaign(tmp_path, monkeypatch):
+    """Over its batches and after a resume, whatever the interface that a plain DCFP has not."""
+    grid = {"interface_friction": [0.14, 0.16], "interface_yield_displacement": [1e-4, 2e-4]}
+    models = {"LIR": lumped_mass(BEARING, 5e4), "DCFP": lumped_mass(BEARING.as_dcfp(), 5e4)}
+    more = {"sample": full_grid(grid), "models": models}
+    computed, told = counted(monkeypatch), list[BatchProgress]()
+    found = campaign(tmp_path / "runs", PULSES, [0.5], **more)
+    found.run(workers=1, progress=told.append)
+    assert sum(computed) == 8 + 2
+    assert "16 of 16 runs" in str(told[-1])
+    for text in (found.status(), told[-1]):
+        assert "(10 computed, 6 taken over)" in str(text)
+    sorted((tmp_path / "runs" / "runs").iterdir())[-1].unlink()
+    computed.clear()
+    found.run(workers=1)
+    assert computed == []
+    monkeypatch.setattr(batches.CampaignJob, "digest", lambda _, row, frame: f"{row} {frame}")
+    apart = campaign(tmp_path / "apart", PULSES, [0.5], **more)
+    apart.run(workers=1)
+    assert sum(computed) == 16
+    assert apart.digest() == found.digest()
 
 
 def softer(given: dict[str, float]) -> Frame:

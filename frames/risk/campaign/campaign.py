@@ -15,10 +15,10 @@ from frames.batch.cases import BatchProgress, grid, named_models, named_motions,
 from frames.frame import Frame
 from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
-from frames.risk.campaign.batches import CampaignJob, compute
+from frames.risk.campaign.batches import DIGEST, CampaignJob, compute
 from frames.risk.campaign.cluster import over_cluster
 from frames.risk.campaign.measures import Measure, checked_measures
-from frames.risk.campaign.other_databases import known_runs
+from frames.risk.campaign.other_databases import known_runs, rows_by_digest
 from frames.risk.campaign.plan import Plan, planned_rows
 from frames.risk.campaign.plan_description import described
 from frames.risk.campaign.sampling import ParameterSample, whole
@@ -256,17 +256,26 @@ class Campaign:
         workers: int | None,
         known: Known,
     ) -> Iterator[tuple[int, Batch]]:
-        # A cluster computes the batches of which not all is known.
+        # A cluster computes the batches of which not all is known. Here, runs of the batches before
+        # are known as well, but their histories are not taken over.
         work, todo = self._work, counting.todo
         here = [
             batch
             for batch in todo
             if client is None or (known and {*work.digests(work.plan.rows(batch))} <= known.keys())
         ]
+        before = rows_by_digest(self.results()) if here and work.record is None else {}
         for number in here:
-            batch = compute(work, layout, number, workers, counting.of_batch(), known)
+            data = self.results()
+            there = {**known, **{digest: (data, row) for digest, row in before.items()}}
+            batch = compute(work, layout, number, workers, counting.of_batch(), there)
             counting.add(batch)
+            if batch.reused:
+                counting.tell()
             yield number, batch
+            if work.record is None:
+                own = zip(batch.arrays[DIGEST].tolist(), work.plan.rows(number), strict=True)
+                before |= {digest: row for digest, row in own if digest}
         if client is None:
             return
         todo = [number for number in todo if number not in set(here)]
@@ -327,7 +336,7 @@ class _Counting:
     def __init__(self, plan: Plan, todo: list[int], told: Told | None) -> None:
         self.todo, self._told = todo, told
         self._total = sum(len(plan.rows(number)) for number in todo)
-        self._done, self._failed, self._began = 0, 0, perf_counter()
+        self._done, self._failed, self._reused, self._began = 0, 0, 0, perf_counter()
 
     def of_batch(self) -> Callable[[BatchProgress], None] | None:
         return None if self._told is None else self._within
@@ -339,12 +348,14 @@ class _Counting:
         if self._told is not None:
             elapsed = perf_counter() - self._began
             now = min(self._done + done, self._total)
-            self._told(BatchProgress(now, self._total, elapsed, self._failed + failed))
+            failed += self._failed
+            self._told(BatchProgress(now, self._total, elapsed, failed, reused=self._reused))
 
     def add(self, batch: Batch) -> None:
         status = batch.arrays["status"]
         self._done += len(status)
         self._failed += int((status != "ok").sum())
+        self._reused += batch.reused
 
 
 def _warn(status: CampaignStatus) -> None:

@@ -35,6 +35,9 @@ FIELDS = (
 )
 """Fields of `LIRBearing` that a sample may name: one number for both surfaces, SI."""
 
+_INTERFACE = "interface_friction", "interface_yield_displacement"
+"""Fields that no run on a plain DCFP reads."""
+
 
 def with_parameters(frame: Frame, parameters: Mapping[str, float]) -> Frame:
     """Return a structure whose bearings all have the given parameters."""
@@ -48,7 +51,7 @@ def _device(bearing: LIRBearing, parameters: Mapping[str, float]) -> LIRBearing:
     changes: dict[str, Any] = {name: parameters[name] for name in FIELDS if name in parameters}
     law = {name: parameters[name] for name in parameters.keys() - changes.keys() - {"friction"}}
     if bearing.is_dcfp:
-        changes.pop("interface_friction", None)
+        changes = {name: value for name, value in changes.items() if name not in _INTERFACE}
     if "capacity" in changes:
         changes["rims"] = None
     if "friction" in parameters:

@@ -100,6 +100,12 @@ def _loaded(data: xr.Dataset) -> xr.Dataset:
     return found
 
 
+def rows_by_digest(data: xr.Dataset) -> dict[str, int]:
+    """Return a row of each run that is done by what the run is of: `CampaignJob.digest`."""
+    digests = data[DIGEST].to_numpy().tolist() if DIGEST in data else []
+    return {digest: row for row, digest in enumerate(digests) if digest}
+
+
 _SAME = "program", "sources", "options", "record", "measures"
 _HISTORIES = "what was reached"
 
@@ -122,8 +128,7 @@ def known_runs(
         if planned["record"] != _HISTORIES:
             msg = f"reuse = {path}: histories are not taken over: leave out record or reuse"
             raise CampaignError(msg)
-        digests = data[DIGEST].to_numpy().tolist() if DIGEST in data else []
-        own = {digest: (data, row) for row, digest in enumerate(digests) if digest}
+        own = {digest: (data, row) for digest, row in rows_by_digest(data).items()}
         if not any(digest in own for digest in work.digests(range(work.plan.runs))):
             msg = (
                 f"reuse = {path}: no run is the same (its models: {', '.join(stored['models'])}): "

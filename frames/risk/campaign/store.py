@@ -39,7 +39,7 @@ class CampaignStatus(NamedTuple):
     warnings : tuple of str
         What was warned of while batches were computed.
     reused : int
-        Runs that were taken over from other results databases, or from an equal run of their batch:
+        Runs that were taken over, from other results databases or from an equal run of this one:
         parameters that change nothing of a model, such as the interface of a plain DCFP.
 
     Examples
@@ -60,7 +60,8 @@ class CampaignStatus(NamedTuple):
         doubts = (
             f"; the assumption check marks something in {self.doubtful}" if self.doubtful else ""
         )
-        taken = f" ({self.reused} of them taken over)" if self.reused else ""
+        computed = f"{self.done - self.reused} computed, {self.reused} taken over"
+        taken = f" ({computed})" if self.reused else ""
         return (
             f"{self.done} of {self.total} runs done{taken}{f': {parts}' if parts else ''}{doubts}"
         )
