@@ -47,7 +47,7 @@ def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] |
 
 def names_of(data: xr.Dataset, dim: str) -> NDArray[np.str_]:
     """Return the names along a dimension."""
-    names: NDArray[np.str_] = data.variables[dim].to_index().to_numpy()
+    names: NDArray[np.str_] = data.get_index(dim).to_numpy()
     return names
 
 

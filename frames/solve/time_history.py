@@ -176,7 +176,7 @@ def time_history(
             recording=wanted,
             progress=told,
         )
-        return _ended(data, outcome, on_failure)
+        return _ended(data, outcome, doubts_of(data), on_failure)
     runs: list[tuple[Run, Recorder]] = []
     ends: list[tuple[RunStatus, float]] = []
 
@@ -189,16 +189,18 @@ def time_history(
         data.attrs |= run.findings.attrs()
         ends.append((outcome.status, outcome.time))
         if outcome.status is RunStatus.INTERRUPTED:  # no further run of level="auto"
-            _ended(recorder.recorded(data), outcome, on_failure)
+            _ended(recorder.recorded(data), outcome, run.findings.doubts(), on_failure)
         return data
 
     if level == "auto":
         data = escalate_level(analyse, exact_features(model, motion))
         mark_other_end(data, ends)
+        doubts = doubts_of(data)
     else:
         analyse(Features.all() if features is None else features, level)
+        doubts = runs[0][0].findings.doubts()
     last, recorder = runs[0]
-    return _ended(recorder.recorded(last.data), last.outcome, on_failure)
+    return _ended(recorder.recorded(last.data), last.outcome, doubts, on_failure)
 
 
 class Analysis:
@@ -305,7 +307,8 @@ class Analysis:
         with blas_threads_for(prepared.model):
             run, recorder = _run_prepared(prepared, prepared.fresh(), motion, options)
         run.data.attrs |= run.findings.attrs()
-        return _ended(recorder.recorded(run.data), run.outcome, on_failure)
+        doubts = run.findings.doubts()
+        return _ended(recorder.recorded(run.data), run.outcome, doubts, on_failure)
 
 
 _DIRECT = METHODS[0]
@@ -319,10 +322,11 @@ def _run_prepared(
     return run_one(prepared, state, motion, options, recorder), recorder
 
 
-def _ended(data: xr.Dataset, outcome: Outcome, on_failure: str) -> xr.Dataset:
+def _ended(
+    data: xr.Dataset, outcome: Outcome, doubts: tuple[str, ...], on_failure: str
+) -> xr.Dataset:
     # Warns of how a run ended, and of what the assumption check of a completed one marks.
     report(data, *outcome, on_failure=on_failure, stacklevel=4)
-    doubts = doubts_of(data)
     if doubts and "failed_at" not in data.attrs:
         what = "completed with a warning: " + "; ".join(doubts)
         warnings.warn(what, AuditWarning, stacklevel=3)

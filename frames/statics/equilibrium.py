@@ -82,12 +82,14 @@ def find_equilibrium(
         force_tolerance=force_tolerance(system, _FORCE_TOLERANCE), max_iterations=_MAX_ITERATIONS
     )
     guess = linear[basis.bearing_dofs]
-    empty = run_arrays(model), contacts_of(system, chosen)
-    out, _, _ = output_arrays(model, empty[1], 1, part_sizes(parts))
-    compiling = ready(integrate_chunk, model, *empty, parts, settings, STILL, out, -1, 0)
+    spare = [(run_arrays(model), contacts_of(system, chosen))]
+    out, _, _ = output_arrays(model, spare[0][1], 1, part_sizes(parts))
+    compiling = 0.0
+    if like is None:
+        compiling = ready(integrate_chunk, model, *spare[0], parts, settings, STILL, out, -1, 0)
 
     def solve(first: FloatArray) -> tuple[RunStatus, IntegrationState, Contacts | None]:
-        run, contacts = run_arrays(model), contacts_of(system, chosen)
+        run, contacts = spare.pop() if spare else (run_arrays(model), contacts_of(system, chosen))
         run.b[:] = first
         status = integrate_chunk(model, run, contacts, parts, settings, STILL, out, -1, 0)
         return RunStatus(status), run, contacts

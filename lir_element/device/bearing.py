@@ -330,8 +330,8 @@ class LIRBearing(Specification):
         values |= {name: value for name, value in options.items() if name in names}
         for name, value in values.items():
             record[name] = value
-        missing = [name for name in record.dtype.names or () if np.isnan(record[name]).any()]
-        if missing:
+        if np.isnan(record.view("f8")).any():
+            missing = [name for name in record.dtype.names or () if np.isnan(record[name]).any()]
             msg = f"bearing record left incomplete: {missing}"
             raise AssertionError(msg)
         complete = np.zeros(1, dtype=PROPS)
