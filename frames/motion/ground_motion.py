@@ -82,6 +82,8 @@ class GroundMotion(RecordedMotion):
         MotionError
             If there are not one or three finite factors.
         """
+        if isinstance(factor, float) and factor == 1.0:  # exactly  # noqa: RUF069
+            return self
         return self._with(transforms.scaled(self._given(), factor))
 
     def rotated(self, angle: float) -> GroundMotion:
