@@ -47,6 +47,7 @@ class Structure(NamedTuple):
 
     analysis: PreparedFrame
     layout: Layout
+    bytes: float  # of a recorded step
 
 
 class Runner:
@@ -103,19 +104,19 @@ class Runner:
         except AnalysisError as failure:
             return failure
         if self._last is not None and self._last.analysis.template is found.template:
-            layout = self._last.layout
+            self._last = self._last._replace(analysis=found)
         else:
-            layout = _layout_of(found, recording)
+            step = 0.0 if recording is None else bytes_over_time(reduced(found.at_rest, recording))
+            self._last = Structure(found, _layout_of(found, recording), step)
         own = [case for case in self.cases if case.model == name]
         self._rows += len(own)
-        self._bytes += len(own) * (_ROW + 8.0 * float(layout.starts[-1]))
+        self._bytes += len(own) * (_ROW + 8.0 * float(self._last.layout.starts[-1]))
         if recording is not None:
             steps = (self.options[case.motion].steps for case in own)
             every = recording.every
             kept = sum(count // every + 1 if every else 2 for count in steps)
-            self._bytes += kept * bytes_over_time(reduced(found.at_rest, recording))
+            self._bytes += kept * self._last.bytes
         require_rows(_COPIES * self._bytes, self._rows, len(self.cases))
-        self._last = Structure(found, layout)
         return self._last
 
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from operator import is_
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from frames._errors import ModelError
 from frames.model.components import TaperedLoad
-from frames.model.floors import members_at, panel_loads
+from frames.model.floors import PanelLoads, members_at, panel_loads
 from frames.model.frame_data import FrameData, frozen
 from frames.model.geometry_checks import member_points
 from lir_element.argument_checks import require_finite, require_non_negative, require_type
@@ -173,12 +175,26 @@ def applied_loads(frame: FrameData) -> AppliedLoads:
     found = AppliedLoads([], [])
     for member, loads in frame.tapered_loads.items():
         found.spans.extend(SpanLoad(member, x, frame.mass_source.get(x.case, 0.0)) for x in loads)
-    around = members_at(frame.members) if frame.floor_loads else {}
-    for panel in frame.floor_loads.values():
+    for panel, parts in zip(frame.floor_loads.values(), _of_panels(frame), strict=True):
         share = frame.mass_source.get(panel.case, 0.0) if panel.mass is None else panel.mass
-        parts = panel_loads(frame.nodes, around, panel)
         found.spans.extend(SpanLoad(member, load, share) for member, load in parts.members)
         found.nodes.extend(NodeLoad(node, forces, share) for node, forces in parts.nodes)
+    return found
+
+
+_KNOWN: deque[tuple[list[object], list[PanelLoads]]] = deque(maxlen=8)  # with what they come of
+
+
+def _of_panels(frame: FrameData) -> list[PanelLoads]:
+    # Kept from before if nothing changed: what a frame holds is frozen.
+    parts: list[object] = [*frame.nodes.values(), *frame.members.values()]
+    parts += frame.floor_loads.values()
+    for known, found in tuple(_KNOWN):
+        if len(known) == len(parts) and all(map(is_, known, parts)):
+            return found
+    around = members_at(frame.members)
+    found = [panel_loads(frame.nodes, around, panel) for panel in frame.floor_loads.values()]
+    _KNOWN.append((parts, found))
     return found
 
 

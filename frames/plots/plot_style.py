@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.ticker import Formatter, NullFormatter
 
 from lir_element.texts import Text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
@@ -196,3 +197,40 @@ def text_of(long_name: str, unit: str) -> str:
 def peak_of(values: Iterable[FloatArray]) -> float:
     """Return the largest absolute value of several arrays, 0 without any."""
     return max((float(np.abs(v).max()) for v in values if np.size(v)), default=0.0)
+
+
+def say_ticks(figure: Figure, say: Callable[[str], str]) -> None:
+    """Have the labels of all axes of a figure said by `say`."""
+    for axes in figure.axes:
+        third = getattr(axes, "zaxis", None)
+        for axis in (axes.xaxis, axes.yaxis, *([third] if third else [])):
+            axis.set_major_formatter(_said(axis.get_major_formatter(), say))
+            axis.set_minor_formatter(_said(axis.get_minor_formatter(), say))
+
+
+def _said(inner: Formatter, say: Callable[[str], str]) -> Formatter:
+    return inner if isinstance(inner, NullFormatter) else _Said(inner, say)
+
+
+class _Said(Formatter):
+    """Labels of an axis as `say` says them."""
+
+    def __init__(self, inner: Formatter, say: Callable[[str], str]) -> None:
+        super().__init__()
+        self._inner, self._say = inner, say
+
+    def set_axis(self, axis: Any) -> None:
+        super().set_axis(axis)
+        self._inner.set_axis(axis)
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        return self._say(str(self._inner(x, pos)))
+
+    def format_ticks(self, values: Any) -> list[str]:
+        return [self._say(text) for text in self._inner.format_ticks(values)]
+
+    def set_locs(self, locs: Any) -> None:
+        self._inner.set_locs(locs)
+
+    def get_offset(self) -> str:
+        return self._say(str(self._inner.get_offset()))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from frames.bundles.run_data import Ground, Output
     from frames.model.frame_data import FrameData
     from frames.motion.ground_motion import GroundMotion
+    from frames.recording.section_cuts import StoreyRows
     from frames.statics.gravity_state import GravityState
     from lir_element.layout import Records
 
@@ -46,7 +48,8 @@ class Common(NamedTuple):
     variables: dict[str, xr.Variable]
     labels: dict[str, list[str]]
     coordinates: xr.Coordinates  # of these labels: all but the time
-    heights: list[float]  # of the levels [m]
+    storeys: int
+    storey_rows: Callable[[], StoreyRows]  # formed where they are first asked for, once
     resultants: Resultants
 
     def is_laid_out_as(self, other: Common) -> bool:
@@ -92,8 +95,8 @@ def common_of(frame: FrameData, state: GravityState, like: Common | None = None)
     else:
         coordinates = xr.Dataset(coords=labels).coords
     variables = _device_variables(system) | _permanent(frame, state)
-    heights = [level.z for level in levels]
-    return Common(frame, variables, labels, coordinates, heights, resultants)
+    rows = cache(partial(storey_rows, system, state.member_forces, [level.z for level in levels]))
+    return Common(frame, variables, labels, coordinates, len(levels) - 1, rows, resultants)
 
 
 def build_dataset(
@@ -174,11 +177,10 @@ def build_dataset(
             "energy since gravity",
         ),
     }
-    storeys = len(common.heights) - 1
-    if storeys > 0:
+    if common.storeys > 0:
         variables["storey_shear"] = labelled(
             ("time", "storey", "axis"),
-            of(lambda: motion.storey_shear(common.heights), storeys, 3),
+            of(lambda: motion.storey_shear(common.storey_rows()), common.storeys, 3),
             "N",
             "resisting force of what is below a storey: its members, and bearings through it",
         )
@@ -268,9 +270,7 @@ class _Motion:
         found: FloatArray = forces + _other_reactions(self._state, self._moves(), beyond)
         return found
 
-    def storey_shear(self, heights: list[float]) -> FloatArray:
-        state = self._state
-        rows = storey_rows(state.system, state.member_forces, heights)
+    def storey_shear(self, rows: StoreyRows) -> FloatArray:
         found = np.asarray(rows.over_q @ self._moves().T).T + rows.constant
         found += self._out.beyond[: self._count] @ rows.over_beyond.T
         found = found.reshape(self._count, len(rows.crossed), 3)

@@ -18,7 +18,7 @@ from frames.formulas import (
     size,
     sliding_power,
 )
-from frames.results.measures import ABSORBED, floor_acceleration
+from frames.results.measures import ABSORBED, means_of_levels
 from frames.results.recorded import require_recorded, standing
 from lir_element import formulas as of_bearing
 from lir_element.device.friction_table import FrictionValues
@@ -162,7 +162,7 @@ def violence(data: xr.Dataset) -> FloatArray:
 
 def of_levels(data: xr.Dataset) -> FloatArray:
     """Return the mean accelerations of levels (time, level, axis)."""
-    return floor_acceleration(data).transpose("time", "level", "axis").to_numpy()
+    return means_of_levels(data)
 
 
 def of_nodes(data: xr.Dataset) -> FloatArray:

@@ -92,15 +92,20 @@ def storey_drift(data: xr.Dataset) -> xr.DataArray:
     >>> drift.dims, 1e-5 < float(abs(drift).max()) < 1e-2
     (('time', 'storey', 'axis'), True)
     """
-    drift = _of_lines(data, "storey_drift")
-    storey, names = lines_of(data).storey, [str(name) for name in data["level"].to_numpy()[1:]]
-    means = [drift[:, storey == k].mean(axis=1) for k in range(1, len(names) + 1)]
+    drifts, names = drifts_of_storeys(data), [str(name) for name in data["level"].to_numpy()[1:]]
     return xr.DataArray(
-        np.stack(means, axis=1),
+        drifts,
         dims=("time", "storey", "axis"),
         coords={"time": data["time"], "storey": names, "axis": ["x", "y"]},
         attrs={"units": "1", "long_name": "storey drift ratio"} | noted(data),
     )
+
+
+def drifts_of_storeys(data: xr.Dataset) -> FloatArray:
+    """Return the values of `storey_drift`."""
+    drift, lines = drifts_of_lines(data, "storey_drift")
+    storeys = range(1, data.sizes["level"])
+    return np.stack([drift[:, lines.storey == k].mean(axis=1) for k in storeys], axis=1)
 
 
 def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
@@ -126,21 +131,25 @@ def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
     >>> floor_acceleration(data).sel(axis="x").dims
     ('time', 'level')
     """
-    require_recorded(data, "means over levels", "node_acceleration", "level_node", "node_mass")
-    require_whole_levels(data, "means over levels")
-    place, shares = data["level_node"].to_numpy(), floor_shares(data)
-    moves = data["node_acceleration"].sel(dof=["ux", "uy", "uz"]).transpose("time", "node", "dof")
-    values = moves.to_numpy()
-    means = [
-        np.einsum("tna,na->ta", values[:, on], shares[on])
-        for on in (np.flatnonzero(place == k) for k in range(data.sizes["level"]))
-    ]
     return xr.DataArray(
-        np.stack(means, axis=1),
+        means_of_levels(data),
         dims=("time", "level", "axis"),
         coords={"time": data["time"], "level": data["level"], "axis": ["x", "y", "z"]},
         attrs={"units": "m/s2", "long_name": "total acceleration of the level"} | noted(data),
     )
+
+
+def means_of_levels(data: xr.Dataset) -> FloatArray:
+    """Return the values of `floor_acceleration`."""
+    require_recorded(data, "means over levels", "node_acceleration", "level_node", "node_mass")
+    require_whole_levels(data, "means over levels")
+    place, shares = data["level_node"].to_numpy(), floor_shares(data)
+    values = _along(data, "node_acceleration", "ux", "uy", "uz")
+    means = [
+        np.einsum("tna,na->ta", values[:, on], shares[on])
+        for on in (np.flatnonzero(place == k) for k in range(data.sizes["level"]))
+    ]
+    return np.stack(means, axis=1)
 
 
 def floor_shares(data: xr.Dataset) -> FloatArray:
@@ -195,8 +204,7 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
     >>> drift_by_line(data).dims
     ('time', 'line', 'axis')
     """
-    drift = _of_lines(data, "drift_by_line")
-    lines = lines_of(data)
+    drift, lines = drifts_of_lines(data, "drift_by_line")
     return xr.DataArray(
         drift,
         dims=("time", "line", "axis"),
@@ -269,6 +277,16 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
     >>> float(uplift_gap(data).max())
     0.0
     """
+    return xr.DataArray(
+        gaps(data),
+        dims=("time", "bearing"),
+        coords={"time": data["time"], "bearing": data["bearing"]},
+        attrs={"units": "m", "long_name": "gap of the axial contact"} | noted(data),
+    )
+
+
+def gaps(data: xr.Dataset) -> FloatArray:
+    """Return the values of `uplift_gap`."""
     require_recorded(
         data,
         "uplift_gap",
@@ -277,21 +295,17 @@ def uplift_gap(data: xr.Dataset) -> xr.DataArray:
         "interface_slip_size",
         "axial_force",
     )
-    moves = data["bearing_displacement"].transpose("time", "bearing", "axis").to_numpy()
+    given = data.variables
+    moves = given["bearing_displacement"].transpose("time", "bearing", "axis").to_numpy()
     across = moves[..., :2] + centre_shift(data)
     slip, load = (
-        data[name].transpose("time", "bearing").to_numpy()
+        given[name].transpose("time", "bearing").to_numpy()
         for name in ("interface_slip_size", "axial_force")
     )
     open_by = open_gap(
-        across[..., 0], across[..., 1], moves[..., 2], data["length"].to_numpy(), slip, load
+        across[..., 0], across[..., 1], moves[..., 2], given["length"].to_numpy(), slip, load
     )
-    return xr.DataArray(
-        standing(data) * open_by,
-        dims=("time", "bearing"),
-        coords={"time": data["time"], "bearing": data["bearing"]},
-        attrs={"units": "m", "long_name": "gap of the axial contact"} | noted(data),
-    )
+    return np.asarray(standing(data) * open_by)
 
 
 def lateral_capacity(data: xr.Dataset) -> FloatArray:
@@ -305,28 +319,35 @@ def lateral_capacity(data: xr.Dataset) -> FloatArray:
 
 def centre_shift(data: xr.Dataset) -> FloatArray:
     """Return how far turns of nodes move the spheres' centres C2 - C1 (time, bearing, 2) [m]."""
-    if (data["bearing_node"] < 0).any():
+    ends = data.variables["bearing_node"].transpose("end", "bearing").to_numpy()
+    if (ends < 0).any():
         msg = "nodes of a bearing were not recorded: record all nodes of the bearings wanted"
         raise ValueError(msg)
-    turns = data["node_displacement"].sel(dof=["rx", "ry"]).to_numpy()
-    ends = [data["bearing_node"].isel(end=end).to_numpy() for end in (0, 1)]
-    levers = [data["lever"].sel(surface=name).to_numpy() for name in ("bottom", "top")]
+    turns = _along(data, "node_displacement", "rx", "ry")
+    levers = data.variables["lever"].transpose("surface", "bearing").to_numpy()
     # C1 = x_i + l_1 e_i and C2 = x_j - l_2 e_j, with the plates' axes e = (r_y, -r_x, 1)
     x = by_tilt(*levers, *(-turns[:, place, 1] for place in ends))
     y = by_tilt(*levers, *(turns[:, place, 0] for place in ends))
     return np.stack([x, y], axis=-1)
 
 
-def _of_lines(data: xr.Dataset, what: str) -> FloatArray:
-    # Drift ratios of lines, (time, line, axis).
+def drifts_of_lines(data: xr.Dataset, what: str) -> tuple[FloatArray, Lines]:
+    """Return the values of `drift_by_line`, and the lines; `what` needs them."""
     require_recorded(data, what, "node_displacement")
     require_whole_levels(data, what)
     heights, lines = _level_heights(data), lines_of(data)
-    values = data["node_displacement"].sel(dof=["ux", "uy", "rz"]).to_numpy()
+    values = _along(data, "node_displacement", "ux", "uy", "rz")
     low, high = values[:, lines.lower], values[:, lines.upper, :2]
     rise = heights[lines.storey] - heights[lines.storey - 1]
     carried = low[..., 2:] * np.column_stack([-lines.arm[:, 1], lines.arm[:, 0]])
-    return np.asarray((high - low[..., :2] - carried) / rise[None, :, None])
+    return np.asarray((high - low[..., :2] - carried) / rise[None, :, None]), lines
+
+
+def _along(data: xr.Dataset, name: str, *dofs: str) -> FloatArray:
+    # Some degrees of freedom of nodes, (time, node, dof).
+    known, each = data.variables["dof"].to_numpy().tolist(), data.variables[name]
+    places = [known.index(dof) for dof in dofs]
+    return np.asarray(each.transpose("time", "node", "dof").to_numpy()[..., places])
 
 
 def _level_heights(data: xr.Dataset) -> FloatArray:

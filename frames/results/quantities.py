@@ -30,9 +30,9 @@ from frames.results.formulas import (
 )
 from frames.results.measures import (
     centre_shift,
-    drift_by_line,
-    storey_drift,
-    uplift_gap,
+    drifts_of_lines,
+    drifts_of_storeys,
+    gaps,
 )
 from frames.results.recorded import standing
 
@@ -290,7 +290,7 @@ QUANTITIES: dict[str, Quantity] = {
     "gap": _stepped(
         "m",
         "gap of the axial contact",
-        lambda d: uplift_gap(d).transpose("time", "bearing").to_numpy(),
+        gaps,
         title="maximum uplift",
         demand="maximum uplift",
         limit="uplift_gap",
@@ -356,7 +356,7 @@ QUANTITIES: dict[str, Quantity] = {
         ("storey",),
         "1",
         "storey drift",
-        lambda d: in_plan(storey_drift(d).to_numpy()),
+        lambda d: in_plan(drifts_of_storeys(d)),
         title="storey drift, mean",
         demand="storey drift ratio",
         note="mean of the storey, in plan",
@@ -369,7 +369,7 @@ QUANTITIES: dict[str, Quantity] = {
         ("line",),
         "1",
         "drift of a line of nodes",
-        lambda d: in_plan(drift_by_line(d).to_numpy()),
+        lambda d: in_plan(drifts_of_lines(d, "drift_by_line")[0]),
         title="storey drift, maximum at any column line",
         demand="storey drift ratio, maximum at any column line",
         note="in plan",

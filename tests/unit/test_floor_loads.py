@@ -153,6 +153,14 @@ def test_the_load_on_end_zones_goes_to_the_nodes():
     assert {node for node, _, _ in applied_loads(frame).nodes} == {"c0", "c1"}
 
 
+def test_loads_that_are_kept_from_before_follow_a_change_of_the_floor():
+    frame, names = floor(PANELS["rectangle"])
+    frame.add_floor_load("slab", names, Q)
+    once = applied_loads(frame).spans
+    frame.add_floor_load("more", names, Q)
+    assert applied_loads(frame).spans == [*once, *once]
+
+
 def test_the_mass_of_a_floor_is_at_the_ends_of_its_beams_and_weighs_once():
     corners = PANELS["trapezoid"]
     frame, names = floor(corners, split=True)

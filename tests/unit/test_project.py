@@ -3,6 +3,7 @@
 import json
 import math
 import shutil
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -623,6 +624,31 @@ def test_a_governing_run_whose_peaks_are_chance_says_so(done, monkeypatch):
     share = 100.0 * float(data.attrs["noise_displacement"])
     assert share > 5.0
     assert f"bearing displacement by {share:.2g} %" in said
+
+
+def test_ctrl_c_in_the_governing_run_ends_the_disturbed_one_beside_it(done, monkeypatch):
+    begun, ended = threading.Event(), threading.Event()
+
+    class Endless:
+        def __init__(self, *_: object) -> None:
+            pass
+
+        def run(self, _motion, *, dt, recording=None, progress=None) -> None:
+            while recording is not None:
+                begun.set()
+                try:
+                    progress(0.0)
+                except KeyboardInterrupt:
+                    return ended.set()
+            begun.wait(10.0)
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(level_runs, "Analysis", Endless)
+    parts = ProjectInputs(read_project(done / "small.toml"), done)
+    runs = Runs(load(done / "out" / "runs-lower.nc"))
+    with pytest.raises(KeyboardInterrupt):
+        level_runs.governing_run(parts, preliminary(parts), runs)
+    assert ended.is_set()
 
 
 def test_what_the_disturbed_run_alone_reaches_is_all_of_the_difference(done: Path) -> None:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import warnings
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from threading import Event
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -19,7 +22,8 @@ from frames.results.peak_response import largest
 from frames.results.quantities import QUANTITIES
 from frames.results.storage import as_packed
 from frames.solve.step_sensitivity import NOISE, SENSITIVE
-from frames.solve.time_history import time_history
+from frames.solve.time_history import Analysis
+from frames.statics.blas_threads import blas_threads_for
 from lir_element.errors import AnalysisWarning
 from lir_element.texts import joined, worded
 
@@ -48,16 +52,22 @@ def governing_run(parts: ProjectInputs, known: Preliminary, runs: Runs) -> xr.Da
     """Return the histories of the run that displaces a bearing most, run once more to keep them."""
     model, motion = model_and_motion(parts, known, most_displaced(runs))
     given = parts.file.analysis
-    with warnings.catch_warnings():  # as told of the same run among the others
-        warnings.simplefilter("ignore", AnalysisWarning)
-        data = time_history(model, motion, level=given.level, dt=given.dt)
-        disturbed = time_history(
-            model,
-            motion.scaled(1.0 + NOISE),
-            level=given.level,
-            dt=given.dt,
-            recording=Recording.peaks(),
-        )
+    stop = Event()
+
+    def go_on(_share: float) -> None:
+        if stop.is_set():
+            raise KeyboardInterrupt
+
+    with blas_threads_for(model), warnings.catch_warnings(), ThreadPoolExecutor(1) as beside:
+        warnings.simplefilter("ignore", AnalysisWarning)  # as told of the same run among the others
+        run = partial(Analysis(model, given.level).run, dt=given.dt)
+        noisy, peaks = motion.scaled(1.0 + NOISE), Recording.peaks()
+        other = beside.submit(run, noisy, recording=peaks, progress=go_on)
+        try:
+            data = run(motion)
+            disturbed = other.result()
+        finally:
+            stop.set()
     return as_packed(data).assign_attrs(
         {f"{_ATTRIBUTE}{key}": _apart(data, disturbed, key) for key in _WATCHED}
     )

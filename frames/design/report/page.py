@@ -9,12 +9,11 @@ import textwrap
 from copy import copy
 from functools import cache
 from importlib import resources
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jinja2
 import numpy as np
 from markupsafe import Markup
-from matplotlib.ticker import Formatter, NullFormatter
 from pandas.api.types import is_string_dtype
 
 from frames.design._errors import ProjectError
@@ -113,17 +112,12 @@ class Words:
             return figure
         from matplotlib.text import Text
 
+        from frames.plots.plot_style import say_ticks
+
         for text in figure.findobj(Text):
             text.set_text(self._lines(text.get_text()))
-        for axes in figure.axes:
-            third = getattr(axes, "zaxis", None)
-            for axis in (axes.xaxis, axes.yaxis, *([third] if third else [])):
-                axis.set_major_formatter(self._ticks(axis.get_major_formatter()))
-                axis.set_minor_formatter(self._ticks(axis.get_minor_formatter()))
+        say_ticks(figure, self.say)
         return figure
-
-    def _ticks(self, inner: Formatter) -> Formatter:
-        return inner if isinstance(inner, NullFormatter) else _Said(inner, self)
 
     def _listed(self, cell: str) -> str:
         listed = self.decimal == "," and not isinstance(cell, Text)
@@ -159,30 +153,6 @@ class _Number:
 
     def __format__(self, spec: str) -> str:
         return self._words.number(format(self._value, spec))
-
-
-class _Said(Formatter):
-    """Labels of an axis in the language."""
-
-    def __init__(self, inner: Formatter, words: Words) -> None:
-        super().__init__()
-        self._inner, self._words = inner, words
-
-    def set_axis(self, axis: Any) -> None:
-        super().set_axis(axis)
-        self._inner.set_axis(axis)
-
-    def __call__(self, x: float, pos: int | None = None) -> str:
-        return self._words.say(str(self._inner(x, pos)))
-
-    def format_ticks(self, values: Any) -> list[str]:
-        return [self._words.say(text) for text in self._inner.format_ticks(values)]
-
-    def set_locs(self, locs: Any) -> None:
-        self._inner.set_locs(locs)
-
-    def get_offset(self) -> str:
-        return self._words.say(str(self._inner.get_offset()))
 
 
 @cache

@@ -19,7 +19,6 @@ from frames.design.report.cover import (
     verdict_of,
     what_governs,
 )
-from frames.design.report.figures import pictures
 from frames.design.report.page import Table, Words, page_table, page_template
 from frames.design.report.result_tables import (
     BY_MOTION,
@@ -82,7 +81,11 @@ def report_in(
 ) -> str:
     """Return the page of `report_html` in a language; `words` then knows what it lacked."""
     device = next(iter(run.frame.bearings.values())).bearing
-    attrs = run.governing.attrs
+    attrs, drawn = run.governing.attrs, {}
+    if figures:
+        from frames.design.report.figures import pictures  # with matplotlib
+
+        drawn = pictures(run, words)
 
     def fit(table: Table, keep: int = 1) -> list[Table]:
         return in_parts(words.table(table), keep=keep)
@@ -142,7 +145,7 @@ def report_in(
         levels=_levels(run),
         level=run.rules.levels[0].name,
         audit=findings_of(run.governing).lines(),
-        pictures=pictures(run, words) if figures else {},
+        pictures=drawn,
         source=source,
         options=(attrs["level"], attrs["integrator"], attrs["step_control"]),
     )
