@@ -28,7 +28,7 @@ from frames.design.project.quantities import si
 from frames.design.project.reading import read_project, schema
 from frames.design.project.schema_structure import SuperstructureTable
 from frames.design.project.speed import Way
-from frames.design.report import files, writing
+from frames.design.report import figures, files
 from frames.design.sizing.target import INTERFACE_PRESSURE
 from tests.refusals import refused
 from tests.viewed import payload
@@ -321,7 +321,7 @@ def test_new_writes_over_nothing(folder: Path) -> None:
 
 
 def test_a_report_without_figures_says_so_and_lir_report_draws_them(done, monkeypatch):
-    monkeypatch.setattr(writing, "pictures", lambda *_: {"model": []})
+    monkeypatch.setattr(figures, "pictures", lambda *_: {"model": []})
     assert "Written without figures" in (done / "out" / "report.html").read_text(encoding="utf-8")
     run(app, ["report", str(done / "small.toml"), "--results", str(done / "out")])
     text = (done / "out" / "report.html").read_text(encoding="utf-8")
@@ -562,7 +562,7 @@ def test_a_run_goes_on_where_it_was_interrupted(done, monkeypatch):
     def stopped(*_: object, **__: object) -> None:
         raise AnalysisInterrupted(2.0, xr.Dataset())
 
-    monkeypatch.setattr(level_runs, "time_history", stopped)
+    monkeypatch.setattr(level_runs, "Analysis", stopped)
     found = ran(file, cut)
     assert found.exit_code == 130
     assert "9 runs that were complete are kept in " in found.output
