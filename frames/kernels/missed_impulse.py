@@ -73,8 +73,8 @@ def friction_misses(model: ReducedModel, run: IntegrationState, k: int) -> bool:
     """Set ``run.u``, forces on the nodes of bearing `k`; returns whether there are any."""
     p, old, new = model.props[k], run.old[k], run.new[k]
     dt = run.clock[0].dt
-    gather(model.start[k], model.columns, model.values, run.rhs_b, run.v)
-    a_1, a_2 = run.v[6] - run.v[0], run.v[7] - run.v[1]
+    gather(model.start[k], model.columns, model.values, run.rhs_b, run.u)
+    a_1, a_2 = run.u[6] - run.u[0], run.u[7] - run.u[1]
     d = new.sliding_increment
     way = math.hypot(d[0, 0], d[0, 1]) + math.hypot(d[1, 0], d[1, 1])
     for row in range(12):

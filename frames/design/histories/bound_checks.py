@@ -20,7 +20,11 @@ from frames.design.devices.capacity import engagement_checks
 from frames.design.histories.bearing_demands import BearingDemands, devices_of
 from frames.design.histories.eccentricity import Case, named_by_way
 from frames.design.histories.force_demands import LEAST, raise_of, shear_checks
-from frames.design.histories.storey_checks import stability_checks, torsion_checks
+from frames.design.histories.storey_checks import (
+    second_order_of,
+    stability_checks,
+    torsion_checks,
+)
 from frames.design.histories.suite import parted, peaks_of_runs, stopped_runs
 from frames.design.histories.suite_notes import (
     audit_notes,
@@ -276,12 +280,11 @@ class BoundChecks:
         if not check.demand > least:
             return ""
         clause = self._clause(self.case.rules.drift_clause)
-        there = "the members have it" if self.frame.members else "springs do not have it"
         return worded(
             "above {least:.3g} % P-Delta must be in the analysis ({clause}): {there}",
             least=100.0 * least,
             clause=clause,
-            there=there,
+            there=second_order_of(self.frame),
         )
 
     @property

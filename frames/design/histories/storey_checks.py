@@ -52,14 +52,18 @@ def torsion_checks(
     return [check if check.void else replace(check, scope="procedure") for check in found]
 
 
+def second_order_of(frame: Frame) -> str:
+    """Return whether the analysis has the effects of gravity on the displaced structure."""
+    return "the members have it" if frame.members else "springs do not have it"
+
+
 def stability_checks(
     case: Case, makes: BearingDemands, frame: Frame, clause: str, standing: Standing
 ) -> list[Check]:
     """Return the check of the P-Delta coefficient of the worst storey."""
     if case.rules.stability is None or not (case.keeps("drift") and case.keeps("storey_shear")):
         return []
-    there = bool(frame.members)
-    limit = case.rules.stability[there]
+    limit = case.rules.stability[bool(frame.members)]
     drift, shear = (peaks_of_runs(case.data, name) for name in ("drift", "storey_shear"))
     weights = np.cumsum(floor_weights(frame)[::-1])[::-1]
     each: dict[str, DemandOverLimit] = {}
@@ -73,6 +77,5 @@ def stability_checks(
         case.suite.form(t, "theta_P", "W_above * theta / V", "-", of="theta")
         t.given("theta_P_lim", limit)
         each[storey] = DemandOverLimit(t, "theta_P", "theta_P_lim")
-    said = "the members have it" if there else "springs do not have it"
-    note = worded("P-Delta in the analysis: {there}", there=said)
+    note = worded("P-Delta in the analysis: {there}", there=second_order_of(frame))
     return makes.worst(standing, clause, "P-Delta coefficient of a storey", each, note)
