@@ -2,6 +2,7 @@
 
 import math
 
+import codes
 import imported
 from reading import GRAVITY
 
@@ -45,15 +46,25 @@ def cases(project):
 
 def combined(project, each):
     """Return the vertical load of each combination [N] of dead load, live load and snow."""
-    found = {}
-    vertical = 0.2 * project.file["spectrum"].get("s_ms", 0.0)
-    if project.code != "ASCE 7-22":
-        vertical = 0.0
+    found, vertical = {}, upright(project)
     for name, factors in FACTORS[project.code].items():
         sign = {"maximum": 1.0, "minimum": -1.0}.get(name, 0.0)
-        factors = (factors[0] + sign * vertical, *factors[1:])
+        live = factors[1] * (1.0 + sign * vertical * (project.code == "EN 1998"))
+        factors = (factors[0] + sign * vertical, live, factors[2])
         found[name] = math.fsum(f * load for f, load in zip(factors, each, strict=True))
     return found
+
+
+def upright(project, share=0.3):
+    """Return the vertical earthquake of the combinations over dead load: of EN 1998 a share."""
+    given = project.file["spectrum"]
+    if project.code == "ASCE 7-22":
+        return 0.2 * given.get("s_ms", 0.0)
+    if project.code == "EN 1998":  # the plateau 3 a_vg
+        peak = given["a_g"] * given.get("importance", 1.0)
+        return share * 3.0 * {1: 0.9, 2: 0.45}[given.get("kind", 1)] * peak / GRAVITY
+    top = 0.01 * codes.SOIL[given["soil"]][5] * codes.ZONE[given["zone"]]
+    return 0.5 * codes.M_M * top / 2.5 / GRAVITY  # 0.5 C_A at the maximum level
 
 
 def totals(project):

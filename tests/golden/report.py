@@ -2,6 +2,7 @@
 
 import math
 
+import building
 import checks
 import described
 import motions
@@ -481,6 +482,11 @@ def _limit(project, row):
         return e["k"], e["k_02"] / 3.0
     if title == "effective stiffness ratio, d_dc to 0.2 d_dc":
         return e["k"], e["k_02"] / 2.0
+    if title == "no uplift where the vertical earthquake leads":
+        rest = 0.7 * building.upright(project, 1.0) * s.P
+        beside, least = overturning(project, e, above, 0.3, 0.3), codes.dead_shares(project)[1]
+        k = s.names.index(subject)
+        return (beside + rest)[k], least * s.P[k]
     if title.startswith("no uplift") and "not evaluated" not in title:
         most, least = codes.dead_shares(project)
         share = most if title.endswith("maximum") else least
@@ -530,14 +536,14 @@ def _provisions(project, head, rows, tally):
             tally.words(name, f"{own['what']} by", all(found), True)
 
 
-def overturning(project, e, above):
+def overturning(project, e, above, full=1.0, part=0.3):
     """Return axial loads of the bearings from unreduced forces on a rigid base, 100 and 30 %."""
     import codes
 
     s, moment = e["system"], codes.overturning_moment(project, e, above)
     x, y = np.abs(s.x - s.x.mean()), np.abs(s.y - s.y.mean())
     one, two = moment * x / (x**2).sum(), moment * y / (y**2).sum()
-    return np.maximum(one + 0.3 * two, 0.3 * one + two)
+    return np.maximum(full * one + part * two, part * one + full * two)
 
 
 def _motions(project, head, rows, tally):

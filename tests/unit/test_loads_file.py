@@ -62,9 +62,14 @@ def test_bearings_carry_the_combinations(tmp_path: Path, code: str) -> None:
     spectrum = parts.spectrum()
     system = parts.system(parts.loaded_frame(), spectrum)
     own = DEAD + members_weight(tmp_path)
-    rule = code_named(code).loads.combinations(spectrum.parameters.get("S_MS"))
+    rule = code_named(code).loads.combined(spectrum)
     if code == "ASCE 7-22":
         assert rule == isolator_combinations(1.0)
+    still = code_named(code).loads.combined(None)
+    more = {name: rule[name]["D"] - still[name]["D"] for name in ("maximum", "minimum")}
+    # 0.2 S_MS; 30 % of 3 times 0.9 a_g; 0.5 C_A with M_M
+    part = {"ASCE 7-22": 0.2, "EN 1998": 0.81 * 0.25, "NCh2745": 0.24 * 11.0 / G}
+    assert [more["maximum"], -more["minimum"]] == pytest.approx([part[code]] * 2, rel=1e-4)
     loads = {"average": system.loads, **system.combinations}
     assert set(loads) == {"average", "maximum", "minimum"}
     for name, each in loads.items():

@@ -106,8 +106,11 @@ class LinearAnalysis(abc.ABC):
             overturning(t, "M_o", "o")
             known = loads.resting_on("overturning")
             checks += overturning_check(t, known, self.overturning_clause)
-            known = loads.resting_on("vertical loads")
-            checks += vertical_checks(t, system, known, self.vertical_clause, self.pressure_limit)
+            found = self.vertical_checks(t, system, loads)
+            why = system.unknown_loads
+            if not why and len(system.loads) == 1 and t.value("M_o") > 0.0:
+                why = "one bearing has no lever against the overturning moment M_o"
+            checks += not_evaluated(found, why)
             checks += self.further_checks(t, superstructure, judge)
             forces = (t.value("F_1"), *t.values("F_x"))
         return BoundResult(bound, t, self.symbols, rounds, t.values(self.each), forces, checks)
@@ -159,6 +162,11 @@ class LinearAnalysis(abc.ABC):
     def structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
         """Return the checks of the structure above."""
         return Checks()
+
+    def vertical_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+        """Return the checks of axial loads by the combinations."""
+        known = judge.resting_on("vertical loads")
+        return vertical_checks(t, system, known, self.vertical_clause, self.pressure_limit)
 
     def further_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
         """Return checks that come last."""
@@ -300,10 +308,7 @@ def vertical_checks(
                     subjects=system.labels,
                 )
             )
-    why = system.unknown_loads
-    if not why and len(system.loads) == 1 and t.value("M_o") > 0.0:
-        why = "one bearing has no lever against the overturning moment M_o"
-    return not_evaluated(found, why)
+    return Checks(found)
 
 
 def capacity_check(

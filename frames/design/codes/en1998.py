@@ -22,7 +22,14 @@ from frames.design.codes.outcome import Symbols
 from frames.design.codes.prototype_programme import DesignToTest, PlannedTest
 from frames.design.codes.registry import DesignCode
 from frames.design.codes.secant import CheckBuilder, enter_system, procedure_limit, secant
-from frames.design.codes.values_of_en1998 import NAME, PROVISIONS, RULES, VALUES
+from frames.design.codes.values_of_en1998 import (
+    COMPANION,
+    NAME,
+    PROVISIONS,
+    RULES,
+    VALUES,
+    vertical_level,
+)
 from frames.design.hazard.spectrum import Spectrum
 from lir_element.texts import worded
 
@@ -246,12 +253,27 @@ class EN1998(LinearAnalysis):
         t.given("T_f", above.fixed_base_period, "s")
         t("M_o", "sum(f_x * h_x)", "N m", note="overturning, q = 1")
         t.given("o", self.orthogonal, source="EN 1998-1 4.3.3.5")
+        t.given("v_z", vertical_level(spectrum), source="EN 1998-1 3.2.2.3", note="3 a_vg, in g")
 
     def structure_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
         """Return the check of storey drifts."""
         t.given("nu", self.reduction, source="EN 1998-1 4.4.3.2")
         known, clause = judge.resting_on("drift", "reduction", "behaviour"), "EN 1998-1 4.4.3.2"
         return drift_checks(t, above, known, clause, limit=self.drift, factor="nu * q")
+
+    def vertical_checks(self, t: Trace, system: IsolationSystem, judge: CheckBuilder) -> Checks:
+        """Return the checks by the combinations, and that of a vertical earthquake that leads."""
+        found = super().vertical_checks(t, system, judge)
+        if "N_minimum" not in t:
+            return found
+        t.given("a_z", COMPANION, note="of the vertical earthquake, in the combination")
+        levers = [name for name in ("N_Ex", "N_Ey") if name in t]
+        beside = " + ".join(f"o * {name}" for name in levers) or "0 * P"
+        t.each("N_Ez", f"{beside} + (1 - a_z) * v_z * P", "N", source="EN 1998-1 4.3.3.5.2(4)")
+        limit = judge.limit("vertical", "orthogonal")
+        title, clause = "no uplift where the vertical earthquake leads", VALUES["vertical"].clause
+        lead = limit.worst(clause, title, "N_Ez", "<=", "N_minimum", subjects=system.labels)
+        return found + Checks([lead])
 
     def further_checks(self, t: Trace, above: Superstructure, judge: CheckBuilder) -> Checks:
         """Return the limits of the simplified analysis."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple, get_args
+from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
 
 from frames.design._errors import CheckError
 from frames.design.calculation.standing import FROM_MEMORY, Standing
@@ -12,6 +12,9 @@ from frames.model.load_combinations import isolator_combinations
 from lir_element.argument_checks import require_choice
 from lir_element.fields import check_numbers, number
 from lir_element.texts import worded
+
+if TYPE_CHECKING:
+    from frames.design.hazard.spectrum import Spectrum
 
 Judged = Literal["all", "superstructure", "isolation"]
 
@@ -276,12 +279,14 @@ class LoadRule(NamedTuple):
         Share of each load case that is seismic mass [-], if a project does not say another.
     combinations : callable
         Returns the vertical load combinations of the bearings without the horizontal earthquake,
-        "average" among them, which time histories carry; its argument is S_MS [g], or None where
-        the code's spectrum has none.
+        "average" among them, which time histories carry; its argument is the acceleration that
+        the vertical earthquake goes by [g], or None without it.
     standing : Standing
         How well it is known.
     note : str
         What it makes of the loads, in words.
+    vertical : callable
+        Returns that acceleration of a spectrum: S_MS of ASCE 7, None where there is none.
 
     Examples
     --------
@@ -296,17 +301,17 @@ class LoadRule(NamedTuple):
     combinations: Callable[[float | None], Combinations]
     standing: Standing = FROM_MEMORY
     note: str = ""
+    vertical: Callable[[Spectrum], float | None] = lambda spectrum: spectrum.parameters.get("S_MS")
+
+    def combined(self, spectrum: Spectrum | None) -> Combinations:
+        """Return the combinations with the vertical earthquake of a spectrum; None without it."""
+        return self.combinations(None if spectrum is None else self.vertical(spectrum))
 
     @property
     def cited(self) -> str:
         """Clause, with a star where it is from memory, and note."""
         said = self.standing.cited(self.clause)
         return worded("{clause}: {note}", clause=said, note=self.note) if self.note else said
-
-
-def fixed_combinations(combinations: Combinations) -> Callable[[float | None], Combinations]:
-    """Return a rule whose factors do not depend on the spectrum."""
-    return lambda s_ms: {name: dict(factors) for name, factors in combinations.items()}
 
 
 LOADS_OF_ASCE = LoadRule(

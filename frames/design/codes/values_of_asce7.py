@@ -154,6 +154,7 @@ PROVISIONS = (
     ),
     common(f"{NAME} 17.2.4.7", "overturning of the whole structure"),
     common(f"{NAME} 17.2.4.6, 17.2.4.7", "uplift by the combinations"),
+    common(f"{NAME} 12.4.2.2, 17.2.7.1", "vertical earthquake in the combinations"),
     Provision(
         f"{NAME} 17.2.4.7", "uplift in time histories", ("maximum uplift over the rim height",)
     ),

@@ -15,7 +15,7 @@ from frames.design.codes.code_values import (
     common,
     yours,
 )
-from frames.design.codes.history_rules import HistoryRules, LoadRule, fixed_combinations
+from frames.design.codes.history_rules import Combinations, HistoryRules, LoadRule
 from frames.design.codes.prototype_programme import AcceptanceRule
 from frames.design.codes.registry import (
     MOST_IMPORTANT,
@@ -28,6 +28,7 @@ from frames.design.codes.registry import (
 from frames.design.hazard.code_rules import DampingRule, ScalingRule
 from frames.design.hazard.spectral_shapes import EN1998_TABLES
 from frames.design.hazard.spectrum import Spectrum
+from lir_element.units import STANDARD_GRAVITY
 
 NAME = "EN 1998"
 
@@ -88,6 +89,9 @@ VALUES = {
     "overturning": CodeValue("EN 1998-1 4.4.2.4", "of the whole structure, safety 1.0"),
     "separation": CodeValue("EN 1998-1 10.5.4", "room for gamma_x d_bd around the structure"),
     "factors": CodeValue("EN 1998-2 annexes J and JJ", "factors on friction and psi_f"),
+    "vertical": CodeValue(
+        "EN 1998-1 4.3.3.5.2, 10.6", "vertical component of 3 a_vg, 30 % with the horizontal ones"
+    ),
     "loads": CodeValue(
         "EN 1990:2002, 6.4.3.4 and table A1.1, EN 1998-1:2004, 3.2.4",
         "seismic mass and combinations",
@@ -166,7 +170,12 @@ PROVISIONS = (
     common("EN 1998-1 4.4.2.4", "overturning of the whole structure"),
     common("EN 15129 8.3, EN 1998-1 10.10", "uplift by the combinations"),
     common("EN 1998-1 10.10", "uplift in time histories"),
-    common("EN 1998-1 4.3.3.5.2, 10.6", "vertical earthquake in the combinations"),
+    Provision(
+        "EN 1998-1 4.3.3.5.2, 10.6",
+        "vertical earthquake in the combinations",
+        ("no uplift", "no uplift where the vertical earthquake leads"),
+        ("superstructure", "combinations"),
+    ),
     common(NO_CODE, "sliding under wind"),
     common("EN 1998-1 10.5.4", "separation to walls and neighbours"),
     Provision(
@@ -219,18 +228,38 @@ def _factor(damping: float) -> float:
     return 1.0 / max(math.sqrt(10.0 / (5.0 + 100.0 * damping)), _SMALLEST_ETA)
 
 
+_VERTICAL = {1: 0.90, 2: 0.45}
+"""a_vg over a_g by the kind of the spectrum (EN 1998-1 table 3.4)."""
+COMPANION = 0.3
+"""Share of the vertical component that acts with the horizontal ones (EN 1998-1 4.3.3.5.2(4))."""
+
+
+def vertical_level(spectrum: Spectrum) -> float:
+    """Return the plateau of the vertical elastic spectrum, 3 a_vg, of all vertical periods [g].
+
+    Of a spectrum by points S_e(0) stands for a_g: on the safe side, it has the ground in it.
+    """
+    peak = spectrum.parameters.get("a_g") or float(spectrum.acceleration(spectrum.reach[0]))
+    kind = int(dict(spectrum.site).get("kind", 1))
+    return 3.0 * _VERTICAL[kind] * peak / STANDARD_GRAVITY
+
+
+def _combinations(vertical: float | None) -> Combinations:
+    part = COMPANION * (vertical or 0.0)
+    return {
+        "average": {"D": 1.0, "L": 0.3, "S": 0.0},
+        "maximum": {"D": 1.0 + part, "L": 0.3 * (1.0 + part), "S": 0.2},
+        "minimum": {"D": 1.0 - part, "L": 0.0, "S": 0.0},
+    }
+
+
 _LOADS = LoadRule(
     VALUES["loads"].clause,
     {"D": 1.0, "L": 0.3, "S": 0.0},
-    fixed_combinations(
-        {
-            "average": {"D": 1.0, "L": 0.3, "S": 0.0},
-            "maximum": {"D": 1.0, "L": 0.3, "S": 0.2},
-            "minimum": {"D": 1.0, "L": 0.0, "S": 0.0},
-        }
-    ),
+    _combinations,
     VALUES["loads"].standing,
-    "psi_2 = 0.3 of dwellings and offices, phi = 1; no vertical earthquake in the combinations",
+    "psi_2 = 0.3 of dwellings and offices, phi = 1; 30 % of the vertical earthquake 3 a_vg",
+    vertical_level,
 )
 
 

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
+import numpy as np
+
 from frames.design.codes.code_values import NO_CODE, CodeValue, Provision, common, yours
 from frames.design.codes.history_rules import (
     DESIGN,
     MAXIMUM,
     NCH_MAXIMUM,
     ActionLevel,
+    Combinations,
     HistoryRules,
     LoadRule,
-    fixed_combinations,
 )
 from frames.design.codes.prototype_programme import AcceptanceRule
 from frames.design.codes.registry import (
@@ -25,6 +27,7 @@ from frames.design.codes.registry import (
 from frames.design.hazard.code_rules import LINEAR, DampingRule, ScalingRule
 from frames.design.hazard.spectral_shapes import NCH2745_TABLES
 from frames.design.hazard.spectrum import Spectrum
+from lir_element.units import STANDARD_GRAVITY
 
 NAME = "NCh2745"
 
@@ -56,6 +59,7 @@ VALUES = {
     "overturning": CodeValue("NCh2745 6.2", "of the whole structure, safety 1.0"),
     "orthogonal": CodeValue("NCh2745 6.2", "30 % of the other direction", field="orthogonal"),
     "loads": CodeValue("NCh433 5.5.1 and NCh2745 8.4", "seismic mass and combinations"),
+    "vertical": CodeValue("NCh2745 6.2", "E_v = 0.5 C_A D at the maximum level, as UBC-97 1630.1"),
     "number of motions": CodeValue("NCh2745 8.4", "3 motions at least"),
     "mean": CodeValue("NCh2745 8.4", "the mean counts from 7 motions on"),
     "scaling": CodeValue("NCh2745 8.4", "SRSS, 1.17 of the target, 0.5 T_D to 1.25 T_M"),
@@ -134,19 +138,29 @@ PROVISIONS = (
 """Provisions of NCh2745, checked or not; `OF_BEARINGS` has those beside the code."""
 
 
+def _vertical(spectrum: Spectrum) -> float:
+    # 2.5 C_A at the maximum level, as C_AD of the tests [g].
+    periods = np.geomspace(max(spectrum.reach[0], 0.01), 1.0, 200)
+    return NCH_MAXIMUM * float(np.max(spectrum.acceleration(periods))) / STANDARD_GRAVITY
+
+
+def _combinations(vertical: float | None) -> Combinations:
+    part = 0.2 * (vertical or 0.0)
+    return {
+        "average": {"D": 1.0, "L": 0.5, "S": 0.0},
+        "maximum": {"D": 1.2 + part, "L": 1.0, "S": 0.2},
+        "minimum": {"D": 0.8 - part, "L": 0.0, "S": 0.0},
+    }
+
+
 _LOADS = LoadRule(
     VALUES["loads"].clause,
     {"D": 1.0, "L": 0.25, "S": 0.0},
-    fixed_combinations(
-        {
-            "average": {"D": 1.0, "L": 0.5, "S": 0.0},
-            "maximum": {"D": 1.2, "L": 1.0, "S": 0.2},
-            "minimum": {"D": 0.8, "L": 0.0, "S": 0.0},
-        }
-    ),
+    _combinations,
     VALUES["loads"].standing,
-    "as UBC-97 1661, 25 % of the live load of dwellings and offices is mass; no vertical "
-    "earthquake in the combinations",
+    "as UBC-97 1661, 25 % of the live load of dwellings and offices is mass; E_v = 0.5 C_A D at "
+    "the maximum level",
+    _vertical,
 )
 
 

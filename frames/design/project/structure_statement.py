@@ -160,8 +160,7 @@ def _loads(file: ProjectFile, given: LoadsTable, spectrum: Spectrum | None) -> R
     source = rule.cited if given.mass is None else "as the file says"
     counted = worded("members, {sum} ({source})", sum=_sum(mass), source=source)
     rows.append(("seismic mass", counted))
-    s_ms = None if spectrum is None else spectrum.parameters.get("S_MS")
-    for name, factors in rule.combinations(s_ms).items():
+    for name, factors in rule.combined(spectrum).items():
         title = worded("{name} combination, no horizontal earthquake", name=name)
         rows.append((title, _sum(factors)))
     return rows
