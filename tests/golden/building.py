@@ -44,9 +44,9 @@ def cases(project):
     return dead, (storeys + 1) * plan * loads.get("live", 0.0), plan * loads.get("snow", 0.0)
 
 
-def combined(project, each):
+def combined(project, each, vertical=None):
     """Return the vertical load of each combination [N] of dead load, live load and snow."""
-    found, vertical = {}, upright(project)
+    found, vertical = {}, upright(project) if vertical is None else vertical
     for name, factors in FACTORS[project.code].items():
         sign = {"maximum": 1.0, "minimum": -1.0}.get(name, 0.0)
         live = factors[1] * (1.0 + sign * vertical * (project.code == "EN 1998"))
@@ -67,13 +67,13 @@ def upright(project, share=0.3):
     return 0.5 * codes.M_M * top / 2.5 / GRAVITY  # 0.5 C_A at the maximum level
 
 
-def totals(project):
+def totals(project, vertical=None):
     """Return the vertical load of each combination [N] where loads are by cases, else nothing."""
     if "loads" in project.file:
-        return combined(project, cases(project))
+        return combined(project, cases(project), vertical)
     if project.file["structure"]["kind"] == "etabs":
         dead, live, _ = imported.model(project).cases()
-        return combined(project, (dead, live, 0.0))
+        return combined(project, (dead, live, 0.0), vertical)
     return {}
 
 

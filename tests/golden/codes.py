@@ -337,6 +337,14 @@ def overturning_moment(project, e, above):
     return (w @ h**2) / (w @ h) * s.force(e["moved"], s.mu_upper).sum()
 
 
+def overturning(project, e, above, full=1.0, part=0.3):
+    """Return axial loads of the bearings from unreduced forces on a rigid base, 100 and 30 %."""
+    s, moment = e["system"], overturning_moment(project, e, above)
+    x, y = np.abs(s.x - s.x.mean()), np.abs(s.y - s.y.mean())
+    one, two = moment * x / (x**2).sum(), moment * y / (y**2).sum()
+    return np.maximum(full * one + part * two, part * one + full * two)
+
+
 COLUMNS = {
     "total_displacement [m]": "total",
     "period [s]": "period",

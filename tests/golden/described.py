@@ -2,6 +2,7 @@
 
 import math
 
+import building
 import imported
 
 STEELS = {"S": 210, "A": 200}  # GPa, by the first letter of a grade
@@ -119,15 +120,14 @@ def loaded(loads, project):
     mass = loads.get("mass", {"live": LIVE_MASS[code]})
     shares = (mass.get("dead", 1.0), mass.get("live", 0.0), mass.get("snow", 0.0))
     found["seismic mass"] = f"members, {added(shares)}"
-    s_ms = project.file["spectrum"].get("s_ms", 0.0)
     for name, (fixed, light, white) in COMBINATIONS[code].items():
-        sign = {"maximum": 1.0, "minimum": -1.0}.get(name, 0.0)
-        total = fixed + sign * 0.2 * s_ms if code == "ASCE 7-22" else fixed
-        found[f"{name} combination, no horizontal earthquake"] = added((total, light, white))
+        part = {"maximum": 1.0, "minimum": -1.0}.get(name, 0.0) * building.upright(project)
+        light *= 1.0 + part * (code == "EN 1998")
+        found[f"{name} combination, no horizontal earthquake"] = added((fixed + part, light, white))
     return found
 
 
 def added(factors):
     """Return factors of dead load, live load and snow as a sum."""
     named = zip(factors, "DLS", strict=True)
-    return " + ".join(f"{factor:g} {case}" for factor, case in named if factor > 0.0)
+    return " + ".join(f"{factor:.4g} {case}" for factor, case in named if factor > 0.0)

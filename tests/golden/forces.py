@@ -1,5 +1,8 @@
 """Forces under bearings, of storeys and of members: their tables, from histories of bearings."""
 
+import building
+import codes
+import motions
 import numpy as np
 
 MEAN_FROM = 7
@@ -26,8 +29,115 @@ def compare(project, tally):
         rows.setdefault(key, {}).setdefault(row["storey"], []).append(row)
     for key, each in rows.items():
         _storeys(project, key, each, tally)
+    kinds = {"reaction": ("reactions", ("bearing", "side"))}
     if (project.results / "members.csv").is_file():
         _groups(project, tally)
+        kinds["member"] = ("members", ("member", "station"))
+    if (project.results / "reaction-combinations.csv").is_file():
+        for kind, (of, keys) in kinds.items():
+            _combined(project, kind, project.table(of), keys, tally)
+        _uplift(project, tally)
+
+
+def _combined(project, kind, runs, keys, tally):
+    """Hold permanent loads plus earthquake against the forces of the runs, row by row."""
+    name = f"{kind}s by combination"
+    tally.category(name, 1e-6, "thousandths of a newton, over 10 kN")
+    own = {}
+    for row in runs:
+        place = row["level"], row["bound"], *(row[key] for key in keys)
+        own.setdefault(place, {})[row["force"], row["extreme"]] = row
+    rows, still = project.table(f"{kind}-combinations"), {}
+    for row in rows:
+        place = row["level"], row["combination"], *(row[key] for key in keys)
+        still.setdefault(place, {})[row["force"]] = float(row["static"])
+    for row in rows:
+        at = [row[key] for key in keys]
+        section = own[row["level"], row["bound"], *at]
+        ran = section[row["force"], row["extreme"]]
+        rest = {force: float(each["permanent"]) for (force, _), each in section.items()}
+        permanent, single = float(ran["permanent"]), float(ran["single"])
+        quake = float(ran["value"]) - permanent
+        alike = abs(single - permanent) <= 1e-9 * abs(quake)
+        factor = 1.0 if alike else quake / (single - permanent)
+        over = row["combination"].partition("E / ")[2]
+        factor /= float(over) if over else 1.0
+        static = still[row["level"], row["combination"], *at]
+        shaken = {f: factor * (float(ran[f"{f} then"]) - rest[f]) for f in rest}
+        acting, grown = {f: static[f] + shaken[f] for f in rest}, 1.0
+        if kind == "reaction":
+            grown = max(acting["N"] / max(rest["N"] + shaken["N"], 0.05 * rest["N"]), 1.0)
+        label = f"{row['combination']} {' '.join(at)} {row['force']} {row['extreme']}"
+        for f, value in acting.items():
+            value *= 1.0 if f == "N" else grown
+            tally.same(name, f"{label}: {f} then", row[f"{f} then"], value, 1e4 * grown)
+        own_value = acting[row["force"]] * (1.0 if row["force"] == "N" else grown)
+        tally.same(name, label, row["value"], own_value, 1e4 * grown)
+        tally.words(name, f"{label} governs", ran["governs"], "yes")
+    if kind == "member":
+        levels = {row["level"] for row in rows}
+        tally.words(name, "level", levels, {"design"} if project.code == "NCh2745" else levels)
+        above = codes.above_of(project)
+        found = {float(row["combination"].partition("E / ")[2] or 1.0) for row in rows}
+        tally.words(name, "reduction", sorted(found), sorted({1.0, _reduction(project, above)}))
+        return
+    words = list(dict.fromkeys(row["combination"] for row in rows))
+    whole = {
+        w: sum(s["N"] for k, s in still.items() if k[1] == w and k[3] == "below") for w in words
+    }
+    upright = any("z" in motion.axes for motion in motions.read(project))
+    vertical = 0.0 if upright else building.upright(project)
+    wanted = building.totals(project, vertical)
+    if not wanted:  # dead load alone
+        total = float(project.governing["weight"])
+        wanted = {"maximum": (1.2 + vertical) * total, "minimum": (0.9 - vertical) * total}
+    levels = len({row["level"] for row in rows})
+    for word, case in zip(words, ("maximum", "minimum"), strict=True):
+        tally.same(name, f"load of {word}", whole[word] / levels, wanted[case])
+
+
+def _reduction(project, above):
+    # R_I, q, R_1; nothing is reduced where nothing is known of what stands on the bearings.
+    if above is None:
+        return 1.0
+    r = above["R"]
+    return {
+        "ASCE 7-22": lambda: min(max(0.375 * r, 1.0), 2.0),
+        "EN 1998": lambda: 1.5,
+        "NCh2745": lambda: max(min(r, 2.0), 1.0),
+    }[project.code]()
+
+
+def _uplift(project, tally):
+    # The least load of all combinations, what the formulas pull, and the larger tension of both.
+    name = "tension of a restraint"
+    tally.category(name, 1e-2, "loads of combinations are nearly multiples: live load is on no facade")
+    rows = project.table("reaction-combinations")
+    above, shares = codes.above_of(project), codes.dead_shares(project)
+    for k, row in enumerate(project.table("uplift")):
+        own = [r for r in rows if (r["bearing"], r["side"]) == (row["bearing"], "below")]
+        least = min(float(r["value"]) for r in own if (r["force"], r["extreme"]) == ("N", "min"))
+        tally.same(name, f"{row['bearing']} least", row["least load by combination [N]"], least)
+        gap = max(float(peaks["gap"][:, k].max()) for peaks in _all_peaks(project))
+        tally.same(name, f"{row['bearing']} gap", row["uplift in runs [m]"], gap, 1e-6)
+        said, pull = row["pull of the equivalent-linear analysis [N]"], -np.inf
+        if above is not None and said:
+            pull = max(
+                codes.overturning(project, e, above)[k] - shares[1] * e["system"].P[k]
+                for e in project.linear.values()
+            )
+            tally.same(
+                name,
+                f"{row['bearing']} pull",
+                said,
+                pull,
+                next(iter(project.linear.values()))["system"].P[k],
+            )
+        tally.same(name, row["bearing"], row["tension if held [N]"], max(-least, pull, 0.0), 1e6)
+
+
+def _all_peaks(project):
+    return [*project.peaks.values(), *(project.moved_peaks or {}).values()]
 
 
 def raised(linear, suite):

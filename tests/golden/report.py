@@ -4,6 +4,7 @@ import math
 
 import building
 import checks
+import codes
 import described
 import motions
 import numpy as np
@@ -81,6 +82,8 @@ def _kind(heading, head):
         ("Time histories", "largest"): _raised,
         ("Time histories", "motion"): _by_motion,
         ("Time histories", "members"): _members,
+        ("Time histories", "foundation below"): _foundation,
+        ("Time histories", "bearing that lifts"): _lifting,
         ("Checks", "check"): _checks,
         ("Checks", "provision"): _provisions,
         ("Test programme", "test"): _programme,
@@ -328,6 +331,48 @@ def _members(project, head, rows, tally):
                 tally.words("tables of the report", f"members {title}", text, source)
 
 
+def _foundation(project, head, rows, tally):
+    # Three rows a bearing, of the table of reactions by combination, in parts of a page.
+    level = "maximum" if project.code == "NCh2745" else None
+    own = [row for row in project.table("reaction-combinations") if row["side"] == "below"]
+    own = [row for row in own if level in {None, row["level"]}]
+    moments = [row for row in own if row["force"] in {"Mx", "My"}]
+    loads = [row for row in own if row["force"] == "N"]
+    of = {
+        "largest N": lambda b: max((r for r in loads if r["bearing"] == b), key=_value),
+        "least N": lambda b: min((r for r in loads if r["bearing"] == b), key=_value),
+        "largest M": lambda b: max(
+            (r for r in moments if r["bearing"] == b), key=lambda r: abs(_value(r))
+        ),
+    }
+    for row in rows:
+        found = of[row[1]](row[0])
+        for title, text in list(zip(head, row, strict=True))[2:]:
+            force, _, unit = title.removesuffix("]").partition(" [")
+            label = f"foundation {row[0]} {row[1]} {title}"
+            if unit:
+                shown(tally, label, text, found[f"{force} then"], FACTORS[unit])
+            else:
+                tally.words("tables of the report", label, text, found[title])
+
+
+def _value(row):
+    return float(row["value"])
+
+
+def _lifting(project, head, rows, tally):
+    own = {row["bearing"]: row for row in project.table("uplift")}
+    for row in rows:
+        found = {k.partition(" [")[0]: v for k, v in own[row[0]].items()}
+        for title, text in list(zip(head, row, strict=True))[1:]:
+            what, _, unit = title.removesuffix("]").partition(" [")
+            label = f"lifting {row[0]} {title}"
+            if unit:
+                shown(tally, label, text, found[what], FACTORS[unit])
+            else:
+                tally.words("tables of the report", label, text, found[what])
+
+
 RAISED = {
     "displacement": "isolator displacement",
     "force": "lateral force of a bearing",
@@ -463,8 +508,6 @@ def _limits(project, head, rows, tally):
 
 
 def _limit(project, row):
-    import codes
-
     title, subject, bound = row[:3]
     e, above = project.linear.get(bound), codes.above_of(project)
     if e is None:
@@ -484,14 +527,17 @@ def _limit(project, row):
         return e["k"], e["k_02"] / 2.0
     if title == "no uplift where the vertical earthquake leads":
         rest = 0.7 * building.upright(project, 1.0) * s.P
-        beside, least = overturning(project, e, above, 0.3, 0.3), codes.dead_shares(project)[1]
+        beside, least = (
+            codes.overturning(project, e, above, 0.3, 0.3),
+            codes.dead_shares(project)[1],
+        )
         k = s.names.index(subject)
         return (beside + rest)[k], least * s.P[k]
     if title.startswith("no uplift") and "not evaluated" not in title:
         most, least = codes.dead_shares(project)
         share = most if title.endswith("maximum") else least
         k = s.names.index(subject)
-        return overturning(project, e, above)[k], share * s.P[k]
+        return codes.overturning(project, e, above)[k], share * s.P[k]
     held = above["T_fb"] if above and above["T_fb"] else 0.0
     if title == "storey drift":
         return storey_drift(project, e, above, int(subject.removeprefix("storey ")) - 1)
@@ -534,16 +580,6 @@ def _provisions(project, head, rows, tally):
             limits += "restoring", "total eccentricity", "capacity with", "storeys", "height"
             found = [t in made or t.startswith(limits) for t in titles]
             tally.words(name, f"{own['what']} by", all(found), True)
-
-
-def overturning(project, e, above, full=1.0, part=0.3):
-    """Return axial loads of the bearings from unreduced forces on a rigid base, 100 and 30 %."""
-    import codes
-
-    s, moment = e["system"], codes.overturning_moment(project, e, above)
-    x, y = np.abs(s.x - s.x.mean()), np.abs(s.y - s.y.mean())
-    one, two = moment * x / (x**2).sum(), moment * y / (y**2).sum()
-    return np.maximum(full * one + part * two, part * one + full * two)
 
 
 def _motions(project, head, rows, tally):

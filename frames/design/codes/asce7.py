@@ -123,6 +123,7 @@ class ASCE7(LinearAnalysis):
     each: ClassVar[str] = "D_T"
     level: ClassVar[str] = MCE_R
     values: ClassVar[Mapping[str, CodeValue]] = VALUES
+    reduced_by: ClassVar[str] = "R_I"
     shear_clause: ClassVar[str] = "ASCE 7-22 (17.5-5)"
     overturning_clause: ClassVar[str] = "ASCE 7-22 17.2.4.7"
     vertical_clause: ClassVar[str] = "ASCE 7-22 17.2.4.6, 17.2.4.7"

@@ -135,25 +135,24 @@ _CHECKED: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 }
 """Provisions that several codes have alike, with checks and needs of each."""
 
-_UNCHECKED = {
-    "overstrength of members and connections": "since no force with overstrength is formed",
-}
 _YOURS = {
+    "overstrength of members and connections": (
+        "member-combinations.csv has rows with E whole, elastic: the most that it can be"
+    ),
     "parts that cross the isolation interface": "they must follow the total displacement",
     "review of the design": "by a reviewer of the project",
     "tests of the bearings": (
         "the programme is in the report; acceptance_checks judges loops that were measured"
     ),
 }
-"""The same of which no check is made, and why; and that the engineer shows, and how."""
+"""The same that the engineer shows, and how."""
 
 
 def common(clause: str, what: str) -> Provision:
     """Return a provision that several codes have alike, with the clause of one of them."""
     if what in _YOURS:
         return yours(clause, what, _YOURS[what])
-    checks, needs = _CHECKED.get(what, ((), ()))
-    return Provision(clause, what, checks, needs, "" if checks else _UNCHECKED[what])
+    return Provision(clause, what, *_CHECKED[what])
 
 
 OF_BEARINGS = (
@@ -203,11 +202,20 @@ OF_BEARINGS = (
         "clear distance at the corners of the slab",
         why="since displacements are held against it at the bearings alone",
     ),
-    yours(NO_CODE, "strength of members and connections", "members.csv has their forces"),
+    yours(
+        NO_CODE,
+        "strength of members and connections",
+        "member-combinations.csv has their forces by combination",
+    ),
     yours(
         NO_CODE,
         "foundations, pedestals and the slab above the bearings",
-        "reactions.csv has the forces; moments of N times half of the displacement come on top",
+        "reaction-combinations.csv has forces and moments by combination, N u / 2 in them",
+    ),
+    yours(
+        NO_CODE,
+        "restraint of bearings that lift off",
+        "uplift.csv has how far, and an estimate of the tension if they are held",
     ),
     yours(
         NO_CODE, "strength of walls in shear and at their edges", "members.csv has forces", "walls"

@@ -46,6 +46,8 @@ class LinearAnalysis(abc.ABC):
     loads_level: ClassVar[str] = ""
     """The same of overturning and vertical loads, if another."""
     values: ClassVar[Mapping[str, CodeValue]] = {}
+    reduced_by: ClassVar[str] = ""
+    """Symbol of the factor that forces above the bearings are reduced by."""
     shear_clause: ClassVar[str] = ""
     overturning_clause: ClassVar[str] = ""
     vertical_clause: ClassVar[str] = ""

@@ -121,6 +121,7 @@ class EN1998(LinearAnalysis):
     each: ClassVar[str] = "d_bi"
     level: ClassVar[str] = DESIGN
     values: ClassVar[Mapping[str, CodeValue]] = VALUES
+    reduced_by: ClassVar[str] = "q"
     shear_clause: ClassVar[str] = "EN 1998-1 10.9.3"
     overturning_clause: ClassVar[str] = "EN 1998-1 4.4.2.4"
     vertical_clause: ClassVar[str] = "EN 15129 8.3, EN 1998-1 10.10"

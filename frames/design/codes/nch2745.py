@@ -104,6 +104,7 @@ class NCh2745(LinearAnalysis):
     level: ClassVar[str] = DESIGN
     loads_level: ClassVar[str] = MAXIMUM
     values: ClassVar[Mapping[str, CodeValue]] = VALUES
+    reduced_by: ClassVar[str] = "R_1"
     overturning_clause: ClassVar[str] = "NCh2745 6.2"
     vertical_clause: ClassVar[str] = "NCh2745 6.2"
 

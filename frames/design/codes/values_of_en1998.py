@@ -191,11 +191,7 @@ PROVISIONS = (
     common("EN 1998-1 4.3.3.4.3(3)", "runs that failed"),
     common("EN 1998-1 4.3.2", "accidental eccentricity of time histories"),
     common("EN 1998-1 10.3(2)", "displacement of time histories"),
-    Provision(
-        "EN 1998-1 4.4.2.3, 4.4.2.6",
-        "capacity design and overstrength",
-        why="since no force with overstrength is formed",
-    ),
+    common("EN 1998-1 4.4.2.3, 4.4.2.6, 10.10", "overstrength of members and connections"),
     yours(
         "EN 1998-1:2004",
         "edition that is in force",

@@ -68,6 +68,9 @@ class Preliminary:
     # eccentricity is left out
     moved: Mapping[str, Frame] = field(default_factory=dict)
     kinds: Mapping[str, str] = field(default_factory=dict)  # type of each bearing of the frame
+    # the structure under each combination of loads but the average one, by its factors in words;
+    # with the vertical earthquake, unless motions have it
+    combined: Mapping[str, Frame] = field(default_factory=dict)
     # what was warned of on the way: of the file, the bearing and the motions
     doubts: tuple[str, ...] = ()
     # those of the equivalent-linear analysis, and of the clear distance to walls by it
@@ -115,6 +118,8 @@ class RunToCheck(Preliminary):
         Types of bearings, with what the time histories ask of each.
     moved, kinds : mapping of str to Frame, of str to str
         The structure with its masses moved, by the way; the type of each of its bearings.
+    combined : mapping of str to Frame
+        The structure under each combination of loads, "1.44 D + 1 L + 0.15 S".
     doubts, checks : tuple of str, Checks
         What of the input was warned of; checks that need no time history.
 

@@ -27,6 +27,7 @@ from lir_element._version import package_version
 from lir_element.texts import worded
 
 if TYPE_CHECKING:
+    from frames.design.codes.isolation import IsolationSystem
     from frames.design.codes.outcome import EquivalentLinear
     from frames.design.hazard.motion_set import MotionSet
     from frames.design.hazard.spectrum import Spectrum
@@ -86,6 +87,7 @@ def _made(parts: ProjectInputs) -> Preliminary:
         motions=motions,
         moved=moved_frames(parts, frame),
         kinds=kinds,
+        combined=combined_frames(parts, system, spectrum, motions),
         checks=equivalent.checks + room,
     )
 
@@ -113,6 +115,21 @@ def _refuse_other_devices(frame: Frame) -> None:
                 "restraining rims; give the displacement at which they are met"
             )
             raise ProjectError(msg)
+
+
+def combined_frames(
+    parts: ProjectInputs, system: IsolationSystem, spectrum: Spectrum, motions: MotionSet
+) -> dict[str, Frame]:
+    """Return a project's structure under each combination of its loads but the average one."""
+    loaded = parts.loaded_frame()
+    found: dict[str, Frame] = {}
+    upright = any(motion.z is not None for motion in motions.values())
+    for name, factors in parts.code().loads.combined(None if upright else spectrum).items():
+        if name in system.combinations:
+            there = {case: f for case, f in factors.items() if case in {"D", *loaded.load_cases}}
+            words = " + ".join(f"{f:.4g} {case}" for case, f in there.items() if f)
+            found[words] = loaded.combined(factors)
+    return found
 
 
 def moved_frames(parts: ProjectInputs, frame: Frame) -> dict[str, Frame]:

@@ -168,7 +168,7 @@ def _loads(file: ProjectFile, given: LoadsTable, spectrum: Spectrum | None) -> R
 
 def _sum(factors: Mapping[str, float]) -> str:
     parts = (
-        worded("{factor:g} {case}", factor=factor, case=case)
+        worded("{factor:.4g} {case}", factor=factor, case=case)
         for case, factor in factors.items()
         if factor > 0.0
     )

@@ -12,6 +12,12 @@ import pandas as pd
 
 from frames.design.calculation.rendering import number as written
 from frames.design.codes.isolation import with_property_bounds
+from frames.design.histories.combined_forces import (
+    at_rest,
+    member_combinations,
+    reaction_combinations,
+    uplift_table,
+)
 from frames.design.histories.demand_table import demands_by_motion, link_demands
 from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands, raises_by_case
@@ -26,6 +32,8 @@ from lir_element.device.friction import FrictionLaw
 from lir_element.texts import joined, keeping_texts, worded
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from frames.design.codes.bounds import BoundName
     from frames.design.project.design_run import ProjectRun
     from frames.frame import Frame
@@ -62,7 +70,13 @@ WITHOUT_FORCES = "members-without-forces"
 LINKS = "links"
 """Name of the table of moat walls and dampers."""
 
-TABLES_OF_FORCES = ("member-groups", "members", WITHOUT_FORCES, LINKS, "storeys", "reactions")
+COMBINED = ("member-combinations", "reaction-combinations", "uplift")
+"""Names of the tables of forces by combination of loads."""
+
+TABLES_OF_FORCES = (
+    *("member-groups", "members", WITHOUT_FORCES, LINKS, "storeys", "reactions"),
+    *COMBINED,
+)
 """Tables that a structure has as far as it has members and levels."""
 
 
@@ -143,8 +157,38 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "programme": run.programme,
         BY_MOTION: demands_by_motion(run.cases),
         **forces,
+        **combined_tables(run, forces),
         ECCENTRICITY: eccentricity_table(run.cases),
     }
+
+
+def combined_tables(run: ProjectRun, forces: Mapping[str, pd.DataFrame]) -> dict[str, pd.DataFrame]:
+    """Return the forces of members and bearings by combination of loads, and what uplift asks."""
+    combinations = [at_rest(words, frame) for words, frame in run.combined.items()]
+    if not combinations:
+        return dict.fromkeys(COMBINED, pd.DataFrame())
+    bounds = run.equivalent.bounds.values()
+    symbol = getattr(run.code.analysis(), "reduced_by", "")
+    known = [each.trace.value(symbol) for each in bounds if symbol in each.trace]
+    reactions = reaction_combinations(forces["reactions"], combinations)
+    gaps = np.max([peaks_of_runs(data, "gap").max(axis=0) for data in run.runs.parts], axis=0)
+    pulled = [
+        np.subtract(each.trace.values("N_E"), each.trace.values("N_minimum"))
+        for each in bounds
+        if "N_minimum" in each.trace and not run.system.unknown_loads
+    ]
+    names = list(run.frame.bearings)
+    linear = dict(zip(names, np.max(pulled, axis=0), strict=True)) if pulled else {}
+    found = {
+        "reaction-combinations": reactions,
+        "uplift": uplift_table(reactions, dict(zip(names, gaps, strict=True)), linear),
+    }
+    if "members" in forces:
+        judged = [level.name for level in run.rules.levels if level.judges_structure]
+        own = forces["members"][forces["members"].index.isin(judged)]
+        name = "member-combinations"
+        found[name] = member_combinations(own, combinations, max(known, default=1.0))
+    return found
 
 
 _ROUND_OFF = 1e-6  # of the largest force, or moment, below which a row is left out

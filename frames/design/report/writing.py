@@ -22,6 +22,7 @@ from frames.design.report.cover import (
 from frames.design.report.page import Table, Words, page_table, page_template
 from frames.design.report.result_tables import (
     BY_MOTION,
+    COMBINED,
     ECCENTRICITY,
     LINKS,
     WITHOUT_FORCES,
@@ -128,6 +129,8 @@ def report_in(
         links=fit(_links(tables.get(LINKS, pd.DataFrame()))),
         untold=words.table(page_table(tables.get(WITHOUT_FORCES, pd.DataFrame()), "kind")),
         members=fit(page_table(tables.get("member-groups", pd.DataFrame()), "members"), keep=3),
+        foundation=fit(foundation_table(tables, run.rules.bearing_level), keep=2),
+        uplift=fit(_uplift(tables.get(COMBINED[2], pd.DataFrame()))),
         programme=fit(_programme(tables["programme"])),
         accepted=words.table(_accepted(code_named(run.equivalent.code), tables["programme"])),
         of_tests=_notes(tables["programme"]),
@@ -212,6 +215,42 @@ def _links(links: pd.DataFrame) -> Table:
     shown = largest_of_links(links).set_index("link")
     shown = shown.drop(columns=["void"] + ["level"] * (shown["level"].nunique() == 1))
     return page_table(in_mm_and_kn(shown), "link")
+
+
+def foundation_table(tables: Mapping[str, pd.DataFrame], level: str) -> Table:
+    """Return what each bearing exerts on what is below it by combination: three rows a bearing."""
+    table = tables.get(COMBINED[1], pd.DataFrame())
+    if table.empty:
+        return page_table(table, "foundation below")
+    below = table[(table.index == level) & (table["side"] == "below")].reset_index(drop=True)
+    size = below["value"].abs().where(below["force"].isin(["Mx", "My"]))
+    load = below["value"].where(below["force"] == "N")
+    chosen = {
+        "largest N": load.where(below["extreme"] == "max"),
+        "least N": -load.where(below["extreme"] == "min"),
+        "largest M": size,
+    }
+    rows = []
+    for name, own in below.groupby("bearing", sort=False):
+        for title, out in chosen.items():
+            worst = own.loc[out[own.index].idxmax()]
+            row = {"row": title} | {f"{f} [kN]": 1e-3 * worst[f"{f} then"] for f in _FORCES}
+            row |= {f"{f} [kN m]": 1e-3 * worst[f"{f} then"] for f in _MOMENTS}
+            row |= {"combination": worst["combination"], "bound": worst["bound"]}
+            rows.append(row | {"bearing": name})
+    return page_table(pd.DataFrame(rows).set_index("bearing"), "foundation below")
+
+
+_FORCES, _MOMENTS = ("N", "Vx", "Vy"), ("Mx", "My")
+
+
+def _uplift(table: pd.DataFrame) -> Table:
+    # Of bearings that lift off in a run, or that a combination would pull.
+    if table.empty:
+        return page_table(table, "bearing that lifts")
+    lifts = (table["tension if held [N]"] > 0.0) | (table["uplift in runs [m]"] > 0.0)
+    shown = table[lifts].drop(columns=["void", "level", "bound"])
+    return page_table(in_mm_and_kn(shown), "bearing that lifts")
 
 
 def _programme(tests: pd.DataFrame) -> Table:
