@@ -254,6 +254,8 @@ def en(s, given, above):
         "V_b": k * moved,
         "k_02": s.force(0.2 * moved).sum() / (0.2 * moved),
         "a_tot": max(ex / s.b, ey / s.d),
+        "e_r": max(abs(s.centre[0] - cx), abs(s.centre[1] - cy)) / math.sqrt(radius),
+        "r_l": math.sqrt(12.0 * radius / (s.b**2 + s.d**2)),
     }
     if above is not None:
         found["V_s"] = above["W_s"] / G * spectrum("EN 1998", given, period, xi) / 1.5

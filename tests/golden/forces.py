@@ -111,7 +111,9 @@ def _reduction(project, above):
 def _uplift(project, tally):
     # The least load of all combinations, what the formulas pull, and the larger tension of both.
     name = "tension of a restraint"
-    tally.category(name, 1e-2, "loads of combinations are nearly multiples: live load is on no facade")
+    tally.category(
+        name, 1e-2, "loads of combinations are nearly multiples: live load is on no facade"
+    )
     rows = project.table("reaction-combinations")
     above, shares = codes.above_of(project), codes.dead_shares(project)
     for k, row in enumerate(project.table("uplift")):

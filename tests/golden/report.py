@@ -546,6 +546,8 @@ def _limit(project, row):
         "effective damping": (e["damping"], 0.30),
         "restoring force": e["restoring"],
         "total eccentricity over the side of the plan": (e.get("a_tot", 0.0), 0.075),
+        "eccentricity of the isolation over its torsional radius": (e.get("e_r"), 0.30),
+        "torsional radius of the isolation over the radius of gyration": (e.get("r_l"), 1.0),
         "period ratio T_M / T_fb": (e["period"], 3.0 * held),
         "storeys": (len(above["w"]) if above else 0, 4.0),
         "height": (above["h"][-1] if above else 0.0, 19.8),
@@ -578,6 +580,7 @@ def _provisions(project, head, rows, tally):
             titles = own["how"].split("; ")
             limits = "storey drift", "no uplift", "effective", "period ratio", "no restrainer"
             limits += "restoring", "total eccentricity", "capacity with", "storeys", "height"
+            limits += "eccentricity of the isolation", "torsional radius"
             found = [t in made or t.startswith(limits) for t in titles]
             tally.words(name, f"{own['what']} by", all(found), True)
 

@@ -200,7 +200,8 @@ OF_BEARINGS = (
     Provision(
         NO_CODE,
         "clear distance at the corners of the slab",
-        why="since displacements are held against it at the bearings alone",
+        ("clearance to the moat wall",),
+        ("gap",),
     ),
     yours(
         NO_CODE,

@@ -42,6 +42,10 @@ if TYPE_CHECKING:
     from frames.design.codes.superstructure import Superstructure
 
 
+_ECCENTRIC = "eccentricity of the isolation over its torsional radius"
+_TORSION = "torsional radius of the isolation over the radius of gyration"
+
+
 @dataclass(frozen=True, kw_only=True)
 class EN1998(LinearAnalysis):
     """Factors of EN 1998-1 and -2 and EN 15129; `CODE.values` tells how well each is known.
@@ -78,6 +82,10 @@ class EN1998(LinearAnalysis):
     total_eccentricity : float
         Limit of the eccentricity between the centres of mass and stiffness, the accidental one
         with it, over the side of the plan (EN 1998-1 10.9.3); NTC 2018 has 0.03.
+    eccentricity_ratio, radius_ratio : float
+        Regularity in plan of the isolation: largest distance of the centres of mass and stiffness
+        over the torsional radius, least torsional radius over the radius of gyration (EN 1998-1
+        4.2.3.2(6)).
     accumulated : float
         Share of the displacement without force, mu L, that earlier events leave (NTC 2018
         7.10.6.2.2).
@@ -111,6 +119,8 @@ class EN1998(LinearAnalysis):
     vertical_period: float = 0.1
     vertical_stiffness: float = 150.0
     total_eccentricity: float = 0.075
+    eccentricity_ratio: float = 0.30
+    radius_ratio: float = 1.0
     accumulated: float = 0.5
     drift: float = 0.005
     reduction: float = 0.5
@@ -183,6 +193,10 @@ class EN1998(LinearAnalysis):
         t("K_02", "sum(P * (0.2 * d_dc / L + mu)) / (0.2 * d_dc)", "N/m", note="at 0.2 d_dc")
         enter_restoring(t, "d_dc", self.restoring)
         t("a_tot", "max(e_x / b, e_y / d)", note="with the accidental one, over the side")
+        t("r_T", "sqrt(r2)", "m", note="torsional radius of the isolation")
+        t("e_r", "max(abs(x_M - x_R), abs(y_M - y_R)) / r_T" if t.value("r2") > 0.0 else "0 * r_T")
+        t("l_s", "sqrt((b**2 + d**2) / 12)", "m", note="radius of gyration, mass even in plan")
+        t("r_l", "r_T / l_s")
         t.given("a_S", self.energy_ratio)
         t.each("E_S", "P * d_dc**2 / (2 * L)", "J", source="EN 15129 4.3", note="stored, 0 to d_dc")
         t.each("E_H", "P * mu * d_dc", "J", source="EN 15129 4.3", note="dissipated, 0 to d_dc")
@@ -217,6 +231,8 @@ class EN1998(LinearAnalysis):
                 "EN 1998-1 10.9.2", "restoring force", "Delta_F", ">=", "Delta_F_lim"
             ),
             limit("total eccentricity", eccentricity, "a_tot", "<=", "a_e_lim"),
+            limit("eccentricity ratio", _ECCENTRIC, "e_r", "<=", "e_r_lim"),
+            limit("radius ratio", _TORSION, "r_l", ">=", "r_l_lim"),
             self._accumulated(t, system, judge.limit("accumulated")),
         ]
         if self.property_variation is not None:

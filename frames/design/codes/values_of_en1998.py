@@ -84,6 +84,16 @@ VALUES = {
     "stability": CodeValue(
         "EN 1998-1 4.4.2.2", "P-Delta coefficient at most 0.1, in the analysis 0.3"
     ),
+    "eccentricity ratio": CodeValue(
+        "EN 1998-1 4.2.3.2(6)",
+        "e_0 at most 0.30 of the torsional radius",
+        field="eccentricity_ratio",
+    ),
+    "radius ratio": CodeValue(
+        "EN 1998-1 4.2.3.2(6)",
+        "torsional radius at least the radius of gyration",
+        field="radius_ratio",
+    ),
     "orthogonal": CodeValue("EN 1998-1 4.3.3.5", "30 % of the other direction", field="orthogonal"),
     "vertical loads": CodeValue("EN 15129 8.3, EN 1998-1 10.10", "no uplift, pressure of sliders"),
     "overturning": CodeValue("EN 1998-1 4.4.2.4", "of the whole structure, safety 1.0"),
@@ -162,9 +172,17 @@ PROVISIONS = (
         ("P-Delta coefficient of a storey",),
         ("storeys",),
     ),
+    Provision(
+        "EN 1998-1 4.2.3.2(6)",
+        "regularity in plan of the isolation",
+        (
+            "eccentricity of the isolation over its torsional radius",
+            "torsional radius of the isolation over the radius of gyration",
+        ),
+    ),
     yours(
         "EN 1998-1 4.2.3",
-        "regularity in plan and height",
+        "regularity in plan and height of what stands on the bearings",
         "the model is spatial; 4.2.3.1(7) reduces q if the elevation is irregular",
     ),
     common("EN 1998-1 4.4.2.4", "overturning of the whole structure"),

@@ -6,6 +6,8 @@ import difflib
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from frames._errors import ModelError
 from frames.design._errors import ProjectError
 from frames.design.calculation.check import Check
@@ -13,6 +15,7 @@ from frames.design.calculation.standing import PROJECT
 from frames.design.calculation.trace import Trace
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROJECT_LIMIT, DesignLimits
+from frames.design.histories.slab_corners import farthest_corner
 from frames.design.histories.suite import motion_of, peaks_of_runs, stopped_runs
 from frames.design.project.member_sections import storeys_of, storeys_said
 from frames.design.project.schema_bearing import SIDES
@@ -267,9 +270,6 @@ def device_rows(
     return rows
 
 
-_AT_BEARINGS = "at the bearings: what stands out past them moves more where the base turns"
-
-
 def wall_checks(frame: Frame, cases: Sequence[Case], gap: float) -> list[Check]:
     """Make the checks of the clear distance by time histories.
 
@@ -289,31 +289,39 @@ def clearance_checks(
         return []
     for each in equivalent.bounds.values():
         t = _with_gap(gap)
-        t.given("D_T", each.allowed_displacement, "m", shown="mm", note="that bearings must allow")
+        t.given("D_a", each.allowed_displacement, "m", shown="mm", note="that bearings must allow")
+        corner = farthest_corner(frame, np.array(each.displacements))
+        t.given("c_c", corner.factor, note=corner.note)
+        t("D_T", "c_c * D_a", "m", shown="mm")
         title = "clearance to the moat wall, equivalent-linear"
         judge = CheckBuilder(t, each.bound, PROJECT if room is None else room.standing)
         clause = PROJECT_LIMIT if room is None else room.clause
-        found.append(judge(clause, title, "D_T", "<=", "g_moat", note=_AT_BEARINGS))
+        found.append(judge(clause, title, "D_T", "<=", "g_moat", note=corner.note))
     level = code.histories.bearing_level
     return [replace(check, level=level) for check in found]
 
 
 def _of_histories(frame: Frame, case: Case, gap: float) -> list[Check]:
     t = _with_gap(gap)
-    reached = float(case.design("displacement").max())
-    t.given("D", reached, "m", shown="mm", note="of the histories, as the code counts")
+    reached = case.design("displacement")
+    corner = farthest_corner(frame, reached)
+    t.given("D", float(reached.max()), "m", shown="mm", note="of the histories, as the code counts")
     t.given("gamma_x", case.rules.displacement_factor)
-    t("D_d", "gamma_x * D", "m", shown="mm")
+    t.given("c_c", corner.factor, note=corner.note)
+    t("D_d", "gamma_x * c_c * D", "m", shown="mm")
     judge = CheckBuilder(t, case.bound, PROJECT, void=case.suite.void)
     title = "clearance to the moat wall"
     every = case.every
     told = _told_of_walls(frame, every)
-    note = joined(_AT_BEARINGS, told.holds)
+    note = joined(corner.note, told.holds)
     first = judge(PROJECT_LIMIT, title, "D_d", "<=", "g_moat", note=note)
     largest = peaks_of_runs(every, "displacement").max(axis=1)
     k = int(largest.argmax())
     t = _with_gap(gap)
-    t.given("D_max", float(largest[k]), "m", shown="mm", note=motion_of(every, k))
+    t.given("D_b", float(largest[k]), "m", shown="mm", note=motion_of(every, k))
+    corner = farthest_corner(frame, peaks_of_runs(every, "displacement")[k])
+    t.given("c_c", corner.factor, note=corner.note)
+    t("D_max", "c_c * D_b", "m", shown="mm")
     judge = CheckBuilder(t, case.bound, PROJECT, void=stopped_runs(every))
     title = "moat wall is not met in any run"
     return [first, judge(PROJECT_LIMIT, title, "D_max", "<=", "g_moat", note=told.model)]
