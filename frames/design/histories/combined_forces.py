@@ -29,7 +29,7 @@ _BELOW = 0  # place of the side "below" a bearing, of two
 class AtRest(NamedTuple):
     """Forces of a structure under the permanent loads of a combination."""
 
-    words: str  # the combination, "1.44 D + 1 L + 0.15 S"
+    words: str  # the combination, "1.44 D + L + 0.15 S"
     members: FloatArray  # (n_sections, 6), in the order of the tables of time histories
     reactions: FloatArray  # (2 n_bearings, 6)
 

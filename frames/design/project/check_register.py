@@ -119,7 +119,7 @@ class RunToCheck(Preliminary):
     moved, kinds : mapping of str to Frame, of str to str
         The structure with its masses moved, by the way; the type of each of its bearings.
     combined : mapping of str to Frame
-        The structure under each combination of loads, "1.44 D + 1 L + 0.15 S".
+        The structure under each combination of loads, "1.44 D + L + 0.15 S".
     doubts, checks : tuple of str, Checks
         What of the input was warned of; checks that need no time history.
 
