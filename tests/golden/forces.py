@@ -48,9 +48,11 @@ def _combined(project, kind, runs, keys, tally):
         place = row["level"], row["bound"], *(row[key] for key in keys)
         own.setdefault(place, {})[row["force"], row["extreme"]] = row
     rows, still = project.table(f"{kind}-combinations"), {}
-    for row in rows:
-        place = row["level"], row["combination"], *(row[key] for key in keys)
-        still.setdefault(place, {})[row["force"]] = float(row["static"])
+    for row in rows:  # what a combination changes is the same at all bounds
+        at = [row[key] for key in keys]
+        ran = own[row["level"], row["bound"], *at][row["force"], row["extreme"]]
+        change = float(row["static"]) - float(ran["permanent"])
+        still.setdefault((row["level"], row["combination"], *at), {})[row["force"]] = change
     for row in rows:
         at = [row[key] for key in keys]
         section = own[row["level"], row["bound"], *at]
@@ -62,9 +64,9 @@ def _combined(project, kind, runs, keys, tally):
         factor = 1.0 if alike else quake / (single - permanent)
         over = row["combination"].partition("E / ")[2]
         factor /= float(over) if over else 1.0
-        static = still[row["level"], row["combination"], *at]
+        change = still[row["level"], row["combination"], *at]
         shaken = {f: factor * (float(ran[f"{f} then"]) - rest[f]) for f in rest}
-        acting, grown = {f: static[f] + shaken[f] for f in rest}, 1.0
+        acting, grown = {f: rest[f] + change[f] + shaken[f] for f in rest}, 1.0
         if kind == "reaction":
             grown = max(acting["N"] / max(rest["N"] + shaken["N"], 0.05 * rest["N"]), 1.0)
         label = f"{row['combination']} {' '.join(at)} {row['force']} {row['extreme']}"
@@ -87,13 +89,12 @@ def _combined(project, kind, runs, keys, tally):
     }
     upright = any("z" in motion.axes for motion in motions.read(project))
     vertical = 0.0 if upright else building.upright(project)
-    wanted = building.totals(project, vertical)
+    wanted, total = building.totals(project, vertical), float(project.governing["weight"])
     if not wanted:  # dead load alone
-        total = float(project.governing["weight"])
         wanted = {"maximum": (1.2 + vertical) * total, "minimum": (0.9 - vertical) * total}
     levels = len({row["level"] for row in rows})
     for word, case in zip(words, ("maximum", "minimum"), strict=True):
-        tally.same(name, f"load of {word}", whole[word] / levels, wanted[case])
+        tally.same(name, f"load of {word}", total + whole[word] / levels, wanted[case])
 
 
 def _reduction(project, above):

@@ -50,6 +50,8 @@ SHARE = {"01-asce-frame": 2 / 3, "09-nch-shear": 1 / 3, "11-en-types": 0.4}
 SHARE |= {"12-nch-types": 0.2, "13-asce-types": 0.2, "14-asce-etabs": 0.15}
 """Of these, of the projects as they are run here."""
 OF_TYPES = {"moved masses: raises of each way": 280, "loads and masses, by hand": 4}
+OF_TYPES |= {"reactions by combination": 2000, "members by combination": 10000}
+OF_TYPES |= {"tension of a restraint": 24}
 """Of what projects with types of bearings alone have."""
 CHANGED = {  # file, what is changed, to what, in which category it is seen, and where there
     "09-nch-shear": [
@@ -127,6 +129,20 @@ CHANGED = {  # file, what is changed, to what, in which category it is seen, and
             r"\g<1>12345.0",
             "storey forces",
             "floor-2 Vx max",
+        ),
+        (
+            "reaction-combinations.csv",
+            r"(bearing-1-1,below,N,max,N,m\d,)(\d)",
+            r"\g<1>9\g<2>",
+            "reactions by combination",
+            "bearing-1-1 below N max$",
+        ),
+        (
+            "uplift.csv",
+            r"^(bearing-1-1,design,\w+,[^,]+,)(\d)",
+            r"\g<1>9\g<2>",
+            "tension of a restraint",
+            "bearing-1-1 least",
         ),
         (
             "bearings.csv",

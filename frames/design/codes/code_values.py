@@ -139,7 +139,13 @@ _YOURS = {
     "overstrength of members and connections": (
         "member-combinations.csv has rows with E whole, elastic: the most that it can be"
     ),
-    "parts that cross the isolation interface": "they must follow the total displacement",
+    "parts that cross the isolation interface": (
+        "they must follow the displacement of the check of the isolators, with the code's factor"
+    ),
+    "parts that stand above the isolation interface": "floor accelerations are in demands.csv",
+    "bounds of properties over the life of the bearings": (
+        "[bounds] has the factors, of tests, temperature, ageing and wear"
+    ),
     "review of the design": "by a reviewer of the project",
     "tests of the bearings": (
         "the programme is in the report; acceptance_checks judges loops that were measured"

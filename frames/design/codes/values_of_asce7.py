@@ -183,7 +183,7 @@ PROVISIONS = (
         why="since forces in slabs are not formed",
     ),
     yours(
-        f"{NAME} 11.4, (17.5-1)",
+        f"{NAME} 11.4, 17.3.1, (17.5-1)",
         "spectrum at the long periods of isolation",
         "D_M by S_M1 alone was up to 10 % low at one site: give [spectrum] points",
     ),
@@ -193,7 +193,17 @@ PROVISIONS = (
         "inspection, replacement and quality control",
         "state it in the specification",
     ),
+    yours(
+        f"{NAME} 17.2.3, 12.3.4", "redundancy", "forces have the factor 1: state it, and raise them"
+    ),
+    yours(
+        f"{NAME} 17.2.5.4",
+        "kind of the structural system and its detailing",
+        "ordinary braced frames ask for R_I = 1 and 1.2 D_TM",
+    ),
     common(f"{NAME} 17.2.6", "parts that cross the isolation interface"),
+    common(f"{NAME} 17.2.6.1", "parts that stand above the isolation interface"),
+    common(f"{NAME} 17.2.8", "bounds of properties over the life of the bearings"),
     common(f"{NAME} 17.7", "review of the design"),
     common(f"{NAME} 17.8", "tests of the bearings"),
 )

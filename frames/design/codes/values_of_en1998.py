@@ -220,12 +220,19 @@ PROVISIONS = (
         "place, access and inspection of the bearings, settlements, rigid slab above them",
         "state it in the specification",
     ),
+    common("EN 1998-1 10.4", "parts that cross the isolation interface"),
+    common("EN 1998-1 4.3.5, 10.9.6", "parts that stand above the isolation interface"),
     yours(
-        "EN 1998-1 10.4",
-        "pipes and joints that cross the isolation interface",
-        "they must follow the total displacement",
+        "EN 1998-1 10.6(3)",
+        "spectra of the site for importance class IV near a fault",
+        "within 15 km of a fault of magnitude 6.5: give [spectrum] points",
     ),
-    yours("EN 1998-1 4.3.5", "non-structural elements", "floor accelerations are in demands.csv"),
+    common("EN 1998-1 10.8", "bounds of properties over the life of the bearings"),
+    yours(
+        "EN 1998-1 10.10(1)",
+        "substructure under the forces of the isolation",
+        "reaction-combinations.csv has them, not reduced; its own inertia comes on top",
+    ),
     common("EN 15129 8.3.4", "tests of the bearings"),
     yours("EN 15129 4.4, 10", "durability, fire, replacement", "state it in the specification"),
 )

@@ -129,6 +129,8 @@ PROVISIONS = (
     common("NCh2745 13", "review of the design"),
     common("NCh2745 14", "tests of the bearings"),
     common("NCh2745 9", "parts that cross the isolation interface"),
+    common("NCh2745 9", "parts that stand above the isolation interface"),
+    common("NCh2745 8.5, 14", "bounds of properties over the life of the bearings"),
     yours(
         "NCh2745 6",
         "environment, fire, inspection and replacement",

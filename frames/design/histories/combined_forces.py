@@ -26,16 +26,28 @@ _ROWS = 2 * len(MEMBER_FORCES)  # of a section: six forces, the largest and the 
 _BELOW = 0  # place of the side "below" a bearing, of two
 
 
-class AtRest(NamedTuple):
-    """Forces of a structure under the permanent loads of a combination."""
+class Combination(NamedTuple):
+    """What the permanent loads of a combination change in those that time histories carry."""
 
     words: str  # the combination, "1.44 D + L + 0.15 S"
     members: FloatArray  # (n_sections, 6), in the order of the tables of time histories
     reactions: FloatArray  # (2 n_bearings, 6)
 
 
-def at_rest(words: str, frame: Frame) -> AtRest:
-    """Return the forces of a structure under its permanent loads."""
+def combinations_of(average: Frame, frames: Mapping[str, Frame]) -> list[Combination]:
+    """Return what combinations change; `average` carries what time histories do."""
+    if not frames:
+        return []
+    members, reactions = _at_rest(average)
+    found = []
+    for words, frame in frames.items():
+        own = _at_rest(frame)
+        found.append(Combination(words, own[0] - members, own[1] - reactions))
+    return found
+
+
+def _at_rest(frame: Frame) -> list[FloatArray]:
+    # Forces of members and reactions of a structure under its permanent loads.
     still = GroundMotion(x=np.zeros(2), dt=1e-2, name="at rest")
     kept = Recording(every=None, channels=("energy",), forces=True)
     data = time_history(frame, still, recording=kept)
@@ -44,11 +56,11 @@ def at_rest(words: str, frame: Frame) -> AtRest:
         name = f"{PEAK}{kind}_force_at_rest"
         if name in data:
             found[k] = data[name].to_numpy().reshape(-1, 6)
-    return AtRest(words, *found)
+    return found
 
 
 def member_combinations(
-    table: pd.DataFrame, combinations: Sequence[AtRest], reduction: float
+    table: pd.DataFrame, combinations: Sequence[Combination], reduction: float
 ) -> pd.DataFrame:
     """Return the forces of members by combination, farthest out over the bounds.
 
@@ -61,7 +73,7 @@ def member_combinations(
     return _combined(table, parts, MEMBER_FORCES)
 
 
-def reaction_combinations(table: pd.DataFrame, combinations: Sequence[AtRest]) -> pd.DataFrame:
+def reaction_combinations(table: pd.DataFrame, combinations: Sequence[Combination]) -> pd.DataFrame:
     """Return the reactions of bearings by combination, farthest out over the bounds.
 
     Shears and moments grow with the load on the bearing, as sliding on a curved surface has it;
@@ -82,8 +94,9 @@ def _combined(
         section = np.arange(len(own)) // _ROWS
         force = np.arange(len(own)) % _ROWS // len(EXTREMES)
         keys = [name for name in own.columns if name in _KEYS]
-        for words, still, share in parts:
-            acting = still[section] + share * shaken
+        for words, more, share in parts:
+            still = rest + more[section]
+            acting = still + share * shaken
             if six is REACTIONS:
                 ran = np.maximum(rest[:, 0] + shaken[:, 0], PRESSED * rest[:, 0])
                 acting[:, 1:] *= np.maximum(acting[:, :1] / ran[:, None], 1.0)
@@ -91,7 +104,7 @@ def _combined(
                 level=level,
                 combination=f"{words} + E" + (f" / {1.0 / share:.4g}" if share < 1.0 else ""),
                 value=np.take_along_axis(acting, force[:, None], axis=1)[:, 0],
-                static=still[section, force],
+                static=np.take_along_axis(still, force[:, None], axis=1)[:, 0],
             )
             for k, name in enumerate(six):
                 made[f"{name} then"] = acting[:, k]

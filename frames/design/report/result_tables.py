@@ -13,7 +13,7 @@ import pandas as pd
 from frames.design.calculation.rendering import number as written
 from frames.design.codes.isolation import with_property_bounds
 from frames.design.histories.combined_forces import (
-    at_rest,
+    combinations_of,
     member_combinations,
     reaction_combinations,
     uplift_table,
@@ -164,7 +164,7 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
 
 def combined_tables(run: ProjectRun, forces: Mapping[str, pd.DataFrame]) -> dict[str, pd.DataFrame]:
     """Return the forces of members and bearings by combination of loads, and what uplift asks."""
-    combinations = [at_rest(words, frame) for words, frame in run.combined.items()]
+    combinations = combinations_of(run.frame, run.combined)
     if not combinations:
         return dict.fromkeys(COMBINED, pd.DataFrame())
     bounds = run.equivalent.bounds.values()
