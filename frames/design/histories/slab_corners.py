@@ -67,4 +67,4 @@ def _largest(places: FloatArray, each: FloatArray, at: FloatArray) -> float:
         A_eq=np.hstack([affine, -affine]),
         b_eq=np.concatenate([[1.0], at]),
     )
-    return float(made.fun) if made.success else float(each.max())  # bearings in one line
+    return float(each.max() if made.fun is None else made.fun)  # none of bearings in one line

@@ -127,8 +127,8 @@ def combined_frames(
     for name, factors in parts.code().loads.combined(None if upright else spectrum).items():
         if name in system.combinations:
             there = {case: f for case, f in factors.items() if case in {"D", *loaded.load_cases}}
-            parts = (f"{f:.4g} {case}".removeprefix("1 ") for case, f in there.items() if f)
-            words = " + ".join(parts)
+            said = (f"{f:.4g} {case}".removeprefix("1 ") for case, f in there.items() if f)
+            words = " + ".join(said)
             found[words] = loaded.combined(factors)
     return found
 
