@@ -16,6 +16,12 @@ from frames.design import (
     with_property_bounds,
 )
 from frames.design._errors import CheckError
+from frames.design.histories.combined_forces import (
+    combinations_of,
+    member_combinations,
+    reaction_combinations,
+    uplift_table,
+)
 from frames.design.histories.eccentricity import Case
 from frames.design.histories.force_demands import ShearFactor, force_demands
 from frames.design.histories.suite import RunSet
@@ -114,6 +120,52 @@ def test_least_shears_raise_the_earthquakes_part(runs, tables):
         expected = rest + by * (own["value"].to_numpy() - rest)
         assert found["value"].to_numpy() == pytest.approx(expected, rel=1e-9, abs=2e-3)
         assert np.array_equal(found["single"], own["single"], equal_nan=True)
+
+
+def test_combinations_put_permanent_loads_and_earthquake_together(frame, tables):
+    """Those of the runs give their values back; a fifth more of all loads adds a fifth of these."""
+    frames = {"D": frame, "1.2 D": frame.combined({"D": 1.2})}
+    same, more = found = combinations_of(frame, frames)
+    assert not same.members.any()
+    assert not same.reactions.any()
+    members = member_combinations(tables["members"], found, 2.0)
+    reactions = reaction_combinations(tables["reactions"], found)
+    assert list(dict.fromkeys(members["combination"])) == [
+        "D + E / 2",
+        "1.2 D + E / 2",
+        "D + E",
+        "1.2 D + E",
+    ]
+    for kind, table in (("members", members), ("reactions", reactions)):
+        keys = list(tables[kind].columns[:5])
+        whole = table[table["combination"] == "D + E"]
+        both = whole.merge(tables[kind], on=keys, suffixes=("", " of runs"))
+        assert len(both) == len(whole)
+        assert set(both["governs"]) == {"yes"}
+        assert both["value"].to_numpy() == pytest.approx(both["value of runs"], abs=5e-3)
+        assert both["static"].to_numpy() == pytest.approx(both["permanent"], abs=5e-3)
+        for name in dict.fromkeys(whole["force"]):  # what acts at once has the row's own force
+            rows = whole[whole["force"] == name]
+            assert np.array_equal(rows[f"{name} then"], rows["value"])
+    lighter = members[members["combination"] == "D + E / 2"]["value"].to_numpy()
+    whole = members[members["combination"] == "D + E"]
+    assert lighter == pytest.approx(0.5 * (whole["value"] + whole["static"]).to_numpy(), abs=5e-3)
+    heavy, light = (reactions[reactions["combination"] == f"{w} + E"] for w in ("1.2 D", "D"))
+    load = heavy["N then"].to_numpy() / light["N then"].to_numpy()
+    pressed = (light["N then"] > 0.1 * light["N then"].max()).to_numpy()
+    for name in ("Vx", "Vy"):  # at rest they have next to none
+        pair = heavy[f"{name} then"].to_numpy(), (load * light[f"{name} then"]).to_numpy()
+        scale = np.abs(pair[1]).max()
+        assert pair[0][pressed] == pytest.approx(pair[1][pressed], abs=0.02 * scale)
+    rest = more.reactions[:, 0] / 0.2
+    assert rest.sum() == pytest.approx(2.0 * frame.check().carried, rel=1e-6)
+    gaps, linear = dict.fromkeys(frame.bearings, 0.0), {"bearing-0-0": 7e3, "bearing-1-1": -1.0}
+    uplift = uplift_table(reactions, gaps, linear)
+    least = light[
+        (light["side"] == "below") & (light["force"] == "N") & (light["extreme"] == "min")
+    ]
+    assert uplift["least load by combination [N]"].to_numpy() == pytest.approx(least["value"])
+    assert uplift.loc["bearing-0-0", "tension if held [N]"] == max(7e3, -least["value"].iloc[0])
 
 
 @pytest.fixture(scope="module")
