@@ -94,17 +94,11 @@ def spectrum(code, given, period, damping=0.05):
 def dead_shares(project):
     """Return the multiples of average load in the maximum and minimum combination.
 
-    None where none is. Loads of the bearings are nearly multiples of those on average where all
-    floors carry alike.
+    Where no cases are known all is dead load. Loads of the bearings are nearly multiples of those
+    on average where all floors carry alike.
     """
-    given = project.file["spectrum"]
-    totals = building.totals(project)
-    if totals:
-        return tuple(totals[name] / totals["average"] for name in ("maximum", "minimum"))
-    if "s_ms" in given:
-        part = 0.2 * given["s_ms"]
-        return 1.2 + part, 0.9 - part
-    return ()
+    totals = building.totals(project) or building.combined(project, (1.0, 0.0, 0.0))
+    return tuple(totals[name] / totals["average"] for name in ("maximum", "minimum"))
 
 
 class System:

@@ -90,9 +90,10 @@ def _combined(project, kind, runs, keys, tally):
     upright = any("z" in motion.axes for motion in motions.read(project))
     vertical = 0.0 if upright else building.upright(project)
     wanted, total = building.totals(project, vertical), float(project.governing["weight"])
-    if not wanted:  # dead load alone
-        wanted = {"maximum": (1.2 + vertical) * total, "minimum": (0.9 - vertical) * total}
+    wanted = wanted or building.combined(project, (total, 0.0, 0.0), vertical)  # dead load alone
     levels = len({row["level"] for row in rows})
+    if wanted["maximum"] == wanted["minimum"]:  # of EN 1998 without a vertical earthquake
+        words *= 2
     for word, case in zip(words, ("maximum", "minimum"), strict=True):
         tally.same(name, f"load of {word}", total + whole[word] / levels, wanted[case])
 

@@ -110,22 +110,18 @@ KINDS = {
     "dampers and moat": FRAME + ABOVE + DAMPERS + MOAT,
 }
 COUNTS = {
-    "stick, all given": {"ASCE 7-22": (30, 2, 15), "EN 1998": (27, 5, 14), "NCh2745": (22, 7, 11)},
+    "stick, all given": {"ASCE 7-22": (30, 2, 15), "EN 1998": (29, 3, 14), "NCh2745": (24, 5, 11)},
     "frame, nothing given": {
         "ASCE 7-22": (16, 16, 15),
         "EN 1998": (17, 15, 14),
         "NCh2745": (12, 17, 11),
     },
-    "frame with walls": {
-        "ASCE 7-22": (27, 5, 16),
-        "EN 1998": (24, 8, 15),
-        "NCh2745": (19, 10, 12),
-    },
+    "frame with walls": {"ASCE 7-22": (27, 5, 16), "EN 1998": (26, 6, 15), "NCh2745": (21, 8, 12)},
     "imported": {"ASCE 7-22": (17, 15, 15), "EN 1998": (16, 16, 14), "NCh2745": (11, 18, 11)},
     "dampers and moat": {
         "ASCE 7-22": (22, 10, 16),
-        "EN 1998": (19, 13, 15),
-        "NCh2745": (14, 15, 12),
+        "EN 1998": (21, 11, 15),
+        "NCh2745": (16, 13, 12),
     },
 }
 """Provisions by structure and code: checked, not checked, the engineer's."""

@@ -113,9 +113,9 @@ class ProjectInputs:
 
     def system(self, frame: Frame, spectrum: Spectrum) -> IsolationSystem:
         """Return the bearings of the structure with its load cases, by the code's combinations."""
-        if not frame.load_cases:
-            return IsolationSystem.from_frame(frame, s_ms=spectrum.parameters.get("S_MS"))
         chosen = self.code().loads.combined(spectrum)
+        if not frame.load_cases:  # all of it is dead load
+            return IsolationSystem.from_frame(frame, combinations=chosen)
         weight = frame.gravity * float(assemble(frame).node_mass[:, 0].sum())
         return IsolationSystem.from_frame(frame, combinations=chosen, weight=weight)
 
