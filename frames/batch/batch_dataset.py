@@ -11,7 +11,7 @@ import xarray as xr
 
 from frames.bundles.peak_data import ENERGY_TERMS
 from frames.results.findings import findings_from
-from frames.results.peak_response import with_exceeded
+from frames.results.peak_response import of_exceeded
 from frames.results.peaks import Peak
 from frames.results.recorded import is_of_all_steps
 from lir_element.results.dataset import labelled
@@ -86,8 +86,8 @@ def layout_of(judged: xr.Dataset) -> Layout:
 
 def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
     """Return what a run reached as a row of numbers."""
-    found = with_exceeded(judged).variables
-    return np.concatenate([np.ravel(found[name].values) for name in layout.names])
+    found = {name: judged.variables[name].values for name in layout.names} | of_exceeded(judged)
+    return np.concatenate([np.ravel(found[name]) for name in layout.names])
 
 
 def stack(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import threading
-from typing import TYPE_CHECKING, NamedTuple
+from collections import Counter
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -69,12 +70,10 @@ class Runner:
         self.cases = cases
         self.motions, self.options = motions, options
         self.features, self.recording = features, recording
-        self._models, self._level = models, level
+        self.models, self._level = models, level
         self._shared: dict[str, Structure | AnalysisError] = {}
         self._last: Structure | None = None
-        self._left = {name: 0 for name in models}
-        for case in cases:
-            self._left[case.model] += 1
+        self._left = Counter(case.model for case in cases)
         self._lock = threading.Lock()
         self._bytes, self._rows = 0.0, 0
 
@@ -96,11 +95,27 @@ class Runner:
             if not self._left[name]:
                 self._shared.pop(name, None)
 
+    def parts(self) -> tuple[Any, ...]:
+        """Return what another one is made of."""
+        given = self.models, self.motions, self.options, self.cases
+        return *given, self.features, self._level, self.recording
+
+    def hold(self, name: str) -> None:
+        """Let go of all structures but this one."""
+        self._shared = {key: found for key, found in self._shared.items() if key == name}
+
+    def take(self, row: RunResult) -> None:
+        """Count a run of another process."""
+        with self._lock:
+            self._count(1, len(row.reached))
+            require_rows(_COPIES * self._bytes, self._rows, len(self.cases))
+        self.done(self.cases[row.place].model)
+
     def _set_up(self, name: str) -> Structure | AnalysisError:
         recording = self.recording
         try:
             like = self._last and self._last.analysis
-            found = PreparedFrame(self._models[name], self.features, self._level, like=like)
+            found = PreparedFrame(self.models[name], self.features, self._level, like=like)
         except AnalysisError as failure:
             return failure
         if self._last is not None and self._last.analysis.template is found.template:
@@ -109,8 +124,7 @@ class Runner:
             step = 0.0 if recording is None else bytes_over_time(reduced(found.at_rest, recording))
             self._last = Structure(found, _layout_of(found, recording), step)
         own = [case for case in self.cases if case.model == name]
-        self._rows += len(own)
-        self._bytes += len(own) * (_ROW + 8.0 * float(self._last.layout.starts[-1]))
+        self._count(len(own), int(self._last.layout.starts[-1]))
         if recording is not None:
             steps = (self.options[case.motion].steps for case in own)
             every = recording.every
@@ -118,6 +132,10 @@ class Runner:
             self._bytes += kept * self._last.bytes
         require_rows(_COPIES * self._bytes, self._rows, len(self.cases))
         return self._last
+
+    def _count(self, rows: int, numbers: int) -> None:
+        self._rows += rows
+        self._bytes += rows * (_ROW + 8.0 * numbers)
 
 
 def _layout_of(analysis: PreparedFrame, recording: Recording | None) -> Layout:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import queue
 import threading
 import warnings
@@ -20,7 +19,8 @@ from frames.batch.batch_dataset import RunResult, stack
 from frames.batch.batch_run import Runner
 from frames.batch.cases import BatchProgress, grid, named_models, named_motions, tell
 from frames.batch.completed_runs import KeptRuns
-from frames.recording.recording import Recording, whole_steps
+from frames.batch.processes import Crew, CrewWorker, crew_of
+from frames.recording.recording import Recording
 from frames.solve.options import check_options, options_of
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.sanity_checks import motion_doubts
@@ -57,7 +57,7 @@ def time_histories(
     tolerance: float | None = None,
     features: Features | None = None,
     record: Literal["peaks"] | Recording | None = None,
-    workers: int | None = None,
+    workers: Crew | int | None = None,
     progress: Callable[[BatchProgress], None] | bool | None = None,
     resume: str | Path | None = None,
 ) -> xr.Dataset:
@@ -84,7 +84,8 @@ def time_histories(
         Besides what every run reached, which is kept always: histories, as `Recording` says.
     workers : int, optional
         Runs at a time, each in a thread: the compiled loops do not hold each other up. None: as
-        many as the process has processors.
+        many as the process has processors. If the first runs show that set-up and judging of the
+        others would take seconds, each thread has a process of its own do its runs.
     progress : callable or bool, optional
         Called with a `BatchProgress` after each run; True writes it to the standard error.
     resume : str or path, optional
@@ -149,9 +150,8 @@ def time_histories(
     }
     _warn_of_motions(structures, grounds, runs)
     chosen = Features.all() if features is None else features
-    count = _processors() if workers is None else whole_steps("workers", workers)
     began = perf_counter()
-    with blas_threads_for(*structures.values()):
+    with blas_threads_for(*structures.values()), crew_of(workers, len(runs)) as crew:
         keeper, before = None, list[RunResult]()
         if resume is not None:
             asked = (chosen, level, histories)
@@ -160,7 +160,7 @@ def time_histories(
         todo = sorted({*range(len(runs))} - {row.place for row in before})
         rest = [runs[k] for k in todo]
         runner = Runner(structures, grounds, options, rest, chosen, level, histories)
-        new, is_stopped = _all(runner, min(count, len(todo)), tell(progress), keeper, len(before))
+        new, is_stopped = _all(runner, crew, tell(progress), keeper, len(before))
         rows = before + [row._replace(place=todo[row.place]) for row in new]
     if not rows:
         raise KeyboardInterrupt
@@ -204,7 +204,7 @@ class _Interrupted(AnalysisInterrupted):
 
 def _all(
     runner: Runner,
-    workers: int,
+    crew: Crew,
     told: Callable[[BatchProgress], None] | None,
     keeper: KeptRuns | None,
     taken: int,
@@ -221,8 +221,8 @@ def _all(
         with lock:
             return None if stop.is_set() else next(todo, None)
 
-    def work() -> None:
-        own, is_done = runner.worker(stop.is_set), False
+    def work(k: int) -> None:
+        own, is_done = CrewWorker(crew, k, runner, stop.is_set), False
         try:
             while (place := next_place()) is not None:
                 row = own.row(place)
@@ -241,8 +241,9 @@ def _all(
         if keeper is not None:
             keeper.keep(row, runner.cases[row.place])
 
+    workers = min(crew.workers, len(runner.cases))
     with ThreadPoolExecutor(workers) as pool:
-        futures = [pool.submit(work) for _ in range(workers)]
+        futures = [pool.submit(work, k) for k in range(workers)]
         try:
             for row in _arriving(results, workers, len(runner.cases), told, taken):
                 take(row)
@@ -289,13 +290,6 @@ def _recording_of(record: object) -> Recording | None:
         msg = f'record = {record!r} must be None or "peaks", or a Recording such as Recording()'
         raise TypeError(msg)
     return record
-
-
-def _processors() -> int:
-    # Those that this process may use.
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def _warn_of_motions(

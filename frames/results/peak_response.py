@@ -51,14 +51,18 @@ def _with_exceeded(data: xr.Dataset, name: str, found: Extreme) -> Extreme:
     return larger_of(found, Extreme(beyond, np.full(len(beyond), at)))
 
 
+def of_exceeded(data: xr.Dataset) -> dict[str, FloatArray]:
+    """Return variables ``peak_...`` that the step counts in, too, which a limit ended."""
+    name = str(data.attrs.get("exceeded", ""))
+    if not name or largest_kept(data, name) is None:
+        return {}
+    return dict(zip((PEAK + name, f"{PEAK}{name}_at"), largest(data, name), strict=True))
+
+
 def with_exceeded(data: xr.Dataset) -> xr.Dataset:
     """Return a result whose variables ``peak_...`` count the step that a limit ended, too."""
-    name = str(data.attrs.get("exceeded", ""))
-    kept = largest_kept(data, name) if name else None
-    if kept is None:
-        return data
-    found = zip((PEAK + name, f"{PEAK}{name}_at"), largest(data, name), strict=True)
-    return data.assign({key: data[key].copy(data=values) for key, values in found})
+    found = of_exceeded(data)
+    return data.assign({key: data[key].copy(data=own) for key, own in found.items()})
 
 
 def extreme_of(history: FloatArray, time: FloatArray) -> Extreme:

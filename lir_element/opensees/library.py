@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import importlib
 import importlib.util
-import os
 import sys
 from pathlib import Path
 from typing import Any
@@ -54,15 +53,6 @@ def opensees() -> Any:
         version = ".".join(map(str, sys.version_info[:3]))
         msg = f"openseespy cannot be loaded by Python {version} ({cause}): reinstall it by pip"
         raise ImportError(msg) from cause
-
-
-def child_environment() -> dict[str, str]:
-    """Return the environment in which a child process finds the modules that this one finds."""
-    # Last, so that no file in it stands for a module of others; in place if it has these packages.
-    here, own = os.getcwd(), str(Path(__file__).parents[2])
-    paths = [path for path in sys.path if path and (path != here or here == own)]
-    paths += [here] if len(paths) < len(sys.path) else []
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
 
 
 def _load_bundled_libraries() -> None:

@@ -1,7 +1,10 @@
 """Many histories at once are the single ones: the same numbers, for any number of workers."""
 
 import pickle  # of what this test has made  # noqa: S403
+import warnings
 from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,11 +24,12 @@ from frames import (
     time_histories,
     time_history,
 )
+from frames.batch import processes
 from frames.batch.runs import Runs, tagged
 from frames.laws import Bilinear, PlasticHinge
 from frames.results.findings import findings_by_run, findings_of
 from frames.results.recorded import is_of_all_steps
-from lir_element import AnalysisInterrupted, AnalysisWarning, Features, LIRBearing
+from lir_element import AnalysisInterrupted, AnalysisWarning, Features, FrictionLaw, LIRBearing
 from tests.scenes import quietly
 
 ROUND_OFF = 1e-9  # sums in another order; of accelerations, parts of modes cancel
@@ -150,6 +154,89 @@ def test_any_number_of_workers_gives_the_same_bits(grid, motions, workers):
     assert untimed(again).identical(untimed(data))
 
 
+@pytest.fixture
+def in_processes(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Have processes do all runs, whether it pays or not; return the places that they did."""
+    done: list[int] = []
+    ready, row = processes.ChildProcess.is_ready, processes.ChildProcess.row
+
+    def waited(child: Any) -> bool:
+        if child.serves is None:
+            child.pipe.poll(60.0)
+        return ready(child)
+
+    def counted(child: Any, place: int, *given: Any) -> Any:
+        found = row(child, place, *given)
+        done.extend([place] if found else [])
+        return found
+
+    monkeypatch.setattr(processes.Crew, "pays", True)
+    monkeypatch.setattr(processes.ChildProcess, "is_ready", waited)
+    monkeypatch.setattr(processes.ChildProcess, "row", counted)
+    return done
+
+
+def test_processes_give_the_same_bits(device, grid, motions, request):
+    models, _ = grid
+    lifted = lumped_mass(device, 2e5)
+    lifted.add_load("mass", (0.0, 0.0, 3e6, 0.0, 0.0, 0.0))
+    models = models | {"lifted": lifted, "other": models["frame"].with_bearings(device)}
+    told: list[BatchProgress] = []
+    run = {"scales": [0.4, 3.5], "workers": 2, "duration": 1.0, "progress": told.append}
+    both, said = [], []
+    for fixture in ("motions", "in_processes"):
+        places = request.getfixturevalue(fixture)
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always")
+            both.append(untimed(time_histories(models, motions["near"], **run)))
+        said.append({str(each.message) for each in heard})
+    assert both[0].identical(both[1])
+    assert said[0] == said[1] != set()
+    assert sorted(places) == [*range(8)]
+    assert [each.done for each in told] == 2 * [*range(1, 9)]
+
+
+@pytest.mark.parametrize("how", ["no other process knows the class", "the process was killed"])
+def test_what_processes_cannot_do_is_done_here(building, motions, in_processes, monkeypatch, how):
+    run = {"scales": [0.4, 0.5], "workers": 1, "duration": 0.2}
+    if "class" in how:
+
+        @dataclass(frozen=True)
+        class LawOfNotebook(FrictionLaw):
+            f_max: float = 0.05
+
+            def at_speed(self, speed: float) -> float:
+                return self.f_max
+
+        device = replace(next(iter(building.bearings.values())).bearing, friction=LawOfNotebook())
+        building = building.with_bearings(device)
+    else:
+        start = processes.start
+
+        def killed(*given: Any, **options: Any) -> Any:
+            found = start(*given, **options)
+            found[0].kill()
+            return found
+
+        monkeypatch.setattr(processes, "start", killed)
+    data = quietly(time_histories, building, motions["near"], **run)
+    assert set(data["status"].to_numpy()) == {"ok"}
+    assert in_processes == []
+
+
+@pytest.mark.parametrize(
+    ("workers", "beside", "runs", "pays"),
+    [(2, 5e-3, 1000, True), (2, 5e-3, 100, False), (1, 5e-3, 1000, False), (2, 0.0, 1000, False)],
+)
+def test_processes_are_started_where_they_save_time(workers, beside, runs, pays):
+    """A thousand runs that two threads need 5 ms each for besides their loops: 2.5 s."""
+    crew = processes.Crew(workers, runs)
+    for _ in range(processes.TRIED):
+        assert not crew.pays
+        crew.note(beside)
+    assert crew.pays is pays
+
+
 def test_a_row_does_not_depend_on_those_before(building, motions):
     # steps of other sizes, failures: arrays that are used again keep nothing of them
     cases = [("frame", name, s) for name, s in (("near", 3.5), ("far", 1.0), ("near", 1.0))]
@@ -245,7 +332,9 @@ def test_histories_on_other_grids_have_steps(building, motions):
         assert np.isnan(own[count:]).all()
 
 
-def test_interruption_keeps_what_is_done(building: Frame, motions: dict[str, GroundMotion]) -> None:
+@pytest.mark.parametrize("fixture", ["motions", "in_processes"])
+def test_interruption_keeps_what_is_done(building, motions, request, fixture):
+    request.getfixturevalue(fixture)
     told: list[BatchProgress] = []
 
     def stop(progress: BatchProgress) -> None:

@@ -18,7 +18,8 @@ pytest.importorskip("openseespy")
 pytest.importorskip("psutil")
 
 import lir_element.opensees as package
-from lir_element.opensees import PlacementWarning, bearing_element, bearing_tags, library, opensees
+from lir_element.child_process import child_environment
+from lir_element.opensees import PlacementWarning, bearing_element, bearing_tags, opensees
 from lir_element.opensees.connection import own_connections
 from lir_element.opensees.placement import bearing_axes, place
 
@@ -187,11 +188,11 @@ def test_what_is_not_installed_is_named_with_its_extra(monkeypatch: pytest.Monke
 
 def test_a_child_imports_the_packages_of_its_parent(monkeypatch: pytest.MonkeyPatch) -> None:
     """A folder with these packages keeps its place before another installation of them."""
-    own = str(Path(library.__file__).parents[2])
+    own = str(Path(package.__file__).parents[2])
     monkeypatch.setattr(sys, "path", [own, "/elsewhere/site-packages"])
     monkeypatch.chdir(own)
-    paths = library.child_environment()["PYTHONPATH"].split(os.pathsep)
+    paths = child_environment()["PYTHONPATH"].split(os.pathsep)
     assert paths[0] == own
     monkeypatch.chdir("/")
     monkeypatch.setattr(sys, "path", ["/", own])
-    assert library.child_environment()["PYTHONPATH"].split(os.pathsep) == [own, "/"]
+    assert child_environment()["PYTHONPATH"].split(os.pathsep) == [own, "/"]

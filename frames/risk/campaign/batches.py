@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from frames._types import IntArray
     from frames.batch.cases import BatchProgress
+    from frames.batch.processes import Crew
     from frames.motion.ground_motion import GroundMotion
     from frames.risk.campaign.measures import Measure
     from frames.risk.campaign.plan import Plan
@@ -141,7 +142,7 @@ def compute(
     work: CampaignJob,
     layout: xr.Dataset,
     batch: int,
-    workers: int | None,
+    workers: Crew | int | None,
     told: Told | None = None,
     known: Known | None = None,
 ) -> Batch:
@@ -174,7 +175,7 @@ class _Runs:
         self,
         work: CampaignJob,
         layout: xr.Dataset,
-        workers: int | None,
+        workers: Crew | int | None,
         told: Told | None,
         known: Known,
     ) -> None:

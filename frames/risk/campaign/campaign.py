@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Mapping
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from frames._errors import ModelWarning
 from frames.batch.cases import BatchProgress, grid, named_models, named_motions, tell
+from frames.batch.processes import crew_of
 from frames.frame import Frame
 from frames.recording.recording import Recording
 from frames.risk._errors import CampaignError
@@ -31,7 +33,7 @@ from lir_element.errors import AnalysisWarning
 from lir_element.texts import html_table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Generator, Sequence
 
     import pandas as pd
     import xarray as xr
@@ -243,8 +245,9 @@ class Campaign:
             done = set(self.store.batches_done())
             todo = [k for k in range(self._work.plan.batches) if k not in done]
             computed = _Counting(self._work.plan, todo, told)
-            for number, batch in self._computed(layout, computed, client, workers, known):
-                self._writer.write(number, batch)
+            with closing(self._computed(layout, computed, client, workers, known)) as batches:
+                for number, batch in batches:
+                    self._writer.write(number, batch)
         _warn(self.store.status())
         return self.results()
 
@@ -255,7 +258,7 @@ class Campaign:
         client: Any,
         workers: int | None,
         known: Known,
-    ) -> Iterator[tuple[int, Batch]]:
+    ) -> Generator[tuple[int, Batch]]:
         # A cluster computes the batches of which not all is known. Here, runs of the batches before
         # are known as well, but their histories are not taken over.
         work, todo = self._work, counting.todo
@@ -265,17 +268,18 @@ class Campaign:
             if client is None or (known and {*work.digests(work.plan.rows(batch))} <= known.keys())
         ]
         before = rows_by_digest(self.results()) if here and work.record is None else {}
-        for number in here:
-            data = self.results()
-            there = {**known, **{digest: (data, row) for digest, row in before.items()}}
-            batch = compute(work, layout, number, workers, counting.of_batch(), there)
-            counting.add(batch)
-            if batch.reused:
-                counting.tell()
-            yield number, batch
-            if work.record is None:
-                own = zip(batch.arrays[DIGEST].tolist(), work.plan.rows(number), strict=True)
-                before |= {digest: row for digest, row in own if digest}
+        with crew_of(workers, sum(len(work.plan.rows(number)) for number in here)) as crew:
+            for number in here:
+                data = self.results()
+                there = {**known, **{digest: (data, row) for digest, row in before.items()}}
+                batch = compute(work, layout, number, crew, counting.of_batch(), there)
+                counting.add(batch)
+                if batch.reused:
+                    counting.tell()
+                yield number, batch
+                if work.record is None:
+                    own = zip(batch.arrays[DIGEST].tolist(), work.plan.rows(number), strict=True)
+                    before |= {digest: row for digest, row in own if digest}
         if client is None:
             return
         todo = [number for number in todo if number not in set(here)]

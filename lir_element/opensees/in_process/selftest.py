@@ -24,11 +24,12 @@ from lir_element import CoulombFriction, LIRBearing
 from lir_element._compile.cache import content_of, keep
 from lir_element._compile.jit import OWN
 from lir_element._compile.progress import say
+from lir_element.child_process import child_environment
 from lir_element.opensees.connection import add_host_element
 from lir_element.opensees.element_memory import ElementMemory
 from lir_element.opensees.in_process.in_process_element import InProcessElement
 from lir_element.opensees.in_process.symbols import NotPossibleError, addresses, library_path
-from lir_element.opensees.library import child_environment, opensees
+from lir_element.opensees.library import opensees
 from lir_element.opensees.placement import PlacedBearing, place
 
 _LONGEST = 900.0

@@ -10,13 +10,14 @@ import sys
 import threading
 import warnings
 from dataclasses import replace
-from multiprocessing import Pipe, reduction
+from multiprocessing import reduction
 from typing import TYPE_CHECKING, Any
 
+from lir_element.child_process import start
 from lir_element.device.friction import without_class
 from lir_element.opensees.block.layout import vector_length
 from lir_element.opensees.connection import own_connections, signals_held
-from lir_element.opensees.library import child_environment, opensees
+from lir_element.opensees.library import opensees
 from lir_element.opensees.out_of_process.guard import Guard
 
 if TYPE_CHECKING:
@@ -234,24 +235,13 @@ class Server:
     """The process that serves all bearings of this one in the out-of-process coupling."""
 
     def __init__(self) -> None:
-        ours, theirs = Pipe()
         module = "lir_element.opensees.out_of_process.server"
-        command = [sys.executable, "-P", "-m", module, str(theirs.fileno()), str(os.getpid())]
-        # in a session of its own: Ctrl-C in a terminal goes to all processes of the model's
-        options: dict[str, Any] = {"pass_fds": [theirs.fileno()], "start_new_session": True}
-        if sys.platform == "win32":
-            os.set_handle_inheritable(theirs.fileno(), True)
-            handles = subprocess.STARTUPINFO(lpAttributeList={"handle_list": [theirs.fileno()]})
-            group = subprocess.CREATE_NEW_PROCESS_GROUP
-            options = {"startupinfo": handles, "creationflags": group}
-        self._process = subprocess.Popen(  # noqa: S603
-            command, stdin=subprocess.DEVNULL, env=child_environment(), **options
-        )
-        theirs.close()
-        self._pipe = ours
+        self._process, self._pipe = start(module)
         self._lock = threading.Lock()
         self._keys = 0
-        self.guard = Guard(ours, f"WARNING {self.end_message()}; the analysis cannot go on.\n")
+        self.guard = Guard(
+            self._pipe, f"WARNING {self.end_message()}; the analysis cannot go on.\n"
+        )
         self.guard.start()
 
     @property

@@ -16,11 +16,12 @@ import socket
 import sys
 import threading
 import time
-from multiprocessing import connection, reduction
+from multiprocessing import reduction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from lir_element.child_process import pipe_of
 from lir_element.errors import RunStatus
 from lir_element.opensees.block import layout
 from lir_element.opensees.element_memory import ElementMemory
@@ -220,11 +221,7 @@ def _receive_socket(pipe: Connection) -> socket.socket:
 def main(arguments: list[str]) -> None:
     """Serve the process that started this one."""
     handle, parent = (int(each) for each in arguments)
-    if sys.platform == "win32":
-        pipe: Any = connection.PipeConnection(handle)
-    else:
-        pipe = connection.Connection(handle)
-    Service(pipe, parent).run()
+    Service(pipe_of(handle), parent).run()
 
 
 if __name__ == "__main__":
