@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from frames.frame import Frame
 
 Program = Literal["etabs", "sap2000"]
+_WRITERS = {"etabs": ("e2k", write_etabs), "sap2000": ("s2k", write_sap2000)}
 
 DAMPED_FROM = 0.8
 """Share of the effective period from which on the spectrum has the effective damping [-].
@@ -69,8 +70,8 @@ def handed_over(
 
 def _written(frame: Frame, result: BoundResult, program: Program, folder: Path) -> str:
     # The model with links at the displacement of this bound; a line on it.
-    path = folder / f"model-{result.bound}.{'e2k' if program == 'etabs' else 's2k'}"
-    write = write_etabs if program == "etabs" else write_sap2000
+    ending, write = _WRITERS[program]
+    path = folder / f"model-{result.bound}.{ending}"
     try:
         write(frame, path, displacement=result.displacement)
     except ModelError as cause:
