@@ -19,8 +19,9 @@ from typing import TYPE_CHECKING, Any
 
 from frames._fingerprint import fingerprint
 from frames.batch.batch_run import Runner
-from frames.recording.recording import whole_steps
+from frames.recording.recording import memory, whole_steps
 from frames.statics.blas_threads import blas_threads_for
+from lir_element._compile.cache import is_kept
 from lir_element.child_process import pipe_of, start
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
 TRIED = 16  # runs by which the others are judged
 WORTH = 2.0  # s that processes are to save: starting two takes nearly as much
+_BYTES = 0.5e9  # of the machine's memory for each process, which takes half of that
 _ATTENTIVE = 0.02  # s between two looks whether to leave off
 _NO_PICKLE = PicklingError, AttributeError, TypeError, ValueError, RecursionError
 
@@ -58,7 +60,11 @@ class Crew:
         if not self.pays or runner.recording is not None:  # histories are too large to be sent
             return None
         if k not in self._processes:
-            self._processes[k] = ChildProcess(self._layouts)
+            try:
+                self._processes[k] = ChildProcess(self._layouts)
+            except OSError:  # the system has no more memory, or no more processes
+                self.pays = False
+                return None
         process = self._processes[k]
         return process.row(place, runner, is_stopped) if process.is_ready() else None
 
@@ -69,7 +75,7 @@ class Crew:
             self._beside += beside / TRIED
             if self._noted == TRIED:
                 saved = (self._runs - TRIED) * self._beside * (1.0 - 1.0 / self.workers)
-                self.pays = saved > WORTH
+                self.pays = saved > WORTH and self.workers * _BYTES < memory() and is_kept()
 
     def end(self) -> None:
         """End the processes."""

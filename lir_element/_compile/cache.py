@@ -153,6 +153,11 @@ def keep(path: Path | None, content: bytes) -> bool:
     return True
 
 
+def is_kept() -> bool:
+    """Return whether another process finds the kernels that this one has compiled."""
+    return "again" not in _said
+
+
 def content_of(path: Path) -> bytes | None:
     """Return the content of a file of the cache."""
     try:

@@ -7,6 +7,7 @@ import warnings
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+from frames.batch.processes import Crew
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.batches import Batch, CampaignJob, compute
 
@@ -111,5 +112,6 @@ def _computed(shared: tuple[CampaignJob, xr.Dataset], number: int, workers: int 
     from distributed import get_worker
 
     work, layout = shared
+    crew = Crew(workers or get_worker().state.nthreads, 0)  # no processes: the cluster has them
     with _ONE_AT_A_TIME:
-        return compute(work, layout, number, workers or get_worker().state.nthreads)
+        return compute(work, layout, number, crew)
