@@ -94,6 +94,10 @@ class FrameSection:
     modifiers: Modifiers = Modifiers()
 
 
+NO_SECTION = FrameSection("", "", "", 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0)
+"""In place of one that cannot be read, until all such are said together."""
+
+
 @dataclass(frozen=True)
 class FrameObject:
     """A frame object from joint i to joint j.
@@ -146,6 +150,10 @@ class AreaSection:
     def factors(self) -> tuple[float, ...]:
         """Factors by direction on the stiffness: 11, 22, 12 in plane, and of bending [-]."""
         return (self.in_plane,) * 3 + (self.bending,) * 3
+
+
+NO_SHELL = AreaSection("", "", "none", 0.0, 0.0)
+"""An area that has loads alone."""
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 from frames._errors import ModelError
 from frames.exchange import etabs_fields as dialect
 from frames.exchange.building import (
+    NO_SECTION,
+    NO_SHELL,
     AreaSection,
     Building,
     FrameSection,
@@ -61,17 +63,19 @@ def read_etabs(path: str | Path, options: Options | None = None) -> Building:
     row = tables.needed("UNITS", "$ CONTROLS has the units; export it with the others")[0]
     units = units_of(f"{row.text('Force')}, {row.text('Length')}", "UNITS", row.error)
     building = Building(file.stem, "ETABS", version, units, account)
-    for row in tables.rows("ACTIVEDOF"):
-        require_space(row, row.text("Name", "").upper().split())
-    read_stories(tables, building)
-    read_properties(tables, building, given.sections, read_libraries(given.library))
-    objects = Objects(tables, building)
-    objects.read()
-    EtabsLinks(tables, building, objects).read()
-    read_groups(tables, building)
-    read_loads(tables, building)
-    _refuse_stages(tables, account)
-    judge_rest(tables, account, dialect.REFUSED, dialect.KNOWN, row_word="lines")
+    with account.together():
+        for row in tables.rows("ACTIVEDOF"):
+            with account.noting():
+                require_space(row, row.text("Name", "").upper().split())
+        read_stories(tables, building)
+        read_properties(tables, building, given.sections, read_libraries(given.library))
+        objects = Objects(tables, building)
+        objects.read()
+        EtabsLinks(tables, building, objects).read()
+        read_groups(tables, building)
+        read_loads(tables, building)
+        _refuse_stages(tables, account)
+        judge_rest(tables, account, dialect.REFUSED, dialect.KNOWN, row_word="lines")
     return building
 
 
@@ -93,14 +97,17 @@ def read_loads(tables: Tables, building: Building) -> None:
         building.patterns[name] = Pattern(name, **values(row, dialect.PATTERN, building))
     account.read("LOAD PATTERNS", "load patterns", len(building.patterns))
     for row in tables.rows("POINTLOAD"):
-        _add_point_load(row, building)
+        with account.noting():
+            _add_point_load(row, building)
     account.read("POINT OBJECT LOADS", "loads on points", len(building.joint_loads))
     for row in tables.rows("LINELOAD"):
-        _add_line(row, building)
+        with account.noting():
+            _add_line(row, building)
     account.read("LINE OBJECT LOADS", "loads on lines", len(building.line_loads))
     sets = _load_sets(tables, building)
     for row in tables.rows("AREALOAD"):
-        _add_area(row, building, sets)
+        with account.noting():
+            _add_area(row, building, sets)
     account.read("AREA OBJECT LOADS", "loads on areas", len(building.area_loads))
     _read_source(tables, building)
     cases = cases_of(
@@ -177,8 +184,17 @@ def _read_source(tables: Tables, building: Building) -> None:
         key[0]: values(row, dialect.MASS_SOURCE, building)
         for key, row in merged(tables.rows("MASSSOURCE"), "Source").items()
     }
+    rows = tables.rows("MASSSOURCELOAD")
+    old = tables.rows("MASSOPTIONS")  # of ETABS 8 and 9, without a name
+    for row in old if not sources else ():
+        if row.has("SOURCE"):
+            sources[""] = values(row, dialect.MASS_OPTIONS, building)
+            said = row.text("SOURCE").upper()
+            sources[""] |= {"elements": "MASS" in said, "added": "MASS" in said}
+            sources[""] |= {"loads": "LOAD" in said, "default": True}
+            rows = [each for each in old if each.has("LOAD")]
     name = default_source(sources)
-    own = [row for row in tables.rows("MASSSOURCELOAD") if row.text("Source") == name]
+    own = [row for row in rows if row.text("Source", "") == name]
     add_mass_source(building, name, sources, own, dialect.MASS_SHARE)
     if sources and sources[name]["lumped"]:
         what = "masses lumped at stories by ETABS, here where they are"
@@ -190,7 +206,7 @@ def read_stories(tables: Tables, building: Building) -> None:
     towers = tables.rows("TOWER")
     if len({row.text("Name", "") for row in towers}) > 1:
         message = "models of several towers are not read: export them one by one"
-        raise towers[1].error(message)
+        building.account.fault(str(towers[1].error(message)))
     rows = tables.needed("STORY", "an ETABS model has stories")
     one = building.units.length
     base = rows[-1]
@@ -241,7 +257,9 @@ def read_properties(
         if name in frames:
             kept = _named(row, constants.get(name), library)
             named += [name] if isinstance(kept, Shape) else []
-            building.sections[name] = _section(row, name, building, kept)
+            building.sections[name] = NO_SECTION
+            with account.noting():
+                building.sections[name] = _section(row, name, building, kept)
     if library and not named:
         message = f"library: no frame of {account.file} has a section that it names"
         raise ModelError(message)
@@ -255,7 +273,9 @@ def read_properties(
     account.left_out("FRAME SECTIONS", "which nothing has", idle)
     for (name,), row in shells.items():
         if name in areas:
-            building.area_sections[name] = _shell(row, name, building)
+            building.area_sections[name] = NO_SHELL
+            with account.noting():
+                building.area_sections[name] = _shell(row, name, building)
     account.read("SHELLPROP", "sections of areas in use", len(building.area_sections))
 
 

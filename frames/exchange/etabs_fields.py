@@ -35,8 +35,9 @@ MASS_SOURCE = fields(
     "yes",
     default=False,
 )
+MASS_OPTIONS = fields("lumped=STORYLEVELONLY", "yes", default=False)
 _OUTER = fields("depth=D width=B", "length")
-SIZES = _OUTER + fields("flange=TF web=TW|TF", "length")
+SIZES = _OUTER + fields("flange=TF web=TW|T|TF", "length")
 SECTION = (
     *fields("material=MATERIAL", "text", ""),
     *fields("shape=SHAPE", "text", "General"),
@@ -123,8 +124,8 @@ LOAD_SET = (
     *fields("size=VALUE", "stress", None),
 )
 MASS_SHARE = (
-    *fields("pattern=Pattern", "patterns", None, said="load pattern"),
-    *fields("share=Factor", default=None),
+    *fields("pattern=Pattern|LOAD", "patterns", None, said="load pattern"),
+    *fields("share=Factor|FACTOR", default=None),
 )
 CASE = fields("case=Case pattern=LOADPAT", "text", None) + fields("factor=SF", default=1.0)
 COMBINATION = fields("name=Combo case=LOADCASE", "text", None) + fields("factor=SF", default=1.0)
@@ -224,6 +225,7 @@ KNOWN = {
     "SELFWEIGHTOPTION SPANDREL",
     "LINKPROP": "*",
     "LOADCASE": "*",
+    "MASSOPTIONS": "GRAVITY LATERALONLY",
     "MASSSOURCE": "INCLUDELATERALMASS=YES INCLUDEMOVE=NO INCLUDEVERTICALMASS",
     "MATERIAL": "A CPCOMPRESSION CPTENSION DESIGNTYPE EFFFU EFFFY ENERGYDEGFACT FC FINALSLOPE FU "
     "FUE FY FYE FYS GRADE HYSTYPE IGNORETENSIONACCEPTANCE IOCOMPRESSION IOTENSION LSCOMPRESSION "

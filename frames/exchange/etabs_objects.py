@@ -92,24 +92,28 @@ class Objects:
 
     def _read_lines(self) -> None:
         lines = {name: row for (name,), row in merged(self.tables.rows("LINE"), "Line").items()}
-        bare = []
+        bare: list[str] = []
         for (name, story), row in merged(self.tables.rows("LINEASSIGN"), "Line", "Story").items():
-            line = lines[known(row, "line", name, lines)]
-            low = self._below(row, story, line.count("Stories", 0))
-            i, j = self.joint(line, line.text("I"), low), self.joint(line, line.text("J"), story)
-            label = f"{name}-{story}"
-            section = row.text("SECTION", "")
-            if section.upper() in _NONE:
-                bare.append(label)
-                row.looked_at.clear()
-                continue
-            known(row, "SECTION", section, self.building.sections, f' of line "{name}"')
-            if i == j:
-                msg = f'line "{name}" begins and ends at one joint of story "{story}"'
-                raise line.error(msg)
-            frame = FrameObject(label, i, j, section, row.place, story=story)
-            self.building.frames[label] = self._assigned(frame, row)
+            with self.building.account.noting():
+                line = lines[known(row, "line", name, lines)]
+                self._read_line(name, story, row, line, bare)
         self.building.account.left_out("LINE ASSIGNS", "lines without a section", bare)
+
+    def _read_line(self, name: str, story: str, row: Row, line: Row, bare: list[str]) -> None:
+        low = self._below(row, story, line.count("Stories", 0))
+        i, j = self.joint(line, line.text("I"), low), self.joint(line, line.text("J"), story)
+        label = f"{name}-{story}"
+        section = row.text("SECTION", "")
+        if section.upper() in _NONE:
+            bare.append(label)
+            row.looked_at.clear()
+            return
+        known(row, "SECTION", section, self.building.sections, f' of line "{name}"')
+        if i == j:
+            msg = f'line "{name}" begins and ends at one joint of story "{story}"'
+            raise line.error(msg)
+        frame = FrameObject(label, i, j, section, row.place, story=story)
+        self.building.frames[label] = self._assigned(frame, row)
 
     def _assigned(self, frame: FrameObject, row: Row) -> FrameObject:
         building = self.building
@@ -151,34 +155,38 @@ class Objects:
         building = self.building
         areas = {row.text("Area"): row for row in self.tables.rows("AREA")}
         for (name, story), row in merged(self.tables.rows("AREAASSIGN"), "Area", "Story").items():
-            area = areas[known(row, "area", name, areas)]
-            points, downs = area.text("Corners").split("\n"), area.text("Stories").split("\n")
-            joints = []
-            for point, down in zip(points, downs, strict=True):
-                if not down.isdigit():
-                    msg = f'stories down of a corner = "{down}" must be a whole number'
-                    raise area.error(msg)
-                joints.append(self.joint(area, point, self._below(row, story, int(down))))
-            label = f"{name}-{story}"
-            if len(set(joints)) < len(joints):
-                msg = f'area "{name}" has one corner twice'
+            with building.account.noting():
+                self._read_area(name, story, row, areas[known(row, "area", name, areas)])
+
+    def _read_area(self, name: str, story: str, row: Row, area: Row) -> None:
+        building = self.building
+        points, downs = area.text("Corners").split("\n"), area.text("Stories").split("\n")
+        joints = []
+        for point, down in zip(points, downs, strict=True):
+            if not down.isdigit():
+                msg = f'stories down of a corner = "{down}" must be a whole number'
                 raise area.error(msg)
-            if refused(row, label, building.account, dialect.AREA_WORDS):
-                continue
-            section = row.text("SECTION", "")
-            section = "" if section.upper() in _NONE else section
-            if section:
-                known(row, "SECTION", section, building.area_sections, f' of area "{name}"')
-            self._diaphragms.of_area(row, joints, story)
-            building.areas[label] = AreaObject(
-                label,
-                tuple(joints),
-                section,
-                row.place,
-                angle=row.number("ANG", 0.0),
-                story=story,
-                **shell_factors(row, dialect.AREA_MODIFIERS, building),
-            )
+            joints.append(self.joint(area, point, self._below(row, story, int(down))))
+        label = f"{name}-{story}"
+        if len(set(joints)) < len(joints):
+            msg = f'area "{name}" has one corner twice'
+            raise area.error(msg)
+        if refused(row, label, building.account, dialect.AREA_WORDS):
+            return
+        section = row.text("SECTION", "")
+        section = "" if section.upper() in _NONE else section
+        if section:
+            known(row, "SECTION", section, building.area_sections, f' of area "{name}"')
+        self._diaphragms.of_area(row, joints, story)
+        building.areas[label] = AreaObject(
+            label,
+            tuple(joints),
+            section,
+            row.place,
+            angle=row.number("ANG", 0.0),
+            story=story,
+            **shell_factors(row, dialect.AREA_MODIFIERS, building),
+        )
 
     def _read_points(self) -> None:
         building = self.building

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+import contextlib
+from collections.abc import Collection, Generator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -81,6 +82,7 @@ class ImportReport:
     """What became of everything in a file; `allow` has keys of what may be left out of it."""
 
     SHOWN = 6
+    REASONS = 12
 
     def __init__(self, file: str, allow: Collection[str] = ()) -> None:
         if isinstance(allow, str):
@@ -91,6 +93,9 @@ class ImportReport:
         self.groups: dict[str, tuple[str, ...]] = {}  # joints and links by group
         self.doubts: list[str] = []  # what was probably not meant, for warnings
         self._used: set[str] = set()
+        self._faults: dict[str, None] = {}  # what cannot be read, in words
+        # places and names of objects that `allow` could accept, by its key and what they are
+        self._refused: dict[tuple[str, str], tuple[str, list[str]]] = {}
 
     def __str__(self) -> str:
         """Return the account as a table, for people."""
@@ -135,16 +140,13 @@ class ImportReport:
     def refuse(
         self, key: str, table: str, what: str, names: Collection[str], place: str = ""
     ) -> None:
-        """Refuse objects whose loss would change the answer, or note them if `allow` has them."""
+        """Note objects whose loss would change the answer; `settle` raises unless allowed."""
         if not names:
             return
         if key not in self.allow:
-            message = (
-                f"{place or f'{self.file}, table {chr(34)}{table}{chr(34)}'}: {what} "
-                f"({self.some(names)}) would change the answer if left out: take it out of the "
-                f"model, or accept that with {argument('allow', [key])}"
-            )
-            raise ModelError(message)
+            where = place or f'{self.file}, table "{table}"'
+            self._refused.setdefault((key, what), (where, []))[1].extend(names)
+            return
         self._used.add(key)
         self._add(
             LEFT_OUT,
@@ -153,8 +155,57 @@ class ImportReport:
             names,
         )
 
+    def fault(self, message: str) -> None:
+        """Note in words what cannot be read; `settle` raises it with the others."""
+        self._faults.setdefault(message)
+
+    @contextlib.contextmanager
+    def noting(self) -> Generator[None, None, None]:
+        """Note an error of one object, and go on."""
+        try:
+            yield
+        except ModelError as error:
+            self.fault(str(error))
+
+    @contextlib.contextmanager
+    def together(self) -> Generator[None, None, None]:
+        """Raise an error with all that was noted before."""
+        try:
+            yield
+        except ModelError as error:
+            if not self._faults and not self._refused:
+                raise
+            self.fault(str(error))
+            self.settle()
+
+    def settle(self) -> None:
+        """Raise all that was noted and refused, in one message."""
+        found = list(self._faults)
+        for (_, what), (place, names) in self._refused.items():
+            found.append(f"{place}: {what} ({self.some(dict.fromkeys(names))})")
+        keys = dict.fromkeys(key for key, _ in self._refused)
+        self._faults.clear()
+        self._refused.clear()
+        if not found:
+            return
+        accept = f"or accept that with {argument('allow', sorted({*self.allow, *keys}))}"
+        if len(found) == 1:
+            out = f" would change the answer if left out: take it out of the model, {accept}"
+            raise ModelError(found[0] + (out if keys else ""))
+        lines = [f"{self.file} cannot be read as it is, for {len(found)} reasons:"]
+        lines += [f"({k}) {reason}" for k, reason in enumerate(found[: self.REASONS], start=1)]
+        if len(found) > self.REASONS:
+            lines.append(f"and {len(found) - self.REASONS} more")
+        if keys:
+            lines.append(
+                f"If left out, {joined(*keys, by=', ')} would change the answer: take them out of "
+                f"the model, {accept}"
+            )
+        raise ModelError("\n".join(lines))
+
     def finish(self) -> None:
         """Raise where `allow` names something that the file does not have."""
+        self.settle()
         idle = sorted(self.allow - self._used)
         if idle:
             message = (

@@ -58,7 +58,9 @@ def add_line_load(
     if absolute:
         length = float(np.linalg.norm(np.subtract(last, first)))
         a, b = a / length, b / length
-    if not -1e-9 <= a <= b <= 1.0 + 1e-6 or (a >= b and not point):
+    if a == b and not point:
+        return  # a part without length, as ETABS writes those that are left free
+    if not -1e-9 <= a <= b <= 1.0 + 1e-6:
         msg = f'a load from {a:g} to {b:g} of the length of frame "{frame}" is not on it'
         raise row.error(msg)
     is_less = projected and not point

@@ -2,25 +2,31 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+import operator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from frames._errors import ModelError
+from frames._errors import ModelError, argument
 from frames.exchange.geometry import Points
 from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from collections.abc import Set as AbstractSet
 
     from frames._types import FloatArray
     from frames.exchange.building import AreaObject
 
 
 Edge = tuple[str, str]
+
+MOST = 20_000
+"""Elements of shells that an import makes."""
 
 
 @dataclass
@@ -54,14 +60,22 @@ def mesh_areas(
             raise ModelError(message)
     inside = inside or {}
     cuts = _cuts(areas, points, size, inside)
+    count = sum(math.prod(len(cuts[_key(edge)]) - 1 for edge in _edges(a)[:2]) for a in areas)
+    if count > MOST:
+        message = (
+            f"walls and slabs come to {count} elements with {argument('mesh', size)}, at most "
+            f"{MOST} are read: give longer elements, or give floors rigid diaphragms"
+        )
+        raise ModelError(message)
     joints = set(points)
-    names = {edge: _names(edge, shares, points) for edge, shares in cuts.items()}
+    places = _Places(points)
+    names = {edge: _names(edge, shares, places) for edge, shares in cuts.items()}
     mesh = Mesh()
     for edge, along in names.items():
         mesh.between |= {node: edge for node in along if node not in joints}
     for area in areas:
         if len(area.joints) == 4:
-            _quad(area, names, cuts, points, mesh, list(inside.get(area.name, ())))
+            _quad(area, names, cuts, places, mesh, joints - inside.get(area.name, {}).keys())
             continue
         if area.name in inside:
             message = (
@@ -185,40 +199,56 @@ def _even_out(quads: Sequence[AreaObject], cells: dict[Edge, list[int]]) -> None
                 changed = True
 
 
-def _names(edge: Edge, shares: list[float], points: Points) -> list[str]:
-    # Nodes along an edge; a joint that is there already is one of them.
-    first, last = (np.array(points[name]) for name in edge)
-    known = {name: points[name] for name in points if name not in edge} if len(shares) > 2 else {}
-    names = [edge[0]]
-    where = np.array(list(known.values())).reshape(-1, 3)
-    labels = list(known)
-    for k, share in enumerate(shares[1:-1], start=1):
-        place = first + share * (last - first)
-        if len(labels):
-            apart = np.linalg.norm(where - place, axis=1)
-            near = int(apart.argmin())
-            if apart[near] <= SAME_PLACE:
-                names.append(labels[near])
-                continue
-        name = f"{edge[0]}~{edge[1]}~{k}"
+class _Places:
+    # Nodes by place: a new one that is where another one is, is that one.
+    def __init__(self, points: Points) -> None:
+        self.points = points
+        self._cells: dict[tuple[int, ...], list[str]] = {}
+        for name, place in points.items():
+            self._cells.setdefault(_cell(place), []).append(name)
+
+    def node(self, name: str, place: FloatArray, apart: AbstractSet[str] = frozenset()) -> str:
         x, y, z = place.tolist()
-        points[name] = (x, y, z)
-        names.append(name)
-    return [*names, edge[1]]
+        cell = _cell((x, y, z))
+        for step in _BESIDE:
+            for other in self._cells.get(tuple(map(operator.add, cell, step)), ()):
+                is_near = math.dist(self.points[other], (x, y, z)) <= SAME_PLACE
+                if is_near and other not in apart:
+                    return other
+        self.points[name] = (x, y, z)
+        self._cells.setdefault(cell, []).append(name)
+        return name
+
+
+def _cell(place: tuple[float, float, float]) -> tuple[int, ...]:
+    return tuple(math.floor(value / SAME_PLACE) for value in place)
+
+
+_BESIDE = list(itertools.product((0, -1, 1), repeat=3))
+
+
+def _names(edge: Edge, shares: list[float], places: _Places) -> list[str]:
+    # Nodes along an edge.
+    first, last = (np.array(places.points[name]) for name in edge)
+    between = [
+        places.node(f"{edge[0]}~{edge[1]}~{k}", first + share * (last - first))
+        for k, share in enumerate(shares[1:-1], start=1)
+    ]
+    return [edge[0], *between, edge[1]]
 
 
 def _quad(
     area: AreaObject,
     names: dict[Edge, list[str]],
     cuts: dict[Edge, list[float]],
-    points: Points,
+    places: _Places,
     mesh: Mesh,
-    inside: list[str],
+    apart: AbstractSet[str],
 ) -> None:
     a, b, c, d = area.joints
     bottom, top = _along((a, b), names), _along((d, c), names)
     left, right = _along((a, d), names), _along((b, c), names)
-    corners = np.array([points[name] for name in (a, b, c, d)])
+    corners = np.array([places.points[name] for name in (a, b, c, d)])
     u, v = (_shares(edge, cuts) for edge in ((a, b), (a, d)))
     grid = [[""] * len(u) for _ in v]
     for row in range(len(v)):
@@ -228,11 +258,8 @@ def _quad(
             elif column in {0, len(u) - 1}:
                 grid[row][column] = (left if column == 0 else right)[row]
             else:
-                x, y, z = _bilinear(corners, u[column], v[row]).tolist()
-                meets = (j for j in inside if math.dist(points[j], (x, y, z)) <= SAME_PLACE)
-                name = next(meets, f"{area.name}~{row}~{column}")
-                points.setdefault(name, (x, y, z))
-                grid[row][column] = name
+                place = _bilinear(corners, u[column], v[row])
+                grid[row][column] = places.node(f"{area.name}~{row}~{column}", place, apart)
     for row in range(len(v) - 1):
         for column in range(len(u) - 1):
             low, high = grid[row], grid[row + 1]

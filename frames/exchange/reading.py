@@ -33,8 +33,8 @@ def read_text(path: Path) -> str:
     for code in ("utf-16",) if data[:2] in _MARKS else _CODES:
         with contextlib.suppress(UnicodeDecodeError):
             text = data.decode(code)
-            if "\0" not in text:
-                return text
+            if text.count("\0") * _FEW <= len(text):  # ETABS ends a comment of its log by one
+                return text.replace("\0", "")
     message = (
         f"{path.name} is no text file: export the model as text (File > Export), a binary "
         "model cannot be read"
@@ -42,6 +42,7 @@ def read_text(path: Path) -> str:
     raise ModelError(message)
 
 
+_FEW = 1000  # characters for each NUL of a file that is text
 _MARKS = (b"\xff\xfe", b"\xfe\xff")
 _CODES = ("utf-8-sig", "cp1252", "latin-1")
 

@@ -12,6 +12,8 @@ import numpy as np
 from frames.exchange import sap2000_fields as dialect
 from frames.exchange.building import (
     LINK_DOFS,
+    NO_SECTION,
+    NO_SHELL,
     AreaLoad,
     AreaSection,
     Building,
@@ -60,12 +62,15 @@ def read_sap2000(path: str | Path, options: Options | None = None) -> Building:
     row = tables.needed("PROGRAM CONTROL", "it has the units; export it with the others")[0]
     units = units_of(row.text("CurrUnits"), "CurrUnits", row.error)
     building = Building(file.stem, "SAP2000", row.text("Version", ""), units, account)
-    for row in tables.rows("ACTIVE DEGREES OF FREEDOM"):
-        require_space(row, {name for name in ACTIVE if row.yes(name)})
-    read_properties(tables, building)
-    read_objects(tables, building)
-    read_loads(tables, building)
-    judge_rest(tables, account, dialect.REFUSED, dialect.KNOWN, dialect.OBJECTS, dialect.HARMLESS)
+    with account.together():
+        for row in tables.rows("ACTIVE DEGREES OF FREEDOM"):
+            with account.noting():
+                require_space(row, {name for name in ACTIVE if row.yes(name)})
+        read_properties(tables, building)
+        read_objects(tables, building)
+        read_loads(tables, building)
+        words = dialect.REFUSED, dialect.KNOWN, dialect.OBJECTS, dialect.HARMLESS
+        judge_rest(tables, account, *words)
     return building
 
 
@@ -87,10 +92,14 @@ def read_properties(tables: Tables, building: Building) -> None:
         building.materials[name] = material_of(row, name, dialect.MATERIAL, building)
     account.read(dialect.MATERIALS, "materials in use", len(building.materials))
     for name, row in sections.items():
-        building.sections[name] = _section(row, name, building)
+        building.sections[name] = NO_SECTION
+        with account.noting():
+            building.sections[name] = _section(row, name, building)
     account.read(dialect.SECTIONS, "cross-sections in use", len(building.sections))
     for name, row in shells.items():
-        building.area_sections[name] = _area_section(row, name, building)
+        building.area_sections[name] = NO_SHELL
+        with account.noting():
+            building.area_sections[name] = _area_section(row, name, building)
     account.read(dialect.AREA_SECTIONS, "sections of areas in use", len(building.area_sections))
     _read_links(tables, building)
 
@@ -107,7 +116,8 @@ def _section(row: Row, name: str, building: Building) -> FrameSection:
     account = building.account
     material, shape = values(row, dialect.SECTION[:2], building).values()
     modifiers = Modifiers(**values(row, dialect.MODIFIERS, building))
-    refused(row, name, account, dialect.SECTION_WORDS)
+    if refused(row, name, account, dialect.SECTION_WORDS) and not row.has("Area", "I33", "I22"):
+        return NO_SECTION
     if not row.has("Area", "I33", "I22"):
         known(row, "Material", material, building.materials)
         poisson = building.materials[material].poisson_ratio
@@ -127,7 +137,7 @@ def _area_section(row: Row, name: str, building: Building) -> AreaSection:
     kind = f"{row.text('AreaType', 'Shell')} {row.text('Type', 'Shell-Thin')}".lower()
     refused(row, name, building.account, dialect.LAYERED)
     if refused(row, name, building.account, dialect.NO_SHELL):
-        return AreaSection(name, "", "none", 0.0, 0.0)
+        return NO_SHELL
     words = ("membrane", "plate")
     found = next((word for word in words if word in kind.removeprefix("shell ")), "shell")
     material = known(row, "Material", row.text("Material"), building.materials)
@@ -173,14 +183,16 @@ def read_loads(tables: Tables, building: Building) -> None:
     account = building.account
     account.read(dialect.PATTERNS, "load patterns", len(building.patterns))
     for row in tables.rows("JOINT LOADS - FORCE"):
-        joint, *forces, pattern = values(row, dialect.JOINT_LOAD, building).values()
-        _require_global(row, f'load of joint "{joint}"')
-        building.joint_loads.append(JointLoad(joint, pattern, tuple(forces)))
+        with account.noting():
+            joint, *forces, pattern = values(row, dialect.JOINT_LOAD, building).values()
+            _require_global(row, f'load of joint "{joint}"')
+            building.joint_loads.append(JointLoad(joint, pattern, tuple(forces)))
     account.read("JOINT LOADS - FORCE", "loads on joints", len(building.joint_loads))
     for table in ("FRAME LOADS - DISTRIBUTED", "FRAME LOADS - POINT"):
         before = len(building.line_loads)
         for row in tables.rows(table):
-            _add_frame_load(row, building, point=table.endswith("POINT"))
+            with account.noting():
+                _add_frame_load(row, building, point=table.endswith("POINT"))
         account.read(table, "loads on frames", len(building.line_loads) - before)
     for table in ("FRAME LOADS - GRAVITY", "AREA LOADS - GRAVITY"):
         for row in tables.rows(table):
@@ -189,7 +201,8 @@ def read_loads(tables: Tables, building: Building) -> None:
     before = len(building.area_loads)
     for table in ("AREA LOADS - UNIFORM", "AREA LOADS - UNIFORM TO FRAME"):
         for row in tables.rows(table):
-            add_area_load(row, building, **values(row, dialect.AREA_LOAD, building))
+            with account.noting():
+                add_area_load(row, building, **values(row, dialect.AREA_LOAD, building))
     account.read("AREA LOADS", "uniform loads", len(building.area_loads) - before)
     _read_source(tables, building)
     rows = tables.rows("CASE - STATIC 1 - LOAD ASSIGNMENTS")

@@ -14,13 +14,13 @@ from frames.exchange.geometry import Levels, area_normal
 from frames.exchange.loads import Sizes
 from frames.exchange.mesh import joints_within
 from frames.model.superelement import ShellElement, WithoutForces, no_elements
-from frames.opensees.model import read_model
+from frames.opensees.model import read_initial
 from lir_element.argument_checks import listed
 from lir_element.elevations import SAME_PLACE
 from lir_element.opensees.library import opensees
 
 if TYPE_CHECKING:
-    from frames._types import FloatArray, SparseMatrix
+    from frames._types import FloatArray, IntArray
     from frames.exchange.building import Building
     from frames.exchange.geometry import Points
     from frames.exchange.mesh import Inside, Mesh
@@ -88,8 +88,10 @@ def _tie(building: Building, decks: list[AreaObject]) -> None:
         building.constraints[label] = Constraint(label, "diaphragm", tuple(names))
 
 
-AT_ONCE = 60
-"""Elements whose matrices are read together: they are full ones."""
+AT_ONCE = 8
+"""Elements whose matrices are read together, in a full one."""
+
+_ALIKE = 9  # decimals of the sides of elements that are alike [m]
 
 
 _PLUMB = 1e-6  # cosine of a normal, below which an area stands upright
@@ -114,14 +116,23 @@ def add_shells(frame: Frame, building: Building, mesh: Mesh) -> None:
         raise ModelError(message)
     names = list(dict.fromkeys(node for _, nodes in mesh.elements for node in nodes))
     index = {name: k for k, name in enumerate(names)}
-    points = {name: frame.nodes[name].position for name in names}
-    stiffness = sparse.csr_array((6 * len(names), 6 * len(names)), dtype=np.float64)
-    try:
-        for start in range(0, len(mesh.elements), AT_ONCE):
-            part = mesh.elements[start : start + AT_ONCE]
-            stiffness = sparse.csr_array(stiffness + _part(ops, building, part, points, index))
-    finally:
-        ops.wipe()
+    points = np.array([frame.nodes[name].position for name in names])
+    kinds: dict[tuple[object, ...], list[IntArray]] = {}  # nodes of elements that are alike
+    for area, nodes in mesh.elements:
+        numbers = np.array([index[node] for node in nodes])
+        sides = points[numbers[1:]] - points[numbers[0]]
+        key = (shell_numbers(building, building.areas[area]), *sides.round(_ALIKE).ravel().tolist())
+        kinds.setdefault(key, []).append(numbers)
+    found = _matrices(ops, list(kinds), [points[alike[0]] for alike in kinds.values()])
+    rows, columns, values = [], [], []
+    for matrix, alike in zip(found, kinds.values(), strict=True):
+        dofs = (6 * np.array(alike)[:, :, None] + np.arange(6)).reshape(len(alike), -1)
+        rows.append(np.repeat(dofs, dofs.shape[1], axis=1).ravel())
+        columns.append(np.tile(dofs, dofs.shape[1]).ravel())
+        values.append(np.tile(matrix.ravel(), len(alike)))
+    every = (np.concatenate(rows), np.concatenate(columns))
+    size = 6 * len(names)
+    stiffness = sparse.csr_array((np.concatenate(values), every), shape=(size, size))
     shells = [
         ShellElement(area, nodes, *shell_numbers(building, building.areas[area]))
         for area, nodes in mesh.elements
@@ -147,43 +158,30 @@ def _told(mesh: Mesh) -> list[WithoutForces]:
     return found
 
 
-def _part(
-    ops: Any,
-    building: Building,
-    part: list[tuple[str, tuple[str, ...]]],
-    points: Points,
-    index: dict[str, int],
-) -> SparseMatrix:
-    ops.wipe()
-    ops.model("basic", "-ndm", 3, "-ndf", 6)
-    used = sorted({index[node] for _, nodes in part for node in nodes})
-    places = {k: name for name, k in index.items()}
-    for k in used:
-        ops.node(k + 1, *points[places[k]])
-    sections: dict[tuple[float, ...], int] = {}
-    for tag, (area, nodes) in enumerate(part, start=1):
-        numbers = shell_numbers(building, building.areas[area])
-        if numbers not in sections:
-            sections[numbers] = len(sections) + 1
-            modulus, poisson, thickness, bending = numbers
-            ops.section(
-                "ElasticMembranePlateSection",
-                sections[numbers],
-                modulus,
-                poisson,
-                thickness,
-                0.0,
-                bending,
-            )
-        kind = QUAD if len(nodes) == 4 else TRIANGLE
-        ops.element(kind, tag, *(index[node] + 1 for node in nodes), sections[numbers])
-    model = read_model()
-    dofs = (6 * (np.array(model.tags) - 1)[:, None] + np.arange(6)).ravel()
-    size = 6 * len(index)
-    put = sparse.csr_array(
-        (np.ones(len(dofs)), (dofs, np.arange(len(dofs)))), shape=(size, len(dofs))
-    )
-    return sparse.csr_array(put @ model.initial @ put.T)
+def _matrices(ops: Any, keys: list[tuple[Any, ...]], corners: list[FloatArray]) -> list[FloatArray]:
+    # Stiffness of single elements, some of them in one model, each with nodes of its own.
+    found: list[FloatArray] = []
+    try:
+        for start in range(0, len(keys), AT_ONCE):
+            ops.wipe()
+            ops.model("basic", "-ndm", 3, "-ndf", 6)
+            tags: list[int] = []
+            blocks = []
+            for k in range(start, min(start + AT_ONCE, len(keys))):
+                modulus, poisson, thickness, bending = keys[k][0]
+                own = [len(tags) + n + 1 for n in range(len(corners[k]))]
+                for tag, place in zip(own, corners[k].tolist(), strict=True):
+                    ops.node(tag, *place)
+                plate = (modulus, poisson, thickness, 0.0, bending)
+                ops.section("ElasticMembranePlateSection", k + 1, *plate)
+                ops.element(QUAD if len(own) == 4 else TRIANGLE, k + 1, *own, k + 1)
+                blocks.append(slice(6 * len(tags), 6 * (len(tags) + len(own))))
+                tags += own
+            whole = read_initial(tags).toarray()
+            found += [whole[block, block] for block in blocks]
+    finally:
+        ops.wipe()
+    return found
 
 
 def shell_numbers(building: Building, area: AreaObject) -> tuple[float, float, float, float]:

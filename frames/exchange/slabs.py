@@ -43,12 +43,14 @@ def corner_shares(points: FloatArray) -> FloatArray:
     count = len(points)
     normal, area = area_normal(points)
     shares = np.zeros(count)
-    for first in range(count):
-        for k in range(1, count - 1):
-            corners = [first, (first + k) % count, (first + k + 1) % count]
-            a, b, c = points[corners]
-            size = 0.5 * float(np.cross(b - a, c - a) @ normal)
-            shares[corners] += size / (3.0 * area * count)
+    triangles = [
+        (first, (first + k) % count, (first + k + 1) % count)
+        for first in range(count)
+        for k in range(1, count - 1)
+    ]
+    a, b, c = np.moveaxis(points[np.array(triangles)], 1, 0)
+    sizes = 0.5 * np.cross(b - a, c - a) @ normal
+    np.add.at(shares, np.array(triangles), (sizes / (3.0 * area * count))[:, None])
     return shares
 
 
@@ -155,6 +157,7 @@ class Loading:
     def __init__(self, building: Building, divided: Mapping[str, SplitMember], mesh: Mesh) -> None:
         self.building, self.divided, self.mesh = building, divided, mesh
         self._elements = mesh.by_area()
+        self._corners: dict[str, list[tuple[str, float]]] = {}  # nodes and areas [m2] of shells
 
     def put(
         self, frame: Frame, slabs: Slabs, factors: Mapping[str, tuple[float, str]], own: bool
@@ -194,11 +197,14 @@ class Loading:
         if load.area not in self._elements:
             slabs.add(self.building.areas[load.area], vector, case)
             return
-        for nodes in self._elements[load.area]:
-            points = np.array([frame.nodes[name].position for name in nodes])
-            _, size = area_normal(points)
-            for node, share in zip(nodes, corner_shares(points), strict=True):
-                frame.add_load(node, [*(share * size * vector).tolist(), 0.0, 0.0, 0.0], case=case)
+        if load.area not in self._corners:
+            found: list[tuple[str, float]] = []
+            self._corners[load.area] = found
+            for nodes in self._elements[load.area]:
+                points = np.array([frame.nodes[name].position for name in nodes])
+                found += zip(nodes, corner_shares(points) * area_normal(points)[1], strict=True)
+        for node, size in self._corners[load.area]:
+            frame.add_load(node, [*(size * vector).tolist(), 0.0, 0.0, 0.0], case=case)
 
 
 def _times(load: LineLoad | AreaLoad | JointLoad, factor: float) -> LineLoad | AreaLoad | JointLoad:

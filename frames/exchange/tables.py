@@ -253,6 +253,7 @@ FORCES = {
     "MN": 1e6,
     "KGF": STANDARD_GRAVITY,
     "TONF": 1e3 * STANDARD_GRAVITY,
+    "TON": 1e3 * STANDARD_GRAVITY,  # metric, of ETABS 8 and 9: steel of 7.83 ton/m3
     "LB": _POUND,
     "KIP": 1e3 * _POUND,
 }

@@ -74,10 +74,16 @@ def imported(
 
 def fill(frame: Frame, building: Building, options: Options) -> dict[str, LIRBearing]:
     """Add all of a building to an empty frame, on bearings."""
-    places = Places(building, options)
-    factors = permanent(building, options)
+    with building.account.together():
+        return _filled(frame, building, options)
+
+
+def _filled(frame: Frame, building: Building, options: Options) -> dict[str, LIRBearing]:
     source = _source(building, options)
     shells = choose_shells(building)
+    factors = permanent(building, options)
+    places = Places(building, options)
+    building.account.settle()
     points = _points(building)
     if not points:
         message = (
@@ -96,7 +102,6 @@ def fill(frame: Frame, building: Building, options: Options) -> dict[str, LIRBea
     _add_nodes(frame, building, points, mesh, divided)
     sections = Sections(building)
     add_members(frame, divided, sections)
-    _add_shells(frame, building, mesh)
     turned = add_supports(frame, building, places, options)
     _hold_edges(frame, building, places, mesh)
     _hold_pins(frame, building, divided, mesh)
@@ -106,6 +111,8 @@ def fill(frame: Frame, building: Building, options: Options) -> dict[str, LIRBea
     loading = Loading(building, {one.frame.name: one for one in divided}, mesh)
     slabs = Slabs(frame, building)
     _add_masses(frame, building, loading, slabs, source, under_loads(divided, joints))
+    building.account.settle()  # before what takes long
+    _add_shells(frame, building, mesh)
     loading.put(frame, slabs, factors, own=False)
     _add_levels(frame, building, places)
     if options.loads is None or options.loads == "all":  # others are the choice of the user
@@ -181,13 +188,12 @@ def _source(building: Building, options: Options) -> MassSource:
             live = [name for name, p in building.patterns.items() if case_of(p.kind) == "L"]
             dead = [name for name, p in building.patterns.items() if case_of(p.kind) == "D"]
             shares = dict.fromkeys(dead or ["DEAD"], 1.0) | dict.fromkeys(live, 0.25)
-            message = (
+            building.account.fault(
                 f"{building.account.file} has no mass source: define it (Define > Mass Source) and "
                 "export the file again, or say what is mass by shares of load patterns, "
                 f"{argument('mass', shares)}"
             )
-            raise ModelError(message)
-        return building.mass_source
+        return building.mass_source or MassSource(elements=False, added=False, patterns={})
     unknown = [name for name in options.mass if name not in building.patterns]
     if unknown:
         some = ", ".join(building.patterns) or "none"

@@ -202,7 +202,7 @@ def superelement(
     """
     size = 6 * len(nodes)
     owner = f'superelement "{name}"'
-    none = np.zeros((size, size))
+    none = sparse.csr_array((size, size), dtype=np.float64)
     given = {"stiffness": stiffness, "mass": mass, "damping": none if damping is None else damping}
     return Superelement(
         name=name,

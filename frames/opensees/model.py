@@ -23,6 +23,8 @@ from lir_element.opensees.base_nodes import leftovers
 from lir_element.opensees.library import opensees
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from frames._types import BoolArray, FloatArray, IntArray, SparseMatrix
 
 LARGEST = 6000
@@ -113,6 +115,15 @@ def read_model() -> OpenSeesModel:
             for tag in ops.getEleTags() or ()
         ),
     )
+
+
+def read_initial(tags: Sequence[int]) -> SparseMatrix:
+    """Read the stiffness of elements before any load, by the displacements of these nodes."""
+    ops = opensees()
+    with contextlib.redirect_stderr(io.StringIO()):
+        found = _matrix(ops, _number(ops, tuple(tags), 6, 0.0, 0.0), 0.0, 0.0, 0.0, 1.0)
+        ops.wipeAnalysis()
+    return found
 
 
 def _shape(ops: Any, tags: tuple[int, ...]) -> int:

@@ -7,6 +7,7 @@ import re
 from dataclasses import astuple
 from pathlib import Path
 
+import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
@@ -104,6 +105,45 @@ BAD = {
 @pytest.mark.parametrize(("old", "new", "message"), BAD.values(), ids=list(BAD))
 def test_bad_files_are_refused_with_a_remedy(tmp_path, old, new, message):
     refused(ModelError, message, Frame.from_etabs, written(tmp_path, changed(old, new)))
+
+
+def test_all_reasons_against_a_file_are_said_at_once(tmp_path: Path) -> None:
+    text = changed('SECTION "COL"', 'LIMITTENSION 0  SECTION "COL"')
+    text = text.replace('SECTION "COL"  ', 'HINGE "M3"  SECTION "COL"  ', 2)
+    source = re.compile(r"^  MASSSOURCE.*\n", re.MULTILINE)
+    text = text.replace('FVAL 3.0', "FVAL many", 1)
+    path = written(tmp_path, source.sub("", text))
+    words = (
+        r"cannot be read as it is, for 4 reasons:\n\(1\) .*FVAL = \"many\".*\n\(2\) .*no mass "
+        r".*\n\(3\) .*limits of axial force.*\n\(4\) .*plastic hinges.*\nIf left out, tension "
+        r'limits, hinges would .*allow=\["hinges", "tension limits"\]'
+    )
+    refused(ModelError, words, Frame.from_etabs, path)
+
+
+def test_words_of_etabs_9(tmp_path: Path) -> None:
+    # tonnes as forces, a mass source without a name, pipes of a thickness T, NUL in the log
+    source = re.compile(r"^  MASSSOURCE .*\n  MASSSOURCELOAD .*\n", re.MULTILINE)
+    old = '  MASSOPTIONS  GRAVITY 9.81  SOURCE "LOADS"  LATERALONLY "YES"    STORYLEVELONLY "YES"\n'
+    old += '  MASSOPTIONS  LOAD "Dead"  FACTOR 1\n  MASSOPTIONS  LOAD "Live"  FACTOR 0.3\n'
+    text = source.sub(old, TEXT).replace('"KN"', '"TON"')
+    text = text.replace("$ END OF MODEL", "$ LOG\n  STARTCOMMENTS\n\0\n$ END OF MODEL")
+    pipe = '  FRAMESECTION  "COL"  MATERIAL "C30"  SHAPE "Pipe"  D 0.8  T 0.028'
+    text = re.sub(r'  FRAMESECTION +"COL".*', pipe, text, count=1)
+    building = read_etabs(written(tmp_path, text))
+    assert building.mass_source is not None
+    assert not building.mass_source.elements
+    assert building.mass_source.patterns == {"Dead": 1.0, "Live": 0.3}
+    assert_allclose(building.units.force, 9806.65)
+    assert_allclose(building.sections["COL"].area, np.pi * (0.8 - 0.028) * 0.028, rtol=1e-12)
+
+
+def test_a_part_of_a_load_without_length_is_none(tmp_path: Path) -> None:
+    # as ETABS writes the parts of a trapezoidal load that are left free
+    line = '  LINELOAD  "X1"  "Story1"  TYPE "TRAPF"  DIR "GRAV"  LC "Dead"  FSTART 4  FEND 4 '
+    path = written(tmp_path, TEXT.replace(*more(f"{line} RDSTART 1  RDEND 1"), 1))
+    assert not read_etabs(path).line_loads
+    Frame.from_etabs(path)
 
 
 def test_a_case_adds_up_its_patterns(tmp_path: Path) -> None:

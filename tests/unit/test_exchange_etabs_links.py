@@ -129,7 +129,7 @@ def test_a_given_bearing_stands_in_place_of_links_whatever_their_words(tmp_path:
     path = model(tmp_path, prop, LINKS)
     frame = Frame.from_etabs(path, {"FP": bearing_for(400e3)})
     assert {part.bearing for part in frame.bearings.values()} == {bearing_for(400e3)}
-    words = r"U2RADIUSOUTERTOP.*allow=\[\"link properties\"\]"
+    words = r"(?s)U2RADIUSOUTERTOP.*allow=\[\"link properties\", \"nonlinear links\"\]"
     refused(ModelError, words, Frame.from_etabs, path)
 
 

@@ -26,11 +26,11 @@ def whole(text: str = PARTS) -> str:
     return re.sub(r'  AREA "F1"  FLOOR.*', floor, text, count=1)
 
 
-def frame_of(tmp_path: Path, text: str, **more: object) -> Frame:
+def frame_of(tmp_path: Path, text: str, mesh: float = 2.6, **more: object) -> Frame:
     path = tmp_path / "model.e2k"
     path.write_text(text, encoding="utf-8")
     opensees().wipe()
-    return Frame.from_etabs(path, mesh=2.6, **more)  # type: ignore[arg-type]
+    return Frame.from_etabs(path, mesh=mesh, **more)  # type: ignore[arg-type]
 
 
 def same(one: Frame, two: Frame) -> None:
@@ -60,6 +60,23 @@ def test_a_semirigid_floor_meets_the_columns_within_it(tmp_path: Path) -> None:
     assert "joints within shells, met by their mesh: 5-Story1" in str(frame.imported)
     assert "5-Story1" in frame.superelements["shells"].nodes
     same(frame, frame_of(tmp_path, PARTS.replace("TYPE RIGID", "TYPE SEMIRIGID")))
+
+
+def test_meshes_that_cross_are_joined(tmp_path: Path) -> None:
+    # a floor over all bays, and another one from its middle on: their nodes are the same
+    floor = '  AREA "F2"  FLOOR  4  "5"  "6"  "9"  "8"  0  0  0  0'
+    text = whole().replace("TYPE RIGID", "TYPE SEMIRIGID")
+    text = text.replace("$ POINT ASSIGNS", f"{floor}\n\n$ POINT ASSIGNS")
+    assign = '  AREAASSIGN  "F2"  "Story1"  SECTION "SLAB"\n\n$ LOAD PATTERNS'
+    frame = frame_of(tmp_path, text.replace("$ LOAD PATTERNS", assign))
+    places = [tuple(np.round(node.position, 6)) for node in frame.nodes.values()]
+    assert len(set(places)) == len(places)
+
+
+def test_a_mesh_of_too_many_elements_is_refused(tmp_path: Path) -> None:
+    soft = whole().replace("TYPE RIGID", "TYPE SEMIRIGID")
+    with pytest.raises(ModelError, match=r"come to \d+ elements with mesh=0.01, at most 20000"):
+        frame_of(tmp_path, soft, mesh=0.01)
 
 
 def test_disconnected_joints_are_in_no_diaphragm(tmp_path: Path) -> None:
