@@ -1,13 +1,19 @@
-"""Tables of text as spreadsheets save them: commas, semicolons or tabs, decimal commas, marks."""
+"""Tables as spreadsheets save them: workbooks, and text with its separators, commas and marks."""
 
 from __future__ import annotations
 
 import csv
+import datetime
 import re
-from typing import TYPE_CHECKING
+import zipfile
+import zlib
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+BOOKS = (".xlsx", ".xlsm")
+"""Endings of workbooks."""
 
 _COMMA = re.compile(r"\s*[-+]?\d*,\d+(?:[eE][-+]?\d+)?(?:\s*[^\d\s,;][^,;]*)?\s*")
 _THOUSANDS = re.compile(r"\s*[-+]?\d{1,3}(?:[.,]\d{3})+[.,]\d+(?:\s*[^\d\s,;][^,;]*)?\s*")
@@ -17,8 +23,13 @@ CsvLines = list[tuple[int, list[str]]]
 
 
 def csv_lines(path: Path) -> CsvLines:
-    """Return the rows of a table that a spreadsheet saved."""
+    """Return the rows of a table that a spreadsheet saved; of a workbook, of its first sheet."""
+    if path.suffix.lower() in BOOKS:
+        return book_lines(path)
     raw = path.read_bytes()
+    if raw[:4] in _PACKED:
+        msg = f"is a workbook: save it as {BOOKS[0]}, or as CSV in UTF-8"
+        raise ValueError(msg)
     wide = raw[:2] in {b"\xff\xfe", b"\xfe\xff"}
     try:
         text = raw.decode("utf-16" if wide else "utf-8-sig")
@@ -36,6 +47,64 @@ def csv_lines(path: Path) -> CsvLines:
         for k, row in found
         if any(cell.strip() for cell in row)
     ]
+
+
+_PACKED = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")  # how .xlsx and .xls begin
+_DAMAGED = (
+    OSError,
+    EOFError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    ValueError,
+    SyntaxError,  # of XML
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""Errors of openpyxl at a file that is no workbook."""
+
+
+def open_book(path: Path) -> Any:
+    """Open a workbook to read the values of its cells; raise a ValueError if it is none."""
+    try:
+        import openpyxl
+    except ImportError as cause:
+        message = 'workbooks need openpyxl: pip install "lir-dcfp[excel]"'
+        raise ImportError(message) from cause
+    with path.open("rb"):  # a file that is not there is no damaged one
+        pass
+    try:
+        return openpyxl.load_workbook(path, read_only=True, data_only=True)
+    except _DAMAGED as cause:
+        message = f"is no workbook that can be read ({cause}): save it as {BOOKS[0]}"
+        raise ValueError(message) from cause
+
+
+def book_lines(path: Path) -> CsvLines:
+    """Return the rows of the first sheet of a workbook as texts."""
+    book = open_book(path)
+    try:
+        rows = list(book.worksheets[0].iter_rows(values_only=True))
+    finally:
+        book.close()
+    lines = [(k, [_text(k, cell) for cell in row]) for k, row in enumerate(rows, start=1)]
+    return [
+        (k, row) for k, row in lines if any(row) and not next(filter(None, row)).startswith("#")
+    ]
+
+
+def _text(row: int, cell: object) -> str:
+    if isinstance(cell, datetime.date | datetime.time):
+        msg = (
+            f"row {row}: {cell} is a date: a spreadsheet makes one of 1-3; give the column the "
+            "format of text"
+        )
+        raise ValueError(msg)
+    if isinstance(cell, bool):
+        return "yes" if cell else "no"
+    if isinstance(cell, float) and cell.is_integer():
+        return str(int(cell))
+    return "" if cell is None else str(cell).strip()
 
 
 def _cell(line: int, cell: str, separator: str) -> str:

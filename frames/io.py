@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, cast
 
 import frames.frame as model
+from frames._csv import BOOKS
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -353,6 +354,13 @@ def write_etabs(
     writer = EtabsWriter(building_of(frame, displacement, units, program="ETABS"))
     write_whole(path, writer.text())
     return writer.names
+
+
+MODEL_FILES = {
+    "etabs": (write_etabs, (".e2k", ".$et")),
+    "sap2000": (write_sap2000, (".s2k", ".$2k", *BOOKS)),
+}
+"""Programs: what writes their models, and endings of the files, the one that is written first."""
 
 
 class Frame(model.Frame):

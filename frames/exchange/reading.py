@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import contextlib
 import re
-import zipfile
-import zlib
 from pathlib import Path
 from typing import Any
 
+from frames._csv import open_book
 from frames._errors import ModelError
 from frames.exchange.etabs_fields import ALIASES, NAMES
 from frames.exchange.tables import Decimal, Row, Tables, Value
@@ -117,34 +116,18 @@ def _pairs(text: str, file: str, table: str, line: int) -> dict[str, Value]:
     return found
 
 
-_DAMAGED = (
-    OSError,
-    EOFError,
-    LookupError,
-    TypeError,
-    AttributeError,
-    ValueError,
-    SyntaxError,  # of XML
-    zipfile.BadZipFile,
-    zlib.error,
-)
-"""What a file that is no workbook makes openpyxl raise."""
-
-
 def read_excel(path: Path) -> Tables:
     """Read the tables of an .xlsx workbook.
 
     Each sheet begins with "TABLE:  Name", the names of the fields, and their units.
     """
     try:
-        import openpyxl
-    except ImportError as cause:
-        message = 'workbooks need openpyxl: pip install "lir-dcfp[excel]"'
-        raise ImportError(message) from cause
-    try:
-        book = openpyxl.load_workbook(path, read_only=True, data_only=True)
-    except _DAMAGED as cause:
-        message = f"{path.name} is no workbook that can be read ({cause}): export it as .xlsx"
+        book = open_book(path)
+    except ValueError as cause:
+        message = f"{path.name} {cause}"
+        raise ModelError(message) from cause
+    except OSError as cause:
+        message = f"{path} cannot be read ({cause.strerror}): give the path of the workbook"
         raise ModelError(message) from cause
     tables = Tables(path.name)
     try:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from frames._csv import BOOKS
 from frames.exchange import sap2000_fields as dialect
 from frames.exchange.building import (
     LINK_DOFS,
@@ -51,13 +52,11 @@ from frames.exchange.reading import read_excel, read_s2k
 from frames.exchange.sap2000_objects import read_objects, section_of
 from frames.exchange.tables import ACTIVE, Row, Tables, by_name, known, require_space, units_of
 
-_BOOKS = {".xlsx", ".xlsm"}
-
 
 def read_sap2000(path: str | Path, options: Options | None = None) -> Building:
     """Read a SAP2000 model."""
     file, given = Path(path), options or Options()
-    tables = read_excel(file) if file.suffix.lower() in _BOOKS else read_s2k(file, given.decimal)
+    tables = read_excel(file) if file.suffix.lower() in BOOKS else read_s2k(file, given.decimal)
     account = ImportReport(file.name, given.allow)
     row = tables.needed("PROGRAM CONTROL", "it has the units; export it with the others")[0]
     units = units_of(row.text("CurrUnits"), "CurrUnits", row.error)

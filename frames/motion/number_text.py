@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from frames._csv import BOOKS, book_lines
 from frames._errors import MotionError
 from lir_element.units import STANDARD_GRAVITY
 
@@ -58,7 +59,13 @@ def acceleration_unit(text: str) -> float | None:
 
 
 def text_lines(path: Path) -> list[str]:
-    """Return the lines of a file without a UTF-8 mark; raise a MotionError if it is binary."""
+    """Return the lines of a file, or of a workbook's first sheet; refuse one that is binary."""
+    if path.suffix.lower() in BOOKS:
+        try:
+            return ["\t".join(cells) for _, cells in book_lines(path)]
+        except ValueError as cause:
+            msg = f"{path.name} {cause}"
+            raise MotionError(msg) from cause
     raw = path.read_bytes()
     if raw[:2] in {b"\xff\xfe", b"\xfe\xff"}:
         return raw.decode("utf-16").splitlines()

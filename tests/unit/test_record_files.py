@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import datetime
 import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
 from numpy.testing import assert_allclose
 
 from frames import GroundMotion, MotionError, MotionWarning
 from frames.design import MotionSet
+from frames.design.hazard.motion_folder import table_rows
+from frames.design.project.irregular_plan import csv_rows
+from frames.design.project.schema import read_points
+from frames.motion.columns import ColumnLayout, read_columns
 from frames.motion.formats import FORMATS
 from frames.motion.record_files import format_of, read_record
 from lir_element.units import STANDARD_GRAVITY as G
@@ -330,3 +337,80 @@ def test_the_page_names_what_is_read() -> None:
     assert named == 2 * tried
     for each in FORMATS:
         assert re.split(r"[ ,]", each.name)[0] in page, each.name
+
+
+HISTORY = [[0.01 * k, 0.25 * k * (-1) ** k] for k in range(60)]
+LAYOUT = ColumnLayout("m/s2", time=0)
+LAYOUTS = {"comma": LAYOUT._replace(delimiter=","), "tab": LAYOUT._replace(decimal=",")}
+DOORS = {
+    "spectrum": (
+        [["period [s]", "acceleration [m/s2]"], [0, 1.5], [0.5, 2.25], [2, 0.75]],
+        read_points,
+        ((0.0, 1.5), (0.5, 2.25), (2.0, 0.75)),
+    ),
+    "motions": (
+        [["name", "x", "unit", "dt"], ["a", "a.txt", "m/s2", 0.005]],
+        lambda path: [
+            {k: r[k].replace(",", ".") for k in r} for r in table_rows(path.parent, path.name)
+        ],
+        [{"name": "a", "x": "a.txt", "unit": "m/s2", "dt": "0.005"}],
+    ),
+    "columns": (
+        [["name", "x [ft]", "y [m]", "section"], ["A1", 2.5, 6, "C"]],
+        lambda path: [
+            (r.text("name"), r.length("x"), r.length("y"))
+            for r in csv_rows(path, ("name", "x", "y", "section"))
+        ],
+        [("A1", pytest.approx(2.5 * 0.3048), 6.0)],
+    ),
+    "history": (
+        HISTORY,
+        lambda path: read_columns(path, 1, LAYOUTS.get(path.stem, LAYOUT)).acceleration.tolist(),
+        [row[1] for row in HISTORY],
+    ),
+}
+"""Tables that the product reads from its user: rows, reader, what it returns."""
+
+
+def saved(folder: Path, rows: list[list[object]], kind: str) -> Path:
+    """Return a table as a spreadsheet saves it."""
+    if kind == "workbook":
+        book = openpyxl.Workbook()
+        for row in rows:
+            book.active.append(row)
+        book.save(folder / "workbook.xlsx")
+        return folder / "workbook.xlsx"
+    cut, code = {
+        "comma": (",", "utf-8-sig"),
+        "semicolon": (";", "utf-8-sig"),
+        "tab": ("\t", "utf-16"),
+    }[kind]
+    cells = [
+        [str(c).replace(".", ",") if isinstance(c, float) and cut != "," else str(c) for c in row]
+        for row in rows
+    ]
+    path = folder / f"{kind}.csv"
+    path.write_text("\n".join(cut.join(row) for row in cells) + "\n", encoding=code)
+    return path
+
+
+@pytest.mark.parametrize("kind", ["comma", "semicolon", "tab", "workbook"])
+@pytest.mark.parametrize("door", list(DOORS))
+def test_tables_of_offices_at_every_door(tmp_path: Path, door: str, kind: str) -> None:
+    """Separators, decimal commas, marks and workbooks are read alike."""
+    rows, read, expected = DOORS[door]
+    assert read(saved(tmp_path, rows, kind)) == expected
+
+
+@pytest.mark.parametrize("door", list(DOORS))
+def test_workbooks_that_cannot_be_read_say_why(tmp_path: Path, door: str, monkeypatch) -> None:
+    rows, read, _ = DOORS[door]
+    path = saved(tmp_path, [*rows[:-1], [datetime.date(2026, 1, 3), *rows[-1][1:]]], "workbook")
+    with pytest.raises(ValueError, match=r"row \d+: 2026-01-03.* is a date: .*format of text"):
+        read(path)
+    path.write_bytes(b"none")
+    with pytest.raises(ValueError, match=r"workbook.xlsx:? is no workbook that can be read"):
+        read(path)
+    monkeypatch.setitem(sys.modules, "openpyxl", None)
+    with pytest.raises(ImportError, match=r"workbooks need openpyxl: pip install"):
+        read(path)

@@ -16,6 +16,7 @@ from frames.design.codes.registry import ExampleProject, known_codes
 from frames.design.hazard.code_rules import canonical
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
+from frames.io import MODEL_FILES
 from frames.motion.spectra import response_spectrum
 from frames.results.storage import make_folder, write_whole
 from lir_element.argument_checks import require_choice
@@ -126,8 +127,6 @@ BUILDINGS = {
 
 _WITH_VERTICAL = frozenset({"near-fault"})  # buildings whose motions have a vertical component
 _PLAIN = "example.toml"
-MODEL_FILES = {"etabs": (".e2k", ".$et"), "sap2000": (".s2k", ".$2k", ".xlsx")}
-"""Programs, and endings of their models as text."""
 _NO_BEARING = """# [bearing] is what `lir design` prints: put it here.
 
 """
@@ -168,9 +167,10 @@ def write_example(
 def _of_model(text: str, model: Path) -> str:
     # The plain file with a model of another program as its structure; `lir design` has bearings.
     suffix = model.suffix.lower()
-    kind = next((kind for kind, known in MODEL_FILES.items() if suffix in known), "")
+    endings = {program: known for program, (_, known) in MODEL_FILES.items()}
+    kind = next((program for program, known in endings.items() if suffix in known), "")
     if not kind or not model.is_file():
-        listed = ", ".join(", ".join(known) for known in MODEL_FILES.values())
+        listed = ", ".join(", ".join(known) for known in endings.values())
         msg = f"--from {model} must be a file of SAP2000 or ETABS, exported as text: {listed}"
         raise ProjectError(msg)
     section = _kept().joinpath("imported.toml").read_text(encoding="utf-8")

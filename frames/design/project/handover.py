@@ -10,7 +10,7 @@ import pandas as pd
 from frames._errors import ModelError
 from frames.design.codes.isolation import with_property_bounds
 from frames.exchange.pendulum_link import pendulum_link
-from frames.io import write_etabs, write_sap2000
+from frames.io import MODEL_FILES
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from frames.frame import Frame
 
 Program = Literal["etabs", "sap2000"]
-_WRITERS = {"etabs": ("e2k", write_etabs), "sap2000": ("s2k", write_sap2000)}
-
 DAMPED_FROM = 0.8
 """Share of the effective period from which on the spectrum has the effective damping [-].
 
@@ -70,8 +68,8 @@ def handed_over(
 
 def _written(frame: Frame, result: BoundResult, program: Program, folder: Path) -> str:
     # The model with links at the displacement of this bound; a line on it.
-    ending, write = _WRITERS[program]
-    path = folder / f"model-{result.bound}.{ending}"
+    write, endings = MODEL_FILES[program]
+    path = folder / f"model-{result.bound}{endings[0]}"
     try:
         write(frame, path, displacement=result.displacement)
     except ModelError as cause:
