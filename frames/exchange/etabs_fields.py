@@ -134,6 +134,8 @@ _LIMITS = "limits of axial force, without"
 FRAME_WORDS = (
     Refusal("LIMITTENSION|LIMITCOMPRESSION", "tension limits", _LIMITS, is_none_of("none")),
     Refusal("HINGE", "hinges", "plastic hinges of frames, which stay elastic", is_none_of("none")),
+    Refusal("Text", "line and area springs", "springs along lines", has("spring")),
+    Refusal("SPRINGPROP", "line and area springs", "springs along lines", is_none_of("none")),
 )
 _RIBBED = "a ribbed or waffle slab, taken as a flat one of its slab's thickness"
 _LAYERED = "a layered shell, taken as a linear one of its thickness"
@@ -142,6 +144,12 @@ SHELL_WORDS = (
     Refusal("SLABTYPE", "ribbed slabs", _RIBBED, has("ribbed", "waffle")),
 )
 _OPENING = "openings in slabs, whose loads are not taken away"
+_SPRINGS = "line and area springs"
+_ON_SOIL = "springs under areas; if they hold the building, supports under columns take their place"
+AREA_SPRINGS = (
+    Refusal("Text", _SPRINGS, _ON_SOIL, has("spring")),  # of ETABS 8 and 9
+    Refusal("SPRINGPROP", _SPRINGS, _ON_SOIL, is_none_of("none")),
+)
 AREA_WORDS = (Refusal("OPENING", "openings", _OPENING, is_none_of("no", "none")),)
 POINT_LOAD_WORDS = (
     Refusal("TYPE", "imposed strains", 'loads of type "{}" on points', is_none_of("force")),

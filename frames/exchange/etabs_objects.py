@@ -173,6 +173,7 @@ class Objects:
             raise area.error(msg)
         if refused(row, label, building.account, dialect.AREA_WORDS):
             return
+        refused(row, label, building.account, dialect.AREA_SPRINGS)
         section = row.text("SECTION", "")
         section = "" if section.upper() in _NONE else section
         if section:

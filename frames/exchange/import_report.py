@@ -250,9 +250,14 @@ class ImportReport:
     def _add(
         self, fate: str, table: str, what: str, names: Collection[str], *shares: float | None
     ) -> None:
-        if names:
-            first = tuple(str(name) for name in list(names)[: self.SHOWN])
-            self.entries.append(Entry(fate, table, what, len(names), first, *shares))
+        if not names:
+            return
+        first, count = tuple(map(str, names)), len(names)
+        before = self.entries[-1] if self.entries else None
+        if before is not None and (fate, table, what) == (before.fate, before.table, before.what):
+            first, count = before.names + first, before.count + count
+            self.entries.pop()
+        self.entries.append(Entry(fate, table, what, count, first[: self.SHOWN], *shares))
 
 
 def judge_rest(

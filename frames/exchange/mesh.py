@@ -60,7 +60,7 @@ def mesh_areas(
             raise ModelError(message)
     inside = inside or {}
     cuts = _cuts(areas, points, size, inside)
-    count = sum(math.prod(len(cuts[_key(edge)]) - 1 for edge in _edges(a)[:2]) for a in areas)
+    count = sum(math.prod(len(cuts[_key(edge)]) - 1 for edge in edges_of(a)[:2]) for a in areas)
     if count > MOST:
         message = (
             f"walls and slabs come to {count} elements with {argument('mesh', size)}, at most "
@@ -83,7 +83,7 @@ def mesh_areas(
                 f'"{area.name}", whose shell would not meet it: divide it into quadrilaterals'
             )
             raise ModelError(message)
-        divided = [edge for edge in _edges(area) if len(names[_key(edge)]) > 2]
+        divided = [edge for edge in edges_of(area) if len(names[_key(edge)]) > 2]
         if divided:
             message = (
                 f'{area.place}: triangle "{area.name}" has joints along its edge between '
@@ -95,7 +95,8 @@ def mesh_areas(
     return mesh
 
 
-def _edges(area: AreaObject) -> list[Edge]:
+def edges_of(area: AreaObject) -> list[Edge]:
+    """Return the edges of an area, each by its joints."""
     joints = area.joints
     return [(joints[k], joints[(k + 1) % len(joints)]) for k in range(len(joints))]
 
@@ -108,7 +109,7 @@ def _cuts(
     areas: Sequence[AreaObject], points: Points, size: float, inside: Inside
 ) -> dict[Edge, list[float]]:
     # Shares of each edge's length, from its first joint by name, at which it is divided.
-    edges = list(dict.fromkeys(_key(edge) for area in areas for edge in _edges(area)))
+    edges = list(dict.fromkeys(_key(edge) for area in areas for edge in edges_of(area)))
     found = _joints_on(edges, points)
     quads = [area for area in areas if len(area.joints) == 4]
     for area in quads:
@@ -128,7 +129,7 @@ def _cuts(
         cells[edge] = [max(1, math.ceil(step / size - 1e-6)) for step in steps]
     for area in areas:
         if len(area.joints) == 3:
-            for edge in _edges(area):
+            for edge in edges_of(area):
                 cells[_key(edge)] = [1] * len(cells[_key(edge)])
     _even_out(quads, cells)
     return {
@@ -288,8 +289,8 @@ Inside = dict[str, dict[str, tuple[float, float]]]
 _STEPS = 30
 
 
-def joints_within(areas: Sequence[AreaObject], points: Points) -> Inside:
-    """Return the joints that lie within areas, not on their edges."""
+def joints_within(areas: Sequence[AreaObject], points: Points, edges: bool = False) -> Inside:
+    """Return the joints that lie within areas, on their edges too if these are asked for."""
     names = list(points)
     where = np.array([points[name] for name in names]).reshape(-1, 3)
     tree = cKDTree(where)
@@ -303,13 +304,15 @@ def joints_within(areas: Sequence[AreaObject], points: Points) -> Inside:
             outside = (where[k] < low) | (where[k] > high)
             if names[k] in area.joints or outside.any():
                 continue
-            shares = _shares_of(corners, where[k])
+            shares = _shares_of(corners, where[k], edges=edges)
             if shares is not None:
                 found.setdefault(area.name, {})[names[k]] = shares
     return found
 
 
-def _shares_of(corners: FloatArray, place: FloatArray) -> tuple[float, float] | None:
+def _shares_of(
+    corners: FloatArray, place: FloatArray, *, edges: bool = False
+) -> tuple[float, float] | None:
     # By Newton on the bilinear surface of four corners; None off the area or on its edges.
     a, b, d = corners[0], corners[1], corners[-1]
     twist = corners[2] - b - d + a if len(corners) == 4 else np.zeros(3)
@@ -328,7 +331,7 @@ def _shares_of(corners: FloatArray, place: FloatArray) -> tuple[float, float] | 
     if float(np.linalg.norm(off)) > SAME_PLACE:
         return None
     wide = min(float(np.linalg.norm(side)) for side in (b - a + v * twist, d - a + u * twist))
-    least = SAME_PLACE / wide
+    least = (-SAME_PLACE if edges else SAME_PLACE) / wide
     if len(corners) == 3:
         return (u, v) if min(u, v) > least and u + v < 1.0 - least else None
     return (u, v) if least < u < 1.0 - least and least < v < 1.0 - least else None

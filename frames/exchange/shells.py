@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy import sparse
 
 from frames._errors import ModelError
-from frames.exchange.building import AreaObject, AreaSection, Constraint, Material
+from frames.exchange.building import AreaObject, AreaSection, Constraint, Joint, Material
 from frames.exchange.geometry import Levels, area_normal
 from frames.exchange.loads import Sizes
-from frames.exchange.mesh import joints_within
+from frames.exchange.mesh import edges_of, joints_within
 from frames.model.superelement import ShellElement, WithoutForces, no_elements
 from frames.opensees.model import read_initial
 from lir_element.argument_checks import listed
@@ -56,6 +58,78 @@ def choose_shells(building: Building) -> list[AreaObject]:
         building.account.refuse("loose decks", "areas", what, names, loose[0].place)
         _tie(building, loose)
     return found
+
+
+def with_quadrilaterals(
+    building: Building, shells: list[AreaObject], mesh: float
+) -> list[AreaObject]:
+    """Return shells, and the parts of those of more than four corners, or of triangles to divide.
+
+    Each corner of such an area has one: to the middles of its edges and to their centre, which
+    must see all edges. The building has the parts, their joints and their loads.
+    """
+    many = [area for area in shells if len(area.joints) > 4]
+    three = [area for area in shells if len(area.joints) == 3 and building.program == _MESHED]
+    if three:  # by joints on them, or by their size
+        points = {name: joint.position for name, joint in building.joints.items()}
+        met = joints_within(three, points, edges=True)
+        many += [
+            area
+            for area in three
+            if area.name in met
+            or max(math.dist(points[a], points[b]) for a, b in edges_of(area)) > mesh
+        ]
+    if not many:
+        return shells
+    at = {_rounded(joint.position): name for name, joint in building.joints.items()}
+
+    def joint(name: str, place: FloatArray, of: AreaObject) -> str:
+        x, y, z = place.tolist()
+        found = at.setdefault(_rounded((x, y, z)), name)
+        building.joints.setdefault(found, Joint(found, x, y, z, of.place))
+        return found
+
+    parts: dict[str, list[AreaObject]] = {}
+    for area in many:
+        corners = _corners(building, area)
+        middle = corners.mean(axis=0)
+        normal, _ = area_normal(corners)
+        turns = np.cross(corners - middle, np.roll(corners, -1, axis=0) - middle) @ normal
+        if turns.min() <= 0.0:
+            message = (
+                f'{area.place}: area "{area.name}" is a shell of {len(corners)} corners, which '
+                "its centre does not all see: divide it, or give it a rigid diaphragm"
+            )
+            building.account.fault(message)
+            continue
+        ring = [
+            joint(f"{a}~{b}~", 0.5 * (one + two), area)
+            for (a, b), one, two in zip(
+                edges_of(area), corners, np.roll(corners, -1, axis=0), strict=True
+            )
+        ]
+        centre = joint(f"{area.name}~", middle, area)
+        parts[area.name] = [
+            replace(
+                area, name=f"{area.name}/{k + 1}", joints=(corner, ring[k], centre, ring[k - 1])
+            )
+            for k, corner in enumerate(area.joints)
+        ]
+    what = "polygons, by quadrilaterals around their centres"
+    building.account.read_as("areas", what, list(parts))
+    building.areas = {
+        part.name: part for name, area in building.areas.items() for part in parts.get(name, [area])
+    }
+    building.area_loads = [
+        replace(load, area=name)
+        for load in building.area_loads
+        for name in ([part.name for part in parts.get(load.area, ())] or [load.area])
+    ]
+    return [part for area in shells for part in parts.get(area.name, [area])]
+
+
+def _rounded(place: tuple[float, float, float]) -> tuple[float, ...]:
+    return tuple(round(value, 3) for value in place)
 
 
 def meet_joints(building: Building, shells: list[AreaObject], points: Points) -> Inside:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from frames._errors import ModelError, ModelWarning, argument
 from frames.exchange.building import MassSource
@@ -24,7 +24,7 @@ from frames.exchange.members import (
 )
 from frames.exchange.mesh import Mesh, mesh_areas
 from frames.exchange.sap2000 import read_sap2000
-from frames.exchange.shells import add_shells, choose_shells, meet_joints
+from frames.exchange.shells import add_shells, choose_shells, meet_joints, with_quadrilaterals
 from frames.exchange.slabs import Loading, Slabs
 from frames.frame import Frame
 from frames.model.load_combinations import applied_loads, load_masses
@@ -35,7 +35,7 @@ from lir_element.texts import worded
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from frames.exchange.building import Building
+    from frames.exchange.building import AreaObject, Building
     from frames.exchange.geometry import Points, SplitMember
     from lir_element import LIRBearing
 
@@ -78,12 +78,27 @@ def fill(frame: Frame, building: Building, options: Options) -> dict[str, LIRBea
         return _filled(frame, building, options)
 
 
+def judged(building: Building, options: Options) -> Judged:
+    """Return what the frame is made from; all reasons against the building are one error."""
+    with building.account.together():
+        source = _source(building, options)
+        shells = with_quadrilaterals(building, choose_shells(building), options.mesh)
+        found = Judged(source, shells, permanent(building, options), Places(building, options))
+        building.account.settle()
+        return found
+
+
+class Judged(NamedTuple):
+    """What of a building is mass, which areas are shells, permanent loads, places of bearings."""
+
+    source: MassSource
+    shells: list[AreaObject]
+    factors: dict[str, tuple[float, str]]
+    places: Places
+
+
 def _filled(frame: Frame, building: Building, options: Options) -> dict[str, LIRBearing]:
-    source = _source(building, options)
-    shells = choose_shells(building)
-    factors = permanent(building, options)
-    places = Places(building, options)
-    building.account.settle()
+    source, shells, factors, places = judged(building, options)
     points = _points(building)
     if not points:
         message = (

@@ -209,7 +209,7 @@ def load_masses(frame: FrameData, applied: AppliedLoads) -> dict[str, float]:
         if mass < -least:
             message = (
                 f'the permanent loads at node "{node}" that make mass pull upwards, {mass:g} kg: '
-                "leave their case out of set_mass_source, or turn their sign (down is -z)"
+                "leave their case out of the mass source, or turn their sign (down is -z)"
             )
             raise ModelError(message)
     return {node: mass for node, mass in found.items() if mass > 0.0}

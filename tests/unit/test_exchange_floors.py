@@ -118,12 +118,44 @@ def test_shares_of_a_joint_are_those_of_the_bilinear_surface() -> None:
     assert_allclose(found["in"], (u, v), rtol=1e-9)
 
 
-def test_a_triangle_does_not_meet_a_joint_within_it(tmp_path: Path) -> None:
-    text = whole().replace("TYPE RIGID", "TYPE SEMIRIGID")
-    floor = 'FLOOR  4  "1"  "3"  "9"  "7"  0  0  0  0'
-    text = text.replace(floor, 'FLOOR  3  "1"  "3"  "10"  0  0  0')
-    text = text.replace("\n\n$ LINE CONN", '\n  POINT "10"  5.0 20.0\n\n$ LINE CONN', 1)
-    with pytest.raises(ModelError, match=r'joint "5-Story1" lies within the triangle "F1-Story1"'):
+FLOOR = 'FLOOR  4  "1"  "3"  "9"  "7"  0  0  0  0'
+POLYGONS = {
+    # corners beyond those of the frame, and the floor over all bays
+    "triangle": ('  POINT "10"  5.0 20.0', 'FLOOR  3  "1"  "3"  "10"  0  0  0', 0.5 * 12.0 * 20.0),
+    "pentagon": (
+        '  POINT "10"  6.0 12.0',
+        'FLOOR  5  "1"  "3"  "9"  "10"  "7"  0  0  0  0  0',
+        12.0 * 10.0 + 0.5 * 12.0 * 2.0,
+    ),
+}
+
+
+@pytest.mark.parametrize(("point", "floor", "size"), POLYGONS.values(), ids=list(POLYGONS))
+def test_polygons_are_shells_that_meet_the_joints_within(tmp_path, point, floor, size):
+    soft = whole().replace("TYPE RIGID", "TYPE SEMIRIGID")
+    text = soft.replace(FLOOR, floor).replace("\n\n$ LINE CONN", f"\n{point}\n\n$ LINE CONN", 1)
+    frame = frame_of(tmp_path, text)
+    shells = frame.superelements["shells"]
+    assert {len(shell.nodes) for shell in shells.elements.shells} == {4}
+    assert "5-Story1" in shells.nodes
+    bare = frame_of(tmp_path, re.sub(r"  AREA(LOAD|ASSIGN)? +\"F1\".*\n", "", text))
+    own = (25e3 * 0.15 + 0.3 * 3e3) * size  # by hand: 15 cm, and the share of the live load
+    assert_allclose(frame.check().weight - bare.check().weight, own, rtol=1e-9)
+
+
+def test_polygons_whose_centre_does_not_see_all_edges_are_refused(tmp_path: Path) -> None:
+    soft = whole().replace("TYPE RIGID", "TYPE SEMIRIGID")
+    points = '  POINT "10"  11.0 1.0\n  POINT "11"  1.0 1.0'
+    floor = 'FLOOR  6  "1"  "3"  "9"  "10"  "11"  "7"  0  0  0  0  0  0'
+    text = soft.replace(FLOOR, floor).replace("\n\n$ LINE CONN", f"\n{points}\n\n$ LINE CONN", 1)
+    with pytest.raises(ModelError, match=r'"F1-Story1" is a shell of 6 corners, which its centre'):
+        frame_of(tmp_path, text)
+
+
+@pytest.mark.parametrize("word", ['"SPRINGK3"  10000', 'SPRINGPROP "AS1"'])
+def test_springs_under_areas_are_refused(tmp_path: Path, word: str) -> None:
+    text = whole().replace('SECTION "SLAB"', f'SECTION "SLAB"  {word}', 1)
+    with pytest.raises(ModelError, match=r'springs under areas.*allow=\["line and area springs"\]'):
         frame_of(tmp_path, text)
 
 

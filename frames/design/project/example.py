@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 import shutil
@@ -11,11 +12,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy import signal
 
+from frames._errors import ModelError, in_project_file
 from frames.design._errors import ProjectError
 from frames.design.codes.registry import ExampleProject, known_codes
 from frames.design.hazard.code_rules import canonical
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
+from frames.design.project.source_files import tell
+from frames.exchange.import_report import Options
+from frames.exchange.members import standing
+from frames.exchange.to_frame import READERS, case_of, judged
 from frames.io import MODEL_FILES
 from frames.motion.spectra import response_spectrum
 from frames.results.storage import make_folder, write_whole
@@ -174,10 +180,45 @@ def _of_model(text: str, model: Path) -> str:
         msg = f"--from {model} must be a file of SAP2000 or ETABS, exported as text: {listed}"
         raise ProjectError(msg)
     section = _kept().joinpath("imported.toml").read_text(encoding="utf-8")
-    section = section.replace("KIND", kind).replace("FILE", model.name)
+    section = _as_read(section, kind, model).replace("KIND", kind).replace("FILE", model.name)
     text = _replaced(text, "structure", f"[structure]\n{section}\n")
     text = _replaced(_replaced(text, "loads", ""), "bearing", _NO_BEARING)
     return re.sub(r'(?m)^name = "[^"]*"', f'name = "{model.stem}"', text, count=1)
+
+
+def _as_read(section: str, kind: str, model: Path) -> str:
+    # The section with what the model has, and the reasons against it: comments, and said.
+    building, reasons = None, ""
+    with in_project_file():
+        try:
+            building = READERS[kind.upper()](model, Options())
+            judged(building, Options())
+        except ModelError as cause:
+            reasons = str(cause)
+            tell(f"{reasons}\nmend this in [structure] of project.toml, or in the model")
+    if building is not None:
+        named = [*building.groups, *building.link_properties]
+        cases = [name for name, part in building.patterns.items() if case_of(part.kind)]
+        dead = [name for name in cases if case_of(building.patterns[name].kind) == "D"]
+        for example, found in (
+            ('["ISOLATED"]', json.dumps(named[:4], ensure_ascii=False) if named else ""),
+            ("{ Dead = 1.0 }", _shares(dict.fromkeys(cases, 1.0))),
+            (
+                "{ Dead = 1.0, Live = 0.25 }",
+                _shares({name: 1.0 if name in dead else 0.25 for name in cases}),
+            ),
+        ):
+            section = section.replace(example, found or example)
+        counts = f"{len(building.frames)} frame objects, {len(building.areas)} areas"
+        storeys = f"{len(building.stories) - 1} storeys, " if building.stories else ""
+        head = f"{building.program} {building.version}: {storeys}{counts}, "
+        section = f"# {head}{len(standing(building))} supports\n{section}"
+    return section + "".join(f"# {line}\n" for line in reasons.splitlines())
+
+
+def _shares(given: Mapping[str, float]) -> str:
+    pairs = (f"{json.dumps(name, ensure_ascii=False)} = {share}" for name, share in given.items())
+    return f"{{ {', '.join(pairs)} }}" if given else ""
 
 
 def _replaced(text: str, name: str, by: str) -> str:
