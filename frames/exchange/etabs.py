@@ -24,6 +24,7 @@ from frames.exchange.etabs_objects import Objects
 from frames.exchange.fields import refused, values
 from frames.exchange.import_report import ImportReport, Options, judge_rest
 from frames.exchange.loads import (
+    LevelAreas,
     add_area_load,
     add_combinations,
     add_line_load,
@@ -73,7 +74,7 @@ def read_etabs(path: str | Path, options: Options | None = None) -> Building:
         objects.read()
         EtabsLinks(tables, building, objects).read()
         read_groups(tables, building)
-        read_loads(tables, building)
+        read_loads(tables, building, objects.bare)
         _refuse_stages(tables, account)
         judge_rest(tables, account, dialect.REFUSED, dialect.KNOWN, row_word="lines")
     return building
@@ -88,8 +89,11 @@ def _refuse_stages(tables: Tables, account: ImportReport) -> None:
         account.refuse(key, staged[0].table, what, names, staged[0].place)
 
 
-def read_loads(tables: Tables, building: Building) -> None:
-    """Read patterns, loads, mass source and combinations into a building."""
+def read_loads(tables: Tables, building: Building, bare: Mapping[str, tuple[str, str]]) -> None:
+    """Read patterns, loads, mass source and combinations into a building.
+
+    `bare` has the joints of lines without a section.
+    """
     account = building.account
     rows = merged(tables.rows("LOADPATTERN"), "Pattern")
     old = merged([r for r in tables.rows("LOADCASE") if r.has("SELFWEIGHT")], "Case")
@@ -100,9 +104,14 @@ def read_loads(tables: Tables, building: Building) -> None:
         with account.noting():
             _add_point_load(row, building)
     account.read("POINT OBJECT LOADS", "loads on points", len(building.joint_loads))
+    areas, onto = LevelAreas(building), dict[str, None]()
     for row in tables.rows("LINELOAD"):
+        name = f"{row.text('Line')}-{row.text('Story')}"
         with account.noting():
-            _add_line(row, building)
+            if not _add_line(row, building, name, bare.get(name), areas):
+                onto[name] = None
+    what = "loads on lines without a section, spread over the areas that they cross"
+    account.read_as("LINE OBJECT LOADS", what, list(onto))
     account.read("LINE OBJECT LOADS", "loads on lines", len(building.line_loads))
     sets = _load_sets(tables, building)
     for row in tables.rows("AREALOAD"):
@@ -142,15 +151,22 @@ def _add_point_load(row: Row, building: Building) -> None:
         building.joint_loads.append(JointLoad(joint, pattern, tuple(forces)))
 
 
-def _add_line(row: Row, building: Building) -> None:
-    name = f"{row.text('Line')}-{row.text('Story')}"
+def _add_line(
+    row: Row, building: Building, name: str, ends: tuple[str, str] | None, areas: LevelAreas
+) -> bool:
+    # Returns whether the line carries it, not the areas under it.
+    if refused(row, name, building.account, dialect.LINE_LOAD_WORDS):
+        return True
     kind = row.text("TYPE").upper()
-    if name not in building.frames:
-        what = "loads on lines without a section"
+    given = values(row, dialect.LINE_LOAD[kind], building) | {"point": kind == "POINTF"}
+    if name in building.frames:
+        add_line_load(row, building, name, **given)
+    elif ends is not None and areas.spread(ends, **given):
+        return False
+    else:
+        what = "loads on lines without a section, and with no area under them"
         building.account.refuse("loads on nothing", row.table, what, [name], row.place)
-    elif not refused(row, name, building.account, dialect.LINE_LOAD_WORDS):
-        given = values(row, dialect.LINE_LOAD[kind], building)
-        add_line_load(row, building, name, **given, point=kind == "POINTF")
+    return True
 
 
 def _load_sets(tables: Tables, building: Building) -> dict[str, list[dict[str, Any]]]:

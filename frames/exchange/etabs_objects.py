@@ -35,7 +35,8 @@ class Objects:
     """Reads the objects of an ETABS file into a building that has its stories and properties.
 
     A joint is a point at a story, "12-Story2"; an object is a line or an area at a story.
-    `on_links` has the springs that are links, by the joint that stands on them.
+    `on_links` has the springs that are links, by the joint that stands on them; `bare` the joints
+    of lines without a section.
     """
 
     def __init__(self, tables: Tables, building: Building) -> None:
@@ -44,6 +45,7 @@ class Objects:
         self._points: dict[str, tuple[float, float, float]] = {}
         self._diaphragms = Diaphragms(tables, building)
         self.on_links: dict[str, Row] = {}
+        self.bare: dict[str, tuple[str, str]] = {}
         self._clear: list[str] = []
 
     def read(self) -> None:
@@ -92,20 +94,19 @@ class Objects:
 
     def _read_lines(self) -> None:
         lines = {name: row for (name,), row in merged(self.tables.rows("LINE"), "Line").items()}
-        bare: list[str] = []
         for (name, story), row in merged(self.tables.rows("LINEASSIGN"), "Line", "Story").items():
             with self.building.account.noting():
                 line = lines[known(row, "line", name, lines)]
-                self._read_line(name, story, row, line, bare)
-        self.building.account.left_out("LINE ASSIGNS", "lines without a section", bare)
+                self._read_line(name, story, row, line)
+        self.building.account.left_out("LINE ASSIGNS", "lines without a section", list(self.bare))
 
-    def _read_line(self, name: str, story: str, row: Row, line: Row, bare: list[str]) -> None:
+    def _read_line(self, name: str, story: str, row: Row, line: Row) -> None:
         low = self._below(row, story, line.count("Stories", 0))
         i, j = self.joint(line, line.text("I"), low), self.joint(line, line.text("J"), story)
         label = f"{name}-{story}"
         section = row.text("SECTION", "")
         if section.upper() in _NONE:
-            bare.append(label)
+            self.bare[label] = (i, j)
             row.looked_at.clear()
             return
         known(row, "SECTION", section, self.building.sections, f' of line "{name}"')

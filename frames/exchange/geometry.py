@@ -123,11 +123,14 @@ class Levels:
         outline = corners[:, :2]
         low, high = outline.min(axis=0) - SAME_PLACE, outline.max(axis=0) + SAME_PLACE
         near = np.flatnonzero(((places >= low) & (places <= high)).all(axis=1))
-        return {names[k]: places[k] for k in near if _within(places[k], outline)}
+        return {names[k]: places[k] for k in near if is_within(places[k], outline)}
 
 
-def _within(place: FloatArray, outline: FloatArray) -> bool:
-    # Inside a polygon, or within a millimetre of its edges.
+def is_within(place: FloatArray, outline: FloatArray) -> bool:
+    """Return whether a point lies inside a polygon, or within a millimetre of its edges.
+
+    Shapes: place (2,), outline (n, 2).
+    """
     inside = False
     for a, b in zip(outline, np.roll(outline, -1, axis=0), strict=True):
         way, apart = b - a, place - a

@@ -8,7 +8,8 @@ import numpy as np
 
 from frames.exchange.building import AreaLoad, JointLoad, LineLoad, MassSource
 from frames.exchange.fields import values
-from frames.exchange.geometry import area_normal, direction_of, frame_axes
+from frames.exchange.geometry import area_normal, direction_of, frame_axes, is_within
+from lir_element.elevations import SAME_PLACE
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping
@@ -68,6 +69,57 @@ def add_line_load(
     first, last = (vector_of(factor * size * vector) for size in (start, end))
     load = LineLoad(frame, pattern, max(a, 0.0), min(b, 1.0), first, last, point)
     building.line_loads.append(load)
+
+
+class LevelAreas:
+    """The level areas of a building, which carry loads of lines that have no section."""
+
+    _PARTS = 40  # of a load, each of which goes to the area under it
+
+    def __init__(self, building: Building) -> None:
+        self._building = building
+        self._areas: list[tuple[str, float, FloatArray, float]] = []
+        for name, area in building.areas.items():
+            points = np.array([building.joints[joint].position for joint in area.joints])
+            if np.ptp(points[:, 2]) <= SAME_PLACE:
+                self._areas.append((name, points[0, 2], points[:, :2], area_normal(points)[1]))
+
+    def spread(
+        self,
+        ends: tuple[str, str],
+        pattern: str,
+        way: str,
+        start: float,
+        end: float,
+        a: float = 0.0,
+        b: float = 1.0,
+        *,
+        point: bool = False,
+    ) -> bool:
+        """Spread a load along a line over the areas under it; return whether they carry all."""
+        first, last = (np.array(self._building.joints[joint].position) for joint in ends)
+        if not way.strip().upper().startswith("GRAV") or abs(last[2] - first[2]) > SAME_PLACE:
+            return False
+        count = 1 if point else self._PARTS
+        length = 1.0 if point else (b - a) * float(np.linalg.norm(last - first)) / count
+        found: dict[str, float] = {}
+        for share in (np.arange(count) + 0.5) / count:
+            place = first + (a + share * (b - a)) * (last - first)
+            under = self._under(place)
+            if under is None:
+                return False
+            name, size = under
+            force = (start + share * (end - start)) * length
+            found[name] = found.get(name, 0.0) + force / size
+        for name, pressure in found.items():
+            self._building.area_loads.append(AreaLoad(name, pattern, (0.0, 0.0, -pressure)))
+        return True
+
+    def _under(self, place: FloatArray) -> tuple[str, float] | None:
+        for name, z, outline, size in self._areas:
+            if abs(z - place[2]) <= SAME_PLACE and is_within(place[:2], outline):
+                return name, size
+        return None
 
 
 def add_area_load(

@@ -115,9 +115,15 @@ def _section(row: Row, name: str, building: Building) -> FrameSection:
     account = building.account
     material, shape = values(row, dialect.SECTION[:2], building).values()
     modifiers = Modifiers(**values(row, dialect.MODIFIERS, building))
-    if refused(row, name, account, dialect.SECTION_WORDS) and not row.has("Area", "I33", "I22"):
-        return NO_SECTION
-    if not row.has("Area", "I33", "I22"):
+    own = row.has("Area", "I33", "I22")
+    if not own and any(each.odd(row) for each in dialect.SECTION_WORDS):
+        message = (
+            f'section "{name}" is nonprismatic, without constants of its own: divide its frame '
+            "objects, and give each part a section that is prismatic"
+        )
+        raise row.error(message)
+    refused(row, name, account, dialect.SECTION_WORDS)
+    if not own:
         known(row, "Material", material, building.materials)
         poisson = building.materials[material].poisson_ratio
         sizes = tuple(values(row, dialect.SIZES, building).values())

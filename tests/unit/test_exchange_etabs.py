@@ -111,7 +111,7 @@ def test_all_reasons_against_a_file_are_said_at_once(tmp_path: Path) -> None:
     text = changed('SECTION "COL"', 'LIMITTENSION 0  SECTION "COL"')
     text = text.replace('SECTION "COL"  ', 'HINGE "M3"  SECTION "COL"  ', 2)
     source = re.compile(r"^  MASSSOURCE.*\n", re.MULTILINE)
-    text = text.replace('FVAL 3.0', "FVAL many", 1)
+    text = text.replace("FVAL 3.0", "FVAL many", 1)
     path = written(tmp_path, source.sub("", text))
     words = (
         r"cannot be read as it is, for 4 reasons:\n\(1\) .*FVAL = \"many\".*\n\(2\) .*no mass "
@@ -144,6 +144,34 @@ def test_a_part_of_a_load_without_length_is_none(tmp_path: Path) -> None:
     path = written(tmp_path, TEXT.replace(*more(f"{line} RDSTART 1  RDEND 1"), 1))
     assert not read_etabs(path).line_loads
     Frame.from_etabs(path)
+
+
+NULL = '  LINE  "N1"  LINE  "1"  "4"  0'
+WALL = '  LINELOAD  "N1"  "Story1"  TYPE "TRAPF"  DIR "GRAV"  LC "Dead"  FSTART 4  FEND 8'
+
+
+@pytest.mark.parametrize("ends", ["0 1", "0.25 0.75"])
+def test_loads_of_lines_without_a_section_go_to_the_areas_under_them(tmp_path, ends):
+    start, end = ends.split()
+    text = TEXT.replace("$ AREA CONN", f"{NULL}\n\n$ AREA CONN", 1)
+    text = text.replace(
+        "$ AREA ASSIGNS", '  LINEASSIGN  "N1"  "Story1"  SECTION "NONE"\n\n$ AREA ASSIGNS'
+    )
+    load = f"{WALL}  RDSTART {start}  RDEND {end}"
+    one, two = (
+        Frame.from_etabs(written(tmp_path, t)) for t in (text, text.replace(*more(load), 1))
+    )
+    length = (float(end) - float(start)) * np.hypot(6.0, 5.0)  # across the bay
+    assert_allclose(two.check().weight - one.check().weight, 6e3 * length, rtol=1e-9)
+    assert "spread over the areas that they cross: N1-Story1" in str(two.imported)
+    off = text.replace(*more(load), 1).replace('"N1"  LINE  "1"  "4"  0', '"N1"  LINE  "1"  "5"  0')
+    off = off.replace("\n\n$ LINE CONN", '\n  POINT "5"  20.0 20.0\n\n$ LINE CONN', 1)
+    refused(
+        ModelError,
+        r'no area under them.*"loads on nothing"',
+        Frame.from_etabs,
+        written(tmp_path, off),
+    )
 
 
 def test_a_case_adds_up_its_patterns(tmp_path: Path) -> None:
