@@ -102,9 +102,9 @@ class NonlinearElements(NamedTuple):
     right: Array  # (m, max(n_b, 1)) scratch
     small: Array  # SCRATCH, of a hinged member
     vector: Array  # (m,) scratch
-    modes: Array  # (2, n_e) scratch
+    modes: Array  # (3, n_e) flexibility, and scratch
     scheme: Array  # (1,) PART_SCHEME
-    work: Array  # (4,) of yielding, of dampers, of stops; all work on the linear structure [J]
+    work: Array  # (5,) of yielding, of dampers, of stops; all on the linear structure; lent [J]
 
 
 def part_sizes(parts: NonlinearElements | None) -> tuple[int, int, int]:
@@ -181,9 +181,9 @@ def parts_arrays(
         right=np.zeros((m, max(n_b, 1))),
         small=np.zeros(SCRATCH),
         vector=each(),
-        modes=np.zeros((2, n_e)),
+        modes=np.zeros((3, n_e)),
         scheme=np.zeros(1, dtype=PART_SCHEME),
-        work=np.zeros(4),
+        work=np.zeros(5),
     )
 
 

@@ -109,6 +109,7 @@ class IntegrationState(NamedTuple):
     corrections_size: Array  # (m,) squares of the former
     missed: Array  # (3, n_b) by what guesses fell short in the last two steps; the last guess
     missed_linear: Array  # (3, n_s) and what the linear structure makes of them
+    missed_friction: Array  # (n_bearings, 2, 2) mean of friction beyond that of a step's ends [N]
     reduced: Array  # (halvings, n_b, n_b) linear effective stiffness of each step size
     has_reduced: Array
     inverse_e: Array  # (halvings, n_e, n_e) with full damping: effective flexibility of modes
@@ -294,6 +295,7 @@ def tangent_arrays(n_b: int, n_h: int, bearings: int) -> dict[str, Any]:
         "corrections_size": zeros(_SECANTS),
         "missed": zeros(3, n_b),
         "missed_linear": zeros(3, n_s),
+        "missed_friction": zeros(bearings, 2, 2),
     }
 
 

@@ -207,7 +207,7 @@ def set_newton_step(
     for n in range(count):
         parts.vector[n] = parts.predicted[parts.live[n]] - parts.flow[parts.live[n]]
     factors = parts.matrix[: count * count].reshape((count, count))
-    substitute(factors, parts.order, parts.vector)
+    substitute(factors, parts.order, parts.vector[:count])
     for i in range(parts.way.shape[0]):
         parts.way[i] = 0.0
     for n in range(count):

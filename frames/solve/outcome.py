@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from frames.bundles.run_data import CORRECTED
 from frames.results.assumption_checks import audit
 from frames.results.findings import Finding, Findings, remark
 from frames.results.peak_response import largest
@@ -64,10 +63,9 @@ def energy_status(data: xr.Dataset) -> tuple[RunStatus, str, tuple[Finding, ...]
     doubt = _tumbled(data)
     if doubt:
         return RunStatus.INACCURATE, doubt, _noted("inaccurate", gap, doubt)
-    scheme = data.attrs["integrator"]
-    allowed = ASKED_FOR if scheme in {"generalised-alpha", CORRECTED} else PROMISE
+    allowed = ASKED_FOR if data.attrs["integrator"] == "generalised-alpha" else PROMISE
     if gap <= PROMISE and numerical <= allowed:
-        if numerical <= PROMISE or scheme == CORRECTED:  # it comes back: no damping
+        if numerical <= PROMISE:
             return RunStatus.OK, "", ()
         doubt = worded(
             "the generalised-alpha method took out {share:.3g} % of the energy put in (more than "
