@@ -16,19 +16,21 @@ from frames.model.frame_data import FrameData
 from frames.statics.blas_threads import blas_threads_for
 from frames.statics.gravity import at_rest, gravity, prepare
 from frames.statics.gravity_state import GravityState
-from frames.statics.springs import spring_matrix
+from frames.statics.springs import held_springs, spring_matrix
 from lir_element.argument_checks import require_choice, require_type
 from lir_element.texts import html_table, text_table
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
+    from frames.assembly.system import System
 
 
 BearingStiffness = Literal["sliding", "sticking", "fixed"]
+"""How bearings count; in its place go their lateral stiffnesses (n_bearings,) [N/m]."""
 
 
 _LARGE = 1500  # displacements and rotations of nodes, above which sparse matrices are the faster
-_HEAD = ("mode", "period [s]", "mass x [-]", "mass y [-]", "mass z [-]")
+_HEAD = ("mode", "period [s]", "mass x [-]", "mass y [-]", "mass z [-]", "torsion [-]")
 
 
 @dataclass(frozen=True, repr=False)
@@ -43,6 +45,9 @@ class Modes:
         Nodal displacements of each mode, scaled to a modal mass of 1 kg.
     mass_ratios : ndarray, (n, 3)
         Share of the total mass that takes part along x, y, z; 0 where there is none.
+    torsion_ratios : ndarray, (n,)
+        Share of the rotational inertia about the vertical through the centre of mass that takes
+        part; 0 where there is none.
 
     Examples
     --------
@@ -58,6 +63,7 @@ class Modes:
     periods: FloatArray
     shapes: FloatArray
     mass_ratios: FloatArray
+    torsion_ratios: FloatArray
 
     def __repr__(self) -> str:
         """Return periods and mass ratios as a table, without the shapes."""
@@ -68,12 +74,16 @@ class Modes:
 
     def _rows(self) -> list[tuple[str, ...]]:
         return [
-            (str(k + 1), f"{period:.4g}", *(f"{ratio:.3f}" for ratio in ratios))
-            for k, (period, ratios) in enumerate(zip(self.periods, self.mass_ratios, strict=True))
+            (str(k + 1), f"{period:.4g}", *(f"{ratio:.3f}" for ratio in (*ratios, turn)))
+            for k, (period, ratios, turn) in enumerate(
+                zip(self.periods, self.mass_ratios, self.torsion_ratios, strict=True)
+            )
         ]
 
 
-def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "sliding") -> Modes:
+def modes(
+    frame: FrameData, count: int = 6, bearings: BearingStiffness | FloatArray = "sliding"
+) -> Modes:
     """Return the first natural modes under gravity.
 
     Parameters
@@ -82,9 +92,10 @@ def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "slidin
         The model.
     count : int
         Number of modes, at least 1; at most those that have mass.
-    bearings : {"sliding", "sticking", "fixed"}
+    bearings : {"sliding", "sticking", "fixed"} or ndarray, (n_bearings,)
         How the bearings count: with the pendulum stiffness N/L sideways while sliding, with their
-        tangent stiffness at rest under gravity, or held rigidly (nodes i and j move together).
+        tangent stiffness at rest under gravity, or held rigidly (nodes i and j move together); or
+        their lateral stiffnesses, as effective ones at a displacement [N/m].
 
     Returns
     -------
@@ -109,7 +120,8 @@ def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "slidin
         message = f"count = {count} must be at least 1"
         raise ModelError(message)
     require_type("frame", frame, FrameData, "a Frame")
-    require_choice("bearings", bearings, ("sliding", "sticking", "fixed"), error=ModelError)
+    if isinstance(bearings, str):
+        require_choice("bearings", bearings, ("sliding", "sticking", "fixed"), error=ModelError)
     state = _at_rest(frame)
     system = state.system
     k = sparse.csr_array(system.stiffness + state.geometric + _mode_springs(state, bearings))
@@ -121,9 +133,10 @@ def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "slidin
                 found = natural_modes(k.toarray(), system.mass.toarray(), count)
     except UnstableError as error:
         label = system.dof_labels[int(np.argmax(np.abs(error.direction)))]
+        way = f'"{bearings}"' if isinstance(bearings, str) else "the stiffnesses given"
         message = (
             f'the first mode has no positive stiffness, at "{label}": with '
-            f'bearings="{bearings}" the frame is unstable under its permanent loads'
+            f"bearings={way} the frame is unstable under its permanent loads"
         )
         raise ModelError(message) from error
     omega2, q = found.omega2, found.shapes
@@ -131,7 +144,24 @@ def modes(frame: FrameData, count: int = 6, bearings: BearingStiffness = "slidin
     shares = (system.inertia_load.T @ q) ** 2
     total = system.node_mass[:, :3].sum(axis=0)
     total[~total.astype(bool)] = np.inf  # a plane model: nothing takes part out of its plane
-    return Modes(2.0 * np.pi / np.sqrt(omega2), shapes, (shares / total[:, None]).T)
+    moment, turned = _turning(system)
+    torsion = (turned @ q) ** 2 / (moment or np.inf)
+    return Modes(2.0 * np.pi / np.sqrt(omega2), shapes, (shares / total[:, None]).T, torsion)
+
+
+def _turning(system: System) -> tuple[float, FloatArray]:
+    # Rotational inertia about the vertical through the centre of mass [kg m2], and the masses over
+    # the free displacements (n_free,) that a unit rotation about it moves.
+    mass = system.node_mass
+    if not mass[:, 0].any():
+        return 0.0, np.zeros(len(system.dof_labels))
+    middle = np.average(system.coordinates[:, :2], axis=0, weights=mass[:, 0])
+    arm = system.coordinates[:, :2] - middle
+    turned = np.zeros_like(mass)
+    turned[:, 0], turned[:, 1], turned[:, 5] = -arm[:, 1], arm[:, 0], 1.0
+    forces = mass * turned
+    moment = float(np.sum(forces * turned))
+    return moment, np.asarray(system.transform.T @ forces.reshape(-1))
 
 
 def _is_large(frame: FrameData) -> bool:
@@ -148,11 +178,13 @@ def _at_rest(frame: FrameData) -> GravityState:
         return at_rest(prepared, basis, 0.0)
 
 
-def _mode_springs(state: GravityState, bearings: BearingStiffness) -> SparseMatrix:
+def _mode_springs(state: GravityState, bearings: BearingStiffness | FloatArray) -> SparseMatrix:
     devices = [placed.bearing for placed in state.system.bearings]
     values = np.zeros((len(devices), 6))
     values[:, 2] = [bearing_axial_stiffness(bearing) for bearing in devices]
-    if bearings == "sliding":
+    if not isinstance(bearings, str):
+        values[:, :2] = np.asarray(bearings, dtype=np.float64)[:, None]
+    elif bearings == "sliding":
         length = np.array([bearing.effective_radius for bearing in devices])
         values[:, :2] = (state.axial_forces / length)[:, None]
     elif bearings == "sticking":
@@ -165,5 +197,5 @@ def _mode_springs(state: GravityState, bearings: BearingStiffness) -> SparseMatr
         ]
         values[:, :2] = (state.axial_forces * np.array(per_load))[:, None]
     else:
-        values[:, :3] = 1e3 * values[:, 2:3]
+        return held_springs(state.system)
     return spring_matrix(state.system, values)

@@ -77,6 +77,14 @@ def spring_matrix(system: System, values: FloatArray) -> SparseMatrix:
     return sparse.csr_array(rows.T @ blocks @ rows)
 
 
+def held_springs(system: System) -> SparseMatrix:
+    """Hold the bearings: a thousand times their axial stiffness along x, y and z."""
+    values = np.zeros((len(system.bearings), 6))
+    axial = [bearing_axial_stiffness(placed.bearing) for placed in system.bearings]
+    values[:, :3] = 1e3 * np.array(axial)[:, None]
+    return spring_matrix(system, values)
+
+
 def exact_features(frame: FrameData, motion: GroundMotion) -> Features:
     """Return what a test case needs as far as that is certain before the run."""
     system = assemble(frame)

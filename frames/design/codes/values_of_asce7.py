@@ -112,6 +112,9 @@ VALUES = {
         "ASCE 7-22 17.8.4", "effective damping falls by 20 % at most over the cycles"
     ),
     "stable": CodeValue("ASCE 7-22 17.8.4", "the bearing stays stable"),
+    "number of specimens": CodeValue(
+        "ASCE 7-22 17.8.2", "two full-size specimens of each type and size"
+    ),
     "production": CodeValue(
         "ASCE 7-22 17.8.5", "post-elastic stiffness and EDC within lambda_spec of the nominal ones"
     ),

@@ -81,6 +81,7 @@ VALUES = {
         "NCh2745 14.4", "effective damping falls by 20 % at most over the cycles"
     ),
     "stable": CodeValue("NCh2745 14.4", "the bearing stays stable"),
+    "number of specimens": CodeValue("NCh2745 14", "two full-size specimens of each type and size"),
 }
 """By name; of what no text was compared it is from memory."""
 

@@ -14,7 +14,7 @@ from frames.design.codes.registry import code_named
 from frames.design.codes.secant import CheckBuilder
 from frames.design.devices.limits import PROPOSED_LIMIT
 from frames.design.testing.acceptance_of_code import checks_of_code
-from frames.design.testing.programme import pressure_factor
+from frames.design.testing.expected import pressure_factor
 from lir_element import LIRBearing
 from lir_element.fields import check_numbers, number
 from lir_element.texts import joined

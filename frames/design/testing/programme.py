@@ -20,6 +20,7 @@ from frames.design.codes.prototype_programme import (
 )
 from frames.design.codes.registry import code_named
 from frames.design.devices.limits import PROPOSED_LIMIT
+from frames.design.testing.expected import expected_loop, factor_range, lateral_force
 from lir_element import LIRBearing
 from lir_element.argument_checks import require_positive
 from lir_element.texts import joined, worded
@@ -34,7 +35,18 @@ if TYPE_CHECKING:
     from frames.design.codes.outcome import BoundResult, EquivalentLinear
 
 
+SPECIMENS = 2
+"""Full-size prototypes of each kind; the value "number of specimens" of a code has the clause."""
+
 OWN_RULES = (
+    AcceptanceRule(
+        ("each bearing produced",),
+        CodeValue(
+            PROPOSED_LIMIT,
+            "effective stiffness and EDC within the factors of the specification",
+            PROJECT,
+        ),
+    ),
     AcceptanceRule(
         ("interface alone",),
         CodeValue(
@@ -89,7 +101,11 @@ def prototype_tests(
         A row a test, numbered from 1: kind of bearing, test, displacement [m], vertical load [N],
         fully reversed cycles, period [s] and peak speed [m/s] of harmonic motion, least and
         largest lateral force to expect with friction of high speed at its bounds [N], what the
-        test shows, clause, its standing, what is accepted of it with the clauses, a note. NaN: not
+        test shows, clause, its standing, what is accepted of it with the clauses, a note; k_eff
+        [N/m], energy per cycle (EDC) [J] and friction [-] to expect at each bound by the path's
+        mean friction without heating, and the least and the most of them that is accepted: nominal
+        values times the factors of tests, of the production those of the specification, all
+        factors together where these are not given. NaN: not
         given, or without meaning. Of an LIR-DCFP there are tests besides that no code has: the
         interface alone, and impacts. Where the system's loads are not known
         (`IsolationSystem.unknown_loads`), `demands` giving none, tests at the largest and the least
@@ -128,8 +144,10 @@ def prototype_tests(
     for title, bearing, places in _kinds(system):
         at_ends = [end.bearings[places[0]] for end in ends]
         design = DesignToTest(result, bearing, at_ends, *_loads(system, places, asked), asked)
-        rows += [_row(title, test, design, known, code.accepted) for test in code.tests(design)]
-        rows += [_row(title, test, design, PROJECT, OWN_RULES) for test in _of_interface(design)]
+        planned = list(code.tests(design))
+        own = [*_production(design, planned), *_of_interface(design)]
+        rows += [_row(title, test, design, known, code.accepted, bounds) for test in planned]
+        rows += [_row(title, test, design, PROJECT, OWN_RULES, bounds) for test in own]
     table = pd.DataFrame(rows, index=pd.RangeIndex(1, len(rows) + 1, name="test"))
     return _without_loads(table, "" if asked.loads is not None else system.unknown_loads)
 
@@ -146,7 +164,8 @@ def _without_loads(table: pd.DataFrame, why: str) -> pd.DataFrame:
     # Tests at the largest or the least load have none where it is not known.
     if why:
         of_load = table["what"].str.contains("(?:largest|least) load", regex=True)
-        table.loc[of_load, ["vertical load [N]", "least force [N]", "largest force [N]"]] = math.nan
+        of_it = ["vertical load [N]", "least force [N]", "largest force [N]", *LOOPS]
+        table.loc[of_load, of_it] = math.nan
         table.loc[of_load, "note"] = worded("not evaluated: {why}", why=why)
     return table
 
@@ -188,6 +207,20 @@ def _loads(
         "least axial load of the combinations", min(every), "N", remedy=remedy, error=CheckError
     )
     return average, least, max(every)
+
+
+def _production(d: DesignToTest, planned: Iterable[PlannedTest]) -> Iterable[PlannedTest]:
+    # Of a code without a test of each bearing produced: that of ASCE 7-22.
+    if not any(test.name.startswith("production") for test in planned):
+        yield PlannedTest(
+            "each bearing produced",
+            0.67 * d.result.displacement,
+            d.average,
+            3.0,
+            d.demands.slow_speed,
+            "each bearing is as the prototypes",
+            PROPOSED_LIMIT,
+        )
 
 
 def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
@@ -238,14 +271,23 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
     )
 
 
+LOOPS = tuple(
+    f"{name}, {which} [{unit}]"
+    for name, unit in (("k_eff", "N/m"), ("EDC", "J"), ("friction", "-"))
+    for which in (*ENDS[:1], "nominal", *ENDS[1:], "accepted from", "accepted to")
+)
+"""Columns of the loops to expect."""
+
+
 def _row(
     kind: str,
     test: PlannedTest,
     design: DesignToTest,
     standing: Standing,
     rules: Iterable[AcceptanceRule],
+    bounds: PropertyBounds | None,
 ) -> dict[str, object]:
-    least, most = (_force(test, bearing) for bearing in design.ends)
+    least, most = (lateral_force(test, bearing) for bearing in design.ends)
     period = 2.0 * math.pi * test.displacement / test.speed if test.speed > 0.0 else math.nan
     return {
         "bearings": kind,
@@ -262,27 +304,27 @@ def _row(
         "standing": str(standing),
         "accepted if": accepted_of(rules, test.name),
         "note": "",
-    }
+    } | dict(zip(LOOPS, _loops(test, design, bounds), strict=True))
 
 
-def pressure_factor(bearing: LIRBearing | FrictionPendulum, load: float) -> float:
-    """Return what the pressure under a load [N] makes of the surfaces' nominal friction [-]."""
-    if not isinstance(bearing, LIRBearing) or bearing.pressure_dependence is None:
-        return 1.0
-    area = math.pi * bearing.slider_radius**2
-    reference = bearing.resolved()["design_load"] / area
-    return bearing.pressure_dependence.factor(load / area, reference)
+def _loops(test: PlannedTest, design: DesignToTest, bounds: PropertyBounds | None) -> list[float]:
+    # Numbers of `LOOPS`: at lower, nominal and upper friction, and the range that is accepted.
+    lower, upper = design.ends
+    low, own, high = (expected_loop(test, each) for each in (lower, design.bearing, upper))
+    range_ = (math.nan, math.nan)
+    if bounds is not None and (test.alone or not test.displacement > _rims_of(design)):
+        factors = bounds.interface_factors if test.alone else bounds.friction
+        range_ = factor_range(factors, "spec" if "produc" in test.name else "test")
+    energies = [factor * own.energy for factor in range_]
+    slopes = [own.stiffness + (e - own.energy) / (2.0 * test.displacement) ** 2 for e in energies]
+    frictions = [factor * own.friction for factor in range_]
+    numbers = zip(low, own, high, strict=True)
+    return [
+        v
+        for three, two in zip(numbers, (slopes, energies, frictions), strict=True)
+        for v in (*three, *two)
+    ]
 
 
-def _force(test: PlannedTest, bearing: LIRBearing | FrictionPendulum) -> float:
-    # Lateral force at the displacement, as design formulas have it.
-    if math.isfinite(test.lateral) or math.isnan(test.displacement):
-        return test.lateral
-    own = FrictionPendulum.of(bearing)
-    if test.alone and isinstance(bearing, LIRBearing):
-        return bearing.interface_friction * test.load
-    if own.corner <= test.displacement <= own.capacity:
-        more = (pressure_factor(bearing, test.load) - 1.0) * own.effective_friction
-        return own.force(test.displacement, test.load) + more * test.load
-    limit = bearing.force_limit(test.load) if isinstance(bearing, LIRBearing) else math.inf
-    return limit if math.isfinite(limit) else math.nan
+def _rims_of(design: DesignToTest) -> float:
+    return FrictionPendulum.of(design.bearing).capacity
