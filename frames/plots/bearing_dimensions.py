@@ -9,7 +9,7 @@ import numpy as np
 
 from frames.plots import plot_style as ps
 from frames.plots.bearing_drawing import draw_section
-from frames.plots.bearing_geometry import Posture, outlines, rim_face
+from frames.plots.bearing_geometry import Plates, Posture, outlines, rim_face
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -22,19 +22,25 @@ if TYPE_CHECKING:
 _MARGIN = 0.12  # of the width, for the dimensions at each side
 
 
-def bearing_dimensions(bearing: LIRBearing) -> Figure:
+def bearing_dimensions(
+    bearing: LIRBearing, plates: Plates | None = None, *, reach: float | None = None
+) -> Figure:
     """Draw a bearing's vertical section at rest with its dimensions.
 
     Parameters
     ----------
     bearing : LIRBearing
         The device.
+    plates : frames.plots.bearing_geometry.Plates, optional
+        Thicknesses and rims, whose dimensions are then drawn as well.
+    reach : float, optional
+        Half the width of surfaces without rims [m].
 
     Returns
     -------
     Figure
-        Slider, rims and heights in mm, radii and capacity below; plates are drawn as thick as the
-        rims need, for their thickness is no input.
+        Slider, rims and heights in mm, radii and capacity below; without `plates` these are drawn
+        as thick as the rims need, for their thickness is no input.
 
     Examples
     --------
@@ -44,15 +50,17 @@ def bearing_dimensions(bearing: LIRBearing) -> Figure:
     >>> figure = bearing_dimensions(bearing)
     """
     rest = Posture(axis=np.array([0.0, 1.0]), plate_axis=np.array([0.0, 1.0]), slip=0.0)
-    bodies = outlines(bearing, rest)
+    bodies = outlines(bearing, rest, reach, plates)
     corners = np.vstack(list(bodies.values()))
     (left, low), (right, high) = corners.min(axis=0), corners.max(axis=0)
     width = right - left
     aside = _MARGIN * width
-    share = (high - low + 2.4 * aside) / (width + 1.6 * aside)
+    left_of, above = (1.6 * aside, 0.8 * aside) if plates else (0.5 * aside, 0.0)
+    below = above
+    share = (high - low + 2.4 * aside + above + below) / (width + 1.1 * aside + left_of)
     figure = ps.new_figure(min(0.7 + share * ps.PAGE_WIDTH, 7.0))
     ax = figure.subplots()
-    draw_section(ax, bearing, rest)
+    draw_section(ax, bearing, rest, reach=reach, plates=plates)
     a, height = bearing.slider_radius, bearing.slider_height
     _across(ax, a, height, high + 0.4 * aside, worded("slider ø {size:.0f}", size=2e3 * a))
     faces = [rim_face(bearing, k) for k in (0, 1)]
@@ -74,14 +82,41 @@ def bearing_dimensions(bearing: LIRBearing) -> Figure:
     for radius, at in zip(bearing.radii, (0.5 * low, 0.5 * (high + height)), strict=True):
         ax.text(0.0, at, f"R = {1e3 * radius:.0f}", ha="center", va="center", fontsize=ps.SMALL)
     _upright(ax, right + 0.35 * aside, 0.0, height, f"h = {1e3 * height:.0f}")
-    ax.set_xlim(left - 0.5 * aside, right + 1.1 * aside)
-    ax.set_ylim(low - 0.8 * aside, high + 1.6 * aside)
+    if plates is not None:
+        _plates(ax, bearing, plates, (left, right, low, high), aside)
+    ax.set_xlim(left - left_of, right + 1.1 * aside)
+    ax.set_ylim(low - 0.8 * aside - below, high + 1.6 * aside + above)
     ps.caption(ax, title="Dimensions in mm")
-    figure.supxlabel(_words(bearing), fontsize=ps.LABEL)
+    figure.supxlabel(_words(bearing, plates), fontsize=ps.LABEL)
     return figure
 
 
-def _words(bearing: LIRBearing) -> str:
+def _plates(
+    ax: Axes,
+    bearing: LIRBearing,
+    plates: Plates,
+    box: tuple[float, float, float, float],
+    aside: float,
+) -> None:
+    # Diameters, the whole height, thicknesses at the vertices, and the bottom rim.
+    left, right, low, high = box
+    faces = [rim_face(bearing, k) for k in (0, 1)]
+    outer = [face + plates.wall if math.isfinite(face) else right for face in faces]
+    top = worded("top plate, outside ø {size:.0f}", size=2e3 * outer[1])
+    bottom = worded("bottom plate, outside ø {size:.0f}", size=2e3 * outer[0])
+    _across(ax, outer[1], high, high + 2.0 * aside, top)
+    _across(ax, outer[0], low, low - 1.4 * aside, bottom)
+    at = left - 0.9 * aside
+    _upright(ax, at, low, high, f"H = {1e3 * (high - low):.0f} ", edge=left)
+    height = bearing.slider_height
+    for start, end, size in (
+        (low, 0.0, plates.thickness[0]),
+        (height, high, plates.thickness[1]),
+    ):
+        _upright(ax, right + 0.35 * aside, start, end, f"{1e3 * size:.0f}")
+
+
+def _words(bearing: LIRBearing, plates: Plates | None) -> str:
     parts = [worded("effective radius {radius:.0f}", radius=1e3 * bearing.effective_radius)]
     if math.isfinite(bearing.lateral_capacity):
         bottom, top = (f"{1e3 * reach:.0f}" for reach in bearing.rim_displacement)
@@ -91,6 +126,9 @@ def _words(bearing: LIRBearing) -> str:
         parts.append(worded("rims met after {sliding} of sliding", sliding=both))
         reach = 1e3 * bearing.lateral_capacity
         parts.append(worded("displacement at the rims {u:.0f}", u=reach))
+        if plates is not None:
+            rims = 1e3 * plates.wall, 1e3 * plates.rim
+            parts.append(worded("rims {b:.0f} wide, {h:.0f} high", b=rims[0], h=rims[1]))
     return joined(*parts)
 
 
@@ -102,11 +140,15 @@ def _across(ax: Axes, half: float, begin: float, at: float, text: str) -> None:
     ax.text(0.0, at, text, ha="center", va="bottom", fontsize=ps.SMALL)
 
 
-def _upright(ax: Axes, at: float, start: float, end: float, text: str) -> None:
+def _upright(
+    ax: Axes, at: float, start: float, end: float, text: str, *, edge: float = 0.0
+) -> None:
+    # At a place to the right or to the left, with lines from an edge; the text on the outer side.
     for height in (start, end):
-        ax.plot([0.0, at], [height, height], color=ps.GREY, linewidth=0.4)
+        ax.plot([edge, at], [height, height], color=ps.GREY, linewidth=0.4)
     _arrow(ax, np.array([at, start]), np.array([at, end]))
-    ax.text(at, 0.5 * (start + end), f" {text}", ha="left", va="center", fontsize=ps.SMALL)
+    side = "left" if at > edge else "right"
+    ax.text(at, 0.5 * (start + end), f" {text} ", ha=side, va="center", fontsize=ps.SMALL)
 
 
 def _arrow(ax: Axes, start: FloatArray, end: FloatArray) -> None:

@@ -13,6 +13,7 @@ from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
 from frames.plots.bearing_geometry import (
     BODIES,
+    Plates,
     Posture,
     contact_points,
     outlines,
@@ -197,9 +198,16 @@ def _draw_panels(
     return figure
 
 
-def draw_section(ax: Axes, bearing: Geometry, now: Posture, *, reach: float | None = None) -> None:
+def draw_section(
+    ax: Axes,
+    bearing: Geometry,
+    now: Posture,
+    *,
+    reach: float | None = None,
+    plates: Plates | None = None,
+) -> None:
     """Draw the four bodies of a bearing into a panel, to scale, without its frame."""
-    bodies = outlines(bearing, now, reach)
+    bodies = outlines(bearing, now, reach, plates)
     if bearing.is_dcfp:  # rigid slider: both caps without the plane faces between
         caps = [bodies.pop("bottom slider")[:-2], bodies.pop("top slider")[-3::-1]]
         bodies["bottom slider"] = np.vstack(caps)

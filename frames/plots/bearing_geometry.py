@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 
 _ARC_POINTS = 121
-_RIM_SHARE = 0.6  # of the height that is free for a rim
+RIM_SHARE = 0.5
+"""Height of the rims over the one that is free for them, where none is given: a proposal."""
 BODIES = ("bottom plate", "bottom slider", "top slider", "top plate")
 
 
@@ -113,7 +114,7 @@ def rim_gap(bearing: Geometry, now: Posture, surface: int) -> float:
 def rim_height(bearing: Geometry) -> float:
     """Return a height of the rims over the plates' edges that leaves all bodies free [m].
 
-    The model does not know it: this one is for the picture.
+    The model does not know it: this one is a proposal.
     """
     faces = [rim_face(bearing, k) for k in (0, 1)]
     if not all(math.isfinite(face) for face in faces):
@@ -126,11 +127,28 @@ def rim_height(bearing: Geometry) -> float:
         lower - _sagitta(bearing.radii[0], bearing.slider_radius),
         bearing.slider_height - lower - _sagitta(bearing.radii[1], bearing.slider_radius),
     )
-    return _RIM_SHARE * max(0.0, min(0.5 * free, *edges))
+    return RIM_SHARE * max(0.0, min(0.5 * free, *edges))
 
 
-def outlines(bearing: Geometry, now: Posture, reach: float | None = None) -> dict[str, FloatArray]:
+class Plates(NamedTuple):
+    """Dimensions of the bottom and the top plate that a bearing's model does not depend on [m]."""
+
+    thickness: tuple[float, float]  # at the vertex of the concave surface
+    wall: float  # width of a rim in plan
+    rim: float  # height of the rims over the edges of the concave surfaces
+
+
+def pictured(bearing: Geometry) -> Plates:
+    """Return plates for a picture, where nobody has proportioned them."""
+    height = bearing.slider_height
+    return Plates((0.35 * height, 0.35 * height), 0.3 * height, rim_height(bearing))
+
+
+def outlines(
+    bearing: Geometry, now: Posture, reach: float | None = None, plates: Plates | None = None
+) -> dict[str, FloatArray]:
     """Return the outlines of the four bodies, closed polygons of shape (n, 2) [m]."""
+    made = plates or pictured(bearing)
     points = contact_points(bearing, now)
     lower = plane_height(bearing)
     upper = bearing.slider_height - lower
@@ -138,7 +156,7 @@ def outlines(bearing: Geometry, now: Posture, reach: float | None = None) -> dic
         _half_slider(r, bearing.slider_radius, h)
         for r, h in zip(bearing.radii, (lower, upper), strict=True)
     ]
-    sides = (_plate(bearing, now, 0, reach), _plate(bearing, now, 1, reach))
+    sides = [_plate(bearing, now, k, reach, made) for k in (0, 1)]
     normal, plate = now.axis, now.plate_axis
     return {
         "bottom plate": sides[0],
@@ -162,6 +180,18 @@ def area_of(outline: FloatArray) -> float:
     """Return the area of a closed polygon of shape (n, 2) [m2]."""
     x, z = outline.T
     return 0.5 * abs(float(x @ np.roll(z, -1) - z @ np.roll(x, -1)))
+
+
+def turned_volume(outline: FloatArray) -> float:
+    """Return the volume that the right half of a section turned about its axis has [m3].
+
+    Shapes: outline (n, 2), a closed polygon that is symmetric about the axis.
+    """
+    following = np.roll(outline, -1, axis=0)
+    (a, low), (b, high) = outline.T, following.T
+    # frustums between the axis and each edge, those of the left half counted against the right's
+    parts = (high - low) * (a * np.abs(a) + 0.5 * (a * np.abs(b) + b * np.abs(a)) + b * np.abs(b))
+    return 0.5 * math.pi / 3.0 * abs(float(parts.sum()))
 
 
 def _in_plane(vector: FloatArray, direction: FloatArray) -> FloatArray:
@@ -195,7 +225,9 @@ def _half_slider(radius: float, half_width: float, height: float) -> FloatArray:
     return np.vstack([arc, [[half_width, height], [-half_width, height]]])
 
 
-def _plate(bearing: Geometry, now: Posture, surface: int, reach: float | None) -> FloatArray:
+def _plate(
+    bearing: Geometry, now: Posture, surface: int, reach: float | None, made: Plates
+) -> FloatArray:
     # Concave surface upwards, vertex at the origin.
     radius, face = bearing.radii[surface], rim_face(bearing, surface)
     has_rim = math.isfinite(face)
@@ -206,9 +238,9 @@ def _plate(bearing: Geometry, now: Posture, surface: int, reach: float | None) -
     left, right = face + pressed * (tilt < 0.0), face + pressed * (tilt > 0.0)
     x = np.linspace(-left, right, 2 * _ARC_POINTS)
     arc = np.column_stack([x, radius - np.sqrt(radius**2 - x**2)])
-    rim, width = rim_height(bearing) if has_rim else 0.0, 0.3 * bearing.slider_height
-    edge, below = _sagitta(radius, face), -0.35 * bearing.slider_height
-    outer = face + width
+    rim = made.rim if has_rim else 0.0
+    edge, below = _sagitta(radius, face), -made.thickness[surface]
+    outer = face + made.wall
     crown = edge + rim
     body = [
         [right, crown],

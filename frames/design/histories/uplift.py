@@ -15,6 +15,7 @@ from frames.design.devices.bearing_numbers import enter_geometry, overlap_area, 
 from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
 from frames.design.histories.bearing_demands import BearingDemands, DemandOverLimit
 from frames.design.histories.suite import RunSet, motion_of, peaks_of_runs, stopped_in
+from frames.plots.bearing_geometry import RIM_SHARE
 from lir_element.device.sliders import interface_height
 from lir_element.texts import worded
 
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
 
     from frames._types import BoolArray
     from lir_element import LIRBearing
-
-_FREE_SHARE = 0.5  # of the height that has place for a rim, where its height is not given
 
 
 def suite_of_uplift(data: xr.Dataset, reason: str = "") -> RunSet:
@@ -177,7 +176,7 @@ def _enter_rim(bearing: LIRBearing) -> Trace:
             shown="mm",
             note="edge of the slider",
         )
-    t.given("a_h", _FREE_SHARE, note="a proposal: give rim_height")
+    t.given("a_h", RIM_SHARE, note="a proposal: give rim_height")
     t(
         "h_rim",
         "a_h * max(min((h - z_1 - z_2) / 2, c_1, c_2), 0)",
