@@ -27,6 +27,8 @@ class WithoutForces(NamedTuple):
     which: str
     """Their tags or names, the first of them where they are many."""
     why: str
+    faces: tuple[tuple[str, ...], ...] = ()
+    """Nodes around each of those with three or four, as figures draw them."""
 
 
 class ShellElement(NamedTuple):

@@ -83,14 +83,19 @@ def _is_line(points: dict[int, FloatArray], element: ElementEntry) -> bool:
 
 
 def _told(others: Sequence[tuple[ElementEntry, str]]) -> tuple[WithoutForces, ...]:
-    groups: dict[tuple[str, str], list[int]] = {}
+    groups: dict[tuple[str, str], list[ElementEntry]] = {}
     for element, why in others:
-        groups.setdefault((element.kind, why), []).append(element.tag)
-    return tuple(
-        WithoutForces(kind, len(tags), listed(sorted(tags)), why)
-        for (kind, why), tags in groups.items()
-    )
+        groups.setdefault((element.kind, why), []).append(element)
+    found = []
+    for (kind, why), own in groups.items():
+        tags = listed(sorted(element.tag for element in own))
+        faces = (tuple(map(str, e.nodes)) for e in own if len(e.nodes) in _FACES)
+        found.append(WithoutForces(kind, len(own), tags, why, tuple(faces)))
+    return tuple(found)
 
+
+_FACES = {3, 4}
+"""Numbers of nodes of shells and plates."""
 
 _SIZES = {3: 2, 4: 3, 5: 3, 6: 4}
 """Numbers that OpenSees hands over of a load, by the tag of its class: uniform in the plane, at a

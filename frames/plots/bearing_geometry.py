@@ -299,7 +299,7 @@ def movement(data: xr.Dataset, bearing: Geometry, name: str) -> Movement:
     lifted = ~(own["axial_force"].to_numpy() > 0.0)
     if lifted.any():
         length = sum(bearing.radii) - bearing.slider_height
-        up, (lower, upper) = np.array([0.0, 0.0, 1.0]), _plate_tilts(data, name)
+        up, (lower, upper) = np.array([0.0, 0.0, 1.0]), plate_tilts(data, name)
         u = own["bearing_displacement"].transpose("time", "axis").to_numpy()
         levers = own["lever"].sel(surface=["bottom", "top"]).to_numpy()
         centres = u - length * up - levers[0] * lower - levers[1] * upper
@@ -309,8 +309,8 @@ def movement(data: xr.Dataset, bearing: Geometry, name: str) -> Movement:
     return Movement(axis, plate, slip, opening)
 
 
-def _plate_tilts(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray]:
-    # Changes of the axes of the bottom and the top plate by the rotations of their nodes, (n, 3).
+def plate_tilts(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray]:
+    """Return how rotations of the nodes change the axes of both plates, (n_steps, 3) each."""
     nodes = data["bearing_node"].sel(bearing=name).to_numpy() if "bearing_node" in data else (-1,)
     tilts = np.zeros((2, data.sizes["time"], 3))
     if "node_displacement" in data and min(nodes) >= 0:

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.lines import Line2D
 
-from frames.model.axes import to_local
+from frames.library.building import ARM
+from frames.model.axes import faces_of, to_local
 from frames.model.components import hinged_ends
 from frames.model.laws import Bilinear, BoucWen, Gap, HertzGap, Tie, ViscousDamper
 from frames.plots import plot_style as ps
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from frames._types import FloatArray
     from frames.assembly.system import MemberTable, System
@@ -58,8 +59,44 @@ def member_lines(table: MemberTable, coordinates: FloatArray, u: FloatArray) -> 
 def shell_corners(model: FrameData, names: Sequence[str]) -> list[list[int]]:
     """Return the places of the nodes around each shell element, of a list of nodes' names."""
     index = {name: k for k, name in enumerate(names)}
-    elements = [each for part in model.superelements.values() for each in part.elements.shells]
-    return [[index[name] for name in each.nodes] for each in elements]
+    found = []
+    for part in model.superelements.values():
+        faces = [each.nodes for each in part.elements.shells]
+        faces += [face for other in part.elements.without for face in other.faces]
+        found += [[index[name] for name in face] for face in faces]
+    return found
+
+
+def element_ends(model: FrameData, index: Mapping[str, int]) -> list[tuple[int, int]]:
+    """Return the places of both nodes of each line element of the superelements."""
+    parts = model.superelements.values()
+    return [(index[i], index[j]) for part in parts for i, j in part.elements.nodes]
+
+
+def wall_faces(model: FrameData) -> list[list[str]]:
+    """Return the corners of walls that are wide columns: the outer ends of their arms."""
+    outer: dict[str, list[str]] = {}
+    for name, member in model.members.items():
+        if name.startswith(ARM):
+            outer.setdefault(member.j, []).append(member.i)
+    pairs = ((outer.get(m.i, ()), outer.get(m.j, ())) for m in model.members.values())
+    return [[*low, *high[::-1]] for low, high in pairs if len(low) == len(high) == 2]
+
+
+def diaphragm_faces(model: FrameData) -> list[list[str]]:
+    """Return the fields that beams enclose within each diaphragm."""
+    beams = [(m.i, m.j) for name, m in model.members.items() if not name.startswith(ARM)]
+    beams += [ends for part in model.superelements.values() for ends in part.elements.nodes]
+    found = []
+    for diaphragm in model.diaphragms.values():
+        around: dict[str, set[str]] = {node: set() for node in diaphragm.nodes}
+        for one, other in beams:
+            if one in around and other in around:
+                around[one].add(other)
+                around[other].add(one)
+        points = {node: (model.nodes[node].x, model.nodes[node].y) for node in around}
+        found += faces_of(points, around)
+    return found
 
 
 SHARE = 0.07

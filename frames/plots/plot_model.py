@@ -16,11 +16,14 @@ from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
 from frames.plots.model_geometry import (
     HINGES,
+    diaphragm_faces,
     draw_links,
+    element_ends,
     hinge_places,
     member_lines,
     part_handles,
     shell_corners,
+    wall_faces,
 )
 from frames.recording.recovery import require_own
 from frames.results.recorded import require_recorded, require_steps
@@ -46,6 +49,8 @@ MEMBERS, BEARINGS, SUPPORTS, MASSES, AT_REST = (
     ps.PALETTE[2],
     "#BBBBBB",
 )
+WALLS = {"facecolor": ps.PALETTE[4], "alpha": 0.35, "edgecolor": ps.GREY, "linewidths": 0.3}
+DIAPHRAGMS = {"facecolor": ps.PALETTE[5], "alpha": 0.15, "linewidths": 0.0}
 _PICTURES = 20  # a second, of a film
 _NARROW = 0.35  # of the longest side: below, there is room for few numbers along an axis
 _MASS_SIZE = 90.0  # pt2, of the largest mass's mark
@@ -74,9 +79,9 @@ def model_view(
     Returns
     -------
     Figure
-        Members, shells, springs, bearings, supports and masses (by size); links by kind, walls at
-        their gap enlarged as displacements are, plastic hinges; with a time history the
-        undeformed model in grey beside it.
+        Members, shells, walls of wide columns, diaphragms as far as beams enclose them, springs,
+        bearings, supports and masses (by size); links by kind, stops at their gap enlarged as
+        displacements are, plastic hinges; with a time history the undeformed model in grey.
 
     Raises
     ------
@@ -97,7 +102,7 @@ def model_view(
         scale = _scale(system, moved, factor)
         u, title = scale * moved, f"{model.name} at {instant:.3f} s, enlarged {scale:.3g} times"
     figure = ps.new_figure(5.0)
-    panel = figure.add_subplot(projection="3d")
+    panel = figure.add_subplot(projection="3d", computed_zorder=False)
     if data is not None:
         _draw(panel, model, system, np.zeros_like(u), plain=True)
     _draw(panel, model, system, u, enlarged=scale)
@@ -288,8 +293,9 @@ def _parts(
     lines = member_lines(system.members, system.coordinates, u)
     colour = AT_REST if plain else MEMBERS
     drawn = []
-    if len(lines):
-        bars = Line3DCollection(lines, colors=colour, linewidths=0.7 if plain else 1.2)
+    every = [*lines, *(place[list(ends)] for ends in element_ends(model, index))]
+    if every:
+        bars = Line3DCollection(every, colors=colour, linewidths=0.7 if plain else 1.2)
         drawn.append(panel.add_collection3d(bars))
     zones = [
         (place[node], lines[k, (0, -1)[end]])
@@ -310,10 +316,15 @@ def _parts(
         style = {"alpha": 0.15, "edgecolor": colour, "linewidths": 0.3}
         areas = Poly3DCollection([place[each] for each in shells], facecolor=colour, **style)
         drawn.append(panel.add_collection3d(areas))
+    for faces, look in ((wall_faces(model), WALLS), (diaphragm_faces(model), DIAPHRAGMS)):
+        if faces:
+            corners = [place[[index[node] for node in face]] for face in faces]
+            drawn.append(panel.add_collection3d(Poly3DCollection(corners, **look)))
     for _, i, j, _ in system.bearings:
         ends = place[[i, j]]
-        drawn += panel.plot(*ends.T, color=BEARINGS, linewidth=3.0, solid_capstyle="butt")
-        drawn += panel.plot(*ends[1:].T, color=BEARINGS, marker="o", markersize=4.5, linestyle="")
+        look = {"color": BEARINGS, "zorder": 5}  # above the masses, which stand on them
+        drawn += panel.plot(*ends.T, linewidth=3.0, solid_capstyle="butt", **look)
+        drawn += panel.plot(*ends[1:].T, marker="o", markersize=4.5, linestyle="", **look)
     released = [
         lines[k, (0, -1)[end]] + 0.08 * (lines[k, (-1, 0)[end]] - lines[k, (0, -1)[end]])
         for k, member in enumerate(model.members.values())
@@ -361,7 +372,9 @@ def frame_of(panel: Any, points: list[FloatArray], *, bare: bool = False) -> Non
 def _handles(model: FrameData, *, deformed: bool) -> list[Artist]:
     plain: dict[str, Any] = {"linestyle": "", "markersize": 5.0}
     handles: list[Artist] = (
-        [Line2D([], [], color=MEMBERS, label="members")] if model.members else []
+        [Line2D([], [], color=MEMBERS, label="members")]
+        if model.members or any(part.elements.names for part in model.superelements.values())
+        else []
     )
     if model.springs:
         handles.append(Line2D([], [], color=MEMBERS, linestyle=":", label="springs"))
@@ -370,8 +383,12 @@ def _handles(model: FrameData, *, deformed: bool) -> list[Artist]:
             [], [], color=MEMBERS, marker="o", fillstyle="none", label="releases", **plain
         )
         handles.append(ring)
-    if any(part.elements.shells for part in model.superelements.values()):
+    if shell_corners(model, tuple(model.nodes)):
         handles.append(Patch(facecolor=MEMBERS, alpha=0.15, label="shells"))
+    if wall_faces(model):
+        handles.append(Patch(facecolor=ps.PALETTE[4], alpha=0.35, label="walls"))
+    if diaphragm_faces(model):
+        handles.append(Patch(facecolor=ps.PALETTE[5], alpha=0.25, label="diaphragms"))
     if any(member.has_offsets for member in model.members.values()):
         stiff = Line2D([], [], color=MEMBERS, linewidth=3.5, label="rigid end zones")
         handles.append(stiff)

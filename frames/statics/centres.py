@@ -91,7 +91,7 @@ def _offset(flexible: FloatArray, sides: FloatArray) -> FloatArray:
     turn = flexible[2, 2]
     if not turn * float(sides @ sides) > _TURNS * flexible[:2, :2].trace():
         return np.full(2, np.nan)
-    return np.array([-flexible[1, 2], flexible[0, 2]]) / turn
+    return np.asarray(np.array([-flexible[1, 2], flexible[0, 2]]) / turn)
 
 
 def lifting_stiffness(frame: FrameData) -> dict[str, float]:

@@ -104,6 +104,7 @@ class ProjectRun(RunToCheck):
     programme: pd.DataFrame  # tests that prove the bearings
     # ``[project]`` of the file: name, client, engineer, checker, revision, date
     about: ProjectTable
+    rim_width: float  # least of a rim in plan [m]
     structure: tuple[tuple[str, str], ...] = ()  # what the structure is, in words
     # provisions of the code: checked, not checked and why, or the engineer's
     provisions: tuple[ProvisionState, ...] = ()
@@ -183,6 +184,7 @@ def evaluate_run(
         inputs=inputs_of(parts, known),
         programme=_programme(parts, known, governing, asked),
         about=parts.file.project,
+        rim_width=parts.target().rim_width,
         structure=tuple(structure_rows(parts.file, run.frame, known.spectrum)),
         provisions=provisions_of(parts, known, checks),
         tables=parts.sources.tables,

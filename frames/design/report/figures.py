@@ -19,7 +19,8 @@ from frames.design.histories.eccentricity import Case, levels_of, reached_by
 from frames.design.histories.suite import names_of, peaks_of_runs
 from frames.design.project.level_runs import most_displaced
 from frames.design.report.page import Picture, picture
-from frames.design.report.result_tables import devices_by_type
+from frames.design.report.tender import types_of
+from frames.design.report.tender_plan import tender_plan
 from frames.plots import (
     bearing_dimensions,
     bearing_plan,
@@ -255,16 +256,20 @@ def plan_figure(run: ProjectRun) -> Figure | None:
 
 def pictures(run: ProjectRun, words: Words) -> dict[str, list[Picture]]:
     """Return the figures of a run, by the section that they stand in."""
+    kinds = types_of(run)
     plans: dict[str, list[Plan]] = {
         "structure": [("The model", lambda: model_view(run.frame))],
-        "bearings": [
-            (
-                worded("The bearing, type {kind}, to scale", kind=kind)
-                if kind
-                else "The bearing, to scale",
-                partial(bearing_dimensions, device),
-            )
-            for kind, device in devices_by_type(run).items()
+        "tender": [
+            ("The bearings in plan, with axes and numbers", lambda: tender_plan(run)),
+            *(
+                (
+                    worded("The bearing, type {kind}, to scale", kind=one.name)
+                    if len(kinds) > 1
+                    else "The bearing, to scale",
+                    partial(bearing_dimensions, one.bearing, one.make.plates, reach=one.make.reach),
+                )
+                for one in kinds
+            ),
         ],
         "motions": [
             (

@@ -22,12 +22,13 @@ from frames.design.histories.demand_table import demands_by_motion, link_demands
 from frames.design.histories.eccentricity import eccentricity_table
 from frames.design.histories.force_demands import force_demands, raises_by_case
 from frames.design.histories.suite import peaks_of_runs
+from frames.design.report.model_tables import centre_table, mode_table
 from frames.design.report.page import Table
 from frames.design.report.tables import SHOWN
+from frames.design.report.tender import grid_of, replacement, rig, schedule
 from frames.library.building import ARM
 from frames.recording.force_rows import MEMBER_FORCES
 from frames.results.quantities import QUANTITIES
-from frames.statics.modes import modes
 from lir_element.device.friction import FrictionLaw
 from lir_element.texts import joined, keeping_texts, worded
 
@@ -63,7 +64,6 @@ _FRICTIONS = (
     "top surface, slow",
     "interface",
 )
-_COUNT = 6
 WITHOUT_FORCES = "members-without-forces"
 """Name of the table of elements that the tables of member forces leave out."""
 
@@ -92,8 +92,10 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
         },
         index=pd.Index(list(links), name="bearing"),
     )
+    table.insert(0, "axes", grid_of(run)[2])
+    table.insert(0, "number", range(1, len(links) + 1))
     if len(set(run.kinds.values())) > 1:
-        table.insert(0, "type", [run.kinds[name] for name in links])
+        table.insert(2, "type", [run.kinds[name] for name in links])
     for title, name in _REACHED.items():
         values = [peaks_of_runs(data, name).max(axis=0) for data in run.runs.parts]
         table[title] = QUANTITIES[name].sign * np.max(values, axis=0)
@@ -128,19 +130,6 @@ def devices_by_type(run: ProjectRun) -> dict[str, LIRBearing]:
     return found if len(found) > 1 else {"": next(iter(found.values()))}
 
 
-def mode_table(run: ProjectRun) -> pd.DataFrame:
-    """Return the first periods of the structure on sliding bearings, and held at its base."""
-    columns = {}
-    for title, bearings in (("sliding", "sliding"), ("held", "fixed")):
-        found = modes(run.frame, _COUNT, bearings=bearings)  # type: ignore[arg-type]  # its words
-        columns[f"period, {title} [s]"] = found.periods
-        for k, axis in enumerate("xy"):
-            columns[f"mass {axis}, {title}"] = np.round(found.mass_ratios[:, k], 4)
-    length = min(map(len, columns.values()))
-    index = pd.Index(range(1, length + 1), name="mode")
-    return pd.DataFrame({name: values[:length] for name, values in columns.items()}, index=index)
-
-
 @keeping_texts
 def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
     """Return all tables of this module, by name."""
@@ -150,6 +139,10 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "bearings": bearing_table(run),
         "friction": friction_table(run),
         "modes": mode_table(run),
+        "centres": centre_table(run),
+        "schedule": schedule(run),
+        "rig": rig(run.programme),
+        "replacement": replacement(run),
         "motions": run.motions.table(),
         "member-groups": member_groups(run, forces.get("members")),
         WITHOUT_FORCES: without_forces(run.frame),
@@ -254,7 +247,6 @@ def group_names(frame: Frame) -> dict[str, str]:
 
 
 _SHOWN = SHOWN | {
-    "N/m": ("kN/m", 1e-3),
     "N s/m": ("kN s/m", 1e-3),
     "kg/m3": ("kg/m³", 1.0),
     "kg m2": ("kg m²", 1.0),

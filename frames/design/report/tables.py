@@ -14,7 +14,13 @@ if TYPE_CHECKING:
 
 
 _NAME = 18  # letters of a name that stays on one line
-SHOWN = {"m": ("mm", 1e3), "N": ("kN", 1e-3), "N m": ("kN m", 1e-3)}
+SHOWN = {
+    "m": ("mm", 1e3),
+    "N": ("kN", 1e-3),
+    "N m": ("kN m", 1e-3),
+    "N/m": ("kN/m", 1e-3),
+    "J": ("kJ", 1e-3),
+}
 """Units that tables show others in, with the factor."""
 
 

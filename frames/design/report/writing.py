@@ -10,6 +10,7 @@ import pandas as pd
 from frames.design.calculation.standing import FROM_MEMORY, LEGEND, standing_of
 from frames.design.codes.code_values import left_to_the_engineer
 from frames.design.codes.registry import code_named
+from frames.design.devices.plates import PLATE_SHARE, YIELD_STRESS
 from frames.design.histories.demand_table import largest_of_links, tables_of_levels
 from frames.design.report.cover import (
     cover_of,
@@ -32,13 +33,21 @@ from frames.design.report.result_tables import (
     model_table,
 )
 from frames.design.report.tables import in_mm_and_kn, in_parts
-from frames.design.testing.programme import OWN_RULES
+from frames.design.report.tender import (
+    JACK_RESERVE,
+    care,
+    code_periods,
+    proposals,
+    void_said,
+)
+from frames.design.testing.expected import LOOPS
+from frames.design.testing.programme import OWN_RULES, OWN_SPECIMENS
 from frames.results.findings import findings_of
 from frames.results.quantities import JUDGED
 from lir_element.texts import joined, keeping_texts, worded
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from frames.design.codes.registry import DesignCode
     from frames.design.project.design_run import ProjectRun
@@ -52,7 +61,9 @@ SECTIONS = (
     ("equivalent-linear-analysis", "Equivalent-linear analysis"),
     ("time-histories", "Time histories"),
     ("checks", "Checks"),
+    ("tender", "Bearings for tender"),
     ("test-programme", "Test programme"),
+    ("specification", "Access, inspection, replacement"),
     ("calculations", "Calculations"),
     ("input", "Input"),
 )
@@ -126,6 +137,9 @@ def report_in(
         schedule=fit(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
         friction=words.table(_friction(tables["friction"])),
         modes=fit(page_table(tables["modes"], "mode")),
+        code_periods=code_periods(run),
+        centres=fit(page_table(tables["centres"], "level")),
+        tender=_tender(run, tables, fit),
         links=fit(_links(tables.get(LINKS, pd.DataFrame()))),
         untold=words.table(page_table(tables.get(WITHOUT_FORCES, pd.DataFrame()), "kind")),
         members=fit(page_table(tables.get("member-groups", pd.DataFrame()), "members"), keep=3),
@@ -152,6 +166,37 @@ def report_in(
         source=source,
         options=(attrs["level"], attrs["integrator"], attrs["step_control"]),
     )
+
+
+def _tender(
+    run: ProjectRun, tables: Mapping[str, pd.DataFrame], fit: Callable[..., list[Table]]
+) -> dict[str, object]:
+    # What the pages for supplier, tester and owner have.
+    code = code_named(run.equivalent.code)
+    bearings = in_mm_and_kn(tables["bearings"])
+    places = bearings[[name for name in bearings if str(name) in PLACES]]
+    tests = tables["programme"]
+    named = [worded("{k} {name}", k=k, name=name) for k, name in tests["what"].items()]
+    loops = in_mm_and_kn(tests[list(LOOPS)].set_index(pd.Index(named, dtype=object)))
+    return {
+        "schedule": fit(page_table(tables["schedule"], "of the bearings"), 2),
+        "places": fit(page_table(places, "bearing")),
+        "loops": fit(page_table(loops, "test")),
+        "rig": fit(page_table(in_mm_and_kn(tables["rig"]), "bearings to test")),
+        "replacement": fit(page_table(in_mm_and_kn(tables["replacement"]), "type to replace")),
+        "void": void_said(run),
+        "proposals": proposals(run),
+        "stress": f"{1e-6 * YIELD_STRESS:.0f}",
+        "share": f"{100.0 * PLATE_SHARE:.0f}",
+        "reserve": f"{JACK_RESERVE:g}",
+        "specimens": code.values.get("number of specimens", OWN_SPECIMENS),
+        "clause": next((p.clause for p in run.provisions if "replacement" in p.what), code.name),
+        "care": care(run),
+    }
+
+
+PLACES = ("number", "axes", "type", "x [m]", "y [m]", "average load [kN]")
+"""Columns of bearings of the table of their places."""
 
 
 def _words(run: ProjectRun, language: str) -> Words:
@@ -261,7 +306,7 @@ def _programme(tests: pd.DataFrame) -> Table:
     ]
     names = [worded("{k} {name}", k=k, name=name) for k, name in tests["what"].items()]
     named = pd.Index(names, dtype=object)
-    left_out = ["standing", "note", "what", "shows", "accepted if"]
+    left_out = ["standing", "note", "what", "shows", "accepted if", *LOOPS]
     shown = tests.assign(clause=cited).drop(columns=left_out).set_index(named)
     if shown["bearings"].nunique() == 1:
         shown = shown.drop(columns="bearings")

@@ -11,7 +11,9 @@ from frames.design.codes.pendulum import FrictionPendulum
 from lir_element import LIRBearing
 
 if TYPE_CHECKING:
-    from frames.design.codes.bounds import PropertyModificationFactors
+    from collections.abc import Sequence
+
+    from frames.design.codes.bounds import PropertyBounds, PropertyModificationFactors
     from frames.design.codes.prototype_programme import PlannedTest
     from lir_element.device.friction import FrictionLaw
 
@@ -25,6 +27,13 @@ class Loop(NamedTuple):
     energy: float  # dissipated per cycle, EDC [J]
     friction: float  # E / (4 N d) [-]
 
+
+LOOPS = tuple(
+    f"{name}, {which} [{unit}]"
+    for name, unit in (("k_eff", "N/m"), ("EDC", "J"), ("friction", "-"))
+    for which in ("lower", "nominal", "upper", "accepted from", "accepted to")
+)
+"""Columns of the loops to expect, and of what is accepted."""
 
 NO_LOOP = Loop(math.nan, math.nan, math.nan)
 
@@ -115,3 +124,32 @@ def factor_range(factors: PropertyModificationFactors, source: str) -> tuple[flo
         if low < high:
             return low, high
     return factors.lower, factors.upper
+
+
+def loop_numbers(
+    test: PlannedTest,
+    bearing: LIRBearing | FrictionPendulum,
+    ends: Sequence[LIRBearing | FrictionPendulum],
+    bounds: PropertyBounds | None,
+) -> list[float]:
+    """Return the numbers of `LOOPS`: at lower, nominal and upper friction, and what is accepted.
+
+    Beyond the rims, where surfaces and interface have factors of their own, and without bounds the
+    range accepted is NaN.
+    """
+    low, own, high = (expected_loop(test, each) for each in (ends[0], bearing, ends[1]))
+    range_ = (math.nan, math.nan)
+    if bounds is not None and (
+        test.alone or not test.displacement > FrictionPendulum.of(bearing).capacity
+    ):
+        factors = bounds.interface_factors if test.alone else bounds.friction
+        range_ = factor_range(factors, "spec" if "produc" in test.name else "test")
+    energies = [factor * own.energy for factor in range_]
+    slopes = [own.stiffness + (e - own.energy) / (2.0 * test.displacement) ** 2 for e in energies]
+    frictions = [factor * own.friction for factor in range_]
+    found: list[float] = []
+    for three, two in zip(
+        zip(low, own, high, strict=True), (slopes, energies, frictions), strict=True
+    ):
+        found += [*three, *two]
+    return found

@@ -20,7 +20,7 @@ from frames.design.codes.prototype_programme import (
 )
 from frames.design.codes.registry import code_named
 from frames.design.devices.limits import PROPOSED_LIMIT
-from frames.design.testing.expected import expected_loop, factor_range, lateral_force
+from frames.design.testing.expected import LOOPS, lateral_force, loop_numbers
 from lir_element import LIRBearing
 from lir_element.argument_checks import require_positive
 from lir_element.texts import joined, worded
@@ -37,6 +37,9 @@ if TYPE_CHECKING:
 
 SPECIMENS = 2
 """Full-size prototypes of each kind; the value "number of specimens" of a code has the clause."""
+
+OWN_SPECIMENS = CodeValue(PROPOSED_LIMIT, "two full-size specimens of each type and size", PROJECT)
+"""The same of a code without that value."""
 
 OWN_RULES = (
     AcceptanceRule(
@@ -271,14 +274,6 @@ def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
     )
 
 
-LOOPS = tuple(
-    f"{name}, {which} [{unit}]"
-    for name, unit in (("k_eff", "N/m"), ("EDC", "J"), ("friction", "-"))
-    for which in (*ENDS[:1], "nominal", *ENDS[1:], "accepted from", "accepted to")
-)
-"""Columns of the loops to expect."""
-
-
 def _row(
     kind: str,
     test: PlannedTest,
@@ -304,27 +299,4 @@ def _row(
         "standing": str(standing),
         "accepted if": accepted_of(rules, test.name),
         "note": "",
-    } | dict(zip(LOOPS, _loops(test, design, bounds), strict=True))
-
-
-def _loops(test: PlannedTest, design: DesignToTest, bounds: PropertyBounds | None) -> list[float]:
-    # Numbers of `LOOPS`: at lower, nominal and upper friction, and the range that is accepted.
-    lower, upper = design.ends
-    low, own, high = (expected_loop(test, each) for each in (lower, design.bearing, upper))
-    range_ = (math.nan, math.nan)
-    if bounds is not None and (test.alone or not test.displacement > _rims_of(design)):
-        factors = bounds.interface_factors if test.alone else bounds.friction
-        range_ = factor_range(factors, "spec" if "produc" in test.name else "test")
-    energies = [factor * own.energy for factor in range_]
-    slopes = [own.stiffness + (e - own.energy) / (2.0 * test.displacement) ** 2 for e in energies]
-    frictions = [factor * own.friction for factor in range_]
-    numbers = zip(low, own, high, strict=True)
-    return [
-        v
-        for three, two in zip(numbers, (slopes, energies, frictions), strict=True)
-        for v in (*three, *two)
-    ]
-
-
-def _rims_of(design: DesignToTest) -> float:
-    return FrictionPendulum.of(design.bearing).capacity
+    } | dict(zip(LOOPS, loop_numbers(test, design.bearing, design.ends, bounds), strict=True))
