@@ -28,7 +28,7 @@ def mode_table(run: ProjectRun) -> pd.DataFrame:
     """
     ways: dict[str, Any] = {"sliding": "sliding", "held": "fixed"}
     for bound in run.equivalent.bounds:
-        ways[f"effective at {bound}"] = stiffness_at(run, bound)
+        ways[f"k_eff at {bound}"] = stiffness_at(run, bound)
     columns, sums = {}, {}
     for title, bearings in ways.items():
         found = modes(run.frame, _COUNT, bearings=bearings)
@@ -75,7 +75,7 @@ def centre_table(run: ProjectRun) -> pd.DataFrame:
             "e_x over the side [-]": (x - u) / one.sides[0] if one.sides[0] else math.nan,
             "e_y over the side [-]": (y - v) / one.sides[1] if one.sides[1] else math.nan,
         }
-    table = pd.DataFrame.from_dict(rows, orient="index")
+    table = pd.DataFrame.from_dict(rows, orient="index").round(6) + 0.0  # no -0
     table.index.name = "level"
     return table
 

@@ -136,7 +136,9 @@ class Words:
         return "\n".join(part for line in said for part in textwrap.wrap(line, width) or [""])
 
     def _word(self, text: str) -> str:
-        # A text without values; of the head of a column all but its unit.
+        # A text without values; of the head of a column all but its unit; names stay.
+        if text in self._names:
+            return text
         head = None if text in self._texts else _HEAD.fullmatch(text)
         return f"{self.gettext(head[1])}{head[2]}" if head else self.gettext(text)
 

@@ -111,10 +111,11 @@ def types_of(run: ProjectRun) -> list[OfType]:
 
 def schedule(run: ProjectRun) -> pd.DataFrame:
     """Return the schedule of bearings: a row a property with its unit, a column a type."""
-    columns = {}
+    columns, kinds = {}, list(dict.fromkeys(run.system.bearings))
     units: dict[str, str] = {}
     for one in types_of(run):
-        rows = [*_made(one), *_loaded(run, one), *_moved(run, one), *_looped(run, one)]
+        kind = "kind in the test programme", "-", float(kinds.index(one.bearing) + 1)
+        rows = [kind, *_made(one), *_loaded(run, one), *_moved(run, one), *_looped(run, one)]
         units |= {title: unit for title, unit, _ in rows}
         columns[one.name] = {title: value for title, _, value in rows}
     table = pd.DataFrame(columns, index=pd.Index(list(units), name="of the bearings"))
@@ -158,7 +159,7 @@ def _loaded(run: ProjectRun, one: OfType) -> list[Row]:
         ("permanent load, least bearing", "N", min(loads)),
         ("permanent load, largest bearing", "N", max(loads)),
         ("largest load with the earthquake", "N", most),
-        ("least load with the earthquake", "N", least),
+        ("least load with the earthquake that presses", "N", least),
         ("largest uplift of any run", "m", _uplift(run, one.places)),
     ]
 

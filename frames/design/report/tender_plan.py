@@ -12,6 +12,7 @@ from frames.design.report.tender import grid_of, types_of
 from frames.library.building import ARM
 from frames.plots import plot_style as ps
 from frames.plots.model_geometry import shell_corners
+from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -51,7 +52,7 @@ def tender_plan(run: ProjectRun) -> Figure:
             "color": ps.PALETTE[k % len(ps.PALETTE)],
         }
         panel.plot(*spots[one.places].T, linestyle="", markersize=7.0, zorder=3, **look)
-        label = f"{one.name}: {len(one.places)}"
+        label = worded("{name}: {count}", name=one.name, count=len(one.places))
         handles.append(Line2D([], [], linestyle="", markersize=7.0, label=label, **look))
     for n, spot in enumerate(spots, start=1):
         panel.annotate(

@@ -187,7 +187,7 @@ def _tender(
         "void": void_said(run),
         "proposals": proposals(run),
         "stress": f"{1e-6 * YIELD_STRESS:.0f}",
-        "share": f"{100.0 * PLATE_SHARE:.0f}",
+        "share": f"{PLATE_SHARE:g}",
         "reserve": f"{JACK_RESERVE:g}",
         "specimens": code.values.get("number of specimens", OWN_SPECIMENS),
         "clause": next((p.clause for p in run.provisions if "replacement" in p.what), code.name),
@@ -202,7 +202,7 @@ PLACES = ("number", "axes", "type", "x [m]", "y [m]", "average load [kN]")
 def _words(run: ProjectRun, language: str) -> Words:
     names = {run.frame.name, *run.frame.bearings, *run.frame.nodes, *run.frame.members}
     names |= {name for part in run.frame.superelements.values() for name in part.elements.names}
-    names |= {*run.motions, *(level.name for level in run.frame.levels), *devices_by_type(run)}
+    names |= {*run.motions, *(level.name for level in run.frame.levels), *run.kinds.values()}
     return Words(language or run.about.language, run.about.decimal, names)
 
 
