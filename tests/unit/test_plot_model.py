@@ -11,7 +11,7 @@ from PIL import Image
 from frames import Frame, GroundMotion, ModelError, Section, lumped_mass, modes, moment_frame, plots
 from frames import time_history as run
 from frames.assembly.assemble import assemble
-from frames.plots.model_geometry import STATIONS, member_lines
+from frames.plots.model_geometry import STATIONS, diaphragm_faces, member_lines
 from frames.plots.plot_model import LARGEST
 from tests.scenes import simple_bearing
 
@@ -74,7 +74,8 @@ def test_a_model_at_rest_and_at_an_instant(building):
         assert len(parts) == count
     assert "at 0.500 s, enlarged 20 times" in moved.legends[0].get_title().get_text()
     texts = [text.get_text() for text in moved.legends[0].get_texts()]
-    assert texts == ["members", "bearings", "supports", "masses", "at rest"]
+    assert texts == ["members", "diaphragms", "bearings", "supports", "masses", "at rest"]
+    assert len(diaphragm_faces(frame)) == 4  # two fields of beams, at two levels
 
 
 def test_the_largest_displacement_shows(building):

@@ -29,7 +29,9 @@ from frames.design import (
     loop_properties,
     prototype_tests,
 )
-from lir_element import LIRBearing, PressureDependence, cyclic_test
+from frames.design.codes.prototype_programme import PlannedTest
+from frames.design.testing.expected import expected_loop, factor_range, mean_friction
+from lir_element import LIRBearing, PressureDependence, VelocityFriction, cyclic_test
 from tests.refusals import refused
 from tests.scenes import paper_bearing
 
@@ -447,3 +449,45 @@ def test_loops_that_cannot_be_judged_are_refused(changed: dict[str, Any], messag
         "load": 1e5,
     }
     refused(CheckError, message, PrototypeTest, **given | changed)
+
+
+UNLIKE = LIRBearing(
+    radius=(2.5, 2.0),
+    slider_height=0.3,
+    slider_radius=0.2,
+    rims=(0.2, 0.2),
+    friction=(0.05, 0.08),
+    interface_friction=0.15,
+)
+
+
+@pytest.mark.parametrize(("own", "d"), [(bearing(), 0.2), (bearing(), 0.3), (UNLIKE, 0.2)])
+def test_loops_expected_are_those_of_the_rig(own, d):
+    """Below the rims, beyond them, and of unlike surfaces: by the element on the rig."""
+    load = 1e6
+    path = np.concatenate([np.linspace(0.0, d, 200), np.linspace(d, -d, 400)[1:]])
+    path = np.concatenate([path, np.linspace(-d, d, 400)[1:]])
+    force = cyclic_test(own, path, axial_load=load)["bearing_force"].sel(axis="x").to_numpy()[:, 0]
+    energy = np.trapezoid(force[199:], path[199:])
+    found = expected_loop(PlannedTest("", d, load, 3.0, 0.02, "", ""), own)
+    assert found.energy == pytest.approx(energy, rel=4e-3)  # small angles
+    assert found.stiffness == pytest.approx(force[199] / d, rel=8e-3)
+    assert found.friction == pytest.approx(energy / (4.0 * load * d), rel=4e-3)
+
+
+def test_friction_of_a_loop_is_the_mean_of_its_path():
+    law = VelocityFriction(f_max=0.08, f_min=0.03, rate=20.0)
+    x = np.sin(np.linspace(0.0, 0.5 * np.pi, 20001))
+    at = [law.at_speed(0.1 * math.sqrt(1.0 - one**2)) for one in 0.5 * (x[1:] + x[:-1])]
+    assert mean_friction(law, 0.1) == pytest.approx(np.sum(at * np.diff(x)), rel=1e-6)
+
+
+def test_factors_of_tests_and_of_the_production():
+    factors = PropertyModificationFactors.asce7(
+        test=(0.9, 1.2), spec=(0.95, 1.05), full_scale_tests=True
+    )
+    assert factor_range(factors, "test") == (0.9, 1.2)
+    assert factor_range(factors, "spec") == (0.95, 1.05)
+    assert factor_range(PropertyModificationFactors(0.8, 1.3), "test") == (0.8, 1.3)
+    each = code_named("EN 1998").factors(specification=(0.9, 1.1), ageing=(1.0, 1.2))
+    assert factor_range(each, "test") == (each.lower, each.upper)

@@ -294,14 +294,63 @@ def test_masses_of_modes_along_both_axes() -> None:
     """A frame of unlike bays moves along x or along y: each mode has mass along one axis alone."""
     bearing = wide_bearing(capacity=0.18, interface_friction=0.15)
     frame = moment_frame((3, 1), 2, bearing=bearing)
-    table = mode_table(SimpleNamespace(frame=frame))
+    table = mode_table(SimpleNamespace(frame=frame, equivalent=SimpleNamespace(bounds={})))
     for title in ("sliding", "held"):
-        x, y = (table[f"mass {axis}, {title}"] for axis in "xy")
+        x, y = (table[f"mass {axis}, {title}"][:-1] for axis in "xy")
         assert min(x.sum(), y.sum()) > 0.6  # held: the mass of the base is not in it
         assert (x * y).max() < 1e-3
         found = modes(frame, 6, bearings="fixed" if title == "held" else title)
         assert x.tolist() == np.round(found.mass_ratios[:, 0], 4).tolist()
         assert y.tolist() == np.round(found.mass_ratios[:, 1], 4).tolist()
+        assert table.loc["sum", f"mass x, {title}"] == pytest.approx(x.sum(), abs=1e-3)
+
+
+def test_pages_for_supplier_tester_and_owner(results: Path, page: str) -> None:
+    """Numbers of the CSV files by hand: loops, masses, the lift; places by their axes."""
+    given = pd.read_csv(results / "schedule.csv", index_col=0)["standard"].astype(float)
+    loads = pd.read_csv(results / "bearings.csv")["average load [N]"]
+    assert given["permanent load, mean"] == pytest.approx(loads.mean())
+    radius, height, slider, mu = 1.5, 0.2, 0.22, 0.05
+    length, d, load = 2.0 * radius - height, given["displacement of these loops"], loads.mean()
+    rim = 0.18
+    assert d > rim  # the interface does the rest
+    turn, mu_h = math.asin(rim / length), 0.15
+    shear = mu_h / (math.cos(turn) - mu_h * math.sin(turn)) / math.cos(turn)
+    way = 2.0 * mu * (rim * radius / length - 0.25e-3) + shear * (d - rim)
+    assert given["EDC, nominal"] == pytest.approx(4.0 * load * way, rel=1e-9)
+    force = load * math.tan(turn + math.atan(1.1 * mu_h))
+    assert given["k_eff, upper"] == pytest.approx(force / d, rel=1e-9)
+    assert math.isnan(given["EDC, accepted to"])
+    plate, wall = given["thickness at the vertex, bottom plate"], given["width of the rims"]
+    face, up = 0.5 * given["inside diameter of the bottom rim"], given["height of the rims"]
+    assert given["outside diameter, top plate"] == pytest.approx(2.0 * (face + wall))
+    assert given["total height"] == pytest.approx(2.0 * plate + height)
+
+    def cap(half: float) -> tuple[float, float]:
+        deep = radius - math.sqrt(radius**2 - half**2)
+        return deep, math.pi * deep**2 * (3.0 * radius - deep) / 3.0
+
+    deep, hollow = cap(face)
+    solid = math.pi * (face + wall) ** 2 * (plate + deep + up) - math.pi * face**2 * up - hollow
+    edge, bulge = cap(slider)
+    body = math.pi * slider**2 * (height - 2.0 * edge) + 2.0 * bulge
+    assert given["mass of the slider"] == pytest.approx(7850.0 * body, rel=1e-6)
+    assert given["mass of the bearing"] == pytest.approx(7850.0 * (2.0 * solid + body), rel=2e-5)
+    replaced = pd.read_csv(results / "replacement.csv").iloc[0]
+    axial = 20e9 * math.pi * slider**2 / height
+    assert replaced["lift [m]"] == pytest.approx(loads.max() / axial + 5e-3, rel=1e-6)
+    assert replaced["jacking force [N]"] >= loads.max() * (1.0 - 1e-9)
+    rig = pd.read_csv(results / "rig.csv").iloc[0]
+    tests = pd.read_csv(results / "programme.csv")
+    assert rig["largest lateral force [N]"] == tests["largest force [N]"].max()
+    assert rig["stroke, each way [m]"] == tests["displacement [m]"].max()
+    places = pd.read_csv(results / "bearings.csv").set_index(["x [m]", "y [m]"])["axes"]
+    assert sorted(places) == ["A-1", "A-2", "B-1", "B-2"]
+    assert places[places.index.max()] == "B-2"
+    part = section(page, "specification")
+    assert f"{given['mass of the bearing']:.0f} kg pass" in part
+    assert columns(part, "standard")["lift [mm]"] == f"{1e3 * replaced['lift [m]']:.4g}"
+    assert section(page, "tender").count("<img") == 2
 
 
 def test_the_cover_has_lines_to_sign(page: str) -> None:

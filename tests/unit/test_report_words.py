@@ -47,7 +47,7 @@ def test_every_message_of_the_templates_is_translated(language: str) -> None:
     options = {"**.html.j2": {"trimmed": "true"}}
     found = extract_from_dir(
         DESIGN / "report",
-        [("report.html.j2", "jinja2"), ("macros.html.j2", "jinja2")],
+        [(f"{name}.html.j2", "jinja2") for name in ("report", "macros", "tender")],
         options_map=options,
     )
     messages = {" ".join(str(m[2] if isinstance(m[2], str) else m[2][0]).split()) for m in found}
