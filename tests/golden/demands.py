@@ -525,7 +525,10 @@ def _programme(project, found, tally):
         title = f"kind {n}, {len(kinds[kind])} of {len(project.types)}"
         of_all = Tests(project, found, kind)  # tests are at the loads and the slip of all types
         of_all.average = d.average
-        plan += [(title, of_all, test) for test in (*words(of_all, project), *_of_all(of_all))]
+        plan += [
+            (title, of_all, test)
+            for test in (*words(of_all, project), *_produced(of_all, project), *_of_all(of_all))
+        ]
     rows = project.table("programme")
     tally.same(name, "number of tests", len(rows), len(plan))
     hidden = unknown_loads(project)
@@ -620,6 +623,11 @@ def _of_nch(d, project):
     )
     yield "static, largest load, D_TM", d.total, d.loads[1], 1, d.slow, False
     yield "static, least load, D_TM", d.total, d.loads[0], 1, d.slow, False
+
+
+def _produced(d, project):
+    if project.code != "ASCE 7-22":  # which has a test of its own
+        yield "each bearing produced", 0.67 * d.moved, d.average, 3, d.slow, False
 
 
 def _of_all(d):

@@ -1,5 +1,6 @@
 """Every table of the report: its cells beside the tables of the folder, or what is recomputed."""
 
+import functools
 import math
 
 import building
@@ -86,6 +87,11 @@ def _kind(heading, head):
         ("Time histories", "bearing that lifts"): _lifting,
         ("Checks", "check"): _checks,
         ("Checks", "provision"): _provisions,
+        ("Structure", "level"): _table("centres"),
+        ("Bearings for tender", "of the bearings"): _table("schedule"),
+        ("Bearings for tender", "bearing"): _table("bearings"),
+        ("Test programme", "bearings to test"): _table("rig"),
+        ("Access, inspection, replacement", "type to replace"): _table("replacement"),
         ("Test programme", "test"): _programme,
         ("Test programme", "accepted if"): _accepted,
     }
@@ -213,7 +219,7 @@ def _from_csv(project, name, head, rows, tally, names=None):
                 )
 
 
-UNIT = {"m": "mm", "N": "kN", "N m": "kN m"}
+UNIT = {"m": "mm", "N": "kN", "N m": "kN m", "N/m": "kN/m", "J": "kJ"}
 
 
 def _factor_of_row(given, title, factor):
@@ -229,6 +235,16 @@ def _number(text):
     except ValueError:
         return False
     return True
+
+
+@functools.cache
+def _table(name):
+    # What holds a table of the report against the file of its name.
+    def compare(project, head, rows, tally):
+        _from_csv(project, name, head, rows, tally, lambda row: next(iter(row.values())))
+
+    compare.__name__ = f"_{name}"
+    return compare
 
 
 def _modes(project, head, rows, tally):

@@ -8,7 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy import linalg
 
-from frames import ModelError, gravity, lumped_mass, modes, moment_frame, shear_building
+from frames import Frame, ModelError, gravity, lumped_mass, modes, moment_frame, shear_building
+from frames.statics.centres import floor_centres, lifting_stiffness
 from lir_element import CoulombFriction, Element, LIRBearing
 from tests.scenes import simple_bearing
 
@@ -35,7 +36,61 @@ def test_rigid_block_slides_with_the_period_of_the_pendulum():
     # bearings under the moments of their ends, 8e-6
     assert_allclose(periods, [pendulum, pendulum, turning], rtol=1e-5)
     held = shear_building(bearing(), 1e5, 1e13, plan=plan, overturning=False)
-    assert_allclose(modes(held, 3, "sliding").periods, [pendulum, pendulum, turning], rtol=1e-6)
+    found = modes(held, 3, "sliding")
+    assert_allclose(found.periods, [pendulum, pendulum, turning], rtol=1e-6)
+    assert_allclose(found.torsion_ratios, [0.0, 0.0, 1.0], atol=1e-6)
+    assert_allclose(found.mass_ratios[:, :2].sum(axis=1), [1.0, 1.0, 0.0], atol=1e-6)
+    given = modes(held, 3, np.full(6, 5e5)).periods
+    assert_allclose(given[:2], 2.0 * math.pi * math.sqrt(2e5 / 3e6), rtol=1e-6)
+
+
+def floor_on_springs():
+    """Four bearings, a stiff base, and a floor on unlike lateral springs at its corners."""
+    frame = Frame("springs")
+    corners = {"a": (0.0, 0.0), "b": (6.0, 0.0), "c": (6.0, 4.0), "d": (0.0, 4.0)}
+    for (name, (x, y)), k in zip(corners.items(), (1e7, 2e7, 3e7, 4e7), strict=True):
+        for level, z in (("g", 0.0), ("f", 3.0)):
+            frame.add_node(f"{level}-{name}", x, y, z)
+            frame.add_mass(f"{level}-{name}", 1e4)
+        frame.add_node(f"s-{name}", x, y, -bearing().height)
+        frame.fix(f"s-{name}", "all")
+        frame.fix(f"g-{name}", "rx", "ry", "rz")
+        frame.fix(f"f-{name}", "rx", "ry")
+        frame.add_bearing(name, f"s-{name}", f"g-{name}", bearing())
+        frame.add_spring(f"k-{name}", f"g-{name}", f"f-{name}", (k, k, 1e9, 0.0, 0.0, 1e3))
+    frame.add_mass("f-a", 2e4)
+    frame.add_level("floor", [f"f-{name}" for name in corners])
+    return frame, corners
+
+
+@pytest.mark.parametrize("rigid", [True, False])
+def test_centres_of_a_floor(rigid):
+    """Of stiffness: sum(k x) / sum(k) under a rigid floor; without one each corner goes alone."""
+    frame, corners = floor_on_springs()
+    plan, k = np.array(list(corners.values())), np.array([1.0, 2.0, 3.0, 4.0])
+    if rigid:
+        frame.add_diaphragm("floor", [f"f-{name}" for name in corners])
+    (found,) = floor_centres(frame)
+    m = np.array([3.0, 1.0, 1.0, 1.0])
+    centre = m @ plan / m.sum()
+    assert_allclose(found.mass_centre, centre)
+    if rigid:
+        assert_allclose(found.stiffness_centre, k @ plan / k.sum(), rtol=1e-3)
+        return
+    arm = plan - centre  # u = m / k of each: the mean rotation by the masses
+    turn = np.sum(m * np.sum(arm**2, axis=1) * m / k)
+    offset = [np.sum(m * arm[:, 0] * m / k), np.sum(m * arm[:, 1] * m / k)] / turn
+    offset = offset * np.sum(m * np.sum(arm**2, axis=1)) / m.sum()
+    assert_allclose(found.stiffness_centre, centre - offset, rtol=1e-3)
+
+
+def test_lifting_a_bearing_takes_springs_in_series():
+    frame, _ = floor_on_springs()
+    for name, other in (("a", "b"), ("c", "d")):
+        frame.add_spring(f"{name}{other}", f"g-{name}", f"g-{other}", (1e7, 1e7, 1e8, 0, 0, 0))
+    found = lifting_stiffness(frame)
+    other = bearing().resolved()["axial_stiffness"]
+    assert_allclose(found["a"], 1.0 / (1e-8 + 1.0 / other), rtol=1e-6)
 
 
 def test_a_bearing_of_a_period_has_it_in_the_model():
