@@ -63,6 +63,7 @@ from frames.design.sizing.proposal import Design as Design
 from frames.design.sizing.proposal import design as design
 from frames.design.sizing.selection import NoCandidateError as NoCandidateError
 from frames.design.sizing.target import DesignTarget as DesignTarget
+from frames.design.sizing.target import Prices as Prices
 from frames.design.testing.acceptance import AcceptanceLimits as AcceptanceLimits
 from frames.design.testing.acceptance import acceptance_checks as acceptance_checks
 from frames.design.testing.loops import PrototypeTest as PrototypeTest

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -158,10 +158,27 @@ def evaluate_run(
     parts: ProjectInputs, known: Preliminary, runs: Runs, governing: xr.Dataset
 ) -> ProjectRun:
     """Return a project's run from its time histories: demands and checks."""
+    run = checked_run(parts, known, runs)
+    heard = (*sensitivity_warnings(governing), *parts.sources.warn_of_changes())
+    return ProjectRun(
+        **(vars(run) | {"doubts": (*known.doubts, *heard)}),
+        model=run.frame.check(),
+        governing=governing,
+        inputs=inputs_of(parts, known),
+        programme=_programme(parts, known, governing, run.asked),
+        about=parts.file.project,
+        rim_width=parts.target().rim_width,
+        structure=tuple(structure_rows(parts.file, run.frame, known.spectrum)),
+        provisions=provisions_of(parts, known, run.checks),
+        tables=parts.sources.tables,
+    )
+
+
+def checked_run(parts: ProjectInputs, known: Preliminary, runs: Runs) -> RunToCheck:
+    """Return what a project's checks are made of, with all checks that are made of it."""
     rules = parts.rules()
     cases = cases_of(runs, rules)
     types = _types(parts, known, levels_of(cases)[rules.bearing_level])
-    asked = _of_all(types)
     run = RunToCheck(
         **vars(known),
         code=parts.code(),
@@ -172,23 +189,10 @@ def evaluate_run(
         bounds=parts.bounds(),
         limits=parts.limits(),
         rules=rules,
-        asked=asked,
+        asked=_of_all(types),
         types=types,
     )
-    checks = Checks(checks_of(run))
-    heard = (*sensitivity_warnings(governing), *parts.sources.warn_of_changes())
-    return ProjectRun(
-        **(vars(run) | {"checks": checks, "doubts": (*known.doubts, *heard)}),
-        model=run.frame.check(),
-        governing=governing,
-        inputs=inputs_of(parts, known),
-        programme=_programme(parts, known, governing, asked),
-        about=parts.file.project,
-        rim_width=parts.target().rim_width,
-        structure=tuple(structure_rows(parts.file, run.frame, known.spectrum)),
-        provisions=provisions_of(parts, known, checks),
-        tables=parts.sources.tables,
-    )
+    return replace(run, checks=Checks(checks_of(run)))
 
 
 def _types(

@@ -1,49 +1,83 @@
-"""Candidates of a proposal put to the project's time histories: demands, and checks that fail."""
+"""Candidates of a proposal put to the time histories of the project, and sized by its checks."""
 
 from __future__ import annotations
 
 import math
+import re
 import tomllib
-from typing import TYPE_CHECKING, NamedTuple
+import warnings
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pandas as pd
 
 from frames._errors import ModelError, MotionError
 from frames.design._errors import CheckError, ProjectError
-from frames.design.project.design_run import run_project
+from frames.design.project.asked_by_runs import Obstacle, asked_by, counted, is_sized, obstacles
+from frames.design.project.design_run import checked_run
 from frames.design.project.inputs import ProjectInputs
-from frames.design.project.schema_bearing import bearing_table
+from frames.design.project.level_runs import project_runs
+from frames.design.project.preliminary import preliminary
+from frames.design.project.schema_bearing import bearing_table, bearing_type_table, completed
+from frames.design.sizing.fitting import Asked
 from frames.results.quantities import DEMANDS
 from lir_element.errors import AnalysisError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Sequence
 
     from frames.batch.cases import BatchProgress
-    from frames.design.calculation.check import Checks
-    from frames.design.project.design_run import ProjectRun
+    from frames.design.calculation.check import Check, Checks
+    from frames.design.project.check_register import RunToCheck
     from frames.design.sizing.candidate import Candidate
+    from frames.design.sizing.proposal import Design
     from lir_element import LIRBearing
 
 _DEMANDS = ("displacement", "slip", "rim_force", "base_shear", "drift", "floor_plan")
 
 
+_HEADER = re.compile(r"\s*\[")
+_OWN_HEADER = re.compile(r"\s*\[\s*bearings?\s*[].]")
+
+MARGIN = 1.1
+"""Margin of the checks that a bearing's size has a part in, on the building's quick model [-]."""
+
+ROUNDS = 6
+"""How often a bearing is sized by the checks before it is given up."""
+
+
 class Verified(NamedTuple):
     """A candidate after the time histories of its project."""
 
-    candidate: Candidate  # which
-    run: ProjectRun | None  # its runs, demands and checks; None where it could not be run
+    candidate: Candidate  # as it was sized last
+    run: RunToCheck | None  # its runs, demands and checks; None where it could not be run
     reason: str = ""  # why it could not be run; empty where it was
+    asked: Asked = Asked()  # what it was fitted to
+    agreed: bool = False  # whether rims that are met are meant by the project
+    lacks: tuple[str, ...] = ()  # what it would lack if it were as large as the checks ask for
+    rounds: int = 1  # of time histories
 
     @property
     def passed(self) -> bool:
         """Whether it was run and no check fails."""
-        return self.run is not None and self.run.checks.passed
+        return self.run is not None and self.run.checks.passed and not self.obstacles
+
+    @property
+    def obstacles(self) -> list[Obstacle]:
+        """What fails, or is to be agreed though the project does not mean it."""
+        return [] if self.run is None else obstacles(self.run, agreed=self.agreed)
+
+    @property
+    def nearest(self) -> Check | None:
+        """The check of the largest ratio, of those that the bearing's size has a part in."""
+        if self.run is None:
+            return None
+        own = [c for c in counted(self.run.checks) if is_sized(c) and not c.is_unlimited]
+        return max(own, key=lambda check: check.compared, default=None)
 
     def row(self) -> dict[str, object]:
         """Return its main numbers and what fails."""
         t = self.candidate.trace
-        found: dict[str, object] = {
+        found: dict[str, Any] = {
             "radius [m]": self.candidate.radius,
             "friction [-]": self.candidate.friction.f_max,
             "slider radius [m]": t.value("a"),
@@ -57,7 +91,16 @@ class Verified(NamedTuple):
         for name in (DEMANDS[key].demand for key in _DEMANDS):
             if name in own.index:
                 found[f"{name} [{own.loc[name, 'unit']}]"] = float(own.loc[name, "envelope"])
+        nearest, shear = self.nearest, f"{DEMANDS['base_shear'].demand} [N]"
+        if shear in found:
+            found["base shear / weight [-]"] = found[shear] / t.value("W")
+        if self.candidate.prices is not None:
+            found["cost"] = self.candidate.cost
         return found | {
+            "outcome": "passes" if self.passed else "fails",
+            "rounds": self.rounds,
+            "limited by": "" if nearest is None else nearest.title,
+            "largest ratio [-]": math.nan if nearest is None else nearest.compared,
             "runs that stopped": int((self.run.runs.centred.of("status") != "ok").sum()),
             "checks": len(self.run.checks),
             "failed checks": len(self.run.checks.failed),
@@ -80,11 +123,30 @@ def _failures(failed: Checks) -> str:
     return "; ".join(said)
 
 
-def on_bearing(parts: ProjectInputs, bearing: LIRBearing) -> ProjectInputs:
-    """Return a project with ``[bearing]`` as `section_of` writes it, and no further types."""
-    given = bearing_table().model_validate(tomllib.loads(section_of(bearing))["bearing"])
-    alone = {"bearing": given, "bearings": {}}
-    return ProjectInputs(parts.file.model_copy(update=alone), parts.folder)
+def on_bearings(parts: ProjectInputs, one: Candidate, names: Sequence[str]) -> ProjectInputs:
+    """Return a project with the bearings of a candidate, as `sections_of` writes them."""
+    data = completed(tomllib.loads(sections_of(one, names)))
+    kind = bearing_table()
+    types = bearing_type_table(kind)
+    given = {
+        "bearing": kind.model_validate(data["bearing"]),
+        "bearings": {n: types.model_validate(v) for n, v in data.get("bearings", {}).items()},
+    }
+    return ProjectInputs(parts.file.model_copy(update=given), parts.folder)
+
+
+def sections_of(one: Candidate, names: Sequence[str]) -> str:
+    """Return a candidate as it stands in a project's file: a type for each size of slider.
+
+    `names` are those of the frame's bearings.
+    """
+    found = section_of(one.bearings[0])
+    for k, bearing in enumerate(one.bearings[1:], start=1):
+        own = [name for name, place in zip(names, one.places, strict=True) if place == k]
+        listed = ", ".join(f'"{name.removeprefix("bearing-")}"' for name in own)
+        found += f"\n[bearings.size-{k + 1}]\ncolumns = [{listed}]\n"
+        found += f'slider_radius = "{1e3 * bearing.slider_radius:.0f} mm"\n'
+    return found
 
 
 def section_of(bearing: LIRBearing) -> str:
@@ -99,26 +161,75 @@ def section_of(bearing: LIRBearing) -> str:
     )
 
 
+def with_sections(text: str, sections: str) -> str:
+    """Return the text of a project's file with other bearings; its other lines stay.
+
+    They take the place of ``[bearing]`` and ``[bearings.<type>]``, or stand at the end.
+    """
+    found: list[str] = []
+    inside, place = False, None
+    for line in text.splitlines(keepends=True):
+        if _HEADER.match(line):
+            inside = bool(_OWN_HEADER.match(line))
+            if inside and place is None:
+                place = len(found)
+        if not inside:
+            found.append(line)
+    if place is None:
+        found.append("" if not found or found[-1].endswith("\n") else "\n")
+        found.append("\n")
+        place = len(found)
+    found.insert(place, sections + "\n")
+    return "".join(found)
+
+
+def quick(parts: ProjectInputs) -> ProjectInputs:
+    """Return a project whose runs are soon done: level "pendulum", both bounds, masses in place."""
+    ends = tuple(end for end in parts.file.analysis.bounds if end != "nominal")
+    soon = {"level": "pendulum", "accidental_eccentricity": "none"}
+    analysis = parts.file.analysis.model_copy(
+        update=soon | {"bounds": ends or parts.file.analysis.bounds}
+    )
+    return ProjectInputs(parts.file.model_copy(update={"analysis": analysis}), parts.folder)
+
+
 def verified(
     parts: ProjectInputs,
-    candidates: Sequence[Candidate],
+    found: Design,
+    candidate: Candidate,
     *,
+    asked: Asked | None = None,
+    margin: float = 1.0,
+    rounds: int = ROUNDS,
     progress: Callable[[BatchProgress], None] | bool | None = None,
-) -> Iterator[Verified]:
-    """Put candidates to the time histories of a project, each when it is asked for."""
-    for candidate in candidates:
-        if len(candidate.bearings) != 1:
-            msg = (
-                f"a candidate has {len(candidate.bearings)} sizes of slider, and [bearing] of a "
-                "project has one: verify with sizes = 1"
-            )
-            raise CheckError(msg)
+    told: Callable[[Verified], None] = lambda _: None,
+) -> Verified:
+    """Put a candidate to the time histories of a project, and size it until its checks pass.
+
+    After each round the demands of the checks that a size has a part in are what the bearing is
+    fitted to, `margin` below their limits. `told` is called after each.
+    """
+    names, agreed = found.system.names, parts.file.design.rim_share is not None
+    last = Verified(candidate, None, asked=asked or Asked(), agreed=agreed)
+    for count in range(1, rounds + 1):
         try:
-            run = run_project(on_bearing(parts, candidate.bearings[0]), progress=progress)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # `lir run` tells them of the one that is chosen
+                own = on_bearings(parts, last.candidate, names)
+                known = preliminary(own)
+                run = checked_run(own, known, project_runs(own, known, progress))
         except (CheckError, ProjectError, ModelError, MotionError, AnalysisError) as cause:
-            yield Verified(candidate, None, str(cause))
-        else:
-            yield Verified(candidate, run)
+            return last._replace(run=None, reason=str(cause), rounds=count)
+        last = last._replace(run=run, rounds=count)
+        told(last)
+        more = asked_by(run, last.candidate, last.asked, margin, agreed=agreed)
+        if more == last.asked or count == rounds:
+            break
+        larger = found.fit(candidate.radius, candidate.friction, more)
+        if larger.lacks:
+            return last._replace(lacks=larger.lacks)
+        last = last._replace(candidate=larger, asked=more)
+    return last
 
 
 def verification_table(found: Sequence[Verified]) -> pd.DataFrame:

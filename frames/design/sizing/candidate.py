@@ -11,10 +11,13 @@ from frames.design._errors import CheckError
 from frames.design.codes.registry import code_named
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from frames.design.calculation.check import Checks
     from frames.design.calculation.trace import Trace
     from frames.design.codes.isolation import IsolationSystem
     from frames.design.codes.outcome import EquivalentLinear
+    from frames.design.sizing.target import Prices
     from lir_element import LIRBearing
     from lir_element.device.friction import FrictionLaw
 
@@ -31,18 +34,22 @@ class Size(NamedTuple):
     number: int  # of bearings
 
 
-def grouped(system: IsolationSystem, sizes: int) -> tuple[tuple[int, ...], tuple[Size, ...]]:
+def grouped(
+    system: IsolationSystem, sizes: int, least: Sequence[float] = ()
+) -> tuple[tuple[int, ...], tuple[Size, ...]]:
     """Return which size each bearing has, smallest first, and the loads of each size.
 
-    The largest loads are parted so that the sliders' areas, all together, are least.
+    The largest loads are parted so that the sliders' areas, all together, are least; a bearing
+    counts with `least` [N] where its load is smaller.
 
-    Shapes: result (n_bearings,).
+    Shapes: least and result (n_bearings,).
     """
     if sizes < 1:
         msg = f"sizes = {sizes}: give a number of sliders, at least 1"
         raise CheckError(msg)
     columns = list(zip(system.loads, *system.combinations.values(), strict=True))
     largest = [max(column) for column in columns]
+    largest = [max(pair) for pair in zip(largest, least or largest, strict=True)]
     rounded = [float(f"{load:.3g}") for load in largest]
     steps = sorted(set(rounded))
     counts = [rounded.count(step) for step in steps]
@@ -103,6 +110,8 @@ class Candidate:
     governing: Governing  # what limits it most, and its ratio: over 1 where it lacks something
     # pressure of the target below which liners rub more than they are meant to [Pa]
     least_pressure: float
+    places: tuple[int, ...]  # which of the sizes stands at each place
+    prices: Prices | None = None  # by which `cost` is reckoned
 
     @property
     def plan_diameter(self) -> float:
@@ -131,6 +140,26 @@ class Candidate:
             diameter = t.value("d_plan") - 2.0 * smaller
             found += group.number * math.pi / 4.0 * diameter**2 * bearing.slider_height
         return found if self.bearings else math.nan
+
+    @property
+    def cost(self) -> float:
+        """Cost of all bearings and of the gap around them, by the prices of the target.
+
+        NaN where there is no price or no bearing.
+        """
+        if self.prices is None or not self.bearings:
+            return math.nan
+        each, number = self.prices, sum(group.number for group in self.groups)
+        liners = sum(
+            group.number * 3.0 * math.pi * bearing.slider_radius**2  # both surfaces, interface
+            for bearing, group in zip(self.bearings, self.groups, strict=False)
+        )
+        return (
+            each.bearing * number
+            + each.volume * self.bearing_volume
+            + each.liner * liners
+            + each.gap * self.displacement
+        )
 
     @property
     def pressures(self) -> tuple[tuple[float, float, float], ...]:
@@ -193,6 +222,7 @@ class Candidate:
             "interface friction [-]": t.value("mu_h"),
             "plan diameter [m]": self.plan_diameter,
             "bearing volume [m3]": self.bearing_volume,
+            **({} if self.prices is None else {"cost": self.cost}),
             "pressure, lightest bearing [Pa]": min(each[0] for each in pressures),
             "pressure, typical [Pa]": min(each[1] for each in pressures),
             "pressure, heaviest bearing [Pa]": max(each[2] for each in pressures),

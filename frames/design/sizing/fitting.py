@@ -12,7 +12,7 @@ from frames.design.calculation.not_evaluated import NOT_EVALUATED
 from frames.design.calculation.trace import Trace
 from frames.design.codes.registry import code_named
 from frames.design.devices.device import device_checks
-from frames.design.sizing.candidate import Candidate, Governing
+from frames.design.sizing.candidate import Candidate, Governing, grouped
 from lir_element import DesignWarning, LIRBearing
 from lir_element.device.bearing_checks import LARGEST_SINE
 from lir_element.texts import first_of
@@ -40,17 +40,26 @@ _WHATEVER_SLIDER = frozenset({"P_1", "P_2", "H_slip"})
 
 
 class Asked(NamedTuple):
-    """Demands of time histories on one mass, beside those of the formula."""
+    """Demands of time histories, beside those of the formula."""
 
     displacement: float = 0.0  # largest displacement that bearings without rims must allow [m]
     slip: float = 0.0  # slip that the interface must bear [m]
+    interface: float = 0.0  # least friction of the interface [-]
+    # of each bearing the largest axial force [N], and the least radius of its slider [m]
+    loads: tuple[float, ...] = ()
+    sliders: tuple[float, ...] = ()
+
+    def of_size(self, places: Sequence[int], size: int) -> float:
+        """Return the least radius of the sliders of a size [m]."""
+        each = zip(places, self.sliders or (0.0,) * len(places), strict=True)
+        return max((radius for place, radius in each if place == size), default=0.0)
 
 
 def fitted(
     radius: float,
     friction: FrictionLaw,
     system: IsolationSystem,
-    sizes: Sequence[Size],
+    count: int,
     target: DesignTarget,
     bounds: PropertyBounds | None,
     analyse: Analyse,
@@ -58,10 +67,24 @@ def fitted(
 ) -> Candidate:
     """Return a radius and a friction with slider, rims and interface that fit them.
 
+    There are `count` sizes of slider at most, parted by the loads, those asked for among them.
+
     The sliders begin with the radius that the pressures ask for and grow until they also bear the
     slip: by its overlap, and by the offset of the resultant, which the interface's friction causes.
     """
-    radii, height = [_by_pressure(size, target) for size in sizes], 0.0
+    if asked.loads:
+        more = {"time histories": asked.loads}
+        system = replace(system, combinations={**system.combinations, **more})
+    least = tuple(math.pi * a**2 * target.largest_pressure for a in asked.sliders)
+    places, sizes = grouped(system, count, least)
+    radii = [
+        rounded_up(
+            max(_by_pressure(size, target), asked.of_size(places, k)),
+            target.slider_step,
+        )
+        for k, size in enumerate(sizes)
+    ]
+    height = 0.0
     while True:
         height = max(height, rounded_up(target.height_ratio * max(radii), 1e-3))
         plain = LIRBearing(
@@ -75,7 +98,7 @@ def fitted(
         analysis = analyse(plain)
         t = _measures(plain, analysis, system, target, bounds, asked)
         if t.value("e_plate") >= LARGEST_SINE * radius:
-            return _impossible(radius, friction, analysis, t, sizes, target)
+            return _impossible(radius, friction, analysis, t, (places, sizes), target)
         if t.value("h_min") > height:
             height = rounded_up(t.value("h_min"), 1e-3)
             continue
@@ -109,6 +132,8 @@ def fitted(
         groups=tuple(sizes),
         governing=_governing(t, analysis, checks, wanted, target, radius),
         least_pressure=target.least_pressure,
+        places=places,
+        prices=target.prices,
     )
 
 
@@ -117,7 +142,7 @@ def _impossible(
     friction: FrictionLaw,
     analysis: EquivalentLinear,
     t: Trace,
-    sizes: Sequence[Size],
+    parted: tuple[tuple[int, ...], tuple[Size, ...]],
     target: DesignTarget,
 ) -> Candidate:
     return Candidate(
@@ -128,9 +153,11 @@ def _impossible(
         checks=Checks(),
         trace=t,
         lacks=(f"the plates reach {t.value('e_plate'):.3g} m from their middle: too deep a bowl",),
-        groups=tuple(sizes),
+        groups=parted[1],
         governing=Governing("too deep a bowl", t.value("e_plate") / (LARGEST_SINE * radius)),
         least_pressure=target.least_pressure,
+        places=parted[0],
+        prices=target.prices,
     )
 
 
@@ -165,7 +192,7 @@ def _measures(
     allowed, note = analysis.allowed_displacement, "that bearings must allow, without rims"
     if asked.displacement > allowed:
         t.given("D_EL", allowed, "m", shown="mm", note=note)
-        note = "the same by time histories on one mass"
+        note = "the same by time histories"
         t.given("D_TH", asked.displacement, "m", shown="mm", note=note)
         t("D", "max(D_EL, D_TH)", "m", shown="mm")
     else:
@@ -193,7 +220,11 @@ def _measures(
     t("mu_e", "lambda_U * mu * 2 * R / L", source="docs/theory.md (2.1)")
     t.given("gamma", target.limits.margin)
     source = "docs/theory.md (2.1), (2.7)"
-    needed = t("mu_h_min", "max(gamma * mu_e, mu_e + s / L) / lambda_h", source=source)
+    formula = "max(gamma * mu_e, mu_e + s / L) / lambda_h"
+    if asked.interface > 0.0:
+        t.given("mu_h_TH", asked.interface, note="by time histories")
+        formula = f"max({formula}, mu_h_TH)"
+    needed = t("mu_h_min", formula, source=source)
     t.given("mu_h", rounded_up(needed, target.friction_step), note="rounded up")
     t.given("b", target.rim_width, "m", shown="mm", note="width of the rim")
     t("d_plan", "2 * (e_plate + b)", "m", shown="mm")
@@ -225,7 +256,7 @@ def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget, aske
         t.given("r_s", target.slip_reserve, note="reserve, rims not being met")
         formula, note = "r_s * D", "reserve of the interface"
     if asked.slip > 0.0:
-        t.given("s_TH", asked.slip, "m", shown="mm", note="slip of time histories on one mass")
+        t.given("s_TH", asked.slip, "m", shown="mm", note="slip of time histories")
         formula = f"max({formula}, s_TH)"
     t("s", formula, "m", shown="mm", note=note)
 

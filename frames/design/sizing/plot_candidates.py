@@ -13,6 +13,7 @@ from frames.design.sizing.selection import placed
 from frames.plots import plot_style as ps
 
 if TYPE_CHECKING:
+    import pandas as pd
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -24,6 +25,12 @@ if TYPE_CHECKING:
 _MARKERS = ("o", "s", "^", "D", "v", "P")
 _OTHERS = "something else"
 _SIZE = 34.0  # of a marker [pt2]
+_REACHED = "isolator displacement [m]"
+_AIMS = {  # columns of what is tried, their captions, and factors of these units
+    "base shear / weight [-]": ("base shear / weight [%]", 100.0),
+    "floor acceleration in plan [m/s2]": ("floor acceleration [m/s²]", 1.0),
+    "cost": ("cost", 1.0),
+}
 
 
 def design_candidates(
@@ -78,13 +85,75 @@ def design_candidates(
     return figure
 
 
+def tried_candidates(tried: pd.DataFrame) -> Figure:
+    """Draw what candidates reach in time histories, aim by aim.
+
+    Displacement over base shear, floor acceleration and, where prices are given, cost. Colour and
+    shape tell which check is the nearest to its limit, or the farthest beyond; what passes every
+    check is filled.
+
+    Parameters
+    ----------
+    tried : pandas.DataFrame
+        A row for each, as `lir design` writes them to ``front.csv``.
+
+    Returns
+    -------
+    Figure
+        The candidates.
+
+    Raises
+    ------
+    CheckError
+        If there is none.
+
+    Examples
+    --------
+    In the how-to: "A project as a file" (docs/projects.md), which `lir design` draws it for.
+    """
+    if not len(tried):
+        msg = "there is no row: give those of front.csv"
+        raise CheckError(msg)
+    over = {name: unit for name, unit in _AIMS.items() if name in tried}
+    names = tried["limited by"].tolist()
+    looks = _looks_of(names)
+    figure = ps.new_figure(3.9)
+    panels = ps.grid_of(figure, 1, len(over), share_y=True)[0]
+    for panel, (name, (label, factor)) in zip(panels, over.items(), strict=True):
+        for _, row in tried.iterrows():
+            colour, marker = looks.get(row["limited by"], looks.get(_OTHERS, (ps.GREY, "X")))
+            filled = colour if row["outcome"] == "passes" else "none"
+            x, y = factor * row[name], 1e3 * row[_REACHED]
+            look = {"facecolors": filled, "edgecolors": colour, "zorder": 3}
+            panel.scatter(x, y, s=_SIZE, marker=marker, **look)
+            who = f"R {row['radius [m]']:g} m, μ {row['friction [-]']:g}"
+            beside = {"textcoords": "offset points", "fontsize": ps.SMALL}
+            panel.annotate(who, (x, y), xytext=(5.0, 4.0), **beside)
+        panel.margins(x=0.3, y=0.15)
+        ps.caption(panel, x=label)
+    ps.caption(panels[0], y="displacement of histories [mm]")
+    point: dict[str, Any] = {"linestyle": "none", "markersize": 5.5}
+    handles: list[Artist] = [
+        Line2D([], [], marker=marker, color=colour, label=f"nearest: {name}", **point)
+        for name, (colour, marker) in looks.items()
+    ]
+    if any(tried["outcome"] != "passes"):
+        open_ = {"marker": "o", "markerfacecolor": "none", "color": ps.GREY, **point}
+        handles.append(Line2D([], [], label="open: a check fails", **open_))
+    ps.add_legend(figure, handles, columns=2, size=ps.SMALL)
+    return figure
+
+
 def _base_shear(one: Candidate) -> float:
     return 100.0 * one.base_shear
 
 
 def _looks(candidates: Sequence[Candidate]) -> dict[str, tuple[str, str]]:
     # Colour and marker of each limit, those that limit most candidates first.
-    names = [one.governing.what for one in candidates]
+    return _looks_of([one.governing.what for one in candidates])
+
+
+def _looks_of(names: list[str]) -> dict[str, tuple[str, str]]:
     order = sorted(dict.fromkeys(names), key=lambda name: -names.count(name))
     found = dict(zip(order, zip(ps.PALETTE, _MARKERS, strict=True), strict=False))
     return found | ({_OTHERS: (ps.GREY, "X")} if len(order) > len(found) else {})

@@ -65,8 +65,6 @@ class Design:
         Radius, friction, bearings by size, their analysis without rims, checks and calculation.
     candidates : tuple of Candidate
         All that were tried.
-    sizes : tuple of int
-        Which of the chosen bearings stands at each place.
     least : str
         What was made least.
     impossible : tuple of Impossible
@@ -91,10 +89,14 @@ class Design:
     system: IsolationSystem
     chosen: Candidate
     candidates: tuple[Candidate, ...]
-    sizes: tuple[int, ...]
     least: Objective = "base shear"
     impossible: tuple[Impossible, ...] = ()
     fit: Callable[[float, FrictionLaw, Asked], Candidate] = field(kw_only=True)
+
+    @property
+    def sizes(self) -> tuple[int, ...]:
+        """Which of the chosen bearings stands at each place, (n_bearings,)."""
+        return self.chosen.places
 
     @property
     def pareto(self) -> tuple[Candidate, ...]:
@@ -295,9 +297,9 @@ def design(
         As in `equivalent_linear`; checks of the superstructure then count as well.
     sizes : int
         Number of sliders of unlike radius, for bearings of unlike loads.
-    least : {"base shear", "displacement", "plan diameter", "bearing volume"}
+    least : {"base shear", "displacement", "plan diameter", "bearing volume", "cost"}
         What is made least: the largest base shear, the displacement that bearings must allow, the
-        diameter of the plates, or the volume of all bearings, a measure of their cost.
+        diameter of the plates, the volume of all bearings, or their cost by `DesignTarget.prices`.
 
     Returns
     -------
@@ -339,8 +341,11 @@ def design(
     target = DesignTarget() if target is None else target
     require_type("target", target, DesignTarget, "DesignTarget(...)")
     require_type("spectrum", spectrum, Spectrum, "a Spectrum")
+    if least == "cost" and target.prices is None:
+        msg = "least = 'cost' without prices: give the target prices, Prices(bearing=2000.0)"
+        raise CheckError(msg)
     system = _system(structure, spectrum)
-    places, loads = grouped(system, sizes)
+    grouped(system, sizes)  # refused here, not as a candidate that cannot be made
     known: dict[tuple[float, ...], EquivalentLinear] = {}
 
     def analyse(plain: LIRBearing) -> EquivalentLinear:
@@ -353,7 +358,7 @@ def design(
         return known[key]
 
     def fit(radius: float, law: FrictionLaw, asked: Asked) -> Candidate:
-        return fitted(radius, law, system, loads, target, bounds, analyse, asked)
+        return fitted(radius, law, system, sizes, target, bounds, analyse, asked)
 
     found, impossible = [], []
     for radius, law in ((r, law) for r in target.radii for law in target.laws):
@@ -366,7 +371,7 @@ def design(
         raise NoCandidateError(tuple(found), tuple(impossible))
     for text in best[0].warnings:
         warnings.warn(text, DesignWarning, stacklevel=2)
-    return Design(system, best[0], tuple(found), places, least, tuple(impossible), fit=fit)
+    return Design(system, best[0], tuple(found), least, tuple(impossible), fit=fit)
 
 
 def _system(structure: Frame | IsolationSystem, spectrum: Spectrum) -> IsolationSystem:

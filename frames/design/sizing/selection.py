@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from frames.design.sizing.candidate import Candidate
 
-Objective = Literal["base shear", "displacement", "plan diameter", "bearing volume"]
+Objective = Literal["base shear", "displacement", "plan diameter", "bearing volume", "cost"]
 """What a proposal makes least."""
 
 OBJECTIVES: Mapping[str, Callable[[Candidate], float]] = {
@@ -22,6 +22,7 @@ OBJECTIVES: Mapping[str, Callable[[Candidate], float]] = {
     "displacement": lambda one: one.displacement,
     "plan diameter": lambda one: one.plan_diameter,
     "bearing volume": lambda one: one.bearing_volume,
+    "cost": lambda one: one.cost,
 }
 """The number that each makes least, of a candidate that keeps what is asked."""
 

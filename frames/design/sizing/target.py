@@ -26,6 +26,42 @@ the tests. A starting point of this package, to be confirmed by the liner's make
 
 
 _PRESSURE = number("Pa", "(0, inf)")
+_PRICE = number("-", "[0, inf)")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prices:
+    """Prices by which proposals are compared, all in one currency.
+
+    Parameters
+    ----------
+    bearing : float
+        Of each bearing, whatever its size: tests, transport, placing.
+    volume : float
+        Per cubic metre of the bearings: area of the plates times height of the slider.
+    liner : float
+        Per square metre of liner: both surfaces of a slider and its interface.
+    gap : float
+        Per metre of the displacement that the gap around the building must allow.
+
+    Raises
+    ------
+    CheckError
+        If a price is out of bounds.
+
+    Examples
+    --------
+    >>> Prices(bearing=2000.0, volume=30e3).liner
+    0.0
+    """
+
+    bearing: float = field(default=0.0, metadata=_PRICE)
+    volume: float = field(default=0.0, metadata=_PRICE)
+    liner: float = field(default=0.0, metadata=_PRICE)
+    gap: float = field(default=0.0, metadata=_PRICE)
+
+    def __post_init__(self) -> None:
+        check_numbers(self, error=CheckError)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,6 +112,8 @@ class DesignTarget:
         Largest base shear over weight [-].
     max_plan_diameter : float, optional
         Largest diameter of a bearing's plates [m].
+    prices : Prices, optional
+        What `Candidate.cost` is reckoned by; without them there is no cost.
     limits : DesignLimits
         Of `device_checks`, which the proposal keeps: margin of the interface, eccentricity,
         strength of a rim, pressure on the overlap.
@@ -111,6 +149,7 @@ class DesignTarget:
     max_displacement: float | None = field(default=None, metadata=number("m", "[1e-3, 5)"))
     max_base_shear: float | None = field(default=None, metadata=number("-", "[1e-3, 5)"))
     max_plan_diameter: float | None = field(default=None, metadata=number("m", "[1e-3, 10)"))
+    prices: Prices | None = None
     limits: DesignLimits = field(
         default_factory=lambda: DesignLimits(interface_pressure=INTERFACE_PRESSURE)
     )

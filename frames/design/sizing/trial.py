@@ -92,6 +92,7 @@ class Trial(NamedTuple):
     excess: Excess  # of the motions
     # why it was made no larger, though a run fails or goes farther; empty where none does
     larger_lacks: tuple[str, ...]
+    asked: Asked  # what the sized one was fitted to
 
     def failures(self, factor: float) -> int:
         """Return how many runs fail under the motions times a factor of `FACTORS`."""
@@ -165,19 +166,19 @@ def tried_on_one_mass(found: Design, candidate: Candidate, how: OneMass) -> Tria
     level "pendulum". Runs without rims give the displacement to size for. Runs with rims give the
     slip, and none of them may fail, also under the motions times `MARGIN`.
     """
-    mass = found.system.seismic_weight / len(found.sizes) / found.system.gravity
+    mass = found.system.seismic_weight / len(found.system.loads) / found.system.gravity
     motions = how.motions(candidate.analysis)
     excess = _excess(candidate, motions, how)
     free = _runs(candidate.bearings[0].as_dcfp(rims=False), mass, motions, how, (1.0,))
     factor = _torsion(candidate) * how.rules.displacement_factor
     needed = factor * _for_design(free, "displacement", how.rules)
-    asked, sized, runs = Asked(needed), candidate, Runs()
+    asked, sized, runs, kept = Asked(needed), candidate, Runs(), Asked()
     for _ in range(ROUNDS):
         larger = candidate
         if asked.displacement > candidate.displacement or asked.slip > 0.0:
             larger = found.fit(candidate.radius, candidate.friction, asked)
         if not larger.lacks:
-            sized = larger
+            sized, kept = larger, asked
             motions = how.motions(sized.analysis)
         if not larger.lacks or not len(runs):
             runs = _runs(sized.bearings[0], mass, motions, how, FACTORS)
@@ -187,7 +188,7 @@ def tried_on_one_mass(found: Design, candidate: Candidate, how: OneMass) -> Tria
             break
         asked = Asked(sized.displacement * (GROWTH if fails else 1.0), max(slip, asked.slip))
     failed = _failed(runs, how.rules)
-    return Trial(candidate, sized, runs, needed, failed, excess, larger.lacks)
+    return Trial(candidate, sized, runs, needed, failed, excess, larger.lacks, kept)
 
 
 def _runs(
