@@ -22,6 +22,7 @@ from frames.design import (
     MotionSet,
     NCh2745,
     NoCandidateError,
+    Prices,
     PropertyBounds,
     PropertyModificationFactors,
     Spectrum,
@@ -265,6 +266,28 @@ def test_the_volume_of_bearings_is_that_of_plates_and_sliders() -> None:
         diameter = 2.0 * (way + bearing.slider_radius + 0.025)
         found += number * math.pi / 4.0 * diameter**2 * bearing.slider_height
     assert chosen.bearing_volume == pytest.approx(found)
+
+
+def test_the_cost_is_that_of_the_prices(twenty: Design) -> None:
+    """Each price by itself against what it is of, and the least of all candidates by them."""
+    one, two = twenty.chosen.bearings[0], twenty.chosen
+    of = {
+        "bearing": 6.0,
+        "volume": two.bearing_volume,
+        "liner": 6.0 * 3.0 * math.pi * one.slider_radius**2,
+        "gap": two.displacement,
+    }
+    for name, amount in of.items():
+        priced = replace(two, prices=Prices(**{name: 700.0}))
+        assert priced.cost == pytest.approx(700.0 * amount, rel=1e-12)
+        assert priced.row()["cost"] == priced.cost
+    assert math.isnan(two.cost)
+    assert "cost" not in two.row()
+    priced = replace(ONE, radii=(1.5, 2.0), frictions=(0.05, 0.06), prices=Prices(volume=1.0))
+    found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=priced, least="cost")
+    good = [one for one in found.candidates if not one.lacks]
+    assert found.chosen.bearing_volume == min(one.bearing_volume for one in good)
+    refused(CheckError, "without prices", design, SYSTEM, SPECTRUM, bounds=None, least="cost")
 
 
 def test_sliders_under_low_pressure_are_told_and_not_preferred() -> None:

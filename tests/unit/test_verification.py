@@ -1,6 +1,7 @@
 """Candidates put to time histories: the run is that of the project with the section written in."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +14,14 @@ from typer.testing import CliRunner
 
 from frames import ModelError
 from frames.command.app import app
-from frames.design import CheckError, Design, design
+from frames.design import Design, DesignTarget, design
 from frames.design.project import verification
+from frames.design.project.asked_by_runs import is_sized
 from frames.design.project.design_run import run_project
 from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
-from frames.design.project.verification import on_bearing, section_of, verified
+from frames.design.project.verification import on_bearings, sections_of, verified, with_sections
+from frames.design.sizing.fitting import Asked
 from tests.unit.test_project import ASCE
 
 FEW = ASCE.replace(', "artificial-3", "artificial-5"', "").replace(
@@ -46,94 +49,133 @@ def parts_of(file: Path) -> ProjectInputs:
 @pytest.fixture(scope="module")
 def found(folder: Path) -> Design:
     parts = parts_of(folder / "few.toml")
-    frame = parts.provisional_frame()
+    return of(parts, parts.target())
+
+
+def of(parts: ProjectInputs, target: DesignTarget, sizes: int = 1) -> Design:
+    frame, spectrum = parts.provisional_frame(), parts.spectrum()
     return design(
-        frame,
-        parts.spectrum(),
+        parts.system(frame, spectrum),
+        spectrum,
         bounds=parts.bounds(),
-        target=parts.target(),
+        target=target,
         code=parts.code().analysis(),
+        sizes=sizes,
     )
 
 
 @pytest.fixture(scope="module")
-def told(folder: Path) -> tuple[Any, pd.DataFrame]:
-    """What the command says, and the table that it writes."""
+def told(folder: Path) -> tuple[Any, Path]:
+    """What the command says, and the folder of the tables that it writes."""
     out = folder / "out"
-    words = [str(folder / "few.toml"), "--verify", "--top", "2", "--results", str(out)]
+    words = [str(folder / "few.toml"), "--verify", "--front", "--results", str(out)]
     done = CliRunner().invoke(app, ["design", *words])
-    assert done.exit_code == 0, done.output
-    return done, pd.read_csv(out / "verified.csv", keep_default_na=False)
+    assert done.exit_code == 1, done.output  # one motion is not seven: a check fails
+    return done, out
+
+
+def few(found: Design, folder: Path, **options: Any) -> verification.Verified:
+    return verified(parts_of(folder / "few.toml"), found, found.chosen, **options)
 
 
 def test_what_is_verified_is_the_project_with_that_section(folder: Path, found: Design) -> None:
-    """Rows against runs of files into which the sections were written."""
-    bare = (folder / "few.toml").read_text()
-    for one in verified(parts_of(folder / "few.toml"), found.ranked[:1]):
-        candidate, row = one.candidate, one.row()
-        file = folder / f"with-{candidate.friction.f_max:g}.toml"
-        file.write_text(bare + "\n" + section_of(candidate.bearings[0]))
-        run = run_project(parts_of(file))
-        for name, unit in (("isolator displacement", "m"), ("base shear", "N")):
-            assert row[f"{name} [{unit}]"] == pytest.approx(
-                run.demands.loc[name, "envelope"], rel=1e-12
-            )
-        assert row["checks"] == len(run.checks)
-        assert row["failed checks"] == len(run.checks.failed) > 0  # one motion is not seven
-        titles = {check.title for check in run.checks.failed if not check.void}
-        assert {part.split(" (ratio")[0] for part in str(row["fails"]).split("; ")} == titles
+    """A row against the run of a file into which the section was written."""
+    one = few(found, folder, rounds=1)
+    row, file = one.row(), folder / "with.toml"
+    section = sections_of(one.candidate, found.system.names)
+    file.write_text(with_sections((folder / "few.toml").read_text(), section))
+    run = run_project(parts_of(file))
+    for name, unit in (("isolator displacement", "m"), ("base shear", "N")):
+        assert row[f"{name} [{unit}]"] == pytest.approx(run.demands.loc[name, "envelope"], 1e-12)
+    assert row["base shear / weight [-]"] == pytest.approx(
+        row["base shear [N]"] / found.system.seismic_weight
+    )
+    assert row["checks"] == len(run.checks)
+    assert row["failed checks"] == len(run.checks.failed) > 0  # one motion is not seven
+    titles = {check.title for check in run.checks.failed if not check.void}
+    assert {part.split(" (ratio")[0] for part in str(row["fails"]).split("; ")} == titles
+    assert not one.passed
+    assert {each.check.title for each in one.obstacles} == titles
 
 
-def test_the_command_says_which_passes(folder: Path, told: tuple[Any, pd.DataFrame]) -> None:
-    done, table = told
-    assert len(table) == 2
-    one_mass = pd.read_csv(folder / "out" / "one_mass.csv")
-    for _, row in table.iterrows():  # as one mass made them
-        own = one_mass[one_mass["friction [-]"] == row["friction [-]"]]
-        assert set(own["capacity [m]"]) == {row["capacity [m]"]}
-        assert f"friction {row['friction [-]']:g}: tried" in done.stdout
-    assert "Time histories of the best 2: 1 time histories" in done.stdout
-    assert "number of motions (ratio 7.00)" in done.stdout
-    assert "none passes all checks of the time histories" in done.stdout
+def test_the_command_says_what_stands_in_the_way(told: tuple[Any, Path]) -> None:
+    done, out = told
+    front = pd.read_csv(out / "front.csv", keep_default_na=False)
+    one_mass = pd.read_csv(out / "one_mass.csv")
+    assert set(front["friction [-]"]) == set(one_mass["friction [-]"]) == {0.04, 0.05}
+    assert set(front["outcome"]) == {"fails"}
+    assert (out / "front.png").stat().st_size > 10_000
+    assert not (out / "verified.csv").exists()  # what fails on the quick model is not verified
+    assert "none passes every check" in done.stdout
+    assert "\n- number of motions" in done.stdout
+    assert "\n- the motions' share: the mean spectrum of the motions is" in done.stdout
     assert done.stdout.count("[bearing]") == 1
 
 
-def test_candidates_are_run_when_they_are_asked_for(folder, found, monkeypatch):
-    asked = []
-
-    def noted(parts: ProjectInputs, **_: object) -> None:
-        asked.append(parts.bearing().frictions[0].f_max)
+def test_a_candidate_that_cannot_be_run_says_why(folder, found, monkeypatch):
+    def refused(*_: object) -> None:
         msg = "no such storey"
         raise ModelError(msg)
 
-    monkeypatch.setattr(verification, "run_project", noted)
-    each = verified(parts_of(folder / "few.toml"), found.ranked)
-    assert asked == []
-    first = next(each)
-    assert asked == [found.chosen.friction.f_max]
-    assert not first.passed
-    assert first.row()["fails"] == "cannot be run: no such storey"
+    monkeypatch.setattr(verification, "project_runs", refused)
+    one = few(found, folder)
+    assert not one.passed
+    assert one.row()["fails"] == "cannot be run: no such storey"
 
 
-def test_sections_of_one_size_alone_are_verified(folder: Path, found: Design) -> None:
-    words = [str(folder / "few.toml"), "--verify", "--sizes", "2", "--results", str(folder / "o")]
-    done = CliRunner().invoke(app, ["design", *words])
-    assert done.exit_code == 2
-    assert "has one size, leave one out" in done.output
-    several = found.chosen.__class__(
-        **{name: getattr(found.chosen, name) for name in found.chosen.__dataclass_fields__}
-        | {"bearings": found.chosen.bearings * 2}
-    )
-    with pytest.raises(CheckError, match="2 sizes of slider"):
-        next(verified(parts_of(folder / "few.toml"), [several]))
-
-
-def test_a_candidate_is_verified_alone_where_the_file_has_several_types(folder, found):
+def test_types_by_load_stand_under_their_columns(folder: Path) -> None:
+    """Two sizes of slider in a file that had others: each under the columns of its loads."""
+    parts = parts_of(folder / "few.toml")
+    several = of(parts, parts.target(), sizes=2)
+    names, chosen = several.system.names, several.chosen
+    sliders = (0.3, *(0.0,) * (len(names) - 1))  # as time histories may ask it of one
+    one = several.fit(chosen.radius, chosen.friction, Asked(sliders=sliders))
+    assert one.places == (1, *(0,) * (len(names) - 1))
+    assert one.bearings[1].slider_radius == pytest.approx(0.3)
+    assert one.bearings[0].slider_radius == chosen.bearings[0].slider_radius
+    kept = "# kept\n" + FEW.replace("[spectrum]", TYPE + "[spectrum]", 1)
     file = folder / "types.toml"
-    file.write_text(FEW.replace("[spectrum]", TYPE + "[spectrum]", 1))
-    parts = parts_of(file)
-    assert len({link.bearing.slider_radius for link in parts.frame().bearings.values()}) == 2
-    best = found.ranked[0].bearings[0]
-    proposed = on_bearing(parts, best)
-    radii = {link.bearing.slider_radius for link in proposed.frame().bearings.values()}
-    assert radii == {round(best.slider_radius, 3)}
+    file.write_text(with_sections(kept, sections_of(one, names)))
+    assert file.read_text().startswith("# kept\n")
+    written, proposed = parts_of(file), on_bearings(parts, one, names)
+    for each in (written, proposed):
+        links = each.frame().bearings
+        assert [links[name].bearing.slider_radius for name in names] == [
+            one.bearings[place].slider_radius for place in one.places
+        ]
+    assert written.file.bounds == parts.file.bounds
+    alike = replace(one, bearings=one.bearings[:1] * 2)
+    assert "bearings." not in sections_of(alike, names)
+
+
+def test_bearings_are_sized_until_the_checks_pass(folder: Path, found: Design) -> None:
+    """From a slip that is too small for the motion: every check of sizes keeps its margin then."""
+    start, rounds = Asked(slip=0.9 * found.chosen.trace.value("s")), list[verification.Verified]()
+    parts = parts_of(folder / "few.toml")
+    strong = ProjectInputs(
+        parts.file.model_copy(
+            update={"motions": parts.file.motions.model_copy(update={"scale": 1.25})}
+        ),
+        folder,
+    )
+    last = verified(strong, found, found.chosen, asked=start, margin=1.1, told=rounds.append)
+    first = rounds[0]
+    over = [c for c in first.run.checks if is_sized(c) and c.ratio > 1.0]
+    assert over
+    assert last.rounds == len(rounds) > 1
+    t, before = last.candidate.trace, found.chosen.trace
+    assert t.value("U_cap") > before.value("U_cap")
+    own = [c for c in last.run.checks if is_sized(c)]
+    assert max(c.ratio for c in own) <= 1.0
+    assert not any(o.sized for o in last.obstacles)
+
+
+def test_a_file_that_is_written_keeps_all_but_its_bearings(folder: Path, told: Any) -> None:
+    file = folder / "written.toml"
+    file.write_text((folder / "few.toml").read_text())
+    before = file.read_text()
+    words = [str(file), "--write", "--top", "1", "--results", str(folder / "w")]
+    done = CliRunner().invoke(app, ["design", *words])
+    assert done.exit_code == 1, done.output
+    assert file.with_name("written.toml.before").read_text() == before
+    assert parts_of(file).bearing().radii == (1.5, 1.5)

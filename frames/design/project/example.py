@@ -127,6 +127,7 @@ def _column(values: FloatArray) -> str:
 BUILDINGS = {
     "hospital": "six storeys, L-shaped, walls of shells, by an OpenSees script; NCh2745",
     "office": "four storeys of concrete with walls, two types of bearing; EN 1998",
+    "imported": "four storeys of concrete from a file of SAP2000, one type of bearing; EN 1998",
     "near-fault": "eight braced storeys of steel, vertical motion, uplift; ASCE 7-22",
 }
 """Whole buildings beside the plain example, and what each shows."""

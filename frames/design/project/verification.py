@@ -141,7 +141,9 @@ def sections_of(one: Candidate, names: Sequence[str]) -> str:
     `names` are those of the frame's bearings.
     """
     found = section_of(one.bearings[0])
-    for k, bearing in enumerate(one.bearings[1:], start=1):
+    for k, bearing in enumerate(one.bearings):
+        if bearing.slider_radius == one.bearings[0].slider_radius:
+            continue
         own = [name for name, place in zip(names, one.places, strict=True) if place == k]
         listed = ", ".join(f'"{name.removeprefix("bearing-")}"' for name in own)
         found += f"\n[bearings.size-{k + 1}]\ncolumns = [{listed}]\n"
@@ -228,6 +230,8 @@ def verified(
         larger = found.fit(candidate.radius, candidate.friction, more)
         if larger.lacks:
             return last._replace(lacks=larger.lacks)
+        if larger.bearings == last.candidate.bearings and larger.places == last.candidate.places:
+            break  # what fails is not mended by the size
         last = last._replace(candidate=larger, asked=more)
     return last
 
