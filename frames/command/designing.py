@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -154,7 +155,35 @@ def _found(
     except NoCandidateError as cause:
         say(_written(cause.candidates, None, target, results, cause.impossible))
         _reasons(cause.candidates, cause.impossible)
+        _in_the_way(parts, cause.candidates)
         raise
+
+
+def _in_the_way(parts: ProjectInputs, found: Sequence[Candidate]) -> None:
+    # By how much each limit would have to give, and the motions' share.
+    from frames.design._errors import ProjectError
+    from frames.design.project.preliminary import scaled_motions
+    from frames.design.sizing.trial import excess_of
+
+    for what in dict.fromkeys(one.governing.what for one in found):
+        near = min(
+            (one for one in found if one.governing.what == what),
+            key=lambda one: one.governing.ratio,
+        )
+        ratio, who = near.governing.ratio, f"radius {near.radius:g} m, friction"
+        if 1.0 < ratio < math.inf:
+            say(
+                f"- {what}: its limit would have to give by {100.0 * (ratio - 1.0):.2g} % for "
+                f"{who} {near.friction.f_max:g}"
+            )
+    if not found:
+        return
+    near, spectrum = min(found, key=lambda one: one.governing.ratio), parts.spectrum()
+    try:
+        motions = scaled_motions(parts, spectrum, near.analysis)
+    except ProjectError:
+        return  # no motions
+    say(f"- the motions' share: {excess_of(near.analysis, motions, spectrum)}")
 
 
 def _objective(word: str) -> Objective:

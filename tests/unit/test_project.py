@@ -521,9 +521,12 @@ def test_steps_that_were_run_are_kept(folder: Path, monkeypatch: pytest.MonkeyPa
 def test_bearings_are_proposed_as_a_section(whole: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = whole
     monkeypatch.chdir(folder)
-    words = ["--top", "2", "--objective", "displacement"]
-    done = run(app, ["design", str(folder / "project.toml"), *words])
-    assert done.exit_code == 0, done.output
+    text = (folder / "project.toml").read_text()
+    alone = text.replace('folder = "motions"', 'folder = "motions"\nonly = ["artificial-1"]')
+    (folder / "one.toml").write_text(alone.replace('scale = "spectrum"', "scale = 1.0"))
+    words = ["--top", "1", "--objective", "displacement"]
+    done = run(app, ["design", str(folder / "one.toml"), *words])
+    assert done.exit_code == 1, done.output  # one motion is not seven
     assert "16 candidates tried" in done.stdout
     table = pd.read_csv("design/candidates.csv", keep_default_na=False)
     chosen = table[table["outcome"] == "proposed"].iloc[0]
@@ -532,7 +535,6 @@ def test_bearings_are_proposed_as_a_section(whole: Path, monkeypatch: pytest.Mon
     assert chosen["displacement [m]"] == good["displacement [m]"].min()
     assert Path("design/candidates.png").stat().st_size > 10_000
     section = done.stdout[done.stdout.index("[bearing]") :]
-    text = (folder / "project.toml").read_text()
     start, end = text.index("[bearing]"), text.index("[bounds]")
     (folder / "project.toml").write_text(text[:start] + section + "\n" + text[end:])
     assert read_project(folder / "project.toml").bearing is not None
@@ -548,6 +550,8 @@ def test_candidates_of_which_none_keeps_what_is_asked_are_written(folder: Path) 
     table = pd.read_csv(folder / "tried" / "candidates.csv")
     assert list(table["outcome"]) == ["falls out"] * 16
     assert set(table["limited by"]) == {"displacement"}
+    assert "- displacement: its limit would have to give by " in found.output
+    assert "- the motions' share: the mean spectrum of the motions is" in found.output
     wrong = run(app, ["design", str(file), "--objective", "weight"])
     assert wrong.exit_code == 2
     assert "is none of base-shear, displacement, plan, cost-like" in wrong.output

@@ -168,7 +168,7 @@ def tried_on_one_mass(found: Design, candidate: Candidate, how: OneMass) -> Tria
     """
     mass = found.system.seismic_weight / len(found.system.loads) / found.system.gravity
     motions = how.motions(candidate.analysis)
-    excess = _excess(candidate, motions, how)
+    excess = excess_of(candidate.analysis, motions, how.spectrum)
     free = _runs(candidate.bearings[0].as_dcfp(rims=False), mass, motions, how, (1.0,))
     factor = _torsion(candidate) * how.rules.displacement_factor
     needed = factor * _for_design(free, "displacement", how.rules)
@@ -239,10 +239,11 @@ def _torsion(candidate: Candidate) -> float:
     return max(one.total_displacement / one.displacement for one in each)
 
 
-def _excess(candidate: Candidate, motions: MotionSet, how: OneMass) -> Excess:
-    each = candidate.analysis.bounds.values()
+def excess_of(analysis: EquivalentLinear, motions: MotionSet, spectrum: Spectrum) -> Excess:
+    """Return how far the mean spectrum of motions is above the target at the effective period."""
+    each = analysis.bounds.values()
     period = max(each, key=lambda one: one.allowed_displacement).period
-    rule = code_named(candidate.analysis.code).scaling[0]
+    rule = code_named(analysis.code).scaling[0]
     of_pairs = [pair_spectrum(one, [period], 0.05, rule.measure)[0] for one in motions.values()]
-    target = float(how.spectrum.acceleration(period, 0.05))
+    target = float(spectrum.acceleration(period, 0.05))
     return Excess(period, float(np.mean(of_pairs)) / target, rule.part)
