@@ -71,7 +71,7 @@ def totals(project, vertical=None):
     """Return the vertical load of each combination [N] where loads are by cases, else nothing."""
     if "loads" in project.file:
         return combined(project, cases(project), vertical)
-    if project.file["structure"]["kind"] == "etabs":
+    if project.file["structure"]["kind"] in {"etabs", "sap2000"}:
         dead, live, _ = imported.model(project).cases()
         return combined(project, (dead, live, 0.0), vertical)
     return {}
@@ -79,7 +79,7 @@ def totals(project, vertical=None):
 
 def compare(project, tally):
     """Hold the weight that the bearings carry, and the seismic mass, against the count."""
-    if project.file["structure"]["kind"] == "etabs":
+    if project.file["structure"]["kind"] in {"etabs", "sap2000"}:
         imported.compare(project, tally, totals(project)["average"])
     if "loads" not in project.file or "bays" not in project.file["structure"]:
         return

@@ -23,6 +23,11 @@ def compare(project, rows, tally):
         tally.words("tables of the report", f"of the structure: import {k}", one, other)
     tally.words("tables of the report", "rows of the import", len(own), len(told))
     rows = [row for row in rows if (row[0], row[1]) not in own]
+    if project.file["structure"]["kind"] == "sap2000":
+        became = [row for row in rows if row[0].startswith("read")]
+        rows = [row for row in rows if row not in became]
+        for row in became:
+            tally.unknown("tables of the report", f"of the structure: {row[0]}")
     found = {row[0]: row[1] for row in rows}
     for key, text in found.items():
         if key not in wanted:
@@ -43,9 +48,9 @@ def described(project):
     found = {"structure": f"{kind}, {len(levels) - 1} storeys on {count} bearings"}
     if len(levels) > 1:
         found["height above the base"] = f"{levels[-1] - levels[0]:.4g} m"
-    if kind == "etabs":
+    if kind in {"etabs", "sap2000"}:
         found["import"] = f"of {given['file']}"
-    if kind in {"opensees", "etabs"}:
+    if kind in {"opensees", "etabs", "sap2000"}:
         return found
     sides = [n * w for n, w in zip(given["bays"], given["bay_width"], strict=True)]
     found["plan"] = " x ".join(f"{side:.4g}" for side in sides) + " m"

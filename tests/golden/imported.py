@@ -1,4 +1,4 @@
-"""A model of ETABS' text, read by itself: what it weighs, and what of it was read."""
+"""A model of ETABS' or SAP2000's text, read by itself: what it weighs, and what of it was read."""
 
 import math
 import re
@@ -113,9 +113,74 @@ class Model:
         ]
 
 
+class Tables:
+    """The tables of a file of SAP2000 in kN and m: frames and slabs of one material, no offsets."""
+
+    def __init__(self, path):
+        self.rows, name = {}, ""
+        for line in path.read_text(encoding="utf-8").replace(" _\n", " ").splitlines():
+            head = re.match(r'TABLE:\s+"([^"]*)"', line)
+            if head:
+                name = head[1]
+            elif "=" in line:
+                words = {
+                    key: a or b for key, a, b in re.findall(r'(\w+)=(?:"([^"]*)"|(\S+))', line)
+                }
+                self.rows.setdefault(name, []).append(words)
+        self.at = {
+            row["Joint"]: tuple(float(row[key]) for key in ("XorR", "Y", "Z"))
+            for row in self.rows["JOINT COORDINATES"]
+        }
+
+    def by(self, table, key, value):
+        """Return a column of a table by another."""
+        return {row[key]: row[value] for row in self.rows[table]}
+
+    def sizes(self):
+        """Return the size of each area in plan [m2], of rectangles."""
+        found = {}
+        for row in self.rows["CONNECTIVITY - AREA"]:
+            one, other = (self.at[row[key]] for key in ("Joint1", "Joint3"))
+            found[row["Area"]] = abs((other[0] - one[0]) * (other[1] - one[1]))
+        return found
+
+    def volume(self):
+        """Return the volume of all members and slabs [m3]."""
+        areas = self.by("FRAME SECTION PROPERTIES 01 - GENERAL", "SectionName", "Area")
+        of = self.by("FRAME SECTION ASSIGNMENTS", "Frame", "AnalSect")
+        volumes = [
+            math.dist(self.at[row["JointI"]], self.at[row["JointJ"]])
+            * float(areas[of[row["Frame"]]])
+            for row in self.rows["CONNECTIVITY - FRAME"]
+        ]
+        thick = self.by("AREA SECTION PROPERTIES", "Section", "Thickness")
+        of = self.by("AREA SECTION ASSIGNMENTS", "Area", "Section")
+        volumes += [size * float(thick[of[name]]) for name, size in self.sizes().items()]
+        return math.fsum(volumes)
+
+    def cases(self):
+        """Return dead and live load [N], and the mass [kg]."""
+        (material,) = self.rows["MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES"]
+        volume, sizes = self.volume(), self.sizes()
+        mass = 1e3 * float(material["UnitMass"]) * volume
+        found, pressed = {"Dead": 0.0, "Live": 0.0}, {}
+        for row in self.rows["AREA LOADS - UNIFORM"]:
+            load = 1e3 * float(row["UnifLoad"]) * sizes[row["Area"]]
+            pressed[row["LoadPat"]] = pressed.get(row["LoadPat"], 0.0) + load
+        for row in self.rows["LOAD PATTERN DEFINITIONS"]:
+            load = float(row["SelfWtMult"]) * 1e3 * float(material["UnitWeight"]) * volume
+            load += pressed.get(row["LoadPat"], 0.0)
+            found["Live" if row["DesignType"] == "Live" else "Dead"] += load
+        for row in self.rows["MASS SOURCE"]:
+            mass += float(row["Multiplier"]) * pressed[row["LoadPat"]] / 9.80665
+        return found["Dead"], found["Live"], mass
+
+
 def model(project):
     """Return the model of a project."""
-    return Model(project.folder / project.file["structure"]["file"])
+    given = project.file["structure"]
+    kind = Tables if given["kind"] == "sap2000" else Model
+    return kind(project.folder / given["file"])
 
 
 def compare(project, tally, average):

@@ -510,6 +510,7 @@ def _limits(project, head, rows, tally):
         if row[0].startswith("no uplift"):  # loads of combinations: nearly multiples
             value = 1e3 * float(plain(row[6]).split(" ")[0])
             live = project.file.get("loads", {}).get("live", 0.0) > 0.0
+            live = live or project.file["structure"]["kind"] == "sap2000"
             off = 1e-2 if live else 2e-3  # live load is on no facade
             tally.words(name, label, abs(value - limit) < off * limit, True)
             limit = value  # the verdict may be decided by what is nearly a multiple

@@ -1,6 +1,7 @@
 """Projects run by the command, every reported number recomputed by a script without the package."""
 
 import ast
+import importlib
 import json
 import re
 import shutil
@@ -16,6 +17,10 @@ pytest.importorskip("typer")
 from typer.testing import CliRunner
 
 from frames.command.app import app
+from frames.design.project import example
+from frames.design.project.example import write_example
+from frames.design.project.inputs import ProjectInputs
+from frames.design.project.reading import read_project
 from validation.golden_review import GOLDEN, Review, prepared, projects, recomputed, review, table
 
 RUN = {
@@ -305,6 +310,19 @@ def test_there_are_projects_of_three_codes_and_kinds():
         found = [re.search(rf'^{key} = "(.*)"', text, re.M)[1] for text in texts]
         assert all(found.count(word) >= 2 for word in set(found) - {"etabs"})
         assert len(set(found)) == kinds
+
+
+def test_an_example_from_sap2000_weighs_what_its_tables_say(tmp_path, monkeypatch):
+    pytest.importorskip("openseespy")
+    monkeypatch.setattr(example, "PULSES", {"artificial-1": 1.9})
+    monkeypatch.syspath_prepend(str(GOLDEN))
+    tables = importlib.import_module("imported").Tables
+    write_example(tmp_path, building="imported")
+    parts = ProjectInputs(read_project(tmp_path / "project.toml"), tmp_path)
+    dead, live, mass = tables(tmp_path / "office.s2k").cases()
+    system = parts.system(parts.provisional_frame(), parts.spectrum())
+    assert system.seismic_weight == pytest.approx(9.80665 * mass, rel=1e-9)
+    assert sum(system.loads) == pytest.approx(dead + 0.3 * live, rel=1e-6)
 
 
 @pytest.mark.slow

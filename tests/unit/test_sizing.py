@@ -283,8 +283,8 @@ def test_the_cost_is_that_of_the_prices(twenty: Design) -> None:
         assert priced.row()["cost"] == priced.cost
     assert math.isnan(two.cost)
     assert "cost" not in two.row()
-    priced = replace(ONE, radii=(1.5, 2.0), frictions=(0.05, 0.06), prices=Prices(volume=1.0))
-    found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=priced, least="cost")
+    choice = replace(ONE, radii=(1.5, 2.0), frictions=(0.05, 0.06), prices=Prices(volume=1.0))
+    found = design(SYSTEM, SPECTRUM, bounds=BOUNDS, target=choice, least="cost")
     good = [one for one in found.candidates if not one.lacks]
     assert found.chosen.bearing_volume == min(one.bearing_volume for one in good)
     refused(CheckError, "without prices", design, SYSTEM, SPECTRUM, bounds=None, least="cost")

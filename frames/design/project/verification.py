@@ -126,7 +126,7 @@ def _failures(failed: Checks) -> str:
 def on_bearings(parts: ProjectInputs, one: Candidate, names: Sequence[str]) -> ProjectInputs:
     """Return a project with the bearings of a candidate, as `sections_of` writes them."""
     data = completed(tomllib.loads(sections_of(one, names)))
-    kind = bearing_table()
+    kind: Any = bearing_table()
     types = bearing_type_table(kind)
     given = {
         "bearing": kind.model_validate(data["bearing"]),

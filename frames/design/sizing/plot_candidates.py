@@ -124,10 +124,10 @@ def tried_candidates(tried: pd.DataFrame) -> Figure:
             colour, marker = looks.get(row["limited by"], looks.get(_OTHERS, (ps.GREY, "X")))
             filled = colour if row["outcome"] == "passes" else "none"
             x, y = factor * row[name], 1e3 * row[_REACHED]
-            look = {"facecolors": filled, "edgecolors": colour, "zorder": 3}
+            look: dict[str, Any] = {"facecolors": filled, "edgecolors": colour, "zorder": 3}
             panel.scatter(x, y, s=_SIZE, marker=marker, **look)
             who = f"R {row['radius [m]']:g} m, μ {row['friction [-]']:g}"
-            beside = {"textcoords": "offset points", "fontsize": ps.SMALL}
+            beside: dict[str, Any] = {"textcoords": "offset points", "fontsize": ps.SMALL}
             panel.annotate(who, (x, y), xytext=(5.0, 4.0), **beside)
         panel.margins(x=0.3, y=0.15)
         ps.caption(panel, x=label)
@@ -138,8 +138,8 @@ def tried_candidates(tried: pd.DataFrame) -> Figure:
         for name, (colour, marker) in looks.items()
     ]
     if any(tried["outcome"] != "passes"):
-        open_ = {"marker": "o", "markerfacecolor": "none", "color": ps.GREY, **point}
-        handles.append(Line2D([], [], label="open: a check fails", **open_))
+        open_: dict[str, Any] = {"marker": "o", "markerfacecolor": "none", "color": ps.GREY}
+        handles.append(Line2D([], [], label="open: a check fails", **open_, **point))
     ps.add_legend(figure, handles, columns=2, size=ps.SMALL)
     return figure
 
