@@ -109,7 +109,7 @@ def tried_candidates(tried: pd.DataFrame) -> Figure:
 
     Examples
     --------
-    In the how-to: "A project as a file" (docs/projects.md), which `lir design` draws it for.
+    In the how-to: "A design project: the command `lir`" (docs/projects.md).
     """
     if not len(tried):
         msg = "there is no row: give those of front.csv"
