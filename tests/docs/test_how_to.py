@@ -56,6 +56,6 @@ def test_panels_are_those_of_the_view() -> None:
     template = ROOT / "frames" / "viewer" / "assets" / "view.html"
     heads = re.findall(r"<h2>([^<]+)</h2>", template.read_text(encoding="utf-8"))
     page = (ROOT / "docs" / "view.md").read_text(encoding="utf-8")
-    table = page.partition("## What is to be seen")[2].partition("\n\n")[2].partition("\n\n")[0]
+    table = page.partition("## Parts of the page")[2].partition("\n\n")[2].partition("\n\n")[0]
     assert heads
     assert re.findall(r"^\| ([^|]+) \|", table, re.MULTILINE)[1:] == heads
