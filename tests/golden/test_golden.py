@@ -285,6 +285,7 @@ def test_the_recomputation_imports_nothing_of_the_package():
         "numpy",
         "h5py",
         "csv",
+        "functools",
         "html",
         "json",
         "math",
