@@ -40,6 +40,7 @@ CLOCK_FIELDS = (
     Field("guessed", "-", "", "accepted steps since one without such a guess", (), "i8"),
     Field("secants", "-", "", "of Newton's method since the tangent was made", (), "i8"),
     Field("kept", "-", "", "1 + halvings of the step whose tangent is kept, 0: none", (), "i8"),
+    Field("fall", "-", "", "of the residual in a step's first iteration with a kept tangent"),
     Field("elastic_start", "J", "", "strain energy of the structure under gravity"),
 )
 

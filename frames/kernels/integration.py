@@ -19,7 +19,7 @@ from frames.kernels.part_states import set_part_follow
 from frames.kernels.shared_tangent import carry_products
 from frames.kernels.step_error import is_rough, keep_motion
 from frames.kernels.stepping import commit_bearings, newton, predict, solve_gravity
-from frames.kernels.yielding import begin_parts, part_load_on_modes
+from frames.kernels.yielding import begin_parts, has_yielded, part_load_on_modes
 from lir_element.errors import RunStatus
 from lir_element.kernels.linear import add_product, copy_words, set_product, subtract_squares
 from lir_element.kernels.sampling import ground_acceleration
@@ -231,10 +231,10 @@ def try_step(
         run.step[a] = clock.dt * run.mean_v_b[a]
     foreseen = clock.kept == clock.halvings + 1 and clock.dt_before > 0.0
     if parts is not None:
-        foreseen = foreseen and parts.counts[0].active == 0
+        foreseen = foreseen and (parts.counts[0].active == 0 or has_yielded(parts))
         begin_parts(model, run, parts, settings)
     if foreseen:
-        predict(model, run, run.reduced[clock.halvings], 1.0 - settings.alpha_f)
+        predict(model, run, parts, run.reduced[clock.halvings], 1.0 - settings.alpha_f)
     else:
         clock.guessed = -1
     if not foreseen and model.shared.shape[0] > 0:

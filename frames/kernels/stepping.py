@@ -21,7 +21,13 @@ from frames.kernels.shared_tangent import (
     substitute_blocks,
     with_secants,
 )
-from frames.kernels.yielding import add_part_forces, add_part_tangent, settle_parts
+from frames.kernels.yielding import (
+    add_part_forces,
+    add_part_tangent,
+    foresee_part_forces,
+    has_yielded,
+    settle_parts,
+)
 from lir_element.errors import RunStatus
 from lir_element.kernels.levels import bearing_commit, bearing_tangent, bearing_trial
 from lir_element.kernels.linear import (
@@ -49,6 +55,7 @@ _SHORTER = 0.4  # of a step that does not do: between 1/10 and 1/2 (Dennis and S
 _TRIES = 6  # of a step: the last one, 0.4^5 or 1 % of it, is taken as it is (a choice)
 _PATIENCE = 3  # tries: then a residual that rises a little does, past a corner of a law (a choice)
 _RISE = 2.0  # of the residual that is little (a choice)
+_RETRIED = 0.8  # of a kept tangent's fall of the residual, a step without: so it is tried again
 _GUESS, _REST, _BACK, _CORRECTED = range(4)  # what Newton's method looks at
 _KEPT, _SHARED, _WHOLE = range(3)  # what of the tangent is renewed
 _TAKE, _SHORTEN, _LEAVE = range(3)  # what is done with a corrected step
@@ -225,7 +232,13 @@ def correct(model: ReducedModel, run: IntegrationState, share: float, x: Floats)
 
 
 @inlined_by_llvm
-def predict(model: ReducedModel, run: IntegrationState, linear: Floats, share: float) -> None:
+def predict(
+    model: ReducedModel,
+    run: IntegrationState,
+    parts: NonlinearElements | None,
+    linear: Floats,
+    share: float,
+) -> None:
     """Set a guess of ``run.step`` that takes no state determination.
 
     One iteration with the kept tangent, as if displacements and forces of the bearings went on as
@@ -254,6 +267,8 @@ def predict(model: ReducedModel, run: IntegrationState, linear: Floats, share: f
             set_product(linear, run.step, run.linear_step)
         for a in range(n_b):
             run.residual[a] -= run.linear_step[a]
+    if parts is not None:
+        foresee_part_forces(run, parts, ratio, run.residual)
     correct(model, run, share, run.residual)
     lasts = min(clock.guessed, clock.equal) >= 2 and ratio == 1.0
     again = 1.0 if lasts and goes_on_missing(run.weights, run.missed) else 0.0
@@ -368,9 +383,13 @@ def newton(
     """Find ``run.step`` with a residual below `tolerance`; returns a status code.
 
     `run.step` holds the first guess. The tangent is kept from step to step and from iteration to
-    iteration while it serves (`needed_tangent`), improved by secants.
+    iteration while it serves (`needed_tangent`), improved by secants. Once parts have yielded it is
+    renewed at the guess where, by what it last did there, it would have to be later in the step.
     """
     clock = run.clock[0]
+    eager = False
+    if parts is not None:
+        eager = has_yielded(parts)
     need = _KEPT if clock.kept == clock.halvings + 1 else _WHOLE
     less = _SHARED if model.shared.shape[0] > 0 else _WHOLE
     size, factor = math.inf, 1.0
@@ -399,6 +418,8 @@ def newton(
         if at == _CORRECTED:
             copy(run.g_b, run.step)
             copy(run.linear_trial, run.linear_step)
+            if passes == 1 and need == _KEPT:
+                clock.fall = new / size
             need = needed_tangent(new, size, need, less, tolerance, worth, shared_worth)
         if at != _BACK:
             size = new
@@ -408,6 +429,11 @@ def newton(
         if size <= tolerance:
             return _OK
         run.counts[0].iterations += 1
+        renews = eager and at == _GUESS and need == _KEPT
+        if renews and size * clock.fall ** (1.0 + worth) > tolerance:
+            need = less
+            clock.fall *= _RETRIED
+            shared_worth = max(shared_worth, 1.0)
         follows = at == _CORRECTED and factor == 1.0 and need == _KEPT
         if need != _KEPT:
             clock.kept, clock.secants = 0, 0

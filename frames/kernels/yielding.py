@@ -377,6 +377,26 @@ def add_part_forces(run: IntegrationState, parts: NonlinearElements, out: Floats
 
 
 @inlined_by_llvm
+def has_yielded(parts: NonlinearElements) -> bool:
+    """Return whether any part has yielded in the run."""
+    return bool(parts.work[0] > 0.0)
+
+
+@inlined_by_llvm
+def foresee_part_forces(
+    run: IntegrationState, parts: NonlinearElements, ratio: float, out: Floats
+) -> None:
+    """Take from a residual of b the forces g of loose parts, if these go on as in the last step."""
+    follow = parts.follow[run.clock[0].halvings]
+    for n in range(parts.counts[0].active):
+        i = parts.active[n]
+        value = parts.scheme[0].share * ratio * (parts.g_old[i] - parts.g_before[i])
+        if value != 0.0:
+            for a in range(out.shape[0]):
+                out[a] -= value * follow[i, a]
+
+
+@inlined_by_llvm
 def add_part_tangent(model: ReducedModel, run: IntegrationState, parts: NonlinearElements) -> bool:
     """Add what the loose parts do to ``run.tangent``; returns False where they are singular."""
     parts.counts[0].gains = 0
