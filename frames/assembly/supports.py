@@ -5,12 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from scipy.sparse import linalg as sparse_linalg
 
 from lir_element.argument_checks import listed
 from lir_element.texts import worded
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
+    from frames.assembly.coordinates import Basis
     from frames.assembly.system import System
 
 UNSAID = 0.01
@@ -18,6 +20,12 @@ UNSAID = 0.01
 
 NAMED = 4
 """How many supports a sentence names."""
+
+HELD = 8.0
+"""Stiffness in plan beside the bearings, over that of their pendulums, which is doubted: a third
+of the isolated period [-]."""
+
+_RIGID = 1e-6  # residual of a translation that the model cannot make
 
 
 class LoadPath(NamedTuple):
@@ -69,3 +77,47 @@ def load_path(
         bearings=float(np.asarray(axial_forces)[standing].sum()),
         supports=tuple(sorted(taken, key=lambda pair: -abs(pair[1]))),
     )
+
+
+def held_sideways(
+    system: System, geometric: SparseMatrix, basis: Basis, axial_forces: FloatArray
+) -> list[str]:
+    """Return what holds the structure in plan beside the bearings, a sentence for a direction.
+
+    The tops of all bearings move by the same; the rest follows statically. What resists that are
+    springs and supports: a structure on bearings alone resists nothing. Elements that yield or
+    push are left out.
+
+    Shapes: geometric (6 n_nodes, 6 n_nodes), axial_forces (n_bearings,).
+    """
+    radii = np.array([placed.bearing.effective_radius for placed in system.bearings])
+    pendulums = float((axial_forces / radii).sum())
+    rows = system.bearing_rows[:, basis.bearing_dofs]
+    elements = system.parts.stiffness()
+    found = []
+    for axis, name in enumerate("xy"):
+        target = np.zeros((len(radii), 2, 6))
+        target[:, 1, axis] = 1.0
+        tops, *_, residual = sparse_linalg.lsqr(rows, target.ravel(), atol=1e-10, btol=1e-10)[:4]
+        if residual > _RIGID * len(radii) or pendulums <= 0.0:
+            continue  # of a model in the plane
+        moves = np.asarray(system.transform @ (basis.expand_b @ tops))
+        forces = np.asarray((system.node_stiffness + geometric - elements) @ moves)
+        beside = float(moves @ forces) / pendulums
+        if beside <= HELD:
+            continue
+        held = np.flatnonzero(np.diff(system.transform.indptr)[axis::6] == 0)
+        largest = held[np.argsort(-np.abs(forces[axis::6][held]), kind="stable")]
+        nodes = (f'"{system.node_names[k]}"' for k in largest if forces[6 * k + axis])
+        found.append(
+            worded(
+                "springs or supports beside the bearings hold the structure along {axis}, "
+                "{beside:.3g} times as stiffly as the pendulums of the bearings: it hardly slides. "
+                "They are at {nodes}: put them below the bearings or take them out, unless they "
+                "are meant",
+                axis=name,
+                beside=beside,
+                nodes=listed(nodes, NAMED),
+            )
+        )
+    return found

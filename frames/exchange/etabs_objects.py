@@ -68,6 +68,7 @@ class Objects:
         account.read_as("LINE ASSIGNS", what, self._clear)
         account.read("AREA CONNECTIVITIES", "areas by story", len(building.areas))
         account.read("POINT ASSIGNS", "supports", len(building.restraints))
+        account.read("POINT ASSIGNS", "joint springs", len(building.springs))
 
     def joint(self, row: Row, point: str, story: str) -> str:
         """Return the name of the joint that a point is at a story; it is made if it is new."""

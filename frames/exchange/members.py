@@ -278,10 +278,18 @@ def add_supports(frame: Frame, building: Building, places: Places, options: Opti
     if places.joints:
         what = "supports, each of them a bearing on the ground"
         building.account.read_as("supports", what, list(places.joints))
+    idle = []
     for joint, stiffness in building.springs.items():
-        frame.add_node(f"spring-{joint}", *frame.nodes[joint].position)
-        frame.fix(f"spring-{joint}", "all")
-        frame.add_spring(f"spring-{joint}", f"spring-{joint}", joint, stiffness)
+        held = building.restraints.get(joint, ())
+        acting = [0.0 if dof in held else k for dof, k in zip(DOFS, stiffness, strict=True)]
+        if acting != list(stiffness):
+            idle.append(joint)
+        if any(acting):
+            frame.add_node(f"spring-{joint}", *frame.nodes[joint].position)
+            frame.fix(f"spring-{joint}", "all")
+            frame.add_spring(f"spring-{joint}", f"spring-{joint}", joint, acting)
+    what = "springs of displacements that supports hold, which do nothing in the file either"
+    building.account.left_out("supports", what, idle)
     what = "joints on bearings whose rotations are held, as stiff beams at the base would"
     building.account.read_as("supports", what, turned)
     return turned

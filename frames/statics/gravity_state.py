@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from frames.assembly.supports import held_sideways
 from frames.statics.sanity_checks import held_periods, sanity_warnings
 from lir_element.texts import html_table
 
@@ -92,7 +93,8 @@ class GravityState:
         """What is strange about the model, a sentence each: lost loads, numbers in other units."""
         found = sanity_warnings(self.system, self.axial_forces, self.held_periods)
         lost = self.load_path.sentence()
-        return (lost, *found) if lost else found
+        beside = held_sideways(self.system, self.node_geometric, self.basis, self.axial_forces)
+        return (*([lost] if lost else []), *beside, *found)
 
     def __repr__(self) -> str:
         """Return sizes and axial forces on one line."""

@@ -133,6 +133,13 @@ def test_a_roller_besides_bearings_is_named() -> None:
     frame.fix("floor-00", "uz")
     said(lambda: gravity(frame), '"floor-00"', "unless these supports are meant")
     frame = storey(held=False)
+    frame.add_node("soil", 0.0, 0.0, 0.0)
+    frame.fix("soil", "all")
+    frame.add_spring("soil", "soil", "base-00", [3e7, 0.0, 0.0, 0.0, 0.0, 0.0])
+    radius = bearing_for(2e6).effective_radius
+    pendulums = gravity(storey(held=False)).axial_forces.sum() / radius
+    said(lambda: gravity(frame), "along x", f"{3e7 / pendulums:.3g} times", 'at "soil":')
+    frame = storey(held=False)
     frame.fix("base-00", "uz")
     refused(AnalysisError, r'"bearing-00": a bearing carries no.*at "base-00"', gravity, frame)
 

@@ -330,6 +330,18 @@ def test_what_nothing_has_never_stops_an_import(tmp_path: Path) -> None:
     assert "which nothing has" in str(frame.imported)
 
 
+@pytest.mark.parametrize(("held", "acting"), [("UX UY UZ RX RY RZ", 0), ("UZ", 1)])
+def test_a_spring_of_a_held_displacement_is_none_on_a_bearing(tmp_path, held, acting) -> None:
+    old = 'POINTASSIGN  "1"  "Base"  RESTRAINT "UX UY UZ RX RY RZ"'
+    text = changed(old, f'POINTASSIGN  "1"  "Base"  SPRINGPROP "S"  RESTRAINT "{held}"')
+    text = text.replace(*more('  POINTSPRING  "S"  UX 200000  UZ 300000'), 1)
+    frame = Frame.from_etabs(written(tmp_path, text), bearing_for(400e3))
+    assert [spring.stiffness for spring in frame.springs.values()] == acting * [
+        (200000e3, 0.0, 0.0, 0.0, 0.0, 0.0)
+    ]
+    assert "springs of displacements that supports hold" in str(frame.imported)
+
+
 def test_material_without_weight_is_doubted(tmp_path: Path) -> None:
     text = re.sub(r"WEIGHTPERVOLUME \S+ ", "", TEXT)
     with pytest.warns(ModelWarning) as told:
