@@ -33,7 +33,31 @@ if TYPE_CHECKING:
 RIGID_A_TURN = 3
 """Generations of vectors of rigid motions for one of the bearings' own."""
 
+LARGE = 4000
+"""Displacements of a structure, above which matrices of all its modes are out of reach."""
+
+TURNS = 5
+"""Turns of vectors that stand for all modes of a large structure."""
+
 _NEW = 1e-6  # of a vector's size: what must be left of it beside those before, to be one more
+
+
+def basis_of(system: System, geometric: SparseMatrix, damping: Damping | None) -> Basis:
+    """Change a frame to bearing coordinates and all modes; of a large one, to many vectors.
+
+    Shapes: geometric (n_free, n_free).
+    """
+    if not is_large(system):
+        return build_basis(system, geometric, damping)
+    space = RitzSpace(system, geometric, damping)
+    for _ in range(TURNS):
+        space.grow()
+    return space.basis()
+
+
+def is_large(system: System) -> bool:
+    """Return whether a structure is too large for matrices of all its modes."""
+    return len(system.dof_labels) > LARGE
 
 
 class RitzSpace:
@@ -191,7 +215,8 @@ def _factors(
     factors = positive_factors(inner)
     if factors is not None:
         return factors
-    build_basis(system, geometric, damping)  # names the culprit
+    if not is_large(system):
+        build_basis(system, geometric, damping)  # names the culprit
     message = (
         "the structure over held bearings is unstable under its permanent loads: reduce the loads "
         "or stiffen columns"

@@ -129,6 +129,7 @@ def _section(row: Row, name: str, building: Building) -> FrameSection:
         sizes = tuple(values(row, dialect.SIZES, building).values())
         found = section_by_shape(row, name, material, shape, sizes, poisson)
     else:
+        row.looked_at.update(dialect.OUTLINE)
         if abs(row.number("I23", 0.0)) > 1e-6 * max(row.number("I33"), row.number("I22")):
             what = (
                 "the product of inertia I23 of a section, whose axes 2 and 3 are not principal ones"

@@ -45,6 +45,9 @@ MATERIAL = (
 PATTERN = (*fields("kind=DesignType", "text", "Other"), *fields("self_weight=SelfWtMult"))
 _OUTER = fields("depth=t3 width=t2", "length")
 SIZES = _OUTER + fields("flange=tf web=tw", "length")
+OUTLINE = ("tf", "tw", "t2b", "tfb")
+"""Sizes that a section with constants of its own does not need."""
+
 SECTION = (
     *fields("material=Material", "text", ""),
     *fields("shape=Shape", "text", "General"),
@@ -243,7 +246,8 @@ KNOWN = {
     "": "GUID Notes Color Joint Frame Area Link Name Material Section SectionName LoadPat "
     "Length CentroidX CentroidY CentroidZ",
     "AREA LOADS": "CoordSys=GLOBAL CoordSys=Local DistType=Twoway",
-    "AREA SECTION PROPERTIES": "Arc CoordSys DrillDOF InComp MatAngle TotalMass TotalWt",
+    "AREA SECTION PROPERTIES": "Arc CoordSys DrillDOF InComp MatAngle TotalMass TotalWt "
+    "V13Mod=1 V23Mod=1",
     "AREA SECTION ASSIGNMENTS": "MatProp=Default",
     "CASE - STATIC 1": "*",
     "COMBINATION DEFINITIONS": "*",

@@ -17,8 +17,8 @@ from frames.assembly.assemble import (
     member_axial_forces,
     node_geometric_stiffness,
 )
-from frames.assembly.basis import build_basis
 from frames.assembly.nonlinear import with_axial_forces
+from frames.assembly.ritz import basis_of
 from frames.assembly.supports import load_path
 from frames.bundles.nonlinear_data import parts_arrays
 from frames.model import sanity_checks
@@ -109,7 +109,7 @@ def equilibrium_of(
     began = perf_counter()
     if like is not None and prepared.geometric is like.geometric:
         return at_rest(prepared, like.basis, 0.0, like=like)
-    basis = build_basis(prepared.system, prepared.geometric, frame.damping)
+    basis = basis_of(prepared.system, prepared.geometric, frame.damping)
     return at_rest(prepared, basis, perf_counter() - began)
 
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from frames.assembly.ritz import LARGE, is_large
 from frames.assembly.supports import held_sideways
 from frames.statics.sanity_checks import held_periods, sanity_warnings
-from lir_element.texts import html_table
+from lir_element.texts import html_table, worded
 
 if TYPE_CHECKING:
     from frames._types import FloatArray, SparseMatrix
@@ -94,7 +95,23 @@ class GravityState:
         found = sanity_warnings(self.system, self.axial_forces, self.held_periods)
         lost = self.load_path.sentence()
         beside = held_sideways(self.system, self.node_geometric, self.basis, self.axial_forces)
-        return (*([lost] if lost else []), *beside, *found)
+        return (*([lost] if lost else []), *beside, *self._vectors(), *found)
+
+    def _vectors(self) -> list[str]:
+        # What stands for all modes of a large structure.
+        if not is_large(self.system):
+            return []
+        return [
+            worded(
+                "the structure has {free} displacements, too many for all its modes: {count} "
+                "load-dependent vectors stand for them. Peaks of floor accelerations differ by "
+                "some percent, vertical ones of single nodes more. Below {most} displacements all "
+                "modes count: take a coarser mesh of walls and slabs",
+                free=len(self.displacement),
+                count=len(self.basis.omega2),
+                most=LARGE,
+            )
+        ]
 
     def __repr__(self) -> str:
         """Return sizes and axial forces on one line."""

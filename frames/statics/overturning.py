@@ -56,7 +56,7 @@ class Overturning(NamedTuple):
         )
         remedy = (
             'free rx and ry of base and floors: base_rotations="free" of an imported model, '
-            "overturning=True of a shear building"
+            "overturning=True of a shear building; untie uz of the base where constraints tie it"
         )
         return joined(held, remedy)
 

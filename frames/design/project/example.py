@@ -208,8 +208,11 @@ def _as_read(section: str, kind: str, model: Path) -> str:
                 "{ Dead = 1.0, Live = 0.25 }",
                 _shares({name: 1.0 if name in dead else 0.25 for name in cases}),
             ),
+            ('["hinges"]', "".join(re.findall(r"allow = (\[.*?\])", reasons)[-1:])),
         ):
             section = section.replace(example, found or example)
+        if any({"rx", "ry"} & {*building.restraints[name]} for name in standing(building)):
+            section = section.replace("# base_rot", "base_rot")  # overturning goes to the bearings
         counts = f"{len(building.frames)} frame objects, {len(building.areas)} areas"
         storeys = f"{len(building.stories) - 1} storeys, " if building.stories else ""
         head = f"{building.program} {building.version}: {storeys}{counts}, "

@@ -72,7 +72,7 @@ class NoCandidateError(CheckError):
             near = min(candidates, key=lambda one: (len(one.lacks), one.governing.ratio))
             said += (
                 f"; nearest: radius {near.radius:g} m, friction {near.friction.f_max:g}, where "
-                f"{'; '.join(near.lacks)}. "
+                f"{_by_reason(near.lacks)}. "
             )
             if all(NOT_EVALUATED in one for one in near.lacks):
                 said += "No bearing mends this: mend the model"
@@ -86,6 +86,18 @@ class NoCandidateError(CheckError):
             said += f": radius {first.radius:g} m, friction {first.friction:g}: {first.reason}"
         super().__init__(said)
         self.candidates, self.impossible = candidates, impossible
+
+
+def _by_reason(lacks: Sequence[str]) -> str:
+    # What is lacking; what has one reason why it was not evaluated, together.
+    found: dict[str, list[str]] = {}
+    for lack in lacks:
+        what, mark, why = lack.partition(f": {NOT_EVALUATED}")
+        found.setdefault(mark + why or lack, []).append(what)
+    return "; ".join(
+        f"{' and '.join(whats)}{why}" if why.startswith(": ") else why
+        for why, whats in found.items()
+    )
 
 
 class Place(NamedTuple):
