@@ -6,9 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
+from frames._progress_line import ProgressLine
 from frames.model.frame_data import FrameData
 from frames.motion.ground_motion import GroundMotion
-from frames.solve.progress_line import ProgressLine
 from lir_element.argument_checks import require_finite, require_type
 
 if TYPE_CHECKING:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Collection, Generator, Mapping, Sequence
 from dataclasses import dataclass
+from time import perf_counter
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from frames._errors import ModelError, argument
+from frames._progress_line import ProgressLine
+from lir_element._compile.progress import quiet
 from lir_element.argument_checks import require_choice, require_positive, require_type
 from lir_element.texts import joined, text_table, worded
 
@@ -92,6 +95,7 @@ class ImportReport:
         self.entries: list[Entry] = []
         self.groups: dict[str, tuple[str, ...]] = {}  # joints and links by group
         self.doubts: list[str] = []  # what was probably not meant, for warnings
+        self._line, self._began = ProgressLine(), perf_counter()
         self._used: set[str] = set()
         self._faults: dict[str, None] = {}  # what cannot be read, in words
         # places and names of objects that `allow` could accept, by its key and what they are
@@ -100,6 +104,13 @@ class ImportReport:
     def __str__(self) -> str:
         """Return the account as a table, for people."""
         return self.text()
+
+    def doing(self, what: str, *, ends: bool = False) -> None:
+        """Say what is being made of a file that takes long, on the standard error."""
+        elapsed = perf_counter() - self._began
+        if not quiet() and not (ends and not self._line.is_open):
+            text = f"{self.file}: {what}" + (f", {elapsed:.0f} s" if ends else "")
+            self._line.write(text, elapsed, ends=ends)
 
     def read(self, table: str, what: str, count: int) -> None:
         """Note objects that were read as they are; none is not noted."""

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
     from frames.exchange.building import Building
     from frames.exchange.geometry import Points
+    from frames.exchange.import_report import ImportReport
     from frames.exchange.mesh import Inside, Mesh
     from frames.frame import Frame
     from frames.model.frame_data import FrameData
@@ -197,7 +198,8 @@ def add_shells(frame: Frame, building: Building, mesh: Mesh) -> None:
         sides = points[numbers[1:]] - points[numbers[0]]
         key = (shell_numbers(building, building.areas[area]), *sides.round(_ALIKE).ravel().tolist())
         kinds.setdefault(key, []).append(numbers)
-    found = _matrices(ops, list(kinds), [points[alike[0]] for alike in kinds.values()])
+    corners = [points[alike[0]] for alike in kinds.values()]
+    found = _matrices(ops, list(kinds), corners, building.account)
     rows, columns, values = [], [], []
     for matrix, alike in zip(found, kinds.values(), strict=True):
         dofs = (6 * np.array(alike)[:, :, None] + np.arange(6)).reshape(len(alike), -1)
@@ -232,11 +234,14 @@ def _told(mesh: Mesh) -> list[WithoutForces]:
     return found
 
 
-def _matrices(ops: Any, keys: list[tuple[Any, ...]], corners: list[FloatArray]) -> list[FloatArray]:
+def _matrices(
+    ops: Any, keys: list[tuple[Any, ...]], corners: list[FloatArray], account: ImportReport
+) -> list[FloatArray]:
     # Stiffness of single elements, some of them in one model, each with nodes of its own.
     found: list[FloatArray] = []
     try:
         for start in range(0, len(keys), AT_ONCE):
+            account.doing(f"stiffness of {start} of {len(keys)} shapes of walls and slabs")
             ops.wipe()
             ops.model("basic", "-ndm", 3, "-ndf", 6)
             tags: list[int] = []

@@ -177,7 +177,8 @@ class Loading:
         if own:
             loads += own_loads(building, OWN_MASS, frame.gravity)
             chosen[OWN_MASS] = (1.0, OWN_MASS)
-        for load in loads:
+        for k, load in enumerate(loads):
+            building.account.doing(f"{k} of {len(loads)} loads")
             factor, case = chosen.get(load.pattern, (0.0, ""))
             if not factor:
                 continue

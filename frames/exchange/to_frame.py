@@ -58,9 +58,13 @@ def imported(
 ) -> F:
     """Return a program's model as a frame on bearings, and warn of what was probably not meant."""
     building = READERS[program](path, options)
+    building.account.doing(f"{len(building.frames)} frame objects, {len(building.areas)} areas")
     frame = kind(building.name if name is None else name)
-    with gc_paused():  # loads by the hundred thousand: a third of the time
-        devices = fill(frame, building, options)
+    try:
+        with gc_paused():  # loads by the hundred thousand: a third of the time
+            devices = fill(frame, building, options)
+    finally:
+        building.account.doing(f"{len(frame.nodes)} nodes, {len(frame.members)} members", ends=True)
     frame = frame.with_bearings(devices) if devices else frame
     building.account.groups = {
         name: tuple(label for kind, label in members if kind in {"joint", "link"})
@@ -106,6 +110,7 @@ def _filled(frame: Frame, building: Building, options: Options) -> dict[str, LIR
             "the whole model"
         )
         raise ModelError(message)
+    building.account.doing(f"mesh of {len(shells)} walls and slabs")
     inside = meet_joints(building, shells, points)
     mesh = mesh_areas(shells, points, options.mesh, inside)
     at_loads: dict[str, list[float]] = {}

@@ -6,13 +6,13 @@ import warnings
 from typing import TYPE_CHECKING, Literal
 
 from frames._errors import AuditWarning
+from frames._progress_line import share_told
 from frames.model.frame_data import FrameData
 from frames.recording.recording import recording_of
 from frames.results.findings import Findings, doubts_of, remark
 from frames.solve.analysis import PreparedFrame, analysis_of
 from frames.solve.escalation import escalate_level, mark_other_end
 from frames.solve.options import METHODS, Options, check_options, check_reduction, options_of
-from frames.solve.progress_line import share_told
 from frames.solve.recorder import Recorder
 from frames.solve.rigid import rigid_time_history
 from frames.solve.run import Run, run_one

@@ -6,9 +6,10 @@ import sys
 import numpy as np
 import pytest
 
-from frames import GroundMotion, lumped_mass, time_histories, time_history
+from frames import Frame, GroundMotion, _progress_line, lumped_mass, time_histories, time_history
+from frames._progress_line import ProgressLine
 from frames.demo import bearing_for
-from frames.solve.progress_line import ProgressLine
+from tests import etabs_models
 
 PULSE = GroundMotion(x=1.5 * np.sin(np.linspace(0.0, 6.28, 101)), dt=0.016, name="pulse")
 
@@ -54,6 +55,20 @@ def test_lines_that_stay_are_written_now_and_then(monkeypatch: pytest.MonkeyPatc
             line.write(f"at {elapsed:g} s", elapsed, ends=False)
         words = stream.getvalue().replace("\r", "\n").split("\n")
         assert [w.strip() for w in words if w.strip()] == [f"at {k * seconds:g} s" for k in (1, 2)]
+
+
+@pytest.mark.parametrize("quiet", ["", "1"])
+def test_a_long_import_says_what_it_makes(quiet, monkeypatch, tmp_path) -> None:
+    stream = Notebook()
+    monkeypatch.setenv("LIR_QUIET", quiet)
+    monkeypatch.setattr(sys, "stderr", stream)
+    monkeypatch.setattr(_progress_line, "_EVERY", (0.0, 0.0))
+    path = tmp_path / "tower.e2k"
+    path.write_text(etabs_models.building(), encoding="utf-8")
+    frame = Frame.from_etabs(path)
+    lines = stream.getvalue().split("\r")
+    assert any("loads" in line for line in lines) is not bool(quiet)
+    assert lines[-1].startswith(f"tower.e2k: {len(frame.nodes)} nodes") is not bool(quiet)
 
 
 def test_progress_is_a_function_or_true() -> None:

@@ -26,13 +26,15 @@ class ProgressLine:
 
     def __init__(self) -> None:
         self._told = 0.0
+        self.is_open = False
+        """Whether something was written that did not end."""
 
     def write(self, text: str, elapsed: float, *, ends: bool) -> None:
         """Write a text, if it ends or enough time has passed since the last one."""
         over = replaces_lines()
         if sys.stderr is None or not (ends or elapsed - self._told >= _EVERY[0 if over else 1]):
             return
-        self._told = elapsed
+        self._told, self.is_open = elapsed, not ends
         line = f"\r{text:{_WIDTH}}" if over else text
         sys.stderr.write(line + ("\n" if ends or not over else ""))
         sys.stderr.flush()
