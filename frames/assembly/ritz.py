@@ -36,8 +36,8 @@ RIGID_A_TURN = 3
 LARGE = 4000
 """Displacements of a structure, above which matrices of all its modes are out of reach."""
 
-TURNS = 5
-"""Turns of vectors that stand for all modes of a large structure."""
+VECTORS, TURNS = 150, 3
+"""Vectors, and turns of them, that stand at least for all modes of a large structure."""
 
 _NEW = 1e-6  # of a vector's size: what must be left of it beside those before, to be one more
 
@@ -50,8 +50,9 @@ def basis_of(system: System, geometric: SparseMatrix, damping: Damping | None) -
     if not is_large(system):
         return build_basis(system, geometric, damping)
     space = RitzSpace(system, geometric, damping)
-    for _ in range(TURNS):
-        space.grow()
+    count = turns = 0
+    while count < min(VECTORS, space.most) or turns < TURNS:
+        count, turns = space.grow(), turns + 1
     return space.basis()
 
 
