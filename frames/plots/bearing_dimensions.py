@@ -107,7 +107,7 @@ def _plates(
     _across(ax, outer[1], high, high + 2.0 * aside, top)
     _across(ax, outer[0], low, low - 1.4 * aside, bottom)
     at = left - 0.9 * aside
-    _upright(ax, at, low, high, f"H = {1e3 * (high - low):.0f} ", edge=left)
+    _upright(ax, at, low, high, f"H = {1e3 * (high - low):.0f}", edge=left)
     height = bearing.slider_height
     for start, end, size in (
         (low, 0.0, plates.thickness[0]),
@@ -147,8 +147,11 @@ def _upright(
     for height in (start, end):
         ax.plot([edge, at], [height, height], color=ps.GREY, linewidth=0.4)
     _arrow(ax, np.array([at, start]), np.array([at, end]))
-    side = "left" if at > edge else "right"
-    ax.text(at, 0.5 * (start + end), f" {text} ", ha=side, va="center", fontsize=ps.SMALL)
+    side, away = ("left", 4) if at > edge else ("right", -4)  # pt
+    middle = (at, 0.5 * (start + end))
+    ax.annotate(
+        text, middle, (away, 0), textcoords="offset points", ha=side, va="center", fontsize=ps.SMALL
+    )
 
 
 def _arrow(ax: Axes, start: FloatArray, end: FloatArray) -> None:

@@ -14,7 +14,7 @@ from frames.model.laws import Bilinear, BoucWen, Gap, HertzGap, Tie, ViscousDamp
 from frames.plots import plot_style as ps
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Sequence
 
     from frames._types import FloatArray
     from frames.assembly.system import MemberTable, System
@@ -67,10 +67,10 @@ def shell_corners(model: FrameData, names: Sequence[str]) -> list[list[int]]:
     return found
 
 
-def element_ends(model: FrameData, index: Mapping[str, int]) -> list[tuple[int, int]]:
-    """Return the places of both nodes of each line element of the superelements."""
-    parts = model.superelements.values()
-    return [(index[i], index[j]) for part in parts for i, j in part.elements.nodes]
+def beam_ends(model: FrameData) -> list[tuple[str, str]]:
+    """Return the nodes of each member but arms, and of each line element of superelements."""
+    ends = [(m.i, m.j) for name, m in model.members.items() if not name.startswith(ARM)]
+    return ends + [each for part in model.superelements.values() for each in part.elements.nodes]
 
 
 def wall_faces(model: FrameData) -> list[list[str]]:
@@ -85,9 +85,7 @@ def wall_faces(model: FrameData) -> list[list[str]]:
 
 def diaphragm_faces(model: FrameData) -> list[list[str]]:
     """Return the fields that beams enclose within each diaphragm."""
-    beams = [(m.i, m.j) for name, m in model.members.items() if not name.startswith(ARM)]
-    beams += [ends for part in model.superelements.values() for ends in part.elements.nodes]
-    found = []
+    beams, found = beam_ends(model), []
     for diaphragm in model.diaphragms.values():
         around: dict[str, set[str]] = {node: set() for node in diaphragm.nodes}
         for one, other in beams:

@@ -18,7 +18,6 @@ from frames.plots.model_geometry import (
     HINGES,
     diaphragm_faces,
     draw_links,
-    element_ends,
     hinge_places,
     member_lines,
     part_handles,
@@ -293,7 +292,8 @@ def _parts(
     lines = member_lines(system.members, system.coordinates, u)
     colour = AT_REST if plain else MEMBERS
     drawn = []
-    every = [*lines, *(place[list(ends)] for ends in element_ends(model, index))]
+    elements = [pair for part in model.superelements.values() for pair in part.elements.nodes]
+    every = [*lines, *(place[[index[one] for one in pair]] for pair in elements)]
     if every:
         bars = Line3DCollection(every, colors=colour, linewidths=0.7 if plain else 1.2)
         drawn.append(panel.add_collection3d(bars))

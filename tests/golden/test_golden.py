@@ -151,8 +151,8 @@ CHANGED = {  # file, what is changed, to what, in which category it is seen, and
         ),
         (
             "bearings.csv",
-            r"^bearing-1-1,heavy",
-            "bearing-1-1,standard",
+            r"^(bearing-1-1,\d+,[A-Z]-\d+,)heavy",
+            r"\1standard",
             "table of bearings",
             "bearing-1-1 type",
         ),

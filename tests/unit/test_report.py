@@ -348,7 +348,7 @@ def test_pages_for_supplier_tester_and_owner(results: Path, page: str) -> None:
     assert sorted(places) == ["A-1", "A-2", "B-1", "B-2"]
     assert places[places.index.max()] == "B-2"
     part = section(page, "specification")
-    assert f"{given['mass of the bearing']:.0f} kg pass" in part
+    assert f"its {given['mass of the bearing']:.0f} kg." in part
     assert columns(part, "standard")["lift [mm]"] == f"{1e3 * replaced['lift [m]']:.4g}"
     assert section(page, "tender").count("<img") == 2
 

@@ -122,9 +122,6 @@ VALUES = {
         "NTC 2018 11.9.8", "friction of each cycle within 25 % of that of the third", NTC_SLIDERS
     ),
     "stable": CodeValue("EN 15129 8.3.4", "the bearing stays stable"),
-    "number of specimens": CodeValue(
-        "EN 15129 8.3.4", "two full-size specimens of each type and size"
-    ),
 }
 """By name; of what no text was compared it is from memory."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -13,7 +12,8 @@ from frames.design.codes.bounds import ENDS
 from frames.design.codes.isolation import with_property_bounds
 from frames.design.codes.prototype_programme import PlannedTest
 from frames.design.devices.bearing_numbers import enter_bearing
-from frames.design.devices.plates import Make, made
+from frames.design.devices.limits import PROPOSED_LIMIT
+from frames.design.devices.plates import PLATE_SHARE, YIELD_STRESS, Make, made
 from frames.design.histories.demand_table import largest_of_bounds
 from frames.design.histories.eccentricity import levels_of
 from frames.design.histories.suite import peaks_of_runs
@@ -35,9 +35,6 @@ LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"
 CLEARANCE = 0.005
 """By which a bearing is free when it is drawn out [m], a proposal."""
 
-JACK_RESERVE = 1.5
-"""Capacity of jacks over the force that lifts, a proposal."""
-
 _SAME_LINE = 0.10  # m: places that near are on one axis
 
 
@@ -53,19 +50,13 @@ def axes_along(places: Sequence[float], letters: bool) -> tuple[list[Axis], list
 
     Places that follow each other by less than 100 mm are on one axis, at their mean.
     """
-    order = sorted(range(len(places)), key=lambda k: places[k])
-    groups = [[order[0]]]
-    for before, k in pairwise(order):
-        if places[k] - places[before] > _SAME_LINE:
-            groups.append([])
-        groups[-1].append(k)
-    axes, names = [], [""] * len(places)
-    for n, group in enumerate(groups):
-        name = lettered(n) if letters else str(n + 1)
-        axes.append(Axis(name, sum(places[k] for k in group) / len(group)))
-        for k in group:
-            names[k] = name
-    return axes, names
+    at, order = np.sort(places), np.argsort(places)
+    group = np.empty(len(order), dtype=int)
+    group[order] = np.cumsum(np.diff(at, prepend=at[0]) > _SAME_LINE)
+    middles = np.bincount(group, places) / np.bincount(group)
+    names = [lettered(n) if letters else str(n + 1) for n in range(len(middles))]
+    axes = [Axis(name, float(middle)) for name, middle in zip(names, middles, strict=True)]
+    return axes, [names[n] for n in group]
 
 
 def lettered(n: int) -> str:
@@ -95,18 +86,29 @@ class OfType(NamedTuple):
 def types_of(run: ProjectRun) -> list[OfType]:
     """Return the types of a project's bearings."""
     names, found = list(run.frame.bearings), []
-    forces = np.nanmax([peaks_of_runs(d, "rim_force").max(axis=0) for d in run.runs.parts], axis=0)
     for name, kind in run.types.items():
         places = [names.index(one) for one in kind.columns]
         make = made(
             kind.bearing,
             run.limits,
-            displacement=run.equivalent.allowed_displacement,
-            rim_force=float(forces[places].max()),
+            displacement=_to_allow(run, places),
+            rim_force=_reached(run, "rim_force", places),
             rim_width=run.rim_width,
         )
         found.append(OfType(name, kind.bearing, places, make))
     return found
+
+
+def _to_allow(run: ProjectRun, places: list[int]) -> float:
+    # By the equivalent-linear analysis and by the time histories of all levels [m].
+    found = [largest_of_bounds(each, "displacement") for each in levels_of(run.cases).values()]
+    reached = float(np.fmax.reduce(np.array(found)[:, places], axis=None))
+    return float(np.fmax(run.equivalent.allowed_displacement, reached))
+
+
+def _reached(run: ProjectRun, name: str, places: list[int]) -> float:
+    # The largest of any run; NaN where a run did not keep it.
+    return float(np.max([peaks_of_runs(d, name)[:, places].max() for d in run.runs.parts]))
 
 
 def schedule(run: ProjectRun) -> pd.DataFrame:
@@ -119,6 +121,7 @@ def schedule(run: ProjectRun) -> pd.DataFrame:
         units |= {title: unit for title, unit, _ in rows}
         columns[one.name] = {title: value for title, _, value in rows}
     table = pd.DataFrame(columns, index=pd.Index(list(units), name="of the bearings"))
+    table = table.replace(math.inf, math.nan)
     table.insert(0, "unit", list(units.values()))
     return table
 
@@ -130,7 +133,7 @@ Row = tuple[str, str, float]
 def _made(one: OfType) -> list[Row]:
     bearing, make = one.bearing, one.make
     faces = [2.0 * rim_face(bearing, k) for k in (0, 1)]
-    rows = [
+    return [
         ("number of bearings", "-", float(len(one.places))),
         ("outside diameter, bottom plate", "m", make.diameters[0]),
         ("outside diameter, top plate", "m", make.diameters[1]),
@@ -148,7 +151,6 @@ def _made(one: OfType) -> list[Row]:
         ("mass of the slider", "kg", make.sliders),
         ("mass of the bearing", "kg", make.mass),
     ]
-    return [(title, unit, v if math.isfinite(v) else math.nan) for title, unit, v in rows]
 
 
 def _loaded(run: ProjectRun, one: OfType) -> list[Row]:
@@ -160,37 +162,28 @@ def _loaded(run: ProjectRun, one: OfType) -> list[Row]:
         ("permanent load, largest bearing", "N", max(loads)),
         ("largest load with the earthquake", "N", most),
         ("least load with the earthquake that presses", "N", least),
-        ("largest uplift of any run", "m", _uplift(run, one.places)),
+        ("largest uplift of any run", "m", _reached(run, "gap", one.places)),
     ]
-
-
-def _uplift(run: ProjectRun, places: list[int]) -> float:
-    # 0 where nothing lifts off, NaN where a run did not keep its gap.
-    gaps = []
-    for data in run.runs.parts:
-        lifted = peaks_of_runs(data, "time_lifted")[:, places] > 0.0
-        gaps.append(np.where(lifted, peaks_of_runs(data, "gap")[:, places], 0.0).max())
-    return float(max(gaps)) if not np.isnan(gaps).any() else math.nan
 
 
 def _moved(run: ProjectRun, one: OfType) -> list[Row]:
     bearing, rows = one.bearing, []
-    several = len(run.rules.levels) > 1
-    for level, cases in levels_of(run.cases).items():
+    levels = levels_of(run.cases)
+    for level, cases in levels.items():
         title = "displacement, time histories"
-        title = worded("{what}, level {level}", what=title, level=level) if several else title
+        if len(levels) > 1:
+            title = worded("{what}, level {level}", what=title, level=level)
         values = largest_of_bounds(cases, "displacement")[one.places]
-        rows.append((title, "m", float(np.nanmax(values))))
-    allowed, rim = run.equivalent.allowed_displacement, bearing.lateral_capacity
-    slip = max(peaks_of_runs(d, "slip")[:, one.places].max() for d in run.runs.parts)
-    turn = math.asin(min(min(allowed, rim) / bearing.effective_radius, 1.0))
+        rows.append((title, "m", float(np.fmax.reduce(values))))
+    rim = bearing.lateral_capacity
+    turn = min(_to_allow(run, one.places), rim) / bearing.effective_radius
     return [
         *rows,
-        ("displacement to allow, equivalent-linear", "m", allowed),
-        ("displacement at which a rim is met", "m", rim if math.isfinite(rim) else math.nan),
-        ("largest interface slip of any run", "m", float(slip)),
+        ("displacement to allow, equivalent-linear", "m", run.equivalent.allowed_displacement),
+        ("displacement at which a rim is met", "m", rim),
+        ("largest interface slip of any run", "m", _reached(run, "slip", one.places)),
         ("interface slip at the end of the overlap", "m", bearing.resolved()["slip_capacity"]),
-        ("rotation of the slider", "rad", turn),
+        ("rotation of the slider", "rad", math.asin(min(turn, 1.0))),
         ("rotation between the plates, governing run", "rad", _rotation(run, one.places)),
     ]
 
@@ -220,52 +213,37 @@ def _looped(run: ProjectRun, one: OfType) -> list[Row]:
     return rows
 
 
+_RIG = {
+    "largest vertical load [N]": ("vertical load [N]", "max"),
+    "least vertical load [N]": ("vertical load [N]", "min"),
+    "largest lateral force [N]": ("largest force [N]", "max"),
+    "stroke, each way [m]": ("displacement [m]", "max"),
+    "largest speed [m/s]": ("peak speed [m/s]", "max"),
+}
+
+
 def rig(programme: pd.DataFrame) -> pd.DataFrame:
     """Return what a rig must reach for each kind of bearing, and how many are tested."""
-    rows = {}
-    for kind, tests in programme.groupby("bearings", sort=False):
-        energy = tests["cycles"] * tests["EDC, upper [J]"]
-        rows[str(kind)] = {
-            "prototypes": SPECIMENS,
-            "largest vertical load [N]": tests["vertical load [N]"].max(),
-            "least vertical load [N]": tests["vertical load [N]"].min(),
-            "largest lateral force [N]": tests["largest force [N]"].max(),
-            "stroke, each way [m]": tests["displacement [m]"].max(),
-            "largest speed [m/s]": tests["peak speed [m/s]"].max(),
-            "most cycles": tests["cycles"].max(),
-            "most energy of a test [J]": energy.max(),
-        }
-    table = pd.DataFrame.from_dict(rows, orient="index")
-    table.index.name = "bearings to test"
+    table = programme.groupby("bearings", sort=False).agg(**_RIG).rename_axis("bearings to test")
+    table.insert(0, "prototypes", SPECIMENS)
     return table
 
 
 def replacement(run: ProjectRun) -> pd.DataFrame:
     """Return what takes a bearing of each type out, and when it is to be centred again."""
-    stiffness = list(lifting_stiffness(run.frame).values())
+    loads, stiffness = np.array(run.loads), np.array(list(lifting_stiffness(run.frame).values()))
     rows = {}
     for one in types_of(run):
-        axial = one.bearing.resolved()["axial_stiffness"]
-        lifts = [run.loads[k] / axial + CLEARANCE for k in one.places]
-        forces = [
-            run.loads[k] + stiffness[k] * lift for k, lift in zip(one.places, lifts, strict=True)
-        ]
+        own = loads[one.places]
+        lifts = own / one.bearing.resolved()["axial_stiffness"] + CLEARANCE
         rows[one.name] = {
-            "largest permanent load [N]": max(run.loads[k] for k in one.places),
-            "lift [m]": max(lifts),
-            "jacking force [N]": max(forces),
-            "capacity of the jacks [N]": JACK_RESERVE * max(forces),
-            "residual slip, largest of any run [m]": _left(run, one.places),
+            "largest permanent load [N]": own.max(),
+            "lift [m]": lifts.max(),
+            "jacking force [N]": (own + stiffness[one.places] * lifts).max(),
+            "residual slip, largest of any run [m]": _reached(run, "slip_left", one.places),
             "residual slip that may stay [m]": _may_stay(run, one),
         }
-    table = pd.DataFrame.from_dict(rows, orient="index")
-    table.index.name = "type to replace"
-    return table
-
-
-def _left(run: ProjectRun, places: list[int]) -> float:
-    each = [peaks_of_runs(data, "slip_left")[:, places] for data in run.runs.parts]
-    return float(max(values.max() for values in each))
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("type to replace")
 
 
 def _may_stay(run: ProjectRun, one: OfType) -> float:
@@ -277,56 +255,28 @@ def _may_stay(run: ProjectRun, one: OfType) -> float:
     return left if run.limits.slip_left is None else min(left, run.limits.slip_left)
 
 
-class Care(NamedTuple):
-    """Numbers of the specification for use, in mm, kN and kg as text."""
-
-    clearance: str  # horizontal, all around
-    rise: str  # of the structure at that displacement
-    diameter: str  # of the largest piece to be moved
-    height: str
-    mass: str
-    moat: str  # clear distance of the project, empty without
-    free: str  # clearance of a bearing that is drawn out
-
-
-def care(run: ProjectRun) -> Care:
-    """Return the numbers of the specification for use."""
-    kinds = types_of(run)
-    reached = [
-        float(np.nanmax(largest_of_bounds(cases, "displacement")))
-        for cases in levels_of(run.cases).values()
-    ]
-    clearance = max(run.equivalent.allowed_displacement, *reached)
+def texts(run: ProjectRun) -> dict[str, str]:
+    """Return what the texts for supplier and owner name: lengths in mm, masses in kg, clauses."""
+    kinds, gap = types_of(run), run.limits.moat_gap
+    clearance = max(_to_allow(run, one.places) for one in kinds)
     shortest = min(one.bearing.effective_radius for one in kinds)
-    rise = shortest - math.sqrt(shortest**2 - min(clearance, shortest) ** 2)
-    gap = run.limits.moat_gap
-    return Care(
-        clearance=_mm(clearance),
-        rise=_mm(rise),
-        diameter=_mm(max(max(one.make.diameters) for one in kinds)),
-        height=_mm(max(one.make.height for one in kinds)),
-        mass=f"{max(one.make.mass for one in kinds):.0f}",
-        moat="" if gap is None else _mm(gap),
-        free=_mm(CLEARANCE),
-    )
-
-
-def _mm(length: float) -> str:
-    return f"{1e3 * length:.0f}"
-
-
-def proposals(run: ProjectRun) -> str:
-    """Return which dimensions are proportioned here, in words; empty if all are given."""
-    found = dict.fromkeys(what for one in types_of(run) for what in one.make.proposed)
-    return joined(*found, by=", ")
-
-
-def void_said(run: ProjectRun) -> str:
-    """Return why numbers of time histories are none for design; empty if they are."""
-    why = joined(*dict.fromkeys(each.asked.void for each in run.types.values() if each.asked.void))
-    return worded("no values for design: {why}", why=why) if why else ""
-
-
-def code_periods(run: ProjectRun) -> list[tuple[str, str]]:
-    """Return the effective period of the code at each bound, in s."""
-    return [(name, f"{each.period:.3g}") for name, each in run.equivalent.bounds.items()]
+    lengths = {
+        "clearance": clearance,  # horizontal, all around
+        "rise": shortest - math.sqrt(shortest**2 - min(clearance, shortest) ** 2),
+        "diameter": max(max(one.make.diameters) for one in kinds),  # of the largest piece
+        "height": max(one.make.height for one in kinds),
+        "free": CLEARANCE,
+    }
+    void = joined(*dict.fromkeys(each.asked.void for each in run.types.values() if each.asked.void))
+    return {name: f"{1e3 * length:.0f}" for name, length in lengths.items()} | {
+        "moat": "" if gap is None else f"{1e3 * gap:.0f}",
+        "mass": f"{max(one.make.mass for one in kinds):.0f}",
+        "void": worded("no values for design: {why}", why=void) if void else "",
+        # dimensions that are proportioned here
+        "proposals": joined(*dict.fromkeys(w for one in kinds for w in one.make.proposed), by=", "),
+        "stress": f"{1e-6 * YIELD_STRESS:.0f}",
+        "share": f"{PLATE_SHARE:g}",
+        "clause": next(
+            (p.clause for p in run.provisions if "inspection" in p.what), PROPOSED_LIMIT
+        ),
+    }

@@ -9,9 +9,8 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from frames.design.report.tender import grid_of, types_of
-from frames.library.building import ARM
 from frames.plots import plot_style as ps
-from frames.plots.model_geometry import shell_corners
+from frames.plots.model_geometry import beam_ends, shell_corners, wall_faces
 from lir_element.texts import worded
 
 if TYPE_CHECKING:
@@ -27,6 +26,13 @@ if TYPE_CHECKING:
 _MARKS = "osD^vPX*"
 _BUBBLE = 0.11  # inch: radius of an axis's circle
 _TALLEST = 8.0  # inch
+_LINE: dict[str, Any] = {
+    "color": ps.GREY,
+    "linewidth": 0.6,
+    "linestyle": (0, (8, 2, 1, 2)),
+    "zorder": 1,
+}
+_CIRCLE = {"boxstyle": "circle,pad=0.25", "facecolor": "white", "linewidth": 0.7}
 
 
 def tender_plan(run: ProjectRun) -> Figure:
@@ -36,31 +42,30 @@ def tender_plan(run: ProjectRun) -> Figure:
     spots = np.array([(node.x, node.y) for node in nodes])
     extent = np.ptp(spots, axis=0)
     # metres an inch; margins hold the axes' circles and distances
-    room = ps.PAGE_WIDTH - 1.4
-    scale = max(extent[0] / room, extent[1] / (_TALLEST - 2.0), 0.5)
-    tall = max(extent[1] / scale + 2.0, 2.8)
-    figure = ps.new_figure(tall)
+    scale = max(extent[0] / (ps.PAGE_WIDTH - 1.4), extent[1] / (_TALLEST - 2.0), 0.5)
+    figure = ps.new_figure(max(extent[1] / scale + 2.0, 2.8))
     panel = ps.grid_of(figure, 1, 1)[0][0]
     low, high = spots.min(axis=0) - 0.35 * scale, spots.max(axis=0) + 0.35 * scale
     _walls(panel, run.frame)
-    _axes(panel, across_x, (low[1], high[1]), scale, upright=True)
-    _axes(panel, across_y, (low[0], high[0]), scale, upright=False)
+    top = _axes(panel, across_x, (low[1], high[1]), scale, upright=True)
+    left = _axes(panel, across_y, (high[0], low[0]), scale, upright=False)
     handles = []
     for k, one in enumerate(types_of(run)):
         look: dict[str, Any] = {
             "marker": _MARKS[k % len(_MARKS)],
             "color": ps.PALETTE[k % len(ps.PALETTE)],
+            "linestyle": "",
+            "markersize": 7.0,
         }
-        panel.plot(*spots[one.places].T, linestyle="", markersize=7.0, zorder=3, **look)
+        panel.plot(*spots[one.places].T, zorder=3, **look)
         label = worded("{name}: {count}", name=one.name, count=len(one.places))
-        handles.append(Line2D([], [], linestyle="", markersize=7.0, label=label, **look))
+        handles.append(Line2D([], [], label=label, **look))
+    small: dict[str, Any] = {"textcoords": "offset points", "fontsize": ps.SMALL, "zorder": 4}
     for n, spot in enumerate(spots, start=1):
-        panel.annotate(
-            str(n), spot, (5, 5), textcoords="offset points", fontsize=ps.SMALL, zorder=4
-        )
+        panel.annotate(str(n), spot, (5, 5), **small)
     panel.set_aspect("equal")
-    panel.set_xlim(low[0] - 0.75 * scale, high[0] + 0.15 * scale)
-    panel.set_ylim(low[1] - 0.15 * scale, high[1] + 0.75 * scale)
+    panel.set_xlim(left, high[0] + 0.15 * scale)
+    panel.set_ylim(low[1] - 0.15 * scale, top)
     panel.set_axis_off()
     ps.add_legend(figure, handles, title="Types and numbers of bearings; distances of axes in m")
     return figure
@@ -68,65 +73,38 @@ def tender_plan(run: ProjectRun) -> Figure:
 
 def _axes(
     panel: Axes, axes: Sequence[Axis], reach: tuple[float, float], scale: float, *, upright: bool
-) -> None:
-    # Lines with circles at the upper or the left end; a circle that has no room stands farther out.
-    style: dict[str, Any] = {
-        "color": ps.GREY,
-        "linewidth": 0.6,
-        "linestyle": (0, (8, 2, 1, 2)),
-        "zorder": 1,
-    }
-    before, out = -np.inf, False
-    sign, start, end = (1.0, *reach) if upright else (-1.0, *reach[::-1])
+) -> float:
+    # Lines with circles at the upper or the left end, in as many rows as keep circles apart.
+    # Returns how far these go.
+    turn = slice(None, None, 1 if upright else -1)
+    (start, end), out = reach, scale if upright else -scale
+    look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": ps.SMALL}
+    rows: list[float] = []  # place of the last circle of each
     for axis in axes:
-        out = axis.at - before < 2.2 * _BUBBLE * scale and not out
-        before = axis.at
-        at = end + sign * ((0.55 if out else 0.25) * scale)
-        line = np.array([[axis.at, start], [axis.at, at - sign * _BUBBLE * scale]])
-        panel.plot(*(line.T if upright else line.T[::-1]), **style)
-        place = (axis.at, at) if upright else (at, axis.at)
-        circle: dict[str, Any] = {
-            "boxstyle": "circle,pad=0.25",
-            "facecolor": "white",
-            "linewidth": 0.7,
-        }
-        panel.text(
-            *place, axis.name, ha="center", va="center", fontsize=ps.SMALL, bbox=circle, zorder=4
-        )
+        near = axis.at - 2.2 * _BUBBLE * scale
+        row = next((k for k, last in enumerate(rows) if last < near), len(rows))
+        rows[row : row + 1] = [axis.at]
+        at = end + (0.25 + 0.3 * row) * out
+        panel.plot(*((axis.at, axis.at), (start, at - _BUBBLE * out))[turn], **_LINE)
+        panel.text(*(axis.at, at)[turn], axis.name, bbox=_CIRCLE, zorder=4, **look)
     for one, other in pairwise(axes):
-        middle, apart = 0.5 * (one.at + other.at), other.at - one.at
-        if apart > 0.35 * scale:
-            place = (middle, end) if upright else (end, middle)
-            text = f"{apart:.2f}"
-            turned = 0 if upright else 90
-            panel.text(
-                *place,
-                text,
-                ha="center",
-                va="center",
-                fontsize=ps.SMALL,
-                rotation=turned,
-                color=ps.GREY,
-            )
+        if other.at - one.at > 0.35 * scale:
+            place, text = (0.5 * (one.at + other.at), end)[turn], f"{other.at - one.at:.2f}"
+            panel.text(*place, text, rotation=0 if upright else 90, color=ps.GREY, **look)
+    return end + (0.15 + 0.3 * len(rows)) * out
 
 
 def _walls(panel: Axes, frame: Frame) -> None:
     # Beams of the level above the bearings as thin lines, walls on it as thick ones.
-    nodes, above = frame.nodes, {link.j for link in frame.bearings.values()}
-    level = {name for one in frame.levels if above & {*one.nodes} for name in one.nodes} | above
-    ends = [((m.i, m.j), name) for name, m in frame.members.items()]
-    for part in frame.superelements.values():
-        ends += [(own, "") for own in part.elements.nodes]
-    for (i, j), name in ends:
-        wall = name.startswith(ARM)
-        if (wall and {i, j} & level) or {i, j} <= level:
-            x, y = ([getattr(nodes[end], axis) for end in (i, j)] for axis in "xy")
-            panel.plot(
-                x, y, color="#BBBBBB", linewidth=4.0 if wall else 0.8, zorder=2 if wall else 0
-            )
-    names = tuple(nodes)
-    for corners in shell_corners(frame, names):
-        foot = [nodes[names[k]] for k in corners if names[k] in level]
-        if len(foot) == 2 and foot[0].z == foot[1].z:
-            x, y = [node.x for node in foot], [node.y for node in foot]
-            panel.plot(x, y, color="#BBBBBB", linewidth=4.0, zorder=2)
+    nodes, names = frame.nodes, tuple(frame.nodes)
+    above = {link.j for link in frame.bearings.values()}
+    level = above.union(*(one.nodes for one in frame.levels if above & {*one.nodes}))
+    shells = [[names[k] for k in corners] for corners in shell_corners(frame, names)]
+    feet = ([one for one in face if one in level] for face in (*wall_faces(frame), *shells))
+    lines: list[tuple[Sequence[str], float]] = [
+        *((ends, 0.8) for ends in beam_ends(frame) if {*ends} <= level),
+        *((foot, 4.0) for foot in feet if len(foot) == 2),
+    ]
+    for ends, width in lines:
+        x, y = ([getattr(nodes[end], axis) for end in ends] for axis in "xy")
+        panel.plot(x, y, color="#BBBBBB", linewidth=width, zorder=0.5 * width)

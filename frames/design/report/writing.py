@@ -10,7 +10,6 @@ import pandas as pd
 from frames.design.calculation.standing import FROM_MEMORY, LEGEND, standing_of
 from frames.design.codes.code_values import left_to_the_engineer
 from frames.design.codes.registry import code_named
-from frames.design.devices.plates import PLATE_SHARE, YIELD_STRESS
 from frames.design.histories.demand_table import largest_of_links, tables_of_levels
 from frames.design.report.cover import (
     cover_of,
@@ -33,13 +32,7 @@ from frames.design.report.result_tables import (
     model_table,
 )
 from frames.design.report.tables import in_mm_and_kn, in_parts
-from frames.design.report.tender import (
-    JACK_RESERVE,
-    care,
-    code_periods,
-    proposals,
-    void_said,
-)
+from frames.design.report.tender import texts
 from frames.design.testing.expected import LOOPS
 from frames.design.testing.programme import OWN_RULES, OWN_SPECIMENS
 from frames.results.findings import findings_of
@@ -47,7 +40,7 @@ from frames.results.quantities import JUDGED
 from lir_element.texts import joined, keeping_texts, worded
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     from frames.design.codes.registry import DesignCode
     from frames.design.project.design_run import ProjectRun
@@ -93,6 +86,7 @@ def report_in(
 ) -> str:
     """Return the page of `report_html` in a language; `words` then knows what it lacked."""
     device = next(iter(run.frame.bearings.values())).bearing
+    code = code_named(run.equivalent.code)
     attrs, drawn = run.governing.attrs, {}
     if figures:
         from frames.design.report.figures import pictures  # with matplotlib
@@ -102,6 +96,10 @@ def report_in(
     def fit(table: Table, keep: int = 1) -> list[Table]:
         return in_parts(words.table(table), keep=keep)
 
+    def of(name: str, head: str, keep: int = 1) -> list[Table]:
+        return fit(page_table(in_mm_and_kn(tables.get(name, pd.DataFrame())), head), keep)
+
+    tests = _programme(tables["programme"])
     return page_template("report.html.j2", words=words).render(
         language=words.language,
         name=run.frame.name,
@@ -134,19 +132,24 @@ def report_in(
         devices=[
             (kind, words.table(device_table(one))) for kind, one in devices_by_type(run).items()
         ],
-        schedule=fit(page_table(in_mm_and_kn(tables["bearings"]), "bearing")),
+        reached=of("bearings", "bearing"),
         friction=words.table(_friction(tables["friction"])),
-        modes=fit(page_table(tables["modes"], "mode")),
-        code_periods=code_periods(run),
+        modes=of("modes", "mode"),
         centres=fit(page_table(tables["centres"], "level")),
-        tender=_tender(run, tables, fit),
+        tender=texts(run),
+        specimens=code.values.get("number of specimens", OWN_SPECIMENS),
+        by_type=of("schedule", "of the bearings", 2),
+        places=fit(_places(tables["bearings"])),
+        rig=of("rig", "bearings to test"),
+        replacement=of("replacement", "type to replace"),
         links=fit(_links(tables.get(LINKS, pd.DataFrame()))),
         untold=words.table(page_table(tables.get(WITHOUT_FORCES, pd.DataFrame()), "kind")),
-        members=fit(page_table(tables.get("member-groups", pd.DataFrame()), "members"), keep=3),
+        members=of("member-groups", "members", 3),
         foundation=fit(foundation_table(tables, run.rules.bearing_level), keep=2),
         uplift=fit(_uplift(tables.get(COMBINED[2], pd.DataFrame()))),
-        programme=fit(_programme(tables["programme"])),
-        accepted=words.table(_accepted(code_named(run.equivalent.code), tables["programme"])),
+        programme=fit(page_table(tests.drop(columns=_LOOPS), "test")),
+        loops=fit(page_table(tests[_LOOPS], "test")),
+        accepted=words.table(_accepted(code, tables["programme"])),
         of_tests=_notes(tables["programme"]),
         motions=fit(page_table(run.motions.table().rename(columns=_named), "motion")),
         equivalent=fit(Table(run.equivalent.head(), run.equivalent.rows())),
@@ -166,37 +169,6 @@ def report_in(
         source=source,
         options=(attrs["level"], attrs["integrator"], attrs["step_control"]),
     )
-
-
-def _tender(
-    run: ProjectRun, tables: Mapping[str, pd.DataFrame], fit: Callable[..., list[Table]]
-) -> dict[str, object]:
-    # What the pages for supplier, tester and owner have.
-    code = code_named(run.equivalent.code)
-    bearings = in_mm_and_kn(tables["bearings"])
-    places = bearings[[name for name in bearings if str(name) in PLACES]]
-    tests = tables["programme"]
-    named = [worded("{k} {name}", k=k, name=name) for k, name in tests["what"].items()]
-    loops = in_mm_and_kn(tests[list(LOOPS)].set_index(pd.Index(named, dtype=object)))
-    return {
-        "schedule": fit(page_table(tables["schedule"], "of the bearings"), 2),
-        "places": fit(page_table(places, "bearing")),
-        "loops": fit(page_table(loops, "test")),
-        "rig": fit(page_table(in_mm_and_kn(tables["rig"]), "bearings to test")),
-        "replacement": fit(page_table(in_mm_and_kn(tables["replacement"]), "type to replace")),
-        "void": void_said(run),
-        "proposals": proposals(run),
-        "stress": f"{1e-6 * YIELD_STRESS:.0f}",
-        "share": f"{PLATE_SHARE:g}",
-        "reserve": f"{JACK_RESERVE:g}",
-        "specimens": code.values.get("number of specimens", OWN_SPECIMENS),
-        "clause": next((p.clause for p in run.provisions if "replacement" in p.what), code.name),
-        "care": care(run),
-    }
-
-
-PLACES = ("number", "axes", "type", "x [m]", "y [m]", "average load [kN]")
-"""Columns of bearings of the table of their places."""
 
 
 def _words(run: ProjectRun, language: str) -> Words:
@@ -298,19 +270,28 @@ def _uplift(table: pd.DataFrame) -> Table:
     return page_table(in_mm_and_kn(shown), "bearing that lifts")
 
 
-def _programme(tests: pd.DataFrame) -> Table:
+def _places(bearings: pd.DataFrame) -> Table:
+    kept = ["number", "axes", *(["type"] if "type" in bearings else [])]
+    return page_table(
+        in_mm_and_kn(bearings[[*kept, "x [m]", "y [m]", "average load [N]"]]), "bearing"
+    )
+
+
+_LOOPS = list(in_mm_and_kn(pd.DataFrame(columns=LOOPS, dtype=float)))
+
+
+def _programme(tests: pd.DataFrame) -> pd.DataFrame:
     # Clauses with a star where they are from memory; kinds of bearings where there are several.
     cited = [
         standing_of(said).cited(clause)
         for clause, said in zip(tests["clause"], tests["standing"], strict=True)
     ]
     names = [worded("{k} {name}", k=k, name=name) for k, name in tests["what"].items()]
-    named = pd.Index(names, dtype=object)
-    left_out = ["standing", "note", "what", "shows", "accepted if", *LOOPS]
-    shown = tests.assign(clause=cited).drop(columns=left_out).set_index(named)
+    left_out = ["standing", "note", "what", "shows", "accepted if"]
+    shown = tests.assign(clause=cited).drop(columns=left_out)
     if shown["bearings"].nunique() == 1:
         shown = shown.drop(columns="bearings")
-    return page_table(in_mm_and_kn(shown), "test")
+    return in_mm_and_kn(shown.set_index(pd.Index(names, dtype=object)))
 
 
 def _accepted(code: DesignCode, tests: pd.DataFrame) -> Table:
