@@ -9,7 +9,7 @@ import numpy as np
 
 from frames.plots import plot_style as ps
 from frames.plots.bearing_drawing import draw_section
-from frames.plots.bearing_geometry import Plates, Posture, outlines, rim_face
+from frames.plots.bearing_geometry import AT_REST, Plates, outlines, rim_face
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -49,43 +49,31 @@ def bearing_dimensions(
     ...                      friction=CoulombFriction(0.066), interface_friction=0.126)
     >>> figure = bearing_dimensions(bearing)
     """
-    rest = Posture(axis=np.array([0.0, 1.0]), plate_axis=np.array([0.0, 1.0]), slip=0.0)
-    bodies = outlines(bearing, rest, reach, plates)
+    bodies = outlines(bearing, AT_REST, reach, plates)
     corners = np.vstack(list(bodies.values()))
     (left, low), (right, high) = corners.min(axis=0), corners.max(axis=0)
     width = right - left
     aside = _MARGIN * width
-    left_of, above = (1.6 * aside, 0.8 * aside) if plates else (0.5 * aside, 0.0)
-    below = above
-    share = (high - low + 2.4 * aside + above + below) / (width + 1.1 * aside + left_of)
+    left_of, more = (1.6 * aside, 0.8 * aside) if plates else (0.5 * aside, 0.0)
+    share = (high - low + 2.4 * aside + 2.0 * more) / (width + 1.1 * aside + left_of)
     figure = ps.new_figure(min(0.7 + share * ps.PAGE_WIDTH, 7.0))
     ax = figure.subplots()
-    draw_section(ax, bearing, rest, reach=reach, plates=plates)
+    draw_section(ax, bearing, AT_REST, reach=reach, plates=plates)
     a, height = bearing.slider_radius, bearing.slider_height
     _across(ax, a, height, high + 0.4 * aside, worded("slider ø {size:.0f}", size=2e3 * a))
     faces = [rim_face(bearing, k) for k in (0, 1)]
     if all(map(math.isfinite, faces)):
-        _across(
-            ax,
-            faces[1],
-            height,
-            high + 1.2 * aside,
-            worded("top rim, inside ø {size:.0f}", size=2e3 * faces[1]),
-        )
-        _across(
-            ax,
-            faces[0],
-            0.0,
-            low - 0.6 * aside,
-            worded("bottom rim, inside ø {size:.0f}", size=2e3 * faces[0]),
-        )
+        top = worded("top rim, inside ø {size:.0f}", size=2e3 * faces[1])
+        bottom = worded("bottom rim, inside ø {size:.0f}", size=2e3 * faces[0])
+        _across(ax, faces[1], height, high + 1.2 * aside, top)
+        _across(ax, faces[0], 0.0, low - 0.6 * aside, bottom)
     for radius, at in zip(bearing.radii, (0.5 * low, 0.5 * (high + height)), strict=True):
         ax.text(0.0, at, f"R = {1e3 * radius:.0f}", ha="center", va="center", fontsize=ps.SMALL)
     _upright(ax, right + 0.35 * aside, 0.0, height, f"h = {1e3 * height:.0f}")
     if plates is not None:
         _plates(ax, bearing, plates, (left, right, low, high), aside)
     ax.set_xlim(left - left_of, right + 1.1 * aside)
-    ax.set_ylim(low - 0.8 * aside - below, high + 1.6 * aside + above)
+    ax.set_ylim(low - 0.8 * aside - more, high + 1.6 * aside + more)
     ps.caption(ax, title="Dimensions in mm")
     figure.supxlabel(_words(bearing, plates), fontsize=ps.LABEL)
     return figure
@@ -102,17 +90,13 @@ def _plates(
     left, right, low, high = box
     faces = [rim_face(bearing, k) for k in (0, 1)]
     outer = [face + plates.wall if math.isfinite(face) else right for face in faces]
-    top = worded("top plate, outside ø {size:.0f}", size=2e3 * outer[1])
-    bottom = worded("bottom plate, outside ø {size:.0f}", size=2e3 * outer[0])
-    _across(ax, outer[1], high, high + 2.0 * aside, top)
-    _across(ax, outer[0], low, low - 1.4 * aside, bottom)
-    at = left - 0.9 * aside
-    _upright(ax, at, low, high, f"H = {1e3 * (high - low):.0f}", edge=left)
-    height = bearing.slider_height
-    for start, end, size in (
-        (low, 0.0, plates.thickness[0]),
-        (height, high, plates.thickness[1]),
-    ):
+    above = worded("top plate, outside ø {size:.0f}", size=2e3 * outer[1])
+    below = worded("bottom plate, outside ø {size:.0f}", size=2e3 * outer[0])
+    _across(ax, outer[1], high, high + 2.0 * aside, above)
+    _across(ax, outer[0], low, low - 1.4 * aside, below)
+    _upright(ax, left - 0.9 * aside, low, high, f"H = {1e3 * (high - low):.0f}", edge=left)
+    height, (bottom, top) = bearing.slider_height, plates.thickness
+    for start, end, size in ((low, 0.0, bottom), (height, high, top)):
         _upright(ax, right + 0.35 * aside, start, end, f"{1e3 * size:.0f}")
 
 

@@ -48,6 +48,9 @@ class Posture:
         return np.array([self.axis[1], -self.axis[0]])
 
 
+AT_REST = Posture(axis=np.array([0.0, 1.0]), plate_axis=np.array([0.0, 1.0]), slip=0.0)
+
+
 def posture(
     data: xr.Dataset, bearing: Geometry, name: str, time: float, direction: FloatArray
 ) -> Posture:
@@ -97,18 +100,19 @@ def rim_face(bearing: Geometry, surface: int) -> float:
     The slider's edge, `slider_radius` from its axis on the sphere, is there when the axis has slid
     by `rim_displacement`.
     """
-    reach, radius = bearing.rim_displacement[surface], bearing.radii[surface]
-    if not math.isfinite(reach):
-        return math.inf
-    return radius * math.sin(math.asin(reach / radius) + math.asin(bearing.slider_radius / radius))
+    reach = bearing.rim_displacement[surface] / bearing.radii[surface]
+    return slider_edge(bearing, surface, math.asin(reach)) if math.isfinite(reach) else math.inf
+
+
+def slider_edge(bearing: Geometry, surface: int, turn: float) -> float:
+    """Return the distance of the turned slider's edge from the plate's axis [m]."""
+    radius = bearing.radii[surface]
+    return radius * math.sin(turn + math.asin(bearing.slider_radius / radius))
 
 
 def rim_gap(bearing: Geometry, now: Posture, surface: int) -> float:
     """Return the distance from the slider's edge to the nearer rim face [m]."""
-    radius = bearing.radii[surface]
-    tilt = _turn(now, surface)
-    edge = radius * math.sin(abs(tilt) + math.asin(bearing.slider_radius / radius))
-    return rim_face(bearing, surface) - edge
+    return rim_face(bearing, surface) - slider_edge(bearing, surface, abs(_turn(now, surface)))
 
 
 def rim_height(bearing: Geometry) -> float:

@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.animation import FuncAnimation
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
@@ -30,7 +28,6 @@ from frames.statics.modes import modes
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.artist import Artist
     from matplotlib.figure import Figure
 
     from frames._types import FloatArray
@@ -48,8 +45,12 @@ MEMBERS, BEARINGS, SUPPORTS, MASSES, AT_REST = (
     ps.PALETTE[2],
     "#BBBBBB",
 )
-WALLS = {"facecolor": ps.PALETTE[4], "alpha": 0.35, "edgecolor": ps.GREY, "linewidths": 0.3}
-DIAPHRAGMS = {"facecolor": ps.PALETTE[5], "alpha": 0.15, "linewidths": 0.0}
+FACES = {
+    "shells": {"facecolor": MEMBERS, "alpha": 0.15, "edgecolor": MEMBERS, "linewidths": 0.3},
+    "walls": {"facecolor": ps.PALETTE[4], "alpha": 0.35, "edgecolor": ps.GREY, "linewidths": 0.3},
+    "diaphragms": {"facecolor": ps.PALETTE[5], "alpha": 0.15, "linewidths": 0.0},
+}
+"""Style of areas, by what the legend calls them."""
 _PICTURES = 20  # a second, of a film
 _NARROW = 0.35  # of the longest side: below, there is room for few numbers along an axis
 _MASS_SIZE = 90.0  # pt2, of the largest mass's mark
@@ -102,11 +103,10 @@ def model_view(
         u, title = scale * moved, f"{model.name} at {instant:.3f} s, enlarged {scale:.3g} times"
     figure = ps.new_figure(5.0)
     panel = figure.add_subplot(projection="3d", computed_zorder=False)
-    if data is not None:
-        _draw(panel, model, system, np.zeros_like(u), plain=True)
-    _draw(panel, model, system, u, enlarged=scale)
+    rest = [] if data is None else _draw(panel, model, system, np.zeros_like(u), plain=True)
+    drawn = _draw(panel, model, system, u, enlarged=scale) + rest
     frame_of(panel, [system.coordinates, system.coordinates + u[:, :3]])
-    ps.add_legend(figure, _handles(model, deformed=data is not None), columns=5, title=title)
+    _add_legend(figure, model, drawn, title)
     return figure
 
 
@@ -172,13 +172,12 @@ def model_film(
     scale = _scale(system, every[int(sizes.argmax())], factor)
     figure = ps.new_figure(5.0)
     panel: Any = figure.add_subplot(projection="3d")
-    _draw(panel, model, system, np.zeros(every.shape[1:]), plain=True)
+    rest = _draw(panel, model, system, np.zeros(every.shape[1:]), plain=True)
     reach = scale * every[..., :3]
     corners = [system.coordinates + reach.min(axis=0), system.coordinates + reach.max(axis=0)]
     frame_of(panel, corners)
-    title = f"{model.name}, enlarged {scale:.3g} times"
-    ps.add_legend(figure, _handles(model, deformed=True), columns=5, title=title)
-    drawn: list[Any] = []
+    drawn = _draw(panel, model, system, scale * every[0], enlarged=scale)
+    _add_legend(figure, model, drawn + rest, f"{model.name}, enlarged {scale:.3g} times")
 
     def show(picture: int) -> list[Any]:
         while drawn:
@@ -230,14 +229,13 @@ def mode_shapes(model: FrameData, count: int = 3, bearings: BearingStiffness = "
         panel: Any = figure.add_subplot(rows, columns, k + 1, projection="3d")
         shape = found.shapes[:, :, k]
         u = _scale(system, shape, None) * shape
-        _draw(panel, model, system, np.zeros_like(u), plain=True)
-        _draw(panel, model, system, u)
+        rest = _draw(panel, model, system, np.zeros_like(u), plain=True)
+        drawn = _draw(panel, model, system, u) + rest
         frame_of(panel, [system.coordinates, system.coordinates + u[:, :3]], bare=True)
         shares = ", ".join(f"{100.0 * share:.0f}" for share in found.mass_ratios[k])
         text = f"mode {k + 1}: {found.periods[k]:.3g} s\nmass x, y, z: {shares} %"
         panel.set_title(text, fontsize=ps.SMALL)
-    title = f"Modes of {model.name}, bearings {bearings}"
-    ps.add_legend(figure, _handles(model, deformed=True), columns=5, title=title)
+    _add_legend(figure, model, drawn, f"Modes of {model.name}, bearings {bearings}")
     return figure
 
 
@@ -295,8 +293,12 @@ def _parts(
     elements = [pair for part in model.superelements.values() for pair in part.elements.nodes]
     every = [*lines, *(place[[index[one] for one in pair]] for pair in elements)]
     if every:
-        bars = Line3DCollection(every, colors=colour, linewidths=0.7 if plain else 1.2)
-        drawn.append(panel.add_collection3d(bars))
+        look = (
+            {"linewidths": 0.7, "label": "at rest"}
+            if plain
+            else {"linewidths": 1.2, "label": "members"}
+        )
+        drawn.append(panel.add_collection3d(Line3DCollection(every, colors=colour, **look)))
     zones = [
         (place[node], lines[k, (0, -1)[end]])
         for k, nodes in enumerate(system.members.nodes)
@@ -304,48 +306,49 @@ def _parts(
         if system.members.offsets[k, end].any()
     ]
     if zones:
-        width = 1.5 if plain else 3.5
-        stiff = Line3DCollection(zones, colors=colour, linewidths=width, capstyle="butt")
+        look = {"linewidths": 1.5} if plain else {"linewidths": 3.5, "label": "rigid end zones"}
+        stiff = Line3DCollection(zones, colors=colour, capstyle="butt", **look)
         drawn.append(panel.add_collection3d(stiff))
+    look = {"linewidth": 0.8, "linestyle": ":", "label": None if plain else "springs"}
     for spring in model.springs.values():
         ends = place[[index[spring.i], index[spring.j]]]
-        drawn += panel.plot(*ends.T, color=colour, linewidth=0.8, linestyle=":")
+        drawn += panel.plot(*ends.T, color=colour, **look)
     if plain:
         return drawn
-    if shells := shell_corners(model, system.node_names):
-        style = {"alpha": 0.15, "edgecolor": colour, "linewidths": 0.3}
-        areas = Poly3DCollection([place[each] for each in shells], facecolor=colour, **style)
-        drawn.append(panel.add_collection3d(areas))
-    for faces, look in ((wall_faces(model), WALLS), (diaphragm_faces(model), DIAPHRAGMS)):
+    areas = {
+        "shells": shell_corners(model, system.node_names),
+        "walls": [[index[node] for node in face] for face in wall_faces(model)],
+        "diaphragms": [[index[node] for node in face] for face in diaphragm_faces(model)],
+    }
+    for label, faces in areas.items():
         if faces:
-            corners = [place[[index[node] for node in face]] for face in faces]
-            drawn.append(panel.add_collection3d(Poly3DCollection(corners, **look)))
-    for _, i, j, _ in system.bearings:
-        ends = place[[i, j]]
-        look = {"color": BEARINGS, "zorder": 5}  # above the masses, which stand on them
-        drawn += panel.plot(*ends.T, linewidth=3.0, solid_capstyle="butt", **look)
-        drawn += panel.plot(*ends[1:].T, marker="o", markersize=4.5, linestyle="", **look)
+            corners = Poly3DCollection([place[f] for f in faces], label=label, **FACES[label])
+            drawn.append(panel.add_collection3d(corners))
     released = [
         lines[k, (0, -1)[end]] + 0.08 * (lines[k, (-1, 0)[end]] - lines[k, (0, -1)[end]])
         for k, member in enumerate(model.members.values())
         for end in (0, 1)
         if set(member.releases[end]) & {"My", "Mz"}
     ]
+    dots: dict[str, Any] = {"linestyle": "", "marker": "o"}
     if released:
-        style = {"linestyle": "", "marker": "o", "markersize": 4.0, "fillstyle": "none"}
-        drawn += panel.plot(*np.array(released).T, color=MEMBERS, **style)
+        look = {"color": MEMBERS, "markersize": 4.0, "fillstyle": "none", "label": "releases"}
+        drawn += panel.plot(*np.array(released).T, **dots, **look)
+    for _, i, j, _ in system.bearings:
+        ends = place[[i, j]]
+        look = {"color": BEARINGS, "zorder": 5}  # above the masses, which stand on them
+        drawn += panel.plot(*ends.T, linewidth=3.0, solid_capstyle="butt", **look)
+        drawn += panel.plot(*ends[1:].T, markersize=4.5, label="bearings", **dots, **look)
     if model.hinges:
         drawn += panel.plot(*hinge_places(lines, system, model.hinges)[1].T, **HINGES)
     fixed = [index[name] for name, dofs in model.fixed_dofs.items() if {"ux", "uy", "uz"} & dofs]
-    drawn += panel.plot(*place[fixed].T, color=SUPPORTS, marker="^", markersize=5.0, linestyle="")
+    look = {"color": SUPPORTS, "marker": "^", "markersize": 5.0, "label": "supports"}
+    drawn += panel.plot(*place[fixed].T, linestyle="", **look)
     mass = system.node_mass[:, :3].max(axis=1)
-    if mass.max() > 0.0:
-        sizes = _MASS_SIZE * mass / mass.max()
-        heavy = mass > 0.0
-        marks = panel.scatter(
-            *place[heavy].T, s=sizes[heavy], c=MASSES, alpha=0.6, linewidths=0.0, depthshade=False
-        )
-        drawn.append(marks)
+    if (heavy := mass > 0.0).any():
+        look = {"s": _MASS_SIZE * mass[heavy] / mass.max(), "c": MASSES, "label": "masses"}
+        look |= {"alpha": 0.6, "linewidths": 0.0, "depthshade": False}
+        drawn.append(panel.scatter(*place[heavy].T, **look))
     return drawn
 
 
@@ -369,35 +372,8 @@ def frame_of(panel: Any, points: list[FloatArray], *, bare: bool = False) -> Non
         getattr(panel, f"set_{name}label")(f"{name} [m]", fontsize=ps.LABEL)
 
 
-def _handles(model: FrameData, *, deformed: bool) -> list[Artist]:
-    plain: dict[str, Any] = {"linestyle": "", "markersize": 5.0}
-    handles: list[Artist] = (
-        [Line2D([], [], color=MEMBERS, label="members")]
-        if model.members or any(part.elements.names for part in model.superelements.values())
-        else []
-    )
-    if model.springs:
-        handles.append(Line2D([], [], color=MEMBERS, linestyle=":", label="springs"))
-    if any(any(member.releases) for member in model.members.values()):
-        ring = Line2D(
-            [], [], color=MEMBERS, marker="o", fillstyle="none", label="releases", **plain
-        )
-        handles.append(ring)
-    if shell_corners(model, tuple(model.nodes)):
-        handles.append(Patch(facecolor=MEMBERS, alpha=0.15, label="shells"))
-    if wall_faces(model):
-        handles.append(Patch(facecolor=ps.PALETTE[4], alpha=0.35, label="walls"))
-    if diaphragm_faces(model):
-        handles.append(Patch(facecolor=ps.PALETTE[5], alpha=0.25, label="diaphragms"))
-    if any(member.has_offsets for member in model.members.values()):
-        stiff = Line2D([], [], color=MEMBERS, linewidth=3.5, label="rigid end zones")
-        handles.append(stiff)
-    handles += part_handles(model)
-    handles += [
-        Line2D([], [], color=BEARINGS, marker="o", label="bearings", **plain),
-        Line2D([], [], color=SUPPORTS, marker="^", label="supports", **plain),
-        Line2D([], [], color=MASSES, marker="o", alpha=0.4, label="masses", **plain),
-    ]
-    if deformed:
-        handles.append(Line2D([], [], color=AT_REST, label="at rest"))
-    return handles
+def _add_legend(figure: Figure, model: FrameData, drawn: list[Any], title: str) -> None:
+    # Each kind of part once, as it is drawn.
+    kinds = {str(artist.get_label()): artist for artist in drawn}
+    handles = [artist for label, artist in kinds.items() if label[0] != "_"]
+    ps.add_legend(figure, [*handles, *part_handles(model)], columns=5, title=title)

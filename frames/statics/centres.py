@@ -48,21 +48,12 @@ def floor_centres(frame: FrameData) -> list[FloorCentres]:
         if not mass.sum() > 0.0:
             continue
         plan = system.coordinates[places, :2]
-        centre = np.average(plan, axis=0, weights=mass)
+        centre, sides = np.average(plan, axis=0, weights=mass), np.ptp(plan, axis=0)
         moved = _generalised(len(system.node_names), places, mass, plan - centre)
         loads = np.asarray(system.transform.T @ moved)
-        flexible = loads.T @ factors.solve(loads)
-        offset = _offset(flexible, np.ptp(plan, axis=0))
-        found.append(
-            FloorCentres(
-                level.name,
-                level.z,
-                float(mass.sum()),
-                (float(centre[0]), float(centre[1])),
-                (float(centre[0] + offset[0]), float(centre[1] + offset[1])),
-                (float(np.ptp(plan[:, 0])), float(np.ptp(plan[:, 1]))),
-            )
-        )
+        offset = _offset(loads.T @ factors.solve(loads), sides)
+        pairs = (tuple(map(float, pair)) for pair in (centre, centre + offset, sides))
+        found.append(FloorCentres(level.name, level.z, float(mass.sum()), *pairs))
     return found
 
 
@@ -75,12 +66,9 @@ def _places(frame: FrameData, nodes: tuple[str, ...], index: dict[str, int]) -> 
 
 def _generalised(count: int, places: list[int], mass: FloatArray, arm: FloatArray) -> FloatArray:
     # Nodal forces (6 n_nodes, 3): along x and y, and a moment, as the masses times their movement.
-    share = mass / mass.sum()
-    moment = float(np.sum(mass * np.sum(arm**2, axis=1)))
-    turning = mass / (moment or np.inf)
+    share, turning = mass / mass.sum(), mass / (mass @ np.sum(arm**2, axis=1) or np.inf)
     forces = np.zeros((count, 6, 3))
-    forces[places, 0, 0] = share
-    forces[places, 1, 1] = share
+    forces[places, 0, 0] = forces[places, 1, 1] = share
     forces[places, 0, 2] = -arm[:, 1] * turning
     forces[places, 1, 2] = arm[:, 0] * turning
     return forces.reshape(-1, 3)

@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
 from scipy.optimize import brentq
 
 from frames.plots.bearing_geometry import (
+    AT_REST,
     Plates,
-    Posture,
     outlines,
     rim_face,
     rim_height,
+    slider_edge,
     turned_volume,
 )
 from lir_element import ring_strength
@@ -77,8 +77,7 @@ def made(
         "width of the rims": has_rims,
         "height of the rims": has_rims and limits.rim_height is None,
     }
-    up = np.array([0.0, 1.0])
-    bodies = outlines(bearing, Posture(up, up, 0.0), reach, plates)
+    bodies = outlines(bearing, AT_REST, reach, plates)
     sliders = float(slider_record(bearing)["mass"].sum())
     volume = sum(turned_volume(bodies[name]) for name in ("bottom plate", "top plate"))
     return Make(
@@ -95,8 +94,7 @@ def made(
 def _reach(bearing: LIRBearing, displacement: float) -> float:
     # Half the width that a slider covers whose bearing goes as far as a displacement.
     turn = math.asin(min(displacement / bearing.effective_radius, 1.0))
-    own = (r * math.sin(turn + math.asin(bearing.slider_radius / r)) for r in bearing.radii)
-    return min(max(own), 0.95 * min(bearing.radii))
+    return min(max(slider_edge(bearing, k, turn) for k in (0, 1)), 0.95 * min(bearing.radii))
 
 
 def _wall(bearing: LIRBearing, height: float, strength: float) -> float:
@@ -108,9 +106,8 @@ def _wall(bearing: LIRBearing, height: float, strength: float) -> float:
         kept = ring_strength(thickness=thickness, height=height, arc=arc, yield_stress=YIELD_STRESS)
         return kept - strength
 
-    if lacking(_THICKEST) < 0.0:
-        return _THICKEST
-    return _rounded(float(brentq(lacking, 1e-6, _THICKEST)))
+    reached = lacking(_THICKEST) >= 0.0
+    return _rounded(float(brentq(lacking, 1e-6, _THICKEST))) if reached else _THICKEST
 
 
 def _rounded(length: float) -> float:

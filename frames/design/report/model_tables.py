@@ -28,7 +28,7 @@ def mode_table(run: ProjectRun) -> pd.DataFrame:
     """
     ways: dict[str, Any] = {"sliding": "sliding", "held": "fixed"}
     for bound in run.equivalent.bounds:
-        ways[f"k_eff at {bound}"] = stiffness_at(run, bound)
+        ways[f"k_eff at {bound}"] = _stiffness_at(run, bound)
     columns, sums = {}, {}
     for title, bearings in ways.items():
         found = modes(run.frame, _COUNT, bearings=bearings)
@@ -50,20 +50,14 @@ def centre_table(run: ProjectRun) -> pd.DataFrame:
 
     Of the level on the bearings the centre of stiffness is that of their pendulums, N / L.
     """
-    springs = [
-        (load / link.bearing.effective_radius, run.frame.nodes[link.j])
-        for load, link in zip(run.loads, run.frame.bearings.values(), strict=True)
-    ]
-    whole = sum(k for k, _ in springs)
-    bearings = (
-        sum(k * node.x for k, node in springs) / whole,
-        sum(k * node.y for k, node in springs) / whole,
-    )
-    on_them = {link.j for link in run.frame.bearings.values()}
-    levels = {level.name: level for level in run.frame.levels}
+    links = run.frame.bearings.values()
+    tops = [run.frame.nodes[link.j] for link in links]
+    pendulum = np.divide(run.loads, [link.bearing.effective_radius for link in links])
+    bearings = np.average([(node.x, node.y) for node in tops], axis=0, weights=pendulum)
+    levels = {level.name: {*level.nodes} for level in run.frame.levels}
     rows = {}
     for one in floor_centres(run.frame):
-        is_base = bool(on_them & {*levels[one.level].nodes})
+        is_base = not levels[one.level].isdisjoint(link.j for link in links)
         (x, y), (u, v) = one.mass_centre, bearings if is_base else one.stiffness_centre
         rows[one.level] = {
             "z [m]": one.z,
@@ -80,13 +74,9 @@ def centre_table(run: ProjectRun) -> pd.DataFrame:
     return table
 
 
-def stiffness_at(run: ProjectRun, bound: str) -> FloatArray:
-    """Return the effective stiffness of each bearing at a bound's displacement.
-
-    Shapes: result (n_bearings,).
-    """
-    result = run.equivalent.bounds[bound]
+def _stiffness_at(run: ProjectRun, bound: str) -> FloatArray:
+    # Effective stiffness of each bearing at a bound's displacement, (n_bearings,) [N/m].
+    d = run.equivalent.bounds[bound].displacement
     system = with_property_bounds(run.system, bound, run.bounds)  # type: ignore[arg-type]  # its names
     pairs = zip(system.bearings, system.loads, strict=True)
-    d = result.displacement
     return np.array([FrictionPendulum.of(one).force(d, load) / d for one, load in pairs])

@@ -58,12 +58,12 @@ def _number(value: float) -> str:
 
 
 def in_mm_and_kn(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return a table whose columns name their unit with those in N as kN, in m as mm."""
+    """Return a table whose columns name their unit: N as kN, m as mm, but coordinates in m."""
     columns = {}
     for title, values in frame.items():
         name, _, unit = str(title).partition(" [")
         shown, factor = SHOWN.get(unit.removesuffix("]"), ("", 1.0))
-        if not shown or name in {"x", "y"}:
+        if not shown or name.split(" ")[0] in {"x", "y", "z"}:
             columns[str(title)] = values
         else:
             columns[f"{name} [{shown}]"] = factor * values

@@ -33,7 +33,6 @@ from frames.design.report.result_tables import (
 )
 from frames.design.report.tables import in_mm_and_kn, in_parts
 from frames.design.report.tender import texts
-from frames.design.testing.expected import LOOPS
 from frames.design.testing.programme import OWN_RULES, OWN_SPECIMENS
 from frames.results.findings import findings_of
 from frames.results.quantities import JUDGED
@@ -86,82 +85,36 @@ def report_in(
 ) -> str:
     """Return the page of `report_html` in a language; `words` then knows what it lacked."""
     device = next(iter(run.frame.bearings.values())).bearing
-    code = code_named(run.equivalent.code)
     attrs, drawn = run.governing.attrs, {}
     if figures:
         from frames.design.report.figures import pictures  # with matplotlib
 
         drawn = pictures(run, words)
 
-    def fit(table: Table, keep: int = 1) -> list[Table]:
-        return in_parts(words.table(table), keep=keep)
-
-    def of(name: str, head: str, keep: int = 1) -> list[Table]:
-        return fit(page_table(in_mm_and_kn(tables.get(name, pd.DataFrame())), head), keep)
-
-    tests = _programme(tables["programme"])
     return page_template("report.html.j2", words=words).render(
+        **_tables(words, run, tables),
         language=words.language,
-        name=run.frame.name,
-        code=run.equivalent.code,
+        run=run,
         device="DCFP" if device.is_dcfp else "LIR-DCFP",
         cover=cover_of(run, source),
         css_string=css_string,
         sections=SECTIONS,
-        case=run.governing_case,
         failed=len(run.checks.failed),
-        verdict=(found := verdict_of(run)),
-        failures=fit(found.failures),
+        verdict=verdict_of(run),
         least=[judged(check) for check in run.checks.raised],
         governing=what_governs(run.checks),
         judged=judged,
-        doubts=run.doubts,
         legend=LEGEND,
         checks=[judged(check) for check in run.checks],
         unchecked=[one.what for one in run.provisions if one.state == "not checked"],
         own=left_to_the_engineer(run.provisions),
-        provisions=words.table(_provisions(run)),
         limits=[judged(check) for check in run.equivalent.checks if check not in run.checks],
-        structure=words.table(
-            Table(("of the structure", "as described"), run.structure, frozenset({0, 1}))
-        ),
-        model=words.table(model_table(run.model)),
-        loads=fit(loads_table(run.model)),
         notes=[*([run.model.failure] if run.model.failure else []), *run.model.doubts],
         factors=factor_steps(run.bounds),
-        devices=[
-            (kind, words.table(device_table(one))) for kind, one in devices_by_type(run).items()
-        ],
-        reached=of("bearings", "bearing"),
-        friction=words.table(_friction(tables["friction"])),
-        modes=of("modes", "mode"),
-        centres=fit(page_table(tables["centres"], "level")),
         tender=texts(run),
-        specimens=code.values.get("number of specimens", OWN_SPECIMENS),
-        by_type=of("schedule", "of the bearings", 2),
-        places=fit(_places(tables["bearings"])),
-        rig=of("rig", "bearings to test"),
-        replacement=of("replacement", "type to replace"),
-        links=fit(_links(tables.get(LINKS, pd.DataFrame()))),
-        untold=words.table(page_table(tables.get(WITHOUT_FORCES, pd.DataFrame()), "kind")),
-        members=of("member-groups", "members", 3),
-        foundation=fit(foundation_table(tables, run.rules.bearing_level), keep=2),
-        uplift=fit(_uplift(tables.get(COMBINED[2], pd.DataFrame()))),
-        programme=fit(page_table(tests.drop(columns=_LOOPS), "test")),
-        loops=fit(page_table(tests[_LOOPS], "test")),
-        accepted=words.table(_accepted(code, tables["programme"])),
+        specimens=code_named(run.equivalent.code).values.get("number of specimens", OWN_SPECIMENS),
         of_tests=_notes(tables["programme"]),
-        motions=fit(page_table(run.motions.table().rename(columns=_named), "motion")),
-        equivalent=fit(Table(run.equivalent.head(), run.equivalent.rows())),
-        demands=[
-            (level, said, fit(page_table(part, "quantity")))
-            for level, said, part in tables_of_levels(run.demands)
-        ],
-        raised=[
-            words.table(part) for part in raised_tables(tables.get(ECCENTRICITY, pd.DataFrame()))
-        ],
         eccentricity=eccentricity_said(run),
-        by_motion=[words.table(part) for part in motion_tables(tables[BY_MOTION])],
         levels=_levels(run),
         level=run.rules.levels[0].name,
         audit=findings_of(run.governing).lines(),
@@ -169,6 +122,55 @@ def report_in(
         source=source,
         options=(attrs["level"], attrs["integrator"], attrs["step_control"]),
     )
+
+
+def _tables(words: Words, run: ProjectRun, tables: Mapping[str, pd.DataFrame]) -> dict[str, object]:
+    # The tables of the page, in parts that fit it.
+    def fit(table: Table, keep: int = 1) -> list[Table]:
+        return in_parts(words.table(table), keep=keep)
+
+    def of(name: str, head: str, keep: int = 1, only: str = "") -> list[Table]:
+        shown = tables.get(name, pd.DataFrame()).filter(regex=only)
+        return fit(page_table(in_mm_and_kn(shown), head), keep)
+
+    raised = raised_tables(tables.get(ECCENTRICITY, pd.DataFrame()))
+    structure = Table(("of the structure", "as described"), run.structure, frozenset({0, 1}))
+    accepted = _accepted(code_named(run.equivalent.code), tables["programme"])
+    tables = {**tables, "programme": _programme(tables["programme"])}
+    return {
+        "failures": fit(verdict_of(run).failures),
+        "provisions": words.table(_provisions(run)),
+        "structure": words.table(structure),
+        "model": words.table(model_table(run.model)),
+        "loads": fit(loads_table(run.model)),
+        "devices": [
+            (kind, words.table(device_table(one))) for kind, one in devices_by_type(run).items()
+        ],
+        "reached": of("bearings", "bearing"),
+        "friction": words.table(_friction(tables["friction"])),
+        "modes": of("modes", "mode"),
+        "centres": of("centres", "level"),
+        "by_type": of("schedule", "of the bearings", 2),
+        "places": of("bearings", "bearing", only="^(number|axes|type|[xy] |average)"),
+        "rig": of("rig", "bearings to test"),
+        "replacement": of("replacement", "type to replace"),
+        "links": fit(_links(tables.get(LINKS, pd.DataFrame()))),
+        "untold": of(WITHOUT_FORCES, "kind"),
+        "members": of("member-groups", "members", 3),
+        "foundation": fit(foundation_table(tables, run.rules.bearing_level), 2),
+        "uplift": fit(_uplift(tables.get(COMBINED[2], pd.DataFrame()))),
+        "programme": of("programme", "test", only="^(?!k_eff|EDC|friction)"),
+        "loops": of("programme", "test", only="^(k_eff|EDC|friction)"),
+        "accepted": words.table(accepted),
+        "motions": fit(page_table(run.motions.table().rename(columns=_named), "motion")),
+        "equivalent": fit(Table(run.equivalent.head(), run.equivalent.rows())),
+        "demands": [
+            (level, said, fit(page_table(part, "quantity")))
+            for level, said, part in tables_of_levels(run.demands)
+        ],
+        "raised": list(map(words.table, raised)),
+        "by_motion": list(map(words.table, motion_tables(tables[BY_MOTION]))),
+    }
 
 
 def _words(run: ProjectRun, language: str) -> Words:
@@ -180,28 +182,26 @@ def _words(run: ProjectRun, language: str) -> Words:
 
 def _levels(run: ProjectRun) -> str:
     # What is judged at which level of the seismic action, where there are several.
-    levels = run.rules.levels
-    if len(levels) < 2:
-        return ""
     words = {
         "all": "bearings and structure",
         "isolation": "the bearings",
         "superstructure": "what stands on the bearings",
     }
-    each = (
+    each = [
         worded(
             "{what} at the level '{level}', motions times {factor:g}",
             what=words[one.judges],
             level=one.name,
             factor=one.factor,
         )
-        for one in levels
-    )
-    return worded(
+        for one in run.rules.levels
+    ]
+    said = worded(
         "{code} judges {levels}. The table has both levels.",
         code=run.equivalent.code,
         levels=joined(*each),
     )
+    return said if len(each) > 1 else ""
 
 
 _FACTS = {"azimuth_x": "azimuth of x [°]", "azimuth_y": "azimuth of y [°]", "strike": "strike [°]"}
@@ -229,9 +229,13 @@ def _links(links: pd.DataFrame) -> Table:
     # Each link where its force is largest of all bounds.
     if links.empty:
         return page_table(links, "link")
-    shown = largest_of_links(links).set_index("link")
-    shown = shown.drop(columns=["void"] + ["level"] * (shown["level"].nunique() == 1))
-    return page_table(in_mm_and_kn(shown), "link")
+    shown = largest_of_links(links).set_index("link").drop(columns="void")
+    return page_table(in_mm_and_kn(_unless_alike(shown, "level")), "link")
+
+
+def _unless_alike(table: pd.DataFrame, column: str) -> pd.DataFrame:
+    # A column stays if its rows differ.
+    return table.drop(columns=column) if table[column].nunique() == 1 else table
 
 
 def foundation_table(tables: Mapping[str, pd.DataFrame], level: str) -> Table:
@@ -240,25 +244,24 @@ def foundation_table(tables: Mapping[str, pd.DataFrame], level: str) -> Table:
     if table.empty:
         return page_table(table, "foundation below")
     below = table[(table.index == level) & (table["side"] == "below")].reset_index(drop=True)
-    size = below["value"].abs().where(below["force"].isin(["Mx", "My"]))
     load = below["value"].where(below["force"] == "N")
     chosen = {
         "largest N": load.where(below["extreme"] == "max"),
         "least N": -load.where(below["extreme"] == "min"),
-        "largest M": size,
+        "largest M": below["value"].abs().where(below["force"].isin(["Mx", "My"])),
     }
     rows = []
     for name, own in below.groupby("bearing", sort=False):
         for title, out in chosen.items():
             worst = own.loc[out[own.index].idxmax()]
-            row = {"row": title} | {f"{f} [kN]": 1e-3 * worst[f"{f} then"] for f in _FORCES}
-            row |= {f"{f} [kN m]": 1e-3 * worst[f"{f} then"] for f in _MOMENTS}
-            row |= {"combination": worst["combination"], "bound": worst["bound"]}
-            rows.append(row | {"bearing": name})
-    return page_table(pd.DataFrame(rows).set_index("bearing"), "foundation below")
+            forces = {f"{f} [{unit}]": worst[f"{f} then"] for f, unit in _FORCES.items()}
+            of = {"combination": worst["combination"], "bound": worst["bound"]}
+            rows.append({"bearing": name, "row": title} | forces | of)
+    shown = pd.DataFrame(rows).set_index("bearing")
+    return page_table(in_mm_and_kn(shown), "foundation below")
 
 
-_FORCES, _MOMENTS = ("N", "Vx", "Vy"), ("Mx", "My")
+_FORCES = {"N": "N", "Vx": "N", "Vy": "N", "Mx": "N m", "My": "N m"}
 
 
 def _uplift(table: pd.DataFrame) -> Table:
@@ -270,16 +273,6 @@ def _uplift(table: pd.DataFrame) -> Table:
     return page_table(in_mm_and_kn(shown), "bearing that lifts")
 
 
-def _places(bearings: pd.DataFrame) -> Table:
-    kept = ["number", "axes", *(["type"] if "type" in bearings else [])]
-    return page_table(
-        in_mm_and_kn(bearings[[*kept, "x [m]", "y [m]", "average load [N]"]]), "bearing"
-    )
-
-
-_LOOPS = list(in_mm_and_kn(pd.DataFrame(columns=LOOPS, dtype=float)))
-
-
 def _programme(tests: pd.DataFrame) -> pd.DataFrame:
     # Clauses with a star where they are from memory; kinds of bearings where there are several.
     cited = [
@@ -289,9 +282,7 @@ def _programme(tests: pd.DataFrame) -> pd.DataFrame:
     names = [worded("{k} {name}", k=k, name=name) for k, name in tests["what"].items()]
     left_out = ["standing", "note", "what", "shows", "accepted if"]
     shown = tests.assign(clause=cited).drop(columns=left_out)
-    if shown["bearings"].nunique() == 1:
-        shown = shown.drop(columns="bearings")
-    return in_mm_and_kn(shown.set_index(pd.Index(names, dtype=object)))
+    return _unless_alike(shown, "bearings").set_index(pd.Index(names, dtype=object))
 
 
 def _accepted(code: DesignCode, tests: pd.DataFrame) -> Table:
@@ -328,15 +319,10 @@ def raised_tables(table: pd.DataFrame) -> list[Table]:
     worst["quantity"] = worst["quantity"].replace(_TITLES)
     worst = worst.sort_index().set_index("quantity")
     worst.loc[worst["void"] != "", ["factor", "added"]] = math.nan  # of what failed runs reached
-    worst["factor"] = worst["factor"].map(_factor)  # a pure number, whatever unit its row has
+    # a pure number, whatever unit its row has
+    worst["factor"] = worst["factor"].map("{:.4g}".format).replace("nan", "-")
     order = ["level", "bound", "masses", "unit", "centred", "moved", "factor", "added", "motions"]
-    if worst["level"].nunique() == 1:
-        order.remove("level")
-    return in_parts(page_table(worst[order], "largest"))
-
-
-def _factor(value: float) -> str:
-    return "-" if math.isnan(value) else f"{value:.4g}"
+    return in_parts(page_table(_unless_alike(worst[order], "level"), "largest"))
 
 
 def eccentricity_said(run: ProjectRun) -> str:
