@@ -129,7 +129,7 @@ def _tables(words: Words, run: ProjectRun, tables: Mapping[str, pd.DataFrame]) -
     def fit(table: Table, keep: int = 1) -> list[Table]:
         return in_parts(words.table(table), keep=keep)
 
-    def of(name: str, head: str, keep: int = 1, only: str = "") -> list[Table]:
+    def of(name: str, head: str, keep: int = 1, only: str = ".") -> list[Table]:
         shown = tables.get(name, pd.DataFrame()).filter(regex=only)
         return fit(page_table(in_mm_and_kn(shown), head), keep)
 
