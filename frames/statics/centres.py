@@ -52,8 +52,9 @@ def floor_centres(frame: FrameData) -> list[FloorCentres]:
         moved = _generalised(len(system.node_names), places, mass, plan - centre)
         loads = np.asarray(system.transform.T @ moved)
         offset = _offset(loads.T @ factors.solve(loads), sides)
-        pairs = (tuple(map(float, pair)) for pair in (centre, centre + offset, sides))
-        found.append(FloorCentres(level.name, level.z, float(mass.sum()), *pairs))
+        (x, y), (u, v), (a, b) = map(np.ndarray.tolist, (centre, centre + offset, sides))
+        total = float(mass.sum())
+        found.append(FloorCentres(level.name, level.z, total, (x, y), (u, v), (a, b)))
     return found
 
 

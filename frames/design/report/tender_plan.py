@@ -86,11 +86,14 @@ def _axes(
         rows[row : row + 1] = [axis.at]
         at = end + (0.25 + 0.3 * row) * out
         panel.plot(*((axis.at, axis.at), (start, at - _BUBBLE * out))[turn], **_LINE)
-        panel.text(*(axis.at, at)[turn], axis.name, bbox=_CIRCLE, zorder=4, **look)
+        x, y = (axis.at, at) if upright else (at, axis.at)
+        panel.text(x, y, axis.name, bbox=_CIRCLE, zorder=4, **look)
     for one, other in pairwise(axes):
         if other.at - one.at > 0.35 * scale:
-            place, text = (0.5 * (one.at + other.at), end)[turn], f"{other.at - one.at:.2f}"
-            panel.text(*place, text, rotation=0 if upright else 90, color=ps.GREY, **look)
+            middle = 0.5 * (one.at + other.at)
+            x, y = (middle, end) if upright else (end, middle)
+            text = f"{other.at - one.at:.2f}"
+            panel.text(x, y, text, rotation=0 if upright else 90, color=ps.GREY, **look)
     return end + (0.15 + 0.3 * len(rows)) * out
 
 
