@@ -31,6 +31,7 @@ from frames.design import (
 )
 from frames.design.codes.prototype_programme import PlannedTest
 from frames.design.testing.expected import expected_loop, factor_range, mean_friction
+from frames.design.testing.programme import OWN_SPECIMENS
 from lir_element import LIRBearing, PressureDependence, VelocityFriction, cyclic_test
 from tests.refusals import refused
 from tests.scenes import paper_bearing
@@ -491,3 +492,12 @@ def test_factors_of_tests_and_of_the_production():
     assert factor_range(PropertyModificationFactors(0.8, 1.3), "test") == (0.8, 1.3)
     each = code_named("EN 1998").factors(specification=(0.9, 1.1), ageing=(1.0, 1.2))
     assert factor_range(each, "test") == (each.lower, each.upper)
+
+
+def test_no_clause_of_en_15129_has_a_number_of_specimens():
+    known = {name: code_named(name).values for name in ("ASCE 7-22", "NCh2745", "EN 1998")}
+    assert [name for name in known if "number of specimens" in known[name]] == [
+        "ASCE 7-22",
+        "NCh2745",
+    ]
+    assert OWN_SPECIMENS.clause.startswith("no code")

@@ -347,7 +347,11 @@ def test_pages_for_supplier_tester_and_owner(results: Path, page: str) -> None:
     places = pd.read_csv(results / "bearings.csv").set_index(["x [m]", "y [m]"])["axes"]
     assert sorted(places) == ["A-1", "A-2", "B-1", "B-2"]
     assert places[places.index.max()] == "B-2"
+    moved = "displacement, time histories", "displacement to allow, equivalent-linear"
+    reached = max(given[name] for name in moved)
+    assert given["rotation of the slider"] == pytest.approx(math.asin(min(reached, rim) / length))
     part = section(page, "specification")
+    assert f"within {1e3 * reached:.0f} mm" in part
     assert f"its {given['mass of the bearing']:.0f} kg." in part
     assert columns(part, "standard")["lift [mm]"] == f"{1e3 * replaced['lift [m]']:.4g}"
     assert section(page, "tender").count("<img") == 2
