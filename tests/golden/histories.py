@@ -20,17 +20,19 @@ ACCIDENTAL = 0.05  # of the plan's sides
 
 
 def of_way(statics, way):
-    """Return statics with the masses of each level moved in plan, "+x", as their nodes have them.
+    """Return statics with the masses of each floor moved in plan, "+x", as their nodes have them.
 
     A mass m at s becomes m (1 + a (s - s_c)), with a = c M / sum(m (s - s_c)^2): the sum stays, and
-    the centre s_c moves by c.
+    the centre s_c moves by c. A node of no level, as of a slab's mesh, is of the floor nearest.
     """
     if not way:
         return statics
     axis, sign = "xy".index(way[1]), float(f"{way[0]}1")
     mass, place = statics["node_mass"].copy(), statics["node_position"][:, axis]
+    apart = np.abs(statics["node_position"][:, 2:] - statics["level_height"])
+    nearest = np.where(statics["level_node"] >= 0, statics["level_node"], apart.argmin(1))
     for k in range(len(statics["level_height"])):
-        on = np.flatnonzero(statics["level_node"] == k)
+        on = np.flatnonzero(nearest == k)
         for direction in (0, 1):
             m, s = statics["node_mass"][on, direction], place[on]
             arm = s - m @ s / m.sum()

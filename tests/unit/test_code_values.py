@@ -26,6 +26,8 @@ from frames.design.codes.analysis import BUILT_IN
 from frames.design.codes.code_values import E031, NTC, UFC_BNBC, standing_by, weakest
 from frames.design.codes.registry import standing_in
 from frames.design.codes.values_of_asce7 import VALUES as ASCE_VALUES
+from frames.design.project.asked_by_runs import TITLES
+from frames.results.quantities import DEMANDS
 from tests.refusals import refused
 from tests.square_system import square_system
 
@@ -100,6 +102,19 @@ def test_every_check_of_the_package_is_made_with_a_standing() -> None:
                 without.append(f"{path.name}:{node.lineno}")
     assert calls > 20
     assert without == []
+
+
+def test_every_remedy_of_a_check_is_of_one_that_is_made() -> None:
+    """By the texts of the modules that make checks; a title that is changed there is seen here."""
+    made = {quantity.heading for quantity in DEMANDS.values()}
+    for path in (DESIGN / name for name in ("codes", "devices", "histories")):
+        for module in set(path.glob("*.py")) - set(path.glob("*values*.py")):
+            tree = ast.parse(module.read_text(encoding="utf-8"))
+            texts = (n.value for n in ast.walk(tree) if isinstance(n, ast.Constant))
+            made |= {text for text in texts if isinstance(text, str)}
+    lost = {title for title in TITLES if not any(text.startswith(title) for text in made)}
+    assert len(TITLES) > 15
+    assert not lost
 
 
 ASCE_TITLES = (

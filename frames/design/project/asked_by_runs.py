@@ -48,6 +48,8 @@ _FITTED = (  # checks of the bearing's own numbers: a size is fitted to their li
     "interface slips before the rim breaks",
     "normalised eccentricity e/a at the rims",
 )
+TITLES = frozenset((*_SIZED, *_FITTED))
+"""How titles of checks begin that are acted on here."""
 
 
 class Obstacle(NamedTuple):
