@@ -75,7 +75,8 @@ def new(
         str | None, typer.Option(help="ASCE 7-22 (if left out), EN 1998 or NCh2745.")
     ] = None,
     example: Annotated[
-        str | None, typer.Option(help="A whole building instead: hospital, near-fault, office.")
+        str | None,
+        typer.Option(help="A whole building instead: hospital, imported, near-fault, office."),
     ] = None,
     model: Annotated[
         Path | None,
@@ -92,7 +93,8 @@ def new(
         except FileExistsError as cause:
             msg = f"{cause} is there already: name another folder"
             raise ProjectError(msg) from cause
-    then = "check" if model is None else "design"
+    has_bearing = "\n[bearing]" in written[0].read_text(encoding="utf-8")
+    then = "check" if has_bearing else "design"
     say(f"{written[0]} and {len(written) - 1} other files; next: lir {then} {written[0]}")
 
 

@@ -15,8 +15,20 @@ FACTORS = {  # of dead load, live load and snow
 MASS = {"ASCE 7-22": (1.0, 0.0, 0.0), "EN 1998": (1.0, 0.3, 0.0), "NCh2745": (1.0, 0.25, 0.0)}
 
 
+ROLLED = {  # depth, width, flange, web, radius of the fillet [m]
+    "HEA 600": (0.59, 0.3, 0.025, 0.013, 0.027),
+    "HEM 900": (0.91, 0.302, 0.04, 0.021, 0.03),
+}
+
+
 def area(section):
-    """Return the area of a box, an I shape or a pipe [m2]."""
+    """Return the area of a box, a pipe, an I shape or a rolled one [m2]."""
+    if "section" in section:
+        *shape, fillet = ROLLED[section["section"]]
+        return area({"i_shape": shape}) + (4.0 - math.pi) * fillet**2
+    if "circle" in section:
+        outer, wall = section["circle"]
+        return math.pi * wall * (outer - wall)
     if "box" in section:
         *sides, wall = section["box"]
         one, other = sides if len(sides) == 2 else (sides[0], sides[0])
@@ -36,12 +48,20 @@ def cases(project):
     (n, m), (a, b) = given["bays"], given["bay_width"]
     storeys, plan = given["storeys"], n * a * m * b
     along = n * a * (m + 1) + m * b * (n + 1)  # of the beams of a level
-    columns = (n + 1) * (m + 1) * storeys * given["storey_height"]
-    dead = weight(given["columns"], columns)
+    height, dead = given["storey_height"], 0.0
+    parts = given["columns"]
+    for part in parts if isinstance(parts, list) else [parts]:
+        first, last = part.get("storeys", (1, storeys))
+        dead += weight(part, (n + 1) * (m + 1) * (last - first + 1) * height)
+    for rod in given.get("braces", []):
+        is_along_y = rod["between"][0][0] == rod["between"][1][0]
+        dead += weight(rod, 2.0 * storeys * math.hypot((a, b)[is_along_y], height))
     dead += weight(given["beams"], storeys * along) + weight(given["base_beams"], along)
-    dead += (storeys + 1) * plan * loads["dead"]
+    roof = loads | loads.get("roof", {})
+    dead += plan * (storeys * loads["dead"] + roof["dead"])
     dead += storeys * 2.0 * (n * a + m * b) * loads.get("facade", 0.0)
-    return dead, (storeys + 1) * plan * loads.get("live", 0.0), plan * loads.get("snow", 0.0)
+    live = plan * (storeys * loads.get("live", 0.0) + roof.get("live", 0.0))
+    return dead, live, plan * loads.get("snow", 0.0)
 
 
 def combined(project, each, vertical=None):
@@ -84,7 +104,7 @@ def compare(project, tally):
     if "loads" not in project.file or "bays" not in project.file["structure"]:
         return
     structure = project.file["structure"]
-    if "walls" in structure or "braces" in structure or "span" in project.file["loads"]:
+    if "walls" in structure or "span" in project.file["loads"]:
         return
     name = "loads and masses, by hand"
     tally.category(name, 1e-9, "sums of the same numbers in another order")

@@ -92,13 +92,29 @@ def spectrum(code, given, period, damping=0.05):
 
 
 def dead_shares(project):
-    """Return the multiples of average load in the maximum and minimum combination.
+    """Return the multiples of each average load in the maximum and minimum combination.
 
     Where no cases are known all is dead load. Loads of the bearings are nearly multiples of those
-    on average where all floors carry alike.
+    on average where all floors carry alike. The least have dead load alone: each bearing's part of
+    it is that of the combination of its reactions with the least loads.
     """
     totals = building.totals(project) or building.combined(project, (1.0, 0.0, 0.0))
-    return tuple(totals[name] / totals["average"] for name in ("maximum", "minimum"))
+    average = np.array([float(row["average load [N]"]) for row in project.table("bearings")])
+    most, least = (totals[name] / totals["average"] for name in ("maximum", "minimum"))
+    shares = [share * np.ones_like(average) for share in (most, least)]
+    if (
+        not building.totals(project)
+        or not (project.results / "reaction-combinations.csv").is_file()
+    ):
+        return shares
+    still = {}
+    for row in project.table("reaction-combinations"):
+        if (row["side"], row["force"]) == ("below", "N"):
+            own = still.setdefault((row["level"], row["combination"]), {})
+            own[row["bearing"]] = float(row["static"])
+    lightest = min((list(own.values()) for own in still.values()), key=sum)
+    shares[1] = totals["minimum"] * np.array(lightest) / sum(lightest) / average
+    return shares
 
 
 class System:

@@ -478,7 +478,8 @@ def asked(project, suites_, places=None):
     average = next(iter(project.linear.values()))["system"].P[places]
     loads = list(average)
     if not unknown_loads(project):
-        loads += [load for share in codes.dead_shares(project) for load in average * share]
+        shares = codes.dead_shares(project)
+        loads += [load for share in shares for load in average * share[places]]
     void = any(suite.void for suite in suites_.values())
     for name, sign in (("axial_force", 1.0), ("axial_tension", -1.0)):
         each = [suite.design(name)[places] for suite in suites_.values()]

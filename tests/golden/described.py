@@ -56,7 +56,11 @@ def described(project):
     found["plan"] = " x ".join(f"{side:.4g}" for side in sides) + " m"
     if kind == "moment frame":
         names = {"columns": "columns", "beams": "beams", "base_beams": "base beams"}
-        found |= {said: section(given[key]) for key, said in names.items()}
+        for key, said in names.items():
+            parts = given[key] if isinstance(given[key], list) else [given[key]]
+            for part in parts:
+                of = "storeys" in part and ", storeys {} to {}".format(*part["storeys"])
+                found[said + (of or "")] = section(part)
         found |= stiffened(given)
         damping = 100.0 * given.get("damping", 0.02)
         found["damping above the bearings"] = f"{damping:g} % in each mode"
@@ -86,15 +90,18 @@ def modulus(material):
 
 
 def section(given):
-    """Return a section in words: box, I, circle or rectangle."""
+    """Return a section in words: box, I, circle, rectangle or a rolled one."""
+    material = given.get("material", "A992")
+    of = f"{material} (E {modulus(material):.4g} GPa)"
+    if "section" in given:
+        return f"{given['section']}, {of}"
     shape = next(key for key in ("box", "i_shape", "circle", "rectangle") if key in given)
     sizes = [1e3 * size for size in given[shape]]
     if shape == "box" and len(sizes) == 2:
         sizes.insert(0, sizes[0])
     word = {"i_shape": "I"}.get(shape, shape)
-    material = given.get("material", "A992")
     sized = " x ".join(f"{size:.5g}" for size in sizes)
-    return f"{word} {sized} mm, {material} (E {modulus(material):.4g} GPa)"
+    return f"{word} {sized} mm, {of}"
 
 
 def stiffened(given):
@@ -118,6 +125,7 @@ def loaded(loads, project):
     dead, live, snow = (loads.get(key, 0.0) for key in ("dead", "live", "snow"))
     for what in ("floors", "roof", "base"):
         own = {"dead": dead, "live": live, "snow": snow if what == "roof" else 0.0}
+        own |= loads.get(what, {})
         parts = [f"{key} {1e-3 * q:.4g}" for key, q in own.items() if q > 0.0]
         found[f"loads of {what}, besides the members"] = ", ".join(parts) + " kN/m2"
     if loads.get("facade", 0.0) > 0.0:

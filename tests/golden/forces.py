@@ -114,7 +114,7 @@ def _uplift(project, tally):
     # The least load of all combinations, what the formulas pull, and the larger tension of both.
     name = "tension of a restraint"
     tally.category(
-        name, 1e-2, "loads of combinations are nearly multiples: live load is on no facade"
+        name, 2e-3, "multiples of the loads on average: the frame's equilibrium is nearly linear"
     )
     rows = project.table("reaction-combinations")
     above, shares = codes.above_of(project), codes.dead_shares(project)
@@ -127,7 +127,7 @@ def _uplift(project, tally):
         said, pull = row["pull of the equivalent-linear analysis [N]"], -np.inf
         if above is not None and said:
             pull = max(
-                codes.overturning(project, e, above)[k] - shares[1] * e["system"].P[k]
+                codes.overturning(project, e, above)[k] - shares[1][k] * e["system"].P[k]
                 for e in project.linear.values()
             )
             tally.same(

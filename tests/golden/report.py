@@ -544,17 +544,14 @@ def _limit(project, row):
         return e["k"], e["k_02"] / 2.0
     if title == "no uplift where the vertical earthquake leads":
         rest = 0.7 * building.upright(project, 1.0) * s.P
-        beside, least = (
-            codes.overturning(project, e, above, 0.3, 0.3),
-            codes.dead_shares(project)[1],
-        )
+        beside = codes.overturning(project, e, above, 0.3, 0.3)
         k = s.names.index(subject)
-        return (beside + rest)[k], least * s.P[k]
+        return (beside + rest)[k], codes.dead_shares(project)[1][k] * s.P[k]
     if title.startswith("no uplift") and "not evaluated" not in title:
         most, least = codes.dead_shares(project)
         share = most if title.endswith("maximum") else least
         k = s.names.index(subject)
-        return codes.overturning(project, e, above)[k], share * s.P[k]
+        return codes.overturning(project, e, above)[k], share[k] * s.P[k]
     held = above["T_fb"] if above and above["T_fb"] else 0.0
     if title == "storey drift":
         return storey_drift(project, e, above, int(subject.removeprefix("storey ")) - 1)

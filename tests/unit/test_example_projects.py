@@ -43,6 +43,8 @@ def test_whole_building_is_a_project(building: str, tmp_path: Path) -> None:
     assert parts.code().name in BUILDINGS[building]
     assert len(parts.motions()) == 1
     refused(FileExistsError, r"project\.toml", write_example, tmp_path, building=building)
+    told = CliRunner().invoke(app, ["new", str(tmp_path / "told"), "--example", building]).output
+    assert f"next: lir {'design' if building == 'imported' else 'check'} " in told
 
 
 def test_unknown_building_and_another_code(tmp_path: Path) -> None:
