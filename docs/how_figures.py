@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from frames.plots.bearing_drawing import draw_section
-from frames.plots.bearing_geometry import posture
+from frames.results.bearing_geometry import posture
 from lir_element import cyclic_test
 
 if TYPE_CHECKING:

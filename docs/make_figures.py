@@ -25,7 +25,7 @@ from matplotlib.patches import Polygon
 
 from frames import demo, moment_frame, time_history
 from frames.plots import bearing_sections, worst_bearing
-from frames.plots.bearing_geometry import Posture, contact_points, outlines
+from frames.results.bearing_geometry import Posture, contact_points, outlines
 from lir_element import CoulombFriction, LIRBearing, cyclic_test
 
 if TYPE_CHECKING:

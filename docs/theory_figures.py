@@ -11,7 +11,7 @@ from matplotlib.patches import Circle, FancyBboxPatch, Polygon
 
 from frames import GroundMotion, lumped_mass, time_history
 from frames.demo import bearing_for
-from frames.plots.bearing_geometry import Posture, contact_points, outlines
+from frames.results.bearing_geometry import Posture, contact_points, outlines
 from lir_element import CoulombFriction, FrictionHeating, LIRBearing, cyclic_test
 
 if TYPE_CHECKING:

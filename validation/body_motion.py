@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from frames.plots.bearing_geometry import plane_height, slider_axis
+from frames.results.bearing_geometry import plane_height, slider_axis
 
 if TYPE_CHECKING:
     from frames._types import FloatArray

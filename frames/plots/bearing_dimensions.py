@@ -9,7 +9,7 @@ import numpy as np
 
 from frames.plots import plot_style as ps
 from frames.plots.bearing_drawing import draw_section
-from frames.plots.bearing_geometry import AT_REST, Plates, outlines, rim_face
+from frames.results.bearing_geometry import AT_REST, Plates, outlines, rim_face
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def bearing_dimensions(
     ----------
     bearing : LIRBearing
         The device.
-    plates : frames.plots.bearing_geometry.Plates, optional
+    plates : frames.results.bearing_geometry.Plates, optional
         Thicknesses and rims, whose dimensions are then drawn as well.
     reach : float, optional
         Half the width of surfaces without rims [m].

@@ -11,7 +11,8 @@ from matplotlib.patches import Polygon
 
 from frames.plots import plot_choice as pick
 from frames.plots import plot_style as ps
-from frames.plots.bearing_geometry import (
+from frames.plots.drawn_device import device_of, require_own
+from frames.results.bearing_geometry import (
     BODIES,
     Plates,
     Posture,
@@ -20,7 +21,6 @@ from frames.plots.bearing_geometry import (
     posture,
     surface_reach,
 )
-from frames.plots.drawn_device import device_of, require_own
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from frames._types import FloatArray
-    from frames.plots.drawn_device import Geometry
+    from frames.results.bearing_geometry import Geometry
     from lir_element import LIRBearing
 
 FILLS = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,30 +17,6 @@ if TYPE_CHECKING:
 
 _USED = ("radius", "length", "slider_radius", "rim_displacement", "interface_friction")
 _SAME = 1e-6  # relative: a Dataset may have been stored in single precision
-
-
-class Geometry(Protocol):
-    """A bearing, as far as it is drawn: a `Device`, or a LIRBearing (all lengths in m)."""
-
-    @property
-    def radii(self) -> tuple[float, float]:
-        """Radius of the bottom and of the top surface."""
-
-    @property
-    def slider_height(self) -> float:
-        """Height of the whole slider on its axis."""
-
-    @property
-    def slider_radius(self) -> float:
-        """Radius of the slider in plan."""
-
-    @property
-    def rim_displacement(self) -> tuple[float, float]:
-        """Sliding at which each rim is met."""
-
-    @property
-    def is_dcfp(self) -> bool:
-        """Whether the slider is rigid."""
 
 
 @dataclass(frozen=True)

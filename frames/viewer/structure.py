@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from frames.plots.bearing_geometry import (
+from frames.plots.drawn_device import device_of
+from frames.plots.model_geometry import STATIONS, member_lines, shell_corners
+from frames.plots.plot_choice import need
+from frames.results.bearing_geometry import (
     movement,
     plane_height,
     rim_face,
     rim_height,
     surface_reach,
 )
-from frames.plots.drawn_device import device_of
-from frames.plots.model_geometry import STATIONS, member_lines, shell_corners
-from frames.plots.plot_choice import need
 from frames.results.measures import uplift_gap
 
 if TYPE_CHECKING:

@@ -34,7 +34,7 @@ def several():
 def seen(monkeypatch) -> list[list[int]]:
     """Return where the threads at equilibria, natural modes and batches will be."""
     found: list[list[int]] = []
-    for module, name in ((static, "build_basis"), (natural, "natural_modes"), (batch, "Runner")):
+    for module, name in ((static, "basis_of"), (natural, "natural_modes"), (batch, "Runner")):
         original = getattr(module, name)
 
         def watched(*given, original=original, **named):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from frames.plots.bearing_geometry import slider_axis
+from frames.results.bearing_geometry import slider_axis
 from validation.articulated import Articulated
 from validation.body_motion import body_motion
 from validation.claims import (

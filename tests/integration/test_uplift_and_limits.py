@@ -11,7 +11,7 @@ import xarray as xr
 from frames import Frame, lumped_mass, shear_building, time_histories
 from frames.design import Check, CheckError, Checks, DesignLimits, history_checks, overlap_area
 from frames.design.histories.suite_notes import doubted
-from frames.plots.bearing_geometry import rim_height
+from frames.results.bearing_geometry import rim_height
 from lir_element import CoulombFriction, LIRBearing
 from tests.scenes import full_sine, paper_bearing
 

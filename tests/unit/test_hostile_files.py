@@ -450,5 +450,5 @@ def test_what_is_no_workbook_is_refused(tmp_path: Path, content: str) -> None:
     path = tmp_path / "model.xlsx"
     with zipfile.ZipFile(path, "w") as whole:
         whole.writestr("[Content_Types].xml", content)
-    words = r"model\.xlsx is no workbook that can be read .*export"
+    words = r"model\.xlsx is no workbook that can be read .*save it as \.xlsx"
     refused(ModelError, words, read_excel, path)

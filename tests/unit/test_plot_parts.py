@@ -80,8 +80,8 @@ def marked(panel, colour, marker=None):
 def test_every_kind_of_link_is_marked_and_named(run):
     frame, _, _ = run
     figure = plots.model_view(frame)
-    named = ["members", "yielding links", "ties", "dampers", "walls, stops", "plastic hinges"]
-    assert labels(figure)[:6] == named
+    named = ["yielding links", "ties", "dampers", "walls, stops", "plastic hinges"]
+    assert [label for label in labels(figure) if label in named] == named
     panel = figure.axes[0]
     for kind, name in zip(KINDS[:3], ("brace", "rod", "damper"), strict=True):
         (mark,) = marked(panel, kind.colour, kind.mark)

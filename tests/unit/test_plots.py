@@ -13,7 +13,10 @@ from numpy.testing import assert_allclose
 
 from frames import GroundMotion, floor_spectrum, moment_frame, plots, time_history
 from frames.plots.bearing_drawing import impact_direction, impact_instants
-from frames.plots.bearing_geometry import (
+from frames.plots.drawn_device import device_of
+from frames.plots.plot_choice import as_systems, label_of, worst_bearing
+from frames.plots.plot_style import PALETTE, engineering, wrapped
+from frames.results.bearing_geometry import (
     Posture,
     area_of,
     contact_points,
@@ -25,9 +28,6 @@ from frames.plots.bearing_geometry import (
     rim_height,
     slider_axis,
 )
-from frames.plots.drawn_device import device_of
-from frames.plots.plot_choice import as_systems, label_of, worst_bearing
-from frames.plots.plot_style import PALETTE, engineering, wrapped
 from lir_element import LIRBearing, cyclic_test
 from lir_element.results.dataset import bearing_coordinates, device_variables
 from tests.refusals import refused

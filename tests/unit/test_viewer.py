@@ -21,9 +21,9 @@ from frames import (
     uplift_gap,
 )
 from frames.assembly.assemble import assemble
-from frames.plots.bearing_geometry import movement, rim_face
 from frames.plots.drawn_device import device_of
 from frames.plots.model_geometry import member_lines
+from frames.results.bearing_geometry import movement, rim_face
 from frames.viewer import write_view
 from frames.viewer.payload import SHAPE_ERROR, as_shapes, kept_steps
 from tests.viewed import BEARING, Judged, building, payload

@@ -14,8 +14,8 @@ pytest.importorskip("playwright", reason="playwright is not installed")
 
 from playwright.sync_api import sync_playwright
 
-from frames.plots.bearing_geometry import movement, outlines, posture
 from frames.plots.drawn_device import device_of
+from frames.results.bearing_geometry import movement, outlines, posture
 from frames.viewer import write_view
 from tests.patience import patience
 from tests.viewed import Judged, building

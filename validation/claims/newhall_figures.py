@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from frames.plots import plot_style as ps
 from frames.plots.bearing_drawing import draw_section
-from frames.plots.bearing_geometry import outlines, posture
+from frames.results.bearing_geometry import outlines, posture
 from validation.body_motion import BODIES, body_motion
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from scipy.optimize import brentq
 
-from frames.plots.bearing_geometry import (
+from frames.results.bearing_geometry import (
     AT_REST,
     Plates,
     outlines,

@@ -15,7 +15,7 @@ from frames.design.devices.bearing_numbers import enter_geometry, overlap_area, 
 from frames.design.devices.limits import LANDING_PRESSURE, PROJECT_LIMIT, PROPOSED_LIMIT
 from frames.design.histories.bearing_demands import BearingDemands, DemandOverLimit
 from frames.design.histories.suite import RunSet, motion_of, peaks_of_runs, stopped_in
-from frames.plots.bearing_geometry import RIM_SHARE
+from frames.results.bearing_geometry import RIM_SHARE
 from lir_element.device.sliders import interface_height
 from lir_element.texts import worded
 

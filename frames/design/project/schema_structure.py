@@ -34,10 +34,10 @@ from frames.design.project.schema_sections import (
 )
 
 _RESULT_TABLES = """
-bearings bench checks compare compare-motions demands demands-by-motion eccentricity
-equivalent-linear friction links member-combinations member-groups members
-members-without-forces modes motions programme provisions reaction-combinations reactions storeys
-uplift
+bearings bench centres checks compare compare-motions demands demands-by-motion eccentricity
+equivalent-linear friction links member-combinations member-groups members members-without-forces
+modes motions programme provisions reaction-combinations reactions replacement rig schedule
+storeys uplift
 """
 _RESULT_OTHERS = """
 checks.txt compare.html governing.nc interrupted.nc project.toml report.html report.pdf run.json

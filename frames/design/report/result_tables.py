@@ -25,7 +25,7 @@ from frames.design.histories.suite import peaks_of_runs
 from frames.design.report.model_tables import centre_table, mode_table
 from frames.design.report.page import Table
 from frames.design.report.tables import SHOWN
-from frames.design.report.tender import grid_of, replacement, rig, schedule
+from frames.design.report.tender import grid_of, marked, replacement, rig, schedule
 from frames.library.building import ARM
 from frames.recording.force_rows import MEMBER_FORCES
 from frames.results.quantities import QUANTITIES
@@ -99,9 +99,7 @@ def bearing_table(run: ProjectRun) -> pd.DataFrame:
     for title, name in _REACHED.items():
         values = [peaks_of_runs(data, name).max(axis=0) for data in run.runs.parts]
         table[title] = QUANTITIES[name].sign * np.max(values, axis=0)
-    if count := int((run.runs.of("status") != "ok").sum()):
-        table["void"] = worded("{count} of {n} runs failed", count=count, n=len(run.runs))
-    return table
+    return marked(table, run)
 
 
 def friction_table(run: ProjectRun) -> pd.DataFrame:
@@ -141,7 +139,7 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
         "modes": mode_table(run),
         "centres": centre_table(run),
         "schedule": schedule(run),
-        "rig": rig(run.programme),
+        "rig": rig(run),
         "replacement": replacement(run),
         "motions": run.motions.table(),
         "member-groups": member_groups(run, forces.get("members")),

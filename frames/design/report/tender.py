@@ -19,7 +19,7 @@ from frames.design.histories.eccentricity import levels_of
 from frames.design.histories.suite import peaks_of_runs
 from frames.design.testing.expected import LOOPS, loop_numbers
 from frames.design.testing.programme import SPECIMENS
-from frames.plots.bearing_geometry import plate_tilts, rim_face
+from frames.results.bearing_geometry import plate_tilts, rim_face
 from frames.statics.centres import lifting_stiffness
 from lir_element.texts import joined, worded
 
@@ -123,7 +123,28 @@ def schedule(run: ProjectRun) -> pd.DataFrame:
     table = pd.DataFrame(columns, index=pd.Index(list(units), name="of the bearings"))
     table = table.replace(math.inf, math.nan)
     table.insert(0, "unit", list(units.values()))
-    return table
+    return marked(table, run, [title in _OF_RUNS or title.startswith(_MOVED) for title in units])
+
+
+_MOVED = "displacement, time histories"
+_OF_RUNS = {
+    *("outside diameter, bottom plate", "outside diameter, top plate", "total height"),
+    *("thickness at the vertex, bottom plate", "thickness at the vertex, top plate"),
+    *("height of the rims", "width of the rims", "mass of the bearing"),
+    *("largest load with the earthquake", "least load with the earthquake that presses"),
+    *("largest uplift of any run", "largest interface slip of any run"),
+    *("rotation of the slider", "rotation between the plates, governing run"),
+}
+"""Properties that follow from time histories, also by the size of plates and rims."""
+
+
+def marked(
+    table: pd.DataFrame, run: ProjectRun, of_runs: Sequence[bool] | bool = True
+) -> pd.DataFrame:
+    """Return a table with the number of failed runs in a column, at rows that follow from runs."""
+    count = int((run.runs.of("status") != "ok").sum())
+    failed = worded("{count} of {n} runs failed", count=count, n=len(run.runs))
+    return table.assign(void=np.where(of_runs, failed, "")) if count else table
 
 
 Row = tuple[str, str, float]
@@ -170,7 +191,7 @@ def _moved(run: ProjectRun, one: OfType) -> list[Row]:
     bearing, rows = one.bearing, []
     levels = levels_of(run.cases)
     for level, cases in levels.items():
-        title = "displacement, time histories"
+        title = _MOVED
         if len(levels) > 1:
             title = worded("{what}, level {level}", what=title, level=level)
         values = largest_of_bounds(cases, "displacement")[one.places]
@@ -222,11 +243,13 @@ _RIG = {
 }
 
 
-def rig(programme: pd.DataFrame) -> pd.DataFrame:
+def rig(run: ProjectRun) -> pd.DataFrame:
     """Return what a rig must reach for each kind of bearing, and how many are tested."""
-    table = programme.groupby("bearings", sort=False).agg(**_RIG).rename_axis("bearings to test")
+    table = (
+        run.programme.groupby("bearings", sort=False).agg(**_RIG).rename_axis("bearings to test")
+    )
     table.insert(0, "prototypes", SPECIMENS)
-    return table
+    return marked(table, run)
 
 
 def replacement(run: ProjectRun) -> pd.DataFrame:
@@ -243,7 +266,8 @@ def replacement(run: ProjectRun) -> pd.DataFrame:
             "residual slip, largest of any run [m]": _reached(run, "slip_left", one.places),
             "residual slip that may stay [m]": _may_stay(run, one),
         }
-    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("type to replace")
+    table = pd.DataFrame.from_dict(rows, orient="index").rename_axis("type to replace")
+    return marked(table, run)
 
 
 def _may_stay(run: ProjectRun, one: OfType) -> float:

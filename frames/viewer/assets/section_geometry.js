@@ -1,4 +1,4 @@
-// Where the bodies of a bearing are in a vertical section; as frames/plots/bearing_geometry.py has it.
+// Where the bodies of a bearing are in a vertical section; as frames/results/bearing_geometry.py has it.
 "use strict";
 
 const SectionGeometry = (() => {

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -19,13 +19,36 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
-    from frames.plots.drawn_device import Geometry
 
 
 _ARC_POINTS = 121
 RIM_SHARE = 0.5
 """Height of the rims over the one that is free for them, where none is given: a proposal."""
 BODIES = ("bottom plate", "bottom slider", "top slider", "top plate")
+
+
+class Geometry(Protocol):
+    """A bearing, as far as it is drawn: a `Device`, or a LIRBearing (all lengths in m)."""
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Radius of the bottom and of the top surface."""
+
+    @property
+    def slider_height(self) -> float:
+        """Height of the whole slider on its axis."""
+
+    @property
+    def slider_radius(self) -> float:
+        """Radius of the slider in plan."""
+
+    @property
+    def rim_displacement(self) -> tuple[float, float]:
+        """Sliding at which each rim is met."""
+
+    @property
+    def is_dcfp(self) -> bool:
+        """Whether the slider is rigid."""
 
 
 @dataclass(frozen=True)
