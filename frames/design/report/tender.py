@@ -139,12 +139,13 @@ _OF_RUNS = {
 
 
 def marked(
-    table: pd.DataFrame, run: ProjectRun, of_runs: Sequence[bool] | bool = True
+    table: pd.DataFrame, run: ProjectRun, of_runs: Sequence[bool] | None = None
 ) -> pd.DataFrame:
     """Return a table with the number of failed runs in a column, at rows that follow from runs."""
     count = int((run.runs.of("status") != "ok").sum())
     failed = worded("{count} of {n} runs failed", count=count, n=len(run.runs))
-    return table.assign(void=np.where(of_runs, failed, "")) if count else table
+    rows = [True] * len(table) if of_runs is None else of_runs
+    return table.assign(void=[failed if each else "" for each in rows]) if count else table
 
 
 Row = tuple[str, str, float]
