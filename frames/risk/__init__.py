@@ -33,6 +33,7 @@ from frames.risk.fragility.intensity import Intensity as Intensity
 from frames.risk.fragility.intensity import IntensityMeasure as IntensityMeasure
 from frames.risk.fragility.limit_state import LimitState as LimitState
 from frames.risk.fragility.of_runs import fragility_of as fragility_of
+from frames.risk.fragility.paired_tests import paired_tests as paired_tests
 from frames.risk.fragility.risk import Risk as Risk
 from frames.risk.fragility.risk import RiskWarning as RiskWarning
 from frames.risk.fragility.risk import collapse_margin_ratio as collapse_margin_ratio

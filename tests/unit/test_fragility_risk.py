@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Callable
 
 import numpy as np
+import pandas as pd
 import pytest
 from scipy.special import ndtr
 from scipy.stats import uniform
@@ -13,6 +14,9 @@ from scipy.stats import uniform
 from frames.risk import (
     FragilityError,
     HazardCurve,
+    Intensity,
+    IntensityRuns,
+    LimitState,
     RiskWarning,
     collapse_margin_ratio,
     compare_fragility,
@@ -20,6 +24,7 @@ from frames.risk import (
     fit_stripes,
     lognormal_fragility,
     mean_annual_frequency,
+    paired_tests,
     saltelli_sample,
     sobol_indices,
     tornado,
@@ -221,3 +226,59 @@ def test_figures_of_risk_and_tornado() -> None:
     spans = sorted((bar.get_x(), bar.get_x() + bar.get_width()) for bar in bars.patches)
     assert spans == [(2.0, -1.0), (2.0, 1.0), (2.0, 3.0), (2.0, 5.0)]
     refused(TypeError, "a Risk", risk_deaggregation, [1.0])  # type: ignore[list-item]
+
+
+def _runs(demand: np.ndarray, outcome: str = "complete") -> IntensityRuns:
+    """Runs of records, (records, scales), with a drift; infinite: the bearing failed."""
+    records, scales = np.indices(demand.shape).reshape(2, -1)
+    drift = demand.ravel()
+    table = pd.DataFrame(
+        {
+            "motion": [RECORDS[k] for k in records],
+            "scale": scales + 1.0,
+            "im": scales + 1.0,
+            "outcome": np.where(np.isinf(drift), "bearing failure", outcome),
+            "status": "ok",
+            "message": "",
+            "storey drift, mean": np.where(np.isinf(drift), 0.0, drift),
+        }
+    )
+    return IntensityRuns(table, Intensity(kind="scale"), {"storey drift, mean": "-"})
+
+
+def test_paired_tests_are_the_exact_binomial() -> None:
+    # at scale 1 eight records exceed on one alone, at scale 2 all, at scale 3 one side each
+    one, two = np.zeros((12, 3)), np.zeros((12, 3))
+    one[:8, 0], one[:, 1], two[:, 1] = np.inf, np.inf, np.inf
+    one[0, 2], two[1, 2] = 0.02, 0.02
+    limit = LimitState.drift(0.01)
+    runs = {"A": _runs(one), "B": _runs(two)}
+    found = paired_tests(runs, [("A", "B"), ("B", "A")], [limit, "storey drift, mean"])
+    table = found.set_index(["measure", "own", "scale"])
+    row = table.loc[limit.name, "A", 1.0]
+    assert (row["records"], row["more"], row["less"]) == (12, 8, 0)
+    assert row["p"] == pytest.approx(2.0 * 0.5**8)
+    assert row["verdict"] == "worse"
+    assert table.loc[(limit.name, "B", 1.0), "verdict"] == "better"
+    for scale in (2.0, 3.0):
+        row = table.loc[limit.name, "A", scale]
+        assert (row["p"], row["verdict"]) == (1.0, "too few differ")
+        assert np.isnan(row["q"])
+    # over all scales: record 1 exceeds once on each, the seven others of the first eight are worse
+    row = table.loc[limit.name, "A", np.inf]
+    assert (row["more"], row["less"]) == (7, 0)
+    unknown = paired_tests(
+        {"A": _runs(one, "numerical failure"), "B": runs["B"]}, [("A", "B")], [limit]
+    )
+    assert unknown.loc[unknown["scale"] == 1.0, "records"].item() == 8  # of failed bearings alone
+    refused(FragilityError, "structure", paired_tests, runs, [("A", "C")], [limit])
+    refused(FragilityError, "rate", paired_tests, runs, [("A", "B")], [limit], 1.0)
+
+
+def test_few_discoveries_are_made_where_nothing_differs() -> None:
+    rng, found = np.random.default_rng(3), 0
+    for _ in range(60):
+        same = {name: _runs(rng.lognormal(0.0, 0.4, (22, 3))) for name in "ABCD"}
+        table = paired_tests(same, [("A", other) for other in "BCD"], [LimitState.drift(1.0)])
+        found += table["verdict"].isin(["better", "worse"]).any()
+    assert found <= 12  # of 60 tables, each with two families at a rate of 0.1

@@ -13,6 +13,7 @@ from frames.design.hazard.code_rules import damping_factor
 from frames.risk._errors import CampaignError, FragilityError
 from frames.risk.fragility.comparison import compare_fragility
 from frames.risk.fragility.limit_state import LimitState
+from frames.risk.fragility.paired_tests import ALL, paired_tests
 from frames.risk.fragility.risk import collapse_margin_ratio
 from frames.risk.fragility.runs import UNKNOWN
 from lir_element.units import STANDARD_GRAVITY
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
 LIR, PLAIN, SAME_PLAN, LARGER = "LIR-DCFP", "DCFP", "DCFP of the same plan", "larger DCFP"
 OTHERS = PLAIN, SAME_PLAN, LARGER
 """What an LIR-DCFP is compared with."""
+
+TESTED = "more", "less", "p", "q", "verdict"
+"""Columns of exact tests that stand beside a ratio."""
 
 Strength = float | Literal["unbreakable"]
 """Of rims: force at which they yield over the design load [-], or what never yields nor breaks."""
@@ -187,17 +191,26 @@ class DeviceComparison:
     filling: bool  # whether that is the one that fills the capacity, and none that was given
 
     def ratios(
-        self, curves: Mapping[str, Mapping[str, Fragility]], confidence: float
+        self, curves: Mapping[str, Mapping[str, Fragility]], tests: pd.DataFrame, confidence: float
     ) -> pd.DataFrame:
         """Return the median of the LIR-DCFP over that of each other device, limit by limit."""
+        whole = tests[tests["scale"] == ALL].set_index(["measure", "own", "over"])
         rows = []
         for limit, own in curves.items():
             for rims, (first, *others) in self.groups.items():
                 for other in others:
                     row: dict[str, object] = {"limit state": limit, "rims": rims, "over": other}
                     row |= _ratio(own.get(first), own.get(other), confidence)
+                    row |= whole.loc[(limit, first, other), list(TESTED)].to_dict()
                     rows.append(row)
         return pd.DataFrame(rows)
+
+    def tests(
+        self, runs: Mapping[str, IntensityRuns], limits: Sequence[LimitState]
+    ) -> pd.DataFrame:
+        """Return exact tests of the LIR-DCFP against each other device with the same rims."""
+        pairs = [(own, other) for own, *others in self.groups.values() for other in others]
+        return paired_tests(runs, pairs, limits)
 
     def margins(
         self,
@@ -271,14 +284,13 @@ def _breaks_at(bearing: LIRBearing) -> float:
 
 
 def _ratio(own: Fragility | None, other: Fragility | None, confidence: float) -> dict[str, Any]:
-    nothing = dict.fromkeys(("ratio [-]", "low [-]", "high [-]", f"{LIR} better [-]"), math.nan)
+    row: dict[str, Any] = dict.fromkeys(("ratio [-]", "low [-]", "high [-]"), math.nan)
     if own is None or other is None:
         lacking = [word for word, c in ((LIR, own), ("the other", other)) if c is None]
-        return nothing | {"verdict": f"no curve of {' and '.join(lacking)}"}
+        return row | {"no ratio": f"no curve of {' and '.join(lacking)}"}
     try:
         found = compare_fragility(other, own).to_dataframe(confidence).loc["median, ratio [-]"]
     except FragilityError as cause:
-        return nothing | {"verdict": str(cause)}
-    value, low, high, better = (float(found[k]) for k in ("value", "low", "high", "second better"))
-    verdict = "better" if low > 1.0 else "worse" if high < 1.0 else "alike"
-    return dict(zip(nothing, (value, low, high, better), strict=True)) | {"verdict": verdict}
+        return row | {"no ratio": str(cause)}
+    ends = (float(found[key]) for key in ("value", "low", "high"))
+    return dict(zip(row, ends, strict=True)) | {"no ratio": ""}

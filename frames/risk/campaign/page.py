@@ -58,7 +58,8 @@ def compared(
     name = comparison.collapse.name
     why = {device: str(fitted.table.loc[f"{device}, {name}", "no curve"]) for device in fitted.runs}
     sizes = comparison.sizes(fitted.runs)
-    ratios = comparison.ratios(fitted.curves, confidence)
+    tests = comparison.tests(fitted.runs, fitted.limits)
+    ratios = comparison.ratios(fitted.curves, tests, confidence)
     own = fitted.curves.get(name, {})
     margins = comparison.margins(fitted.runs, own, why, confidence)
     pictures = []
@@ -82,7 +83,12 @@ def compared(
         "collapse": _collapse(comparison.collapse),
         "considered": _considered(comparison, fitted),
         "pictures": pictures,
-        "files": {"devices": sizes, "ratios": ratios.set_index("limit state"), "margins": margins},
+        "files": {
+            "devices": sizes,
+            "ratios": ratios.set_index("limit state"),
+            "margins": margins,
+            "tests": tests.set_index("measure"),
+        },
     }
 
 
@@ -91,9 +97,12 @@ def _ratio_table(ratios: pd.DataFrame) -> Table:
     rows: dict[tuple[str, str], dict[str, str]] = {}
     for _, row in ratios.iterrows():
         said = str(row["verdict"])
-        if not pd.isna(row["ratio [-]"]):
+        if row["no ratio"]:
+            said = f"{said}; {row['no ratio']}"
+        else:
             ends = f"({row['low [-]']:.2f} to {row['high [-]']:.2f})"
             said = f"{said}, {row['ratio [-]']:.2f} {ends}"
+        said = f"{said}; {row['less']} to {row['more']} records"
         over = str(row["over"]).split(",", maxsplit=1)[0]
         rows.setdefault((row["rims"], row["limit state"]), {})[f"over {over}"] = said
     words = pd.DataFrame(list(rows.values()))
