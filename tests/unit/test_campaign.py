@@ -13,7 +13,15 @@ import pytest
 import xarray as xr
 from scipy.stats import lognorm, uniform
 
-from frames import Frame, GroundMotion, ModelError, Recording, lumped_mass, time_histories
+from frames import (
+    Frame,
+    GroundMotion,
+    ModalDamping,
+    ModelError,
+    Recording,
+    lumped_mass,
+    time_histories,
+)
 from frames._fingerprint import fingerprint
 from frames._provenance import numerical_sources
 from frames.results.chunks import load_chunk, marks_of, write_chunk
@@ -139,6 +147,23 @@ def test_parameters_become_those_of_all_bearings() -> None:
     refused(CampaignError, "the bearing has Coulomb's friction", bearings, {"f_max": 0.1})
     words = r'"radios" is no parameter: there are .*radius'
     refused(CampaignError, words, bearings, {"radios": 1.0})
+
+
+def test_factors_multiply_what_each_bearing_has() -> None:
+    rubbed = replace(BEARING, friction=(VelocityFriction(0.08, 0.04, 50.0), CoulombFriction(0.05)))
+    factors = {"friction_factor": 1.2, "rim_stiffness_factor": 0.1, "radius_factor": 2.0}
+    frame = with_parameters(structure(rubbed), factors | {"modal_damping": 0.03})
+    (found,) = {link.bearing for link in frame.bearings.values()}
+    assert found.frictions == (VelocityFriction(0.096, 0.048, 50.0), CoulombFriction(0.06))
+    assert found.radii == tuple(2.0 * each for each in BEARING.radii)
+    nominal = BEARING.resolved()["rim_stiffness"]  # a default
+    assert found.resolved()["rim_stiffness"] == pytest.approx(0.1 * nominal)
+    assert frame._damping == ModalDamping(0.03)
+    twice = {"friction_factor": 1.2, "f_max": 0.1}
+    refused(CampaignError, "friction_factor and f_max are given", with_parameters, frame, twice)
+    none = {"flange_factor": 2.0}
+    words = "no flange that it could multiply: give flange"
+    refused(CampaignError, words, with_parameters, frame, none)
 
 
 def test_rows_hold_what_time_histories_gives(store: Path) -> None:

@@ -90,6 +90,9 @@ def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
         ('"latin hypercube"', '"grid"', "leave size out"),
         ('"latin hypercube"\nsize = 4', '"grid"', "friction has a distribution"),
         ('"latin hypercube"\nsize = 4', '"sobol"\nsize = 5', "power of 2: 4 or 8"),
+        ('"latin hypercube"', '"saltelli"', 'radius has values: the kind "saltelli" needs its'),
+        ("radius = {values", "rim_stiffness = {values", "is no unit of N/m"),
+        ("radius = {values", "radius_factor = {values", "is no unit of a pure number"),
         ("radius = {values", "radios = {values", 'radios is not known; is "radius" meant?'),
         ('"1500 mm", "2 m"', "1.5", "has no unit"),
         ('"artificial-1"', '"artificial-99"', "artificial-99"),
@@ -119,12 +122,15 @@ def test_distributions_are_those_of_the_file(folder: Path) -> None:
         'friction = {low = 0.04, high = "8 %"}',
         'friction = {low = 0.03, high = 0.09, distribution = "normal", mean = 0.06, '
         'deviation = 0.01}\ncapacity = {low = "200 mm", high = "400 mm", distribution = '
-        '"loguniform"}',
+        '"loguniform"}\naxial_stiffness = {values = ["90 kN/mm"]}\n'
+        "rim_overrun_factor = {values = [0.5]}",
     ).replace("size = 4", "size = 64")
     (folder / "friction.toml").write_text(text)
     sample = read_campaign(folder / "friction.toml")._work.plan.sample
     assert sample is not None
     columns = dict(zip(sample.names, sample.values.T, strict=True))
+    assert {*columns["axial_stiffness"]} == {9e7}
+    assert {*columns["rim_overrun_factor"]} == {0.5}
     normal = stats.norm(0.06, 0.01)
     cut = normal.cdf([0.03, 0.09])
     shares = (normal.cdf(columns["friction"]) - cut[0]) / (cut[1] - cut[0])

@@ -19,7 +19,13 @@ from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
 from frames.risk.campaign.comparison import DeviceComparison, filling_intensity
 from frames.risk.campaign.file_schema import CampaignFile, Range, parameters_of
-from frames.risk.campaign.sampling import Choice, full_grid, latin_hypercube, sobol_sample
+from frames.risk.campaign.sampling import (
+    Choice,
+    full_grid,
+    latin_hypercube,
+    saltelli_sample,
+    sobol_sample,
+)
 from lir_element.device.friction import CoulombFriction
 
 if TYPE_CHECKING:
@@ -171,6 +177,11 @@ def _sample(file: CampaignFile) -> ParameterSample | None:
     size, seed = file.sample.size, file.sample.seed
     if file.sample.kind == "grid" or size is None:
         return full_grid(choices)
+    if file.sample.kind == "saltelli":
+        for name in [n for n, each in ranges.items() if each.values is not None]:
+            msg = f'{name} has values: the kind "saltelli" needs its distribution, low and high'
+            raise CampaignError(msg)
+        return saltelli_sample(choices, size, seed=seed)
     spread: Mapping[str, Choice] = choices
     if file.sample.kind == "sobol":
         return sobol_sample(spread, size, seed=seed)

@@ -7,15 +7,16 @@ from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, Self, TypeVa
 from pydantic import Field, create_model, model_validator
 
 from frames.design.project.derived import Table, WholeFile
-from frames.design.project.quantities import Acceleration, Length, Ratio, SpeedRate, Time, quantity
+from frames.design.project.quantities import Acceleration, Length, Ratio, Time, quantity
 from frames.design.project.schema import MotionSource
 from frames.design.project.schema_bearing import Bearing
 from frames.design.project.schema_structure import Structure
 from frames.design.project.structure_loads import LoadsTable
 from frames.risk.campaign.comparison import LARGER, SAME_PLAN, ComparedDevices, collapse_limit
-from frames.risk.campaign.designs import names_of
+from frames.risk.campaign.designs import FACTOR, UNITS, names_of
 from frames.risk.fragility.intensity import Intensity, Kind
 from frames.risk.fragility.limit_state import LimitState
+from lir_element.device.friction import VelocityFriction
 from lir_element.fields import unit_of
 
 if TYPE_CHECKING:
@@ -116,7 +117,7 @@ class CampaignMotions(MotionSource):
 class Sampling(Table):
     """``[sample]``: how sets of parameters are chosen."""
 
-    kind: Literal["grid", "latin hypercube", "sobol"]
+    kind: Literal["grid", "latin hypercube", "sobol", "saltelli"]
     size: int | None = Field(default=None, ge=1)
     seed: int = Field(default=0, ge=0)
 
@@ -154,17 +155,7 @@ class Range(Table, Generic[T]):
 
 
 class Parameters(Table):
-    """``[parameters]``: what of the bearings is varied; fields of their law by `parameters_of`."""
-
-    radius: Range[Length] | None = None
-    slider_height: Range[Length] | None = None
-    slider_radius: Range[Length] | None = None
-    capacity: Range[Length] | None = None
-    friction: Range[Ratio] | None = None
-    f_max: Range[Ratio] | None = None
-    f_min: Range[Ratio] | None = None
-    rate: Range[SpeedRate] | None = None
-    interface_friction: Range[Ratio] | None = None
+    """``[parameters]``: what is varied of bearings and damping; its keys are of `parameters_of`."""
 
 
 class CampaignAnalysis(Table):
@@ -251,8 +242,8 @@ class CampaignFile(WholeFile):
         if "devices" in self.campaign.model_fields_set:
             msg = "campaign.devices: [compare] has the devices, leave it out"
             raise ValueError(msg)
-        for name in GEOMETRY:
-            if self.parameters is not None and getattr(self.parameters, name) is not None:
+        for name in (*GEOMETRY, *(f"{each}{FACTOR}" for each in GEOMETRY)):
+            if getattr(self.parameters, name, None) is not None:
                 msg = f"parameters.{name}: [compare] makes its devices by it, leave it out"
                 raise ValueError(msg)
         return self
@@ -267,10 +258,14 @@ class CampaignFile(WholeFile):
 
 def parameters_of(law: type[FrictionLaw]) -> type[Parameters]:
     """Return the keys of ``[parameters]`` for bearings with a friction law."""
-    hints = get_type_hints(law)
+    units = {
+        name: unit_of(each, name)
+        for each in (VelocityFriction, law)
+        for name in names_of(each)
+        if get_type_hints(each)[name] is float
+    }
     keys: dict[str, Any] = {
-        name: (Range[quantity(unit_of(law, name))] | None, None)  # type: ignore[misc]
-        for name in names_of(law)
-        if hints[name] is float
+        name: (Range[quantity(unit)] | None, None)  # type: ignore[misc]
+        for name, unit in (UNITS | units).items()
     }
     return create_model("Parameters", __base__=Parameters, __doc__=Parameters.__doc__, **keys)
