@@ -432,7 +432,7 @@ def standings() -> str:
         ]
         lines += [f"## {one.name}", "", f"{one.title}: {one.edition}.", ""]
         lines += [f"{len(rows)} values, {len(rows) - len(known)} of them from memory.", ""]
-        lines += [*table(["clause", "what", "standing"], rows), ""]
+        lines += [*table(["clause", "value", "standing"], rows), ""]
     return "\n".join(lines).strip()
 
 
