@@ -42,6 +42,7 @@ from frames.design.hazard.spectrum import Spectrum as Spectrum
 from frames.design.hazard.stochastic_motion import NearFaultPulse as NearFaultPulse
 from frames.design.hazard.stochastic_motion import PointSource as PointSource
 from frames.design.hazard.synthetic_motions import PulseScatter as PulseScatter
+from frames.design.hazard.synthetic_motions import pulse_motions as pulse_motions
 from frames.design.hazard.synthetic_motions import synthetic_near_fault as synthetic_near_fault
 from frames.design.histories.histories import bounded_histories as bounded_histories
 from frames.design.histories.histories import history_checks as history_checks

@@ -166,6 +166,38 @@ class GroundMotion(RecordedMotion):
         """
         return self._with(transforms.with_tail(self._given(), self.dt, seconds))
 
+    def followed_by(self, second: GroundMotion, gap: float = 0.0) -> GroundMotion:
+        """Return the motion with a second one behind it, as after a main shock.
+
+        Parameters
+        ----------
+        second : GroundMotion
+            The second shock; a component that one of both lacks is at rest there.
+        gap : float
+            Time at rest between them [s], >= 0; rounded up to whole time steps.
+
+        Returns
+        -------
+        GroundMotion
+            Both, at the finer of their time steps.
+
+        Raises
+        ------
+        MotionError
+            If the gap is negative.
+        """
+        dt = min(self.dt, second.dt)
+        own = (self if self.dt == dt else self.resampled(dt)).with_tail(gap)
+        other = second if second.dt == dt else second.resampled(dt)
+        first, then, rest = own._given(), other._given(), (own.n_steps, other.n_steps)
+        parts = {
+            axis: np.concatenate(
+                [each.get(axis, np.zeros(n)) for each, n in zip((first, then), rest, strict=True)]
+            )
+            for axis in {**first, **then}
+        }
+        return GroundMotion(**parts, dt=dt, name=f"{self.name}, then {second.name}")
+
     def corrected(self, *, displacement: bool = True) -> GroundMotion:
         """Return the motion with its baseline corrected: the ground is at rest at its end.
 

@@ -13,8 +13,9 @@ from typer.testing import CliRunner
 
 from frames.command.app import app
 from frames.design import ProjectError
-from frames.risk import open_campaign
+from frames.risk import Intensity, open_campaign
 from frames.risk.campaign.file import read_campaign
+from lir_element.units import STANDARD_GRAVITY
 from tests.refusals import refused
 from tests.scenes import DEVICE
 
@@ -47,6 +48,7 @@ seed = 3
 duration = "3 s"
 workers = 1
 """
+PULSES = 'pulses = {period_ratios = [0.5, 1.0], velocities = ["0.5 m/s", "80 cm/s"]}'
 run = CliRunner().invoke
 
 
@@ -98,6 +100,12 @@ def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
         ('"artificial-1"', '"artificial-99"', "artificial-99"),
         ("1.0, 1.5", "1.0, 0.0", "scale of a motion = 0"),
         ("[sample]", "[samples]", "samples is not known"),
+        ('folder = "motions"', PULSES.replace("]}", '], periods = ["3 s"]}'), "give one of both"),
+        ('folder = "motions"', PULSES, "pulses, whose velocities are what they are scaled to"),
+        ('folder = "motions"', f'folder = "motions"\n{PULSES}', "needs one source"),
+        ("scales", "turned = [0, 0]\nscales", "has one twice"),
+        ("scales", 'vertical = ["without"]\nscales', "no vertical component to be left out"),
+        ("scales", "repeated = {factors = [-1]}\nscales", "motions.repeated.factors.0 = -1 must be"),
         ("storey_mass", "storey_masses", "storey_masses is not known"),
         ('name = "Friction of two storeys"\n', "", "campaign.name is missing"),
     ],
@@ -107,6 +115,44 @@ def test_messages_name_key_value_and_remedy(folder: Path, old: str, new: str, wo
     found = run(app, ["campaign", str(folder / "friction.toml")])
     assert found.exit_code == 2
     assert words in found.output.replace("\n", " ")
+
+
+def test_pulses_over_the_period_of_the_bearing(folder: Path) -> None:
+    """Motions of 1 m/s, of which the velocities are the factors."""
+    old = 'folder = "motions"\nonly = ["artificial-1"]\nscales = [1.0, 1.5]'
+    (folder / "friction.toml").write_text(FILE.replace(old, f'{PULSES}\ntail = "2 s"'))
+    made = read_campaign(folder / "friction.toml")
+    period = 2.0 * np.pi * np.sqrt((3.0 - 0.2) / STANDARD_GRAVITY)
+    assert list(made.motions) == [
+        f"symmetric pulse of {share * period:.4g} s, 1 m/s" for share in (0.5, 1.0)
+    ]
+    assert [motion.duration for motion in made.motions.values()] == pytest.approx(
+        [period + 2.0, 2.0 * period + 2.0], abs=0.02
+    )
+    assert "2 motions x 2 scales" in repr(made)
+    assert "0.5, 0.8" in made._repr_html_()
+
+
+def test_a_second_shock_is_scaled_by_the_first(folder: Path) -> None:
+    """Turned, and followed by the next, which has the intensity of its own first shock."""
+    asked = """turned = [0, 90]
+repeated = {factors = [0, 0.5], following = "next", gap = "3 s"}
+intensities = ["2 m/s2"]
+[fragility]
+intensity = "PGA"
+bearing_failure = true
+"""
+    text = FILE.replace('only = ["artificial-1"]', 'only = ["artificial-1", "artificial-2"]')
+    (folder / "friction.toml").write_text(text.replace("scales = [1.0, 1.5]\n", asked))
+    motions = read_campaign(folder / "friction.toml").motions
+    assert len(motions) == 2 * 2 * 2
+    measure = Intensity(kind="PGA")
+    for name in ("artificial-1", "artificial-1, 90 degrees"):
+        assert measure.of(motions[name]) == pytest.approx(1.0)
+    both = motions["artificial-1, 90 degrees, then 0.5 artificial-2"]
+    first = motions["artificial-1, 90 degrees"]
+    second = both.trimmed(first.duration + 3.0 + 0.5 * both.dt)
+    assert measure.of(second) == pytest.approx(0.5)
 
 
 def test_a_bad_file_of_motions_is_named(folder: Path) -> None:

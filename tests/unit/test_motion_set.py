@@ -346,3 +346,31 @@ def test_recorded_pairs(records: Path) -> None:
     assert (found["RotD100"] <= found["SRSS"] * (1.0 + 1e-12)).all()
     # Husid: TCU065 shakes strongly for about half a minute
     assert 20.0 < motion_measures(motion.x, motion.dt)["D5-95 [s]"] < 40.0
+
+
+def test_motions_turned_without_vertical_and_repeated() -> None:
+    """Samples of what is made, by hand; facts go along."""
+    one, two = (shaken(seed) for seed in (1, 2))
+    short = GroundMotion(x=two.x, y=two.y, z=0.5 * two.x, dt=0.5 * DT, name="b")
+    both = MotionSet({"a": one, "b": short}, {"a": {"magnitude": 7.0}})
+    turned = both.turned([0.0, 90.0])
+    assert list(turned) == ["a", "a, 90 degrees", "b", "b, 90 degrees"]
+    assert turned["a"] is one
+    np.testing.assert_allclose(turned["a, 90 degrees"].y, one.x)
+    assert turned.facts["a, 90 degrees"] == {"magnitude": 7.0}
+    refused(MotionError, "a: no vertical component", both.without_vertical)
+    flat = both.only(["b"]).without_vertical(beside=True)
+    assert list(flat) == ["b", "b, horizontal"]
+    assert flat["b, horizontal"].z is None
+    np.testing.assert_array_equal(flat["b, horizontal"].x, short.x)
+    again = both.repeated([0.0, 0.8], following="next", gap=1.0)
+    assert list(again) == ["a", "a, then 0.8 b", "b", "b, then 0.8 a"]
+    shocks, fine = again["a, then 0.8 b"], one.resampled(0.5 * DT)
+    start = fine.n_steps + 200
+    assert (shocks.dt, shocks.n_steps) == (0.5 * DT, start + short.n_steps)
+    for axis, first in (("x", fine.x), ("z", np.zeros(fine.n_steps))):
+        made = getattr(shocks, axis)
+        np.testing.assert_allclose(made[: len(first)], first)
+        assert not made[len(first) : start].any()
+        np.testing.assert_allclose(made[start:], 0.8 * getattr(short, axis))
+    refused(MotionError, "factors = -1", both.repeated, [-1.0])

@@ -200,6 +200,11 @@ def changed(folder: Path, old: str, new: str) -> Path:
         ('soil = "II"', "s_ms = 1.0", "spectrum.s_ms is not known"),
         ('"NCh2745"', '"NCh433"', "code = .NCh433. must be"),
         ('folder = "motions"', "", "motions: needs one source"),
+        (
+            'folder = "motions"',
+            'scale = "spectrum"\npulses = {periods = ["3 s"], velocities = ["1 m/s"]}',
+            'motions: scale = "spectrum": pulses are of the velocities given',
+        ),
         ("[limits]", "[limit]", 'limit is not known; is "limits" meant'),
         (
             'friction = {f_max = 0.06, f_min = "3 %", rate = "100 s/m"}',

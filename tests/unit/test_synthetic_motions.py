@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from frames import MotionError
-from frames.design import MotionSet, NearFaultPulse, synthetic_near_fault
+from frames.design import MotionSet, NearFaultPulse, pulse_motions, synthetic_near_fault
 from frames.design.hazard.stochastic_motion import (
     PointSource,
     envelope,
@@ -62,6 +62,21 @@ def test_response_of_an_oscillator_to_the_pulse() -> None:
         path = 0.002 * np.convolve(PULSE.accelerations(fine), impulse)[:6001]
         found = response_spectrum(values, dt, [period], ratio)["displacement"].to_numpy()[0]
         assert found == pytest.approx(np.abs(path).max(), rel=2e-3)
+
+
+def test_pulses_of_a_grid_have_their_peak_velocities() -> None:
+    """By integration of what is sampled; two cycles leave no displacement of either shape."""
+    found = pulse_motions([1.2, 3.0], [0.5, 2.0], shapes=["symmetric", "antisymmetric"])
+    assert len(found) == 8
+    for name, motion in found.items():
+        known = found.facts[name]
+        velocity, moved = integrated(motion.x, motion.dt)
+        peak, period = known["pulse velocity"], known["pulse period"]
+        assert np.abs(velocity).max() == pytest.approx(peak, rel=1e-3)
+        assert motion.duration == pytest.approx(2.0 * period)
+        assert abs(moved[-1]) < 2e-3 * np.abs(moved).max()
+        mirrored = velocity[::-1] * (1.0 if known["pulse shape"] == "symmetric" else -1.0)
+        np.testing.assert_allclose(velocity, mirrored, atol=2e-3 * peak)
 
 
 def test_period_of_the_magnitude() -> None:

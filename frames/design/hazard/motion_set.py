@@ -6,6 +6,7 @@ import math
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING
 
 from frames._errors import MotionError, MotionWarning
@@ -13,11 +14,11 @@ from frames.design.hazard.motion_collection import MotionCollection, twins
 from frames.design.hazard.motion_folder import fema_p695_records, read_at2_folder, read_table
 from frames.design.hazard.scaling import scaled_so
 from frames.design.hazard.spectrum import Spectrum
-from lir_element.argument_checks import listed, require_choice
+from frames.motion.ground_motion import GroundMotion
+from lir_element.argument_checks import listed, require_choice, require_non_negative
 from lir_element.texts import worded
 
 if TYPE_CHECKING:
-    from frames.motion.ground_motion import GroundMotion
     from frames.motion.records import PathLike
 
 
@@ -235,6 +236,78 @@ class MotionSet(MotionCollection):
                 names=listed(silent),
             )
             warnings.warn(msg, MotionWarning, stacklevel=3)
+
+    def turned(self, angles: Sequence[float]) -> MotionSet:
+        """Return each motion at angles about the vertical [degrees], from x towards y.
+
+        A motion keeps its name at 0, and has the angle behind it elsewhere: "a, 30 degrees".
+        """
+
+        def at(name: str, angle: float) -> tuple[str, GroundMotion]:
+            if not angle:
+                return name, self[name]
+            return f"{name}, {angle:g} degrees", self[name].rotated(math.radians(angle))
+
+        return self._varied([(n, *at(n, angle)) for n in self for angle in angles])
+
+    def without_vertical(self, *, beside: bool = False) -> MotionSet:
+        """Return the motions without their vertical components, named "a, horizontal".
+
+        With `beside` those with it stand in the set, too. A MotionError names one that has none.
+        """
+        lacking = [name for name, motion in self.items() if motion.z is None]
+        if lacking:
+            msg = f"{listed(lacking)}: no vertical component to be left out: take records with "
+            raise MotionError(msg + "three components, or leave vertical out")
+        flat = [
+            (n, f"{n}, horizontal", GroundMotion(x=m.x, y=m.y, dt=m.dt, name=m.name))
+            for n, m in self.items()
+        ]
+        kept = [(n, n, m) for n, m in self.items()] if beside else []
+        return self._varied(kept + flat)
+
+    def repeated(
+        self, factors: Sequence[float], *, following: str = "same", gap: float = 10.0
+    ) -> MotionSet:
+        """Return each motion followed by a second shock: itself, or the next of the set.
+
+        Parameters
+        ----------
+        factors : sequence of float
+            On the second shock [-], >= 0; 0 leaves it out.
+        following : {"same", "next"}
+            Which motion it is; behind the last is the first.
+        gap : float
+            Time at rest between both shocks [s].
+
+        Returns
+        -------
+        MotionSet
+            Motions "a, then 0.8 b" by motion and factor.
+
+        Raises
+        ------
+        MotionError
+            If an argument is out of its bounds.
+        """
+        require_choice("following", following, ("same", "next"), error=MotionError)
+        names = list(self)
+        others = names if following == "same" else names[1:] + names[:1]
+        made = []
+        for (first, second), factor in product(zip(names, others, strict=True), factors):
+            size = require_non_negative("factors", factor, "-", error=MotionError)
+            if not size:
+                made.append((first, first, self[first]))
+                continue
+            with warnings.catch_warnings(action="ignore", category=MotionWarning):  # said before
+                both = self[first].followed_by(self[second].scaled(size), gap)
+            made.append((first, f"{first}, then {size:g} {second}", both))
+        return self._varied(made)
+
+    def _varied(self, made: Sequence[tuple[str, str, GroundMotion]]) -> MotionSet:
+        # Of what each motion is made of, its name, and itself; facts go along.
+        facts = {name: self.facts[own] for own, name, _ in made}
+        return MotionSet({name: motion for _, name, motion in made}, facts)
 
     def scaled_to(
         self,

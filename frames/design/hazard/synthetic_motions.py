@@ -9,12 +9,14 @@ strongest time. Near the pulse's frequency the pulse rules, elsewhere the backgr
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+import warnings
+from dataclasses import dataclass, field, replace
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from frames._errors import MotionError
+from frames._errors import MotionError, MotionWarning
 from frames.design.hazard.motion_set import MotionSet
 from frames.design.hazard.stochastic_motion import (
     PEAK,
@@ -35,6 +37,8 @@ from lir_element.argument_checks import (
 from lir_element.fields import check_numbers, number
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from frames._types import FloatArray
 
 QUIET = 2.0
@@ -103,6 +107,74 @@ class PulseScatter:
             gamma=float(rng.uniform(*self.gamma)),
             phase=float(rng.uniform(*self.phase)),
         )
+
+
+PHASES = {"symmetric": 0.0, "antisymmetric": 0.5 * math.pi}
+"""Phases of pulses by the shape of their velocity about their middle [rad]."""
+
+
+def pulse_motions(
+    periods: Sequence[float],
+    velocities: Sequence[float] = (1.0,),
+    *,
+    shapes: Sequence[str] = ("symmetric",),
+    cycles: float = 2.0,
+    dt: float = 0.01,
+) -> MotionSet:
+    """Return near-fault pulses along x, one of each shape, period and peak velocity.
+
+    Parameters
+    ----------
+    periods : sequence of float
+        Periods T_p [s].
+    velocities : sequence of float
+        Peak velocities of the ground [m/s].
+    shapes : sequence of {"symmetric", "antisymmetric"}
+        Velocity about the middle of the pulse.
+    cycles : float
+        Length of the envelope over the period [-], above 1.
+    dt : float
+        Time step [s].
+
+    Returns
+    -------
+    MotionSet
+        Motions "symmetric pulse of 3 s, 1 m/s" and so on, without a background. Facts: near_fault,
+        pulse, and "pulse shape", "pulse period" [s], "pulse velocity" [m/s], its peak.
+
+    Raises
+    ------
+    MotionError
+        If an argument is out of its bounds.
+
+    Notes
+    -----
+    Source: the closed form of Mavroeidis and Papageorgiou (2003), `NearFaultPulse`.
+
+    Examples
+    --------
+    >>> list(pulse_motions([1.5, 3.0], [0.8]))
+    ['symmetric pulse of 1.5 s, 0.8 m/s', 'symmetric pulse of 3 s, 0.8 m/s']
+    """
+    step = require_positive("dt", dt, "s", error=MotionError)
+    motions, facts = {}, {}
+    for shape, period, peak in product(shapes, periods, velocities):
+        require_choice("shape", shape, tuple(PHASES), error=MotionError)
+        one = NearFaultPulse(velocity=1.0, period=period, gamma=cycles, phase=PHASES[shape])
+        fine = np.linspace(0.0, one.duration, 2001)
+        whole = replace(one, velocity=peak / float(np.abs(one.velocities(fine)).max()))
+        name = f"{shape} pulse of {period:.4g} s, {peak:g} m/s"
+        times = step * np.arange(math.ceil(one.duration / step - 1e-9) + 1)
+        with warnings.catch_warnings(action="ignore", category=MotionWarning):  # one that is left
+            motions[name] = GroundMotion(x=whole.accelerations(times), dt=step, name=name)
+        facts[name] = {
+            "near_fault": True,
+            "pulse": True,
+            "pulse shape": shape,
+            "pulse period": period,
+            "pulse velocity": peak,
+        }
+    return MotionSet(motions, facts)
 
 
 def with_pulse(background: FloatArray, pulse: FloatArray, dt: float) -> FloatArray:

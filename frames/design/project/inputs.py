@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import runpy
 from dataclasses import replace
 from functools import cached_property, partial
@@ -19,6 +20,7 @@ from frames.design.codes.registry import DesignCode, code_named
 from frames.design.codes.superstructure import Superstructure
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.motion_set import MotionSet
+from frames.design.hazard.synthetic_motions import pulse_motions
 from frames.design.project.member_sections import named_section
 from frames.design.project.moat_and_dampers import STANDARD, on_types, types_by_column, with_devices
 from frames.design.project.schema import PointsTable, read_points
@@ -38,6 +40,7 @@ from frames.io import Frame
 from frames.library.shear_buildings import shear_building
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.argument_checks import shown
+from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -213,7 +216,8 @@ class ProjectInputs:
 
     def motions(self) -> MotionSet:
         """Return the motions as they are given, not scaled to the spectrum."""
-        return motions_of(self.file.motions, self.folder)
+        given = self.file.motions
+        return varied(given, motions_of(given, self.folder, lambda: sliding_period(self.bearing())))
 
 
 def bearing_of(given: Bearing, section: str = "bearing") -> LIRBearing:
@@ -299,16 +303,42 @@ def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path
         )
 
 
-def motions_of(given: MotionSource, folder: Path) -> MotionSet:
-    """Return the motions of a section, not scaled; files are found from the folder."""
+def sliding_period(bearing: LIRBearing) -> float:
+    """Return the period of a mass on a sliding bearing [s]."""
+    return 2.0 * math.pi * math.sqrt(bearing.effective_radius / STANDARD_GRAVITY)
+
+
+def motions_of(given: MotionSource, folder: Path, period: Callable[[], float]) -> MotionSet:
+    """Return the motions of a section as read; `period` is that of the bearings [s]."""
 
     def made() -> MotionSet:
-        if given.folder is not None:
+        if given.pulses is not None:
+            asked = given.pulses
+            periods = asked.periods or [ratio * period() for ratio in asked.period_ratios]
+            found = pulse_motions(
+                periods, asked.velocities, shapes=asked.shapes, cycles=asked.cycles
+            )
+        elif given.folder is not None:
             found = MotionSet.from_folder(folder / given.folder, given.table)
         else:
             found = MotionSet.fema_p695(str(given.fema_p695))
         found = found.only(given.only) if given.only else found
         return found.fault_normal() if given.fault_normal else found
+
+    return in_section("motions", made)
+
+
+def varied(given: MotionSource, motions: MotionSet) -> MotionSet:
+    """Return motions turned, without their vertical component, repeated, as a section asks."""
+
+    def made() -> MotionSet:
+        found = motions.turned(given.turned) if given.turned else motions
+        if "without" in given.vertical:
+            found = found.without_vertical(beside="with" in given.vertical)
+        second = given.repeated
+        if second is None:
+            return found
+        return found.repeated(second.factors, following=second.following, gap=second.gap)
 
     return in_section("motions", made)
 

@@ -18,7 +18,15 @@ from frames.design.codes.registry import DesignCode, code_named, known_codes
 from frames.design.devices.limits import DesignLimits
 from frames.design.hazard.code_rules import canonical
 from frames.design.project.derived import Table, WholeFile, key_of, table_of
-from frames.design.project.quantities import Acceleration, Positive, Ratio, Time, quantity
+from frames.design.project.quantities import (
+    Acceleration,
+    NotNegative,
+    Positive,
+    Ratio,
+    Speed,
+    Time,
+    quantity,
+)
 from frames.design.project.schema_bearing import (
     Bearing,
     BearingType,
@@ -142,27 +150,75 @@ def points_table(code: DesignCode) -> type[PointsTable]:
     return create_model(f"Points, {code.name}", __base__=PointsTable, __doc__=said, **keys)
 
 
+class Pulses(Table):
+    """``pulses``: near-fault pulses along x, one of each shape, period and peak velocity."""
+
+    periods: tuple[Annotated[Time, Positive], ...] = ()
+    period_ratios: tuple[Annotated[Ratio, Positive], ...] = ()
+    velocities: tuple[Annotated[Speed, Positive], ...] = Field(min_length=1)
+    shapes: tuple[Literal["symmetric", "antisymmetric"], ...] = Field(("symmetric",), min_length=1)
+    cycles: float = Field(default=2.0, gt=1.0)
+
+    @model_validator(mode="after")
+    def _periods_or_ratios(self) -> Self:
+        if bool(self.periods) == bool(self.period_ratios):
+            msg = 'needs periods = ["1.5 s", "3 s"], or period_ratios = [0.5, 1], over the period '
+            raise ValueError(msg + "of the sliding bearing; give one of both")
+        return self
+
+
+class Repeated(Table):
+    """``repeated``: a second shock behind each motion."""
+
+    factors: tuple[Annotated[Ratio, NotNegative], ...] = Field(min_length=1)
+    following: Literal["same", "next"] = "same"
+    gap: Annotated[Time, NotNegative] = 10.0
+
+
 class MotionSource(Table):
-    """Records from a folder with a table, PEER files, or a set ready by name."""
+    """Records from a folder with a table, a set ready by name, or pulses; how they are varied."""
 
     folder: Path | None = None
     table: str = "motions.csv"
     fema_p695: Literal["far-field", "near-fault pulse", "near-fault no pulse"] | None = None
+    pulses: Pulses | None = None
     fault_normal: bool = False
     only: tuple[str, ...] = ()
+    turned: tuple[float, ...] = ()
+    vertical: tuple[Literal["with", "without"], ...] = ("with",)
+    repeated: Repeated | None = None
 
     @model_validator(mode="after")
     def _one_source(self) -> Self:
-        if (self.folder is None) == (self.fema_p695 is None):
-            msg = 'needs one source: folder = "motions", or fema_p695 = "far-field"'
-            raise ValueError(msg)
+        given = [self.folder, self.fema_p695, self.pulses]
+        if given.count(None) != len(given) - 1:
+            msg = 'needs one source: folder = "motions", fema_p695 = "far-field", or pulses = '
+            raise ValueError(msg + '{periods = ["3 s"], velocities = ["1 m/s"]}')
         return self
+
+    @field_validator("turned", "vertical")
+    @classmethod
+    def _each_once(cls, given: tuple[Any, ...]) -> tuple[Any, ...]:
+        if len({*given}) < len(given):
+            msg = f"= {list(given)} has one twice: leave one out"
+            raise ValueError(msg)
+        return given
 
 
 class Motions(MotionSource):
     """``[motions]``: the records, and how they are scaled."""
 
     scale: Literal["spectrum"] | float = "spectrum"
+
+    @model_validator(mode="before")
+    @classmethod
+    def _pulses_as_they_are(cls, given: object) -> object:
+        if isinstance(given, dict) and given.get("pulses"):
+            if given.get("scale") == "spectrum":
+                msg = 'scale = "spectrum": pulses are of the velocities given, leave scale out'
+                raise ValueError(msg)
+            return {"scale": 1.0, **given}
+        return given
 
     @field_validator("scale", mode="before")
     @classmethod

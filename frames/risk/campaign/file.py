@@ -9,8 +9,16 @@ from pydantic import create_model
 from scipy import stats
 
 from frames.design.codes.history_rules import LOADS_OF_ASCE
+from frames.design.hazard.motion_set import MotionSet
 from frames.design.project.derived import DerivedTable
-from frames.design.project.inputs import bearing_of, frame_of, in_section, motions_of
+from frames.design.project.inputs import (
+    bearing_of,
+    frame_of,
+    in_section,
+    motions_of,
+    sliding_period,
+    varied,
+)
 from frames.design.project.reading import read_file
 from frames.design.project.schema_bearing import Bearing, bearing_table
 from frames.design.project.source_files import load_extensions
@@ -26,13 +34,13 @@ from frames.risk.campaign.sampling import (
     saltelli_sample,
     sobol_sample,
 )
+from frames.risk.fragility.scaled_motions import at_one
 from lir_element.device.friction import CoulombFriction
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from frames.frame import Frame
-    from frames.motion.ground_motion import GroundMotion
     from frames.risk.campaign.file_schema import FragilityTable
     from frames.risk.campaign.sampling import ParameterSample
     from frames.risk.fragility.intensity import Intensity
@@ -87,17 +95,16 @@ def read_campaign(given: CampaignFile | str | Path, *, store: str | Path | None 
     whole = _path_of(file)
     folder = whole.resolve().parent
     frame = _frame(file, whole)
-    asked, measure = file.analysis, scaled_to(file)
+    asked = file.analysis
+    motions, scales = _motions(file, folder)
     return in_section(
         "campaign",
         lambda: Campaign(
             _devices(frame, file),
-            _motions(file, folder),
+            motions,
             store=whole.with_name(f"{whole.stem}-{STORE}") if store is None else store,
             sample=in_section("sample", lambda: _sample(file)),
-            scales=None if measure else file.motions.scales,
-            intensity=measure,
-            intensities=file.motions.intensities if measure else None,
+            scales=scales,
             batch=file.campaign.batch,
             level=asked.level,
             dt=asked.dt,
@@ -149,11 +156,24 @@ def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
     )
 
 
-def _motions(file: CampaignFile, folder: Path) -> Mapping[str, GroundMotion]:
-    # With their tail.
-    found: Mapping[str, GroundMotion] = motions_of(file.motions, folder)
-    tail = file.motions.tail
-    return found if tail is None else {name: each.with_tail(tail) for name, each in found.items()}
+def _motions(file: CampaignFile, folder: Path) -> tuple[MotionSet, Sequence[float]]:
+    # With their tail, and the factors on them: of pulses their velocities, of motions that are
+    # scaled to intensities these. A second shock is scaled by the first.
+    given, measure = file.motions, scaled_to(file)
+    scales: Sequence[float] = given.scales
+    if given.pulses is not None:
+        scales = given.pulses.velocities
+        one = given.pulses.model_copy(update={"velocities": (1.0,)})
+        given = given.model_copy(update={"pulses": one})
+    found = motions_of(given, folder, lambda: sliding_period(bearing_of(file.bearing)))
+    if given.tail is not None:
+        longer = {name: each.with_tail(given.tail) for name, each in found.items()}
+        found = MotionSet(longer, found.facts)
+    if measure is not None:
+        ones, power = in_section("motions", lambda: at_one(measure, found))
+        scales = [level ** (1.0 / power) for level in given.intensities]
+        found = MotionSet(ones, found.facts)
+    return varied(given, found), scales
 
 
 def _devices(frame: Frame, file: CampaignFile) -> dict[str, Frame]:

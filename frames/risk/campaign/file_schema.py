@@ -111,6 +111,9 @@ class CampaignMotions(MotionSource):
             msg = "has scales and intensities: factors on the motions as they are, or what these "
             msg += "are scaled to; leave one out"
             raise ValueError(msg)
+        if self.pulses is not None and (self.intensities or "scales" in self.model_fields_set):
+            msg = "has pulses, whose velocities are what they are scaled to: leave "
+            raise ValueError(msg + f"{'intensities' if self.intensities else 'scales'} out")
         return self
 
 
