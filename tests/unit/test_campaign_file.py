@@ -105,7 +105,11 @@ def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
         ('folder = "motions"', f'folder = "motions"\n{PULSES}', "needs one source"),
         ("scales", "turned = [0, 0]\nscales", "has one twice"),
         ("scales", 'vertical = ["without"]\nscales', "no vertical component to be left out"),
-        ("scales", "repeated = {factors = [-1]}\nscales", "motions.repeated.factors.0 = -1 must be"),
+        (
+            "scales",
+            "repeated = {factors = [-1]}\nscales",
+            "motions.repeated.factors.0 = -1 must be",
+        ),
         ("storey_mass", "storey_masses", "storey_masses is not known"),
         ('name = "Friction of two storeys"\n', "", "campaign.name is missing"),
     ],
