@@ -14,7 +14,6 @@ from frames.command.console import INTERRUPTED, exit_codes, say
 
 if TYPE_CHECKING:
     from frames.risk.campaign.campaign import Campaign
-    from frames.risk.campaign.comparison import DeviceComparison
     from frames.risk.campaign.file_schema import CampaignFile
 
 
@@ -40,13 +39,13 @@ def campaign(
         given = campaign_file(file)
         sources = SourceFiles(given, file.resolve().parent)
         found = read_campaign(given, store=store)
-        comparison = comparison_in(given)
+        comparison_in(given)  # whether there is what it compares
         sources.require_unchanged()
         refuse_links(found.store.path)
         say(str(found))
         _run(found, workers or given.analysis.workers, reuse or [])
         sources.warn_of_changes()
-        _write(found, given, comparison, figures=figures)
+        _write(found, given, figures=figures)
         say(f"{found.status()}\nresults in {found.store.path}, digest {found.digest()[:16]}")
 
 
@@ -60,23 +59,12 @@ def _run(found: Campaign, workers: int | None, reuse: list[Path]) -> None:
         raise typer.Exit(INTERRUPTED) from cause
 
 
-def _write(
-    found: Campaign, file: CampaignFile, comparison: DeviceComparison | None, *, figures: bool
-) -> None:
-    from frames.risk.campaign.file import fragility_in, scaled_to
+def _write(found: Campaign, file: CampaignFile, *, figures: bool) -> None:
     from frames.risk.campaign.page import write_page  # with figures
+    from frames.risk.campaign.tables import CampaignTables
 
-    asked = fragility_in(file)
-    written = write_page(
-        found,
-        found.store.path / "campaign.html",
-        file.source.decode(),
-        limits=() if asked is None else asked.limits(),
-        intensity=None if asked is None else asked.measured(),
-        scaled=scaled_to(file),
-        comparison=comparison,
-        figures=figures,
-    )
+    path = found.store.path / "campaign.html"
+    written = write_page(CampaignTables(found, file), path, file.source.decode(), figures=figures)
     say(f"page {written[0]}, tables {', '.join(path.name for path in written[1:])}")
 
 

@@ -1,10 +1,18 @@
 """The study of the records of FEMA P695: its functions on two motions."""
 
+import json
+import re
+import types
+
 import numpy as np
+import pandas as pd
 import pytest
 
 from frames import GroundMotion, ductility, time_histories, time_history
+from tests.unit.test_campaign_compare import FILE, put_pulses
 from validation.measurements.yielding_runs import RIMS, WIDE
+from validation.study import runner
+from validation.study.__main__ import main
 from validation.study.records import study
 from validation.study.records_figures import figures
 from validation.study.records_page import page
@@ -89,3 +97,55 @@ def test_the_page_says_what_it_was_given(found):
     assert given["cost"]["digest"] in text
     assert set(figures(given)) == {"study-curves.png", "study-medians.png"}
     assert "none: no run exceeds the limit state" in text  # the larger DCFP has no rims
+
+
+TEMPLATE = """# Rims
+
+{{ written }} {{ only.motions }} motions; collapse margins at {{ only.considered|f(".2f") }} m/s2:
+
+{% for row in rows_of(only.tables.margins) %}{{ row.device }}: {{ interval(row, "margin") }}
+{% endfor %}
+{{ crossed(where(only.tables.ratios, limit_state="collapse"), "rims", "over", "ratio") }}
+
+{{ double }} is twice {{ own.runs }}. ![]({{ figure_of("fragility-1") }})
+
+{{ cost_line(campaigns) }}
+"""
+OWN = """
+def numbers(every):
+    return {"runs": len(every["rims"].data["run"])}
+def double(own):
+    return 2 * own["runs"]
+"""
+
+
+def test_a_part_is_a_file_and_a_template(tmp_path, monkeypatch):
+    """Run, told by its tables, gone on with, and written again from its numbers."""
+    monkeypatch.setattr(runner, "HERE", put_pulses(tmp_path))
+    (tmp_path / "rims.toml").write_text(FILE)
+    (tmp_path / "rims.md.j2").write_text(TEMPLATE.replace("double }}", "double(own) }}"))
+    module = types.ModuleType("own")
+    exec(OWN, vars(module))  # noqa: S102  (a module of the test)
+    monkeypatch.setattr(runner, "own_module", lambda part: module)
+    to = tmp_path / "docs"
+    given = ["rims", "--store", str(tmp_path / "runs"), "--to", str(to)]
+    main(given)
+    text = (to / "study_rims.md").read_text()
+    told = runner.told_of(json.loads((to / "study_rims.json").read_text()))["rims"]
+    runs = 5 * 4 * 5  # devices, records, intensities
+    assert f"{2 * runs} is twice {runs}." in text
+    assert f"4 motions; collapse margins at {told['considered']:.2f} m/s2" in text
+    ratios = told["tables"]["ratios"]
+    for _, row in ratios[ratios["limit state"] == "collapse"].dropna().iterrows():
+        value, low, high = row[["ratio [-]", "low [-]", "high [-]"]]
+        assert re.search(rf"\| {row['rims']} \|.* {value:.2f} \({low:.2f} to {high:.2f}\) \|", text)
+    drawn = {f"study_rims-{kind}-{k}.png" for kind in ("fragility", "response") for k in (1, 2)}
+    assert {path.name for path in (to / "figures").iterdir()} == drawn
+    csv = pd.read_csv(to / "tables/study_rims-rims-ratios.csv")
+    assert csv["ratio [-]"].to_numpy() == pytest.approx(ratios["ratio [-]"], rel=1e-4, nan_ok=True)
+    main(given)
+    again = (to / "study_rims.md").read_text()
+    assert f"{runs} histories, 0 of them in the last call" in again
+    (to / "study_rims.md").unlink()
+    main(["rims", "--again", "--to", str(to)])
+    assert (to / "study_rims.md").read_text() == again

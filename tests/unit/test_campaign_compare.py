@@ -59,10 +59,8 @@ PERIODS = (1.6, 1.9, 2.2, 2.5)
 run = CliRunner().invoke
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A comparison under pulses of some periods, run."""
-    found = tmp_path_factory.mktemp("compare")
+def put_pulses(found: Path) -> Path:
+    """Put motions of some periods into a folder."""
     (found / "motions").mkdir()
     t = np.arange(0.0, 5.0, 0.01)
     rows = ["name,x,dt,unit"]
@@ -71,6 +69,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         np.savetxt(found / f"motions/{period}.txt", pulse)
         rows.append(f"p{period},{period}.txt,0.01,m/s2")
     (found / "motions/motions.csv").write_text("\n".join(rows) + "\n")
+    return found
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A comparison under pulses of some periods, run."""
+    found = put_pulses(tmp_path_factory.mktemp("compare"))
     (found / "rims.toml").write_text(FILE)
     with warnings.catch_warnings(action="ignore", category=AnalysisWarning):  # failures, on purpose
         done = run(app, ["campaign", str(found / "rims.toml")])

@@ -1,17 +1,24 @@
 """Run the whole study, part after part: `python -m validation.study --store study-runs`.
 
     python -m validation.study [part ...] [--store FOLDER] [--workers N or tcp://host:port] [--again]
+                               [--trial N] [--to FOLDER]
 
 Each part keeps its runs in a folder of its own within the store, goes on with what is there, and
-writes its page; `python -m validation.study.<part>` runs one alone.
+writes its page. `--trial 2` runs two records of each set at two intensities, `--to FOLDER` writes
+pages there.
 """
 
 from __future__ import annotations
 
 import argparse
+import tempfile
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+from validation.page import FOLDER
+from validation.study.part import workers_of
+from validation.study.runner import Work, files_of, run, write
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -41,15 +48,31 @@ def main(given: Sequence[str] | None = None) -> None:
     parser.add_argument(
         "--again", action="store_true", help="run nothing: write the pages from their JSON"
     )
+    parser.add_argument("--trial", type=int, help="so many records and intensities of each set")
+    parser.add_argument("--to", type=Path, default=FOLDER, help="folder for the pages")
     options = parser.parse_args(given)
+    if options.trial is not None and options.to == FOLDER:
+        parser.error("--trial N is no result: --to FOLDER says where its pages go")
     unknown = [part for part in options.parts if part not in PARTS]
     if unknown:
         parser.error(f"no part {unknown[0]!r}: one of {', '.join(PARTS)}")
     for part in options.parts or PARTS:
+        if files_of(part):
+            _perform(part, options)
+            continue
         own = ["--workers", options.workers]
         own += ["--store", str(options.store / part)] if options.store else []
         own += ["--again"] if options.again else []
         import_module(f"validation.study.{part}").main(own)
+
+
+def _perform(part: str, options: argparse.Namespace) -> None:
+    if options.again:
+        write(part, options.to)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        store, workers = options.store or Path(folder), workers_of(options.workers)
+        run(part, Work(store, options.to, workers, options.trial))
 
 
 if __name__ == "__main__":

@@ -191,12 +191,17 @@ class DeviceComparison:
     filling: bool  # whether that is the one that fills the capacity, and none that was given
 
     def ratios(
-        self, curves: Mapping[str, Mapping[str, Fragility]], tests: pd.DataFrame, confidence: float
+        self,
+        curves: Mapping[str, Mapping[str, Fragility]],
+        limits: Sequence[LimitState],
+        tests: pd.DataFrame,
+        confidence: float,
     ) -> pd.DataFrame:
         """Return the median of the LIR-DCFP over that of each other device, limit by limit."""
         whole = tests[tests["scale"] == ALL].set_index(["measure", "own", "over"])
         rows = []
-        for limit, own in curves.items():
+        for limit in (each.name for each in limits):
+            own = curves.get(limit, {})
             for rims, (first, *others) in self.groups.items():
                 for other in others:
                     row: dict[str, object] = {"limit state": limit, "rims": rims, "over": other}
@@ -233,7 +238,7 @@ class DeviceComparison:
             if name in curves:
                 row |= self._numbers(curves[name], confidence)
             rows[name] = row | {"no curve": reasons.get(name, "")}
-        return pd.DataFrame.from_dict(rows, orient="index")
+        return pd.DataFrame.from_dict(rows, orient="index").rename_axis("device")
 
     def _numbers(self, curve: Fragility, confidence: float) -> dict[str, object]:
         interval = curve.interval(confidence)
@@ -270,7 +275,7 @@ class DeviceComparison:
                 "largest displacement [m]": largest,
                 "dish diameter [m]": dish_diameter(bearing, None if has_rims else largest),
             }
-        return pd.DataFrame.from_dict(rows, orient="index")
+        return pd.DataFrame.from_dict(rows, orient="index").rename_axis("device")
 
 
 def _breaks_at(bearing: LIRBearing) -> float:

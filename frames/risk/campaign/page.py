@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -13,15 +13,9 @@ from frames.design.report.page import Picture, Table, page_table, page_template,
 from frames.design.report.tables import in_mm_and_kn
 from frames.plots import plot_style as ps
 from frames.results.storage import csv_of, write_whole
-from frames.risk._errors import FragilityError
 from frames.risk.campaign.comparison import LIR
-from frames.risk.campaign.plot_response import (
-    failure_table,
-    response_by_factor,
-    response_table,
-    runs_by_model,
-)
-from frames.risk.fragility.of_runs import fragility_of
+from frames.risk.campaign.plot_response import response_by_factor
+from frames.risk.campaign.tables import CONFIDENCE
 from frames.risk.fragility.plot_fragility import fragility_curves, shown_intensity
 from lir_element._version import package_version
 
@@ -29,67 +23,67 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
-    import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from frames.risk.campaign.campaign import Campaign
     from frames.risk.campaign.comparison import DeviceComparison
+    from frames.risk.campaign.tables import CampaignTables
     from frames.risk.fragility.curve import Fragility
-    from frames.risk.fragility.intensity import Intensity
     from frames.risk.fragility.limit_state import LimitState
     from frames.risk.fragility.runs import IntensityRuns
 
 
-class Fitted(NamedTuple):
-    """Curves of a campaign."""
-
-    runs: Mapping[str, IntensityRuns]  # by structure, over the measure of the curves
-    by_factor: Mapping[str, IntensityRuns]  # the same over the factor on the motions
-    limits: Sequence[LimitState]  # what was fitted
-    curves: Mapping[str, Mapping[str, Fragility]]  # by limit state and structure
-    table: pd.DataFrame  # a row a structure and limit state; "no curve" says why there is none
-
-
 def compared(
-    comparison: DeviceComparison, fitted: Fitted, confidence: float, axis: str, *, figures: bool
+    comparison: DeviceComparison, tables: CampaignTables, *, figures: bool
 ) -> dict[str, Any]:
     """Return what a campaign says of devices, by the names that the page has for it."""
-    name = comparison.collapse.name
-    why = {device: str(fitted.table.loc[f"{device}, {name}", "no curve"]) for device in fitted.runs}
-    sizes = comparison.sizes(fitted.runs)
-    tests = comparison.tests(fitted.runs, fitted.limits)
-    ratios = comparison.ratios(fitted.curves, tests, confidence)
-    own = fitted.curves.get(name, {})
-    margins = comparison.margins(fitted.runs, own, why, confidence)
     pictures = []
     for rims, devices in comparison.groups.items() if figures else ():
-        runs = {device: fitted.runs[device] for device in devices}
         drawn = device_curves(
-            runs,
-            fitted.curves,
-            fitted.limits,
-            confidence=confidence,
+            {device: tables.runs[device] for device in devices},
+            tables.curves,
+            tables.limits,
+            confidence=CONFIDENCE,
             considered=comparison.considered,
         )
         pictures.append(picture(f"Fragility, {rims}", drawn))
-        by_factor = {device: fitted.by_factor[device] for device in devices}
+        by_factor = {device: tables.by_factor[device] for device in devices}
         title = f"Responses and runs that failed, {rims}"
-        pictures.append(picture(title, response_by_factor(by_factor, axis=axis)))
+        pictures.append(picture(title, response_by_factor(by_factor, axis=tables.axis)))
     return {
-        "sizes": page_table(in_mm_and_kn(sizes), "device"),
-        "ratios": _ratio_table(ratios),
-        "margins": _margin_table(margins),
+        "sizes": page_table(in_mm_and_kn(tables.devices), "device"),
+        "ratios": _ratio_table(tables.ratios),
+        "margins": _margin_table(tables.margins),
         "collapse": _collapse(comparison.collapse),
-        "considered": _considered(comparison, fitted),
+        "considered": _considered(comparison, tables),
         "pictures": pictures,
-        "files": {
-            "devices": sizes,
-            "ratios": ratios.set_index("limit state"),
-            "margins": margins,
-            "tests": tests.set_index("measure"),
-        },
     }
+
+
+def _fragility_table(fragility: pd.DataFrame) -> Table:
+    # A row a structure and limit state, numbers with their intervals.
+    words = pd.DataFrame({"exceeded": _of_runs(fragility)}, index=fragility.index)
+    for name in ("median", "dispersion"):
+        for column in [c for c in fragility.columns if str(c).startswith(f"{name} [")]:
+            words[column] = _with_ends(fragility, str(column), ".3g")
+    words["no curve"] = fragility["no curve"]
+    names = fragility["structure"] + ", " + fragility["limit state"]
+    return page_table(words.set_index(pd.Index(names)), "structure and limit state")
+
+
+def _of_runs(fragility: pd.DataFrame) -> list[str]:
+    pairs = zip(fragility["exceeded"], fragility["known"], strict=True)
+    return ["" if pd.isna(over) else f"{over:.0f} of {known:.0f} runs" for over, known in pairs]
+
+
+def _with_ends(table: pd.DataFrame, column: str, form: str) -> list[str]:
+    # Numbers with their intervals.
+    name, unit = column.split(" [", 1)
+    ends = [table[f"{name}, {end} [{unit}"] for end in ("low", "high")]
+    return [
+        "" if pd.isna(value) else f"{value:{form}} ({low:{form}} to {high:{form}})"
+        for value, low, high in zip(table[column], *ends, strict=True)
+    ]
 
 
 def _ratio_table(ratios: pd.DataFrame) -> Table:
@@ -114,12 +108,7 @@ def _margin_table(margins: pd.DataFrame) -> Table:
     # Numbers with their intervals in one cell; without a curve why there is none.
     words = margins[["runs", "collapsed", "bearing failed", "analysis failed"]].copy()
     for name in [str(c) for c in margins.columns if str(c).startswith(("median [", "margin ["))]:
-        word, unit = name.split(" ", 1)
-        ends = [margins[f"{word}, {end} {unit}"] for end in ("low", "high")]
-        words[name] = [
-            "" if pd.isna(value) else f"{value:.2f} ({low:.2f} to {high:.2f})"
-            for value, low, high in zip(margins[name], *ends, strict=True)
-        ]
+        words[name] = _with_ends(margins, name, ".2f")
     if "dispersion [-]" in margins:
         words["dispersion [-]"] = [
             "" if pd.isna(value) else f"{value:.2f}" for value in margins["dispersion [-]"]
@@ -135,8 +124,8 @@ def _collapse(limit: LimitState) -> str:
     return f"Collapse is failure of a bearing, or a storey drift above {100.0 * limit.limit:g} %"
 
 
-def _considered(comparison: DeviceComparison, fitted: Fitted) -> str:
-    measure = next(iter(fitted.runs.values())).intensity
+def _considered(comparison: DeviceComparison, tables: CampaignTables) -> str:
+    measure = next(iter(tables.runs.values())).intensity
     if comparison.considered is None:
         return (
             "There are no margins, for no maximum considered earthquake is known: "
@@ -212,47 +201,33 @@ def _curve(
     panel.plot(factor * at, table["probability"], **look)
 
 
-CONFIDENCE = 0.9
-
-
 def write_page(
-    campaign: Campaign,
-    path: Path,
-    source: str,
-    *,
-    limits: Sequence[LimitState] = (),
-    intensity: Intensity | None = None,
-    scaled: Intensity | None = None,
-    comparison: DeviceComparison | None = None,
-    figures: bool = True,
+    tables: CampaignTables, path: Path, source: str, *, figures: bool = True
 ) -> list[Path]:
     """Write what a campaign gave, as a page and tables beside it."""
-    data = campaign.results()
-    models = runs_by_model(data, campaign.motions)
-    responses, failures = response_table(models), failure_table(models)
-    asked = [*limits, *([] if comparison is None else [comparison.collapse])]
-    measured = runs_by_model(data, campaign.motions, intensity) if asked else {}
-    curves, fragility = _curves(measured, asked)
-    axis = _axis(scaled)
-    fitted = Fitted(measured, models, asked, curves, fragility)
+    campaign, models = tables.campaign, tables.by_factor
+    failures, fragility = tables.failures, tables.fragility
     devices = None
-    if comparison is not None:
-        devices = compared(comparison, fitted, CONFIDENCE, axis, figures=figures)
+    if tables.comparison is not None:
+        devices = compared(tables.comparison, tables, figures=figures)
     drawn = figures and devices is None
     page = page_template("campaign.html.j2", "frames.risk.campaign").render(
         name=campaign.store.path.name,
         status=campaign.status(),
-        planned=page_table(_planned(campaign, data, axis), ""),
+        planned=page_table(tables.plan, ""),
         failures=page_table(failures.set_index("structure"), "structure")
         if len(failures)
         else None,
-        responses=[_in_words(in_mm_and_kn(one), f"{axis}, {n}") for n, one in _parts(responses)],
-        fragility=page_table(fragility, "structure and limit state") if len(fragility) else None,
+        responses=[
+            _in_words(in_mm_and_kn(one), f"{tables.axis}, {name}")
+            for name, one in _parts(tables.response)
+        ],
+        fragility=_fragility_table(fragility) if len(fragility) else None,
         compared=devices,
         confidence=f"{100.0 * CONFIDENCE:g} %",
         several_sets=campaign.sets > 1,
-        response_pictures=_responses(models, axis) if drawn else [],
-        fragility_pictures=_fragility(curves) if drawn else [],
+        response_pictures=_responses(models, tables.axis) if drawn else [],
+        fragility_pictures=_fragility(tables.curves) if drawn else [],
         figures=figures,
         store=str(campaign.store.path),
         digest=campaign.digest(),
@@ -260,49 +235,13 @@ def write_page(
         source=source,
         written=f"{datetime.now(tz=UTC):%Y-%m-%d %H:%M} UTC, lir-dcfp {package_version()}",
     )
-    tables = {
-        "response": csv_of(responses, index=False),
-        "failures": csv_of(failures, index=False),
-    }
-    if asked:
-        tables["fragility"] = csv_of(fragility)
-    if devices is not None:
-        tables |= {name: csv_of(table) for name, table in devices["files"].items()}
     texts = {path: page}
-    texts |= {path.with_name(f"{path.stem}-{name}.csv"): text for name, text in tables.items()}
+    for name, table in tables.all().items():
+        text = csv_of(table, index=table.index.name is not None)
+        texts[path.with_name(f"{path.stem}-{name}.csv")] = text
     for file, text in texts.items():
         write_whole(file, text)
     return list(texts)
-
-
-def _axis(scaled: Intensity | None) -> str:
-    # What the factors on the motions are.
-    return "factor on the motions" if scaled is None else f"{scaled.label} [{scaled.unit}]"
-
-
-def _planned(campaign: Campaign, data: xr.Dataset, axis: str) -> pd.DataFrame:
-    # What was run, in words.
-    plan: dict[str, Any] = campaign.store.plan()
-    rows = {
-        "structures": ", ".join(plan["models"]),
-        "motions": f"{len(plan['motions'])}: {', '.join(plan['motions'])}",
-        axis: ", ".join(f"{scale:g}" for scale in plan["scales"]),
-    }
-    for name in plan["parameters"]:
-        values = np.unique(data[name].to_numpy())
-        rows[f"parameter {name}"] = (
-            f"{len(values)} values, {values[0]:.4g} to {values[-1]:.4g} (SI)"
-        )
-    if sample := plan["provenance"].get("sample"):
-        rows["sets of parameters"] = f"{campaign.sets}, {sample}"
-    options = plan["options"]
-    rows["level of fidelity"] = str(options["level"])
-    for word, key in (("step [s]", "dt"), ("duration [s]", "duration")):
-        if options[key] is not None:
-            rows[word] = f"{options[key]:g}"
-    rows["runs"] = f"{plan['runs']}, in batches of {plan['batch']}"
-    rows["begun with"] = f"lir-dcfp {plan['program']}"
-    return pd.DataFrame({"what was run": rows})
 
 
 def _in_words(response: pd.DataFrame, name: str) -> Table:
@@ -317,34 +256,6 @@ def _parts(responses: pd.DataFrame) -> list[tuple[str, pd.DataFrame]]:
         (str(name), one.drop(columns="structure").set_index("factor"))
         for name, one in responses.groupby("structure", sort=False)
     ]
-
-
-def _curves(
-    models: Mapping[str, IntensityRuns], limits: Sequence[LimitState]
-) -> tuple[dict[str, dict[str, Fragility]], pd.DataFrame]:
-    # Curves by limit state and structure, and their table; where there is none it says why.
-    found: dict[str, dict[str, Fragility]] = {}
-    rows: dict[str, dict[str, object]] = {}
-    for limit in limits:
-        for name, runs in models.items():
-            row: dict[str, object] = {}
-            try:
-                over = runs.exceeded(limit)
-                known = ~np.isnan(over)
-                row["exceeded"] = f"{int(over[known].sum())} of {int(known.sum())} runs"
-                curve: Any = fragility_of(runs, limit, method="stripes")
-            except (FragilityError, ImportError) as cause:
-                rows[f"{name}, {limit.name}"] = row | {"no curve": str(cause)}
-                continue
-            found.setdefault(limit.name, {})[name] = curve
-            interval = curve.interval(CONFIDENCE)
-            for number in ("median", "dispersion"):
-                unit = f" [{curve.unit}]" if number == "median" else " [-]"
-                row[number + unit] = float(interval.loc[number, "value"])
-                ends = (float(interval.loc[number, end]) for end in ("low", "high"))
-                row[f"{number}, {100.0 * CONFIDENCE:g} %"] = " to ".join(f"{e:.3g}" for e in ends)
-            rows[f"{name}, {limit.name}"] = row | {"no curve": ""}
-    return found, pd.DataFrame.from_dict(rows, orient="index")
 
 
 def _responses(models: Mapping[str, IntensityRuns], axis: str) -> list[Picture]:

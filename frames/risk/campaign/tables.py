@@ -1,0 +1,182 @@
+"""Tables of a campaign, made once: its page, its CSV files and the study show the same ones."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pandas as pd
+
+from frames.risk._errors import FragilityError
+from frames.risk.campaign.file import comparison_in, fragility_in, scaled_to
+from frames.risk.campaign.plot_response import failure_table, response_table, runs_by_model
+from frames.risk.fragility.of_runs import fragility_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import xarray as xr
+
+    from frames.risk.campaign.campaign import Campaign
+    from frames.risk.campaign.file_schema import CampaignFile
+    from frames.risk.fragility.curve import Fragility
+    from frames.risk.fragility.limit_state import LimitState
+    from frames.risk.fragility.runs import IntensityRuns
+
+CONFIDENCE = 0.9
+"""Of intervals [-]."""
+
+FILES = "response", "failures", "fragility", "devices", "ratios", "margins", "tests"
+"""Tables that are written as CSV, in SI units, by their names."""
+
+
+class CampaignTables:
+    """Tables of the runs that a campaign has done, as its file asks; each is made at first use."""
+
+    def __init__(self, campaign: Campaign, file: CampaignFile) -> None:
+        self.campaign, self.file = campaign, file
+        asked, scaled = fragility_in(file), scaled_to(file)
+        self.comparison = comparison_in(file)
+        self.limits: list[LimitState] = [] if asked is None else asked.limits()
+        if self.comparison is not None:
+            self.limits.append(self.comparison.collapse)
+        self.intensity = None if asked is None else asked.measured()
+        self.axis = "factor on the motions"
+        if scaled is not None:
+            self.axis = f"{scaled.label} [{scaled.unit}]"
+
+    def all(self) -> dict[str, pd.DataFrame]:
+        """Return the tables that there are, by the names of `FILES`."""
+        found = {name: getattr(self, name) for name in FILES}
+        return {name: table for name, table in found.items() if len(table) or name in FILES[:2]}
+
+    @cached_property
+    def data(self) -> xr.Dataset:
+        """The results."""
+        return self.campaign.results()
+
+    @cached_property
+    def by_factor(self) -> dict[str, IntensityRuns]:
+        """Runs by structure, over the factor on the motions."""
+        return runs_by_model(self.data, self.campaign.motions)
+
+    @cached_property
+    def runs(self) -> dict[str, IntensityRuns]:
+        """The same over the measure of the curves."""
+        if self.intensity is None:
+            return self.by_factor
+        return runs_by_model(self.data, self.campaign.motions, self.intensity)
+
+    @cached_property
+    def _fitted(self) -> tuple[dict[str, dict[str, Fragility]], pd.DataFrame]:
+        return _fitted(self.runs, self.limits)
+
+    @property
+    def curves(self) -> dict[str, dict[str, Fragility]]:
+        """Curves by limit state and structure."""
+        return self._fitted[0]
+
+    @property
+    def fragility(self) -> pd.DataFrame:
+        """A row a structure and limit state; "no curve" says why there is none."""
+        return self._fitted[1]
+
+    @cached_property
+    def response(self) -> pd.DataFrame:
+        """Fractiles of what was reached, a row a structure and factor on the motions."""
+        return response_table(self.by_factor)
+
+    @cached_property
+    def failures(self) -> pd.DataFrame:
+        """Runs that did not go to their end, a row a structure and cause."""
+        return failure_table(self.by_factor)
+
+    @cached_property
+    def devices(self) -> pd.DataFrame:
+        """Sizes, a row a device; empty if none are compared."""
+        if self.comparison is None:
+            return pd.DataFrame()
+        return self.comparison.sizes(self.runs)
+
+    @cached_property
+    def tests(self) -> pd.DataFrame:
+        """Exact tests of the LIR-DCFP against others; empty if none are compared."""
+        if self.comparison is None:
+            return pd.DataFrame()
+        return self.comparison.tests(self.runs, self.limits)
+
+    @cached_property
+    def ratios(self) -> pd.DataFrame:
+        """Medians of the LIR-DCFP over those of others; empty if none are compared."""
+        if self.comparison is None:
+            return pd.DataFrame()
+        return self.comparison.ratios(self.curves, self.limits, self.tests, CONFIDENCE)
+
+    @cached_property
+    def margins(self) -> pd.DataFrame:
+        """Collapse, a row a device; empty if none are compared."""
+        if self.comparison is None:
+            return pd.DataFrame()
+        name = self.comparison.collapse.name
+        own = self.fragility[self.fragility["limit state"] == name]
+        why = dict(zip(own["structure"], own["no curve"], strict=True))
+        return self.comparison.margins(self.runs, self.curves.get(name, {}), why, CONFIDENCE)
+
+    @cached_property
+    def plan(self) -> pd.DataFrame:
+        """What was run, in words: a row a thing."""
+        return _planned(self.campaign, self.data, self.axis)
+
+
+def _fitted(
+    models: Mapping[str, IntensityRuns], limits: list[LimitState]
+) -> tuple[dict[str, dict[str, Fragility]], pd.DataFrame]:
+    # Curves by limit state and structure, and their table; where there is none it says why.
+    found: dict[str, dict[str, Fragility]] = {}
+    rows: list[dict[str, object]] = []
+    for limit in limits:
+        for name, runs in models.items():
+            row: dict[str, object] = {"structure": name, "limit state": limit.name}
+            row |= {"exceeded": np.nan, "known": np.nan}
+            rows.append(row)
+            try:
+                over = runs.exceeded(limit)
+                known = ~np.isnan(over)
+                row |= {"exceeded": int(over[known].sum()), "known": int(known.sum())}
+                curve: Any = fragility_of(runs, limit, method="stripes")
+            except (FragilityError, ImportError) as cause:
+                row["no curve"] = str(cause)
+                continue
+            found.setdefault(limit.name, {})[name] = curve
+            interval = curve.interval(CONFIDENCE)
+            for number, unit in (("median", curve.unit), ("dispersion", "-")):
+                for end, word in (("value", ""), ("low", ", low"), ("high", ", high")):
+                    row[f"{number}{word} [{unit}]"] = float(interval.loc[number, end])
+            row["no curve"] = ""
+    return found, pd.DataFrame(rows)
+
+
+def _planned(campaign: Campaign, data: xr.Dataset, axis: str) -> pd.DataFrame:
+    # What was run, in words.
+    plan: dict[str, Any] = campaign.store.plan()
+    rows = {
+        "structures": ", ".join(plan["models"]),
+        "motions": f"{len(plan['motions'])}: {', '.join(plan['motions'])}",
+        axis: ", ".join(f"{scale:g}" for scale in plan["scales"]),
+    }
+    for name in plan["parameters"]:
+        values = np.unique(data[name].to_numpy())
+        rows[f"parameter {name}"] = (
+            f"{len(values)} values, {values[0]:.4g} to {values[-1]:.4g} (SI)"
+        )
+    if sample := plan["provenance"].get("sample"):
+        rows["sets of parameters"] = f"{campaign.sets}, {sample}"
+    options = plan["options"]
+    rows["level of fidelity"] = str(options["level"])
+    for word, key in (("step [s]", "dt"), ("duration [s]", "duration")):
+        if options[key] is not None:
+            rows[word] = f"{options[key]:g}"
+    rows["runs"] = f"{plan['runs']}, in batches of {plan['batch']}"
+    rows["begun with"] = f"lir-dcfp {plan['program']}"
+    return pd.DataFrame({"what was run": rows})
