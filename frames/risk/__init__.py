@@ -3,6 +3,7 @@
 from frames.risk._errors import CampaignError as CampaignError
 from frames.risk._errors import FragilityError as FragilityError
 from frames.risk.campaign.campaign import Campaign as Campaign
+from frames.risk.campaign.devices import Device as Device
 from frames.risk.campaign.measures import Measure as Measure
 from frames.risk.campaign.other_databases import convert_campaign as convert_campaign
 from frames.risk.campaign.sampling import ParameterSample as ParameterSample

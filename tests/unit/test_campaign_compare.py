@@ -1,5 +1,6 @@
 """`[compare]` of a campaign: its devices, and ratios and margins recomputed from the database."""
 
+import dataclasses
 import math
 import warnings
 from pathlib import Path
@@ -16,7 +17,7 @@ import xarray as xr
 from scipy import optimize, stats
 from typer.testing import CliRunner
 
-from frames import lumped_mass
+from frames import gravity, lumped_mass
 from frames.command.app import app
 from frames.risk import CampaignError, Intensity, open_campaign
 from frames.risk.campaign.comparison import (
@@ -26,6 +27,7 @@ from frames.risk.campaign.comparison import (
     dish_diameter,
     filling_intensity,
 )
+from frames.risk.campaign.devices import Device, moat_of
 from frames.risk.campaign.file import comparison_in, read_campaign
 from lir_element import AnalysisWarning
 from tests.refusals import refused
@@ -55,6 +57,22 @@ collapse_drift = "0.3 %"
 dt = "10 ms"
 workers = 1
 """
+OWN = """[devices.LIR]
+pressure = "3 MPa"
+least_slider_radius = "175 mm"
+plan = "700 mm"
+[devices.wide]
+kind = "DCFP"
+slider_radius = "150 mm"
+moat = "400 mm"
+rim_overrun = "20 mm"
+rims = 0.5
+[devices.tall]
+kind = "DCFP"
+rims = "unbreakable"
+plan = "800 mm"
+"""
+COMPARED = '[compare]\nrims = [0.5, "unbreakable"]\ncollapse_drift = "0.3 %"\n'
 PERIODS = (1.6, 1.9, 2.2, 2.5)
 run = CliRunner().invoke
 
@@ -165,6 +183,43 @@ def test_devices_that_cannot_be_are_refused(asked: dict[str, Any], words: str) -
     refused(CampaignError, words, frames, lumped_mass(bearing, 3e4))
 
 
+def test_devices_of_the_file_are_sized_as_it_says(folder: Path) -> None:
+    """By hand: sliders by pressure, the way by plan or moat; R = 1.5 m, L = 2.8 m."""
+    asked = FILE.replace('rims = [0.5, "unbreakable"]', 'devices = ["wide"]')
+    (folder / "own.toml").write_text(asked.replace("[compare]", f"{OWN}[compare]"))
+    compared = comparison_in(folder / "own.toml")
+    assert compared is not None
+    assert compared.groups == {"the rims of each": ["LIR", "wide"]}
+    bearings = {
+        name: [link.bearing for link in frame.bearings.values()]
+        for name, frame in compared.frames.items()
+    }
+    lir, wide, tall = bearings["LIR"][0], bearings["wide"][0], bearings["tall"][0]
+    loads = gravity(compared.frames["tall"]).axial_forces
+    assert lir.slider_radius == pytest.approx(math.sqrt(loads[0] / (math.pi * 3e6)))
+    assert lir.resolved()["design_load"] == pytest.approx(loads[0])
+    assert lir.lateral_capacity == pytest.approx((0.35 - lir.slider_radius) * 2.8 / 1.5)
+    assert dish_diameter(lir) == pytest.approx(0.7)
+    assert wide.lateral_capacity == pytest.approx(0.38)
+    assert moat_of(bearings["wide"]) == pytest.approx(0.4)
+    assert moat_of(bearings["LIR"]) == pytest.approx(lir.lateral_capacity + lir.slider_radius)
+    assert wide.rim_yield_force == 0.5 * 300e3
+    assert tall.rim_yield_force == math.inf
+    assert moat_of(bearings["tall"]) == tall.lateral_capacity == pytest.approx(0.2 * 2.8 / 1.5)
+
+
+def test_plates_that_would_touch_have_higher_sliders() -> None:
+    """Two dishes of 1 m on R = 1.5 m rise by 2 x 85.8 mm; sliders were 200 mm high, now of 100."""
+    flat = dataclasses.replace(BEARING, radius=1.45, slider_height=0.1)
+    (made,) = (
+        each.bearing for each in Device(plan=1.0).on(lumped_mass(flat, 3e4)).bearings.values()
+    )
+    assert made.slider_height == pytest.approx(0.18)
+    assert made.radii == pytest.approx((1.49, 1.49))
+    assert made.effective_radius == pytest.approx(flat.effective_radius)
+    assert dish_diameter(made) == pytest.approx(1.0)
+
+
 def test_motions_are_scaled_to_the_intensities(folder: Path, data: xr.Dataset) -> None:
     motions = read_campaign(folder / "rims.toml").motions
     measure = Intensity(kind="Sa", period=2.5, measure="x")
@@ -264,6 +319,12 @@ def test_the_intensity_considered_may_be_given(folder: Path) -> None:
         ("rims = [0.5", 'slider_radius = "150 mm"\nrims = [0.5', "which devices does not name"),
         ("rims = [0.5", "rims = [0.5, 0.5", "has one twice"),
         ("rims = [0.5", "rims = [-0.5", "compare.rims"),
+        ("rims = [0.5", 'devices = ["FPS"]\nrims = [0.5', '"FPS" is none of DCFP'),
+        ("[compare]", f"{OWN}[compare]", "compare.rims: [devices] says it"),
+        (COMPARED, f'{OWN}[compare]\ndevices = ["LIR"]\n', "none of wide, tall"),
+        (COMPARED, f'{OWN}capacity = "0.3 m"\n', "[devices.tall] plan and capacity are given"),
+        (COMPARED, f"{OWN}interface_friction = 0.2\n", "that of an LIR-DCFP"),
+        (COMPARED, OWN.replace("800", "300"), "no way to the rims: give more than 400 mm"),
         ('name = "Rims"', 'name = "Rims"\ndevices = ["DCFP"]', "[compare] has the devices"),
         ('tail = "1 s"', "scales = [1.0]", "has scales and intensities"),
         ('intensity = "Sa"\nperiod = "2.5 s"\n', "", "motions.intensities are accelerations"),

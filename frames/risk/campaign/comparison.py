@@ -11,6 +11,7 @@ import pandas as pd
 
 from frames.design.hazard.code_rules import damping_factor
 from frames.risk._errors import CampaignError, FragilityError
+from frames.risk.campaign.devices import Device
 from frames.risk.fragility.comparison import compare_fragility
 from frames.risk.fragility.limit_state import LimitState
 from frames.risk.fragility.paired_tests import ALL, paired_tests
@@ -19,7 +20,7 @@ from frames.risk.fragility.runs import UNKNOWN
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from frames.frame import Frame
     from frames.risk.fragility.curve import Fragility
@@ -59,23 +60,13 @@ class ComparedDevices:
                     "capacity"
                 )
                 raise CampaignError(msg)
-        made: dict[str, Callable[[LIRBearing], LIRBearing]] = {LIR: lambda own: own}
-        ways: dict[str, Callable[[LIRBearing], LIRBearing]] = {
-            PLAIN: lambda own: own.as_dcfp(),
-            SAME_PLAN: self._same_plan,
-            LARGER: self._larger,
-        }
-        made |= {name: ways[name] for name in OTHERS if name in self.others}
+        made = {LIR: Device()} | {n: self._device(n, frame) for n in OTHERS if n in self.others}
         found: dict[str, Frame] = {}
-        for name, make in made.items():
+        for name, device in made.items():
             for strength in self.rims or (None,):
-                if name == LARGER and self.larger is None and strength is not None:
-                    strength = None  # it has no rims
-                devices = {
-                    at: _with_rims(make(link.bearing), link.bearing, strength)
-                    for at, link in frame.bearings.items()
-                }
-                found.setdefault(_named(name, strength), frame.with_bearings(devices))
+                kept = None if name == LARGER and self.larger is None else strength  # has no rims
+                rims = math.inf if isinstance(kept, str) else kept  # unbreakable
+                found.setdefault(_named(name, kept), replace(device, rims=rims).on(frame))
         return found
 
     def groups(self) -> dict[str, list[str]]:
@@ -88,51 +79,28 @@ class ComparedDevices:
             ]
         return found
 
-    def _same_plan(self, own: LIRBearing) -> LIRBearing:
-        # Smaller sliders in the same dish: their edges meet the rims later.
-        least = self.slider_radius or 0.0
-        if not 0.0 < least < own.slider_radius:
+    def _device(self, name: str, frame: Frame) -> Device:
+        # What a DCFP differs in from the LIR-DCFP; that of the same plan has smaller sliders.
+        if name == PLAIN:
+            return Device(kind="DCFP")
+        bearings = [link.bearing for link in frame.bearings.values()]
+        least, own = self.slider_radius or 0.0, min(each.slider_radius for each in bearings)
+        if name == SAME_PLAN and not 0.0 < least < own:
             msg = (
                 f"slider_radius = {1e3 * least:g} mm of a DCFP of the same plan must be below the "
-                f"{1e3 * own.slider_radius:g} mm of the LIR-DCFP, whose sliders are larger for "
-                "the slip"
+                f"{1e3 * own:g} mm of the LIR-DCFP, whose sliders are larger for the slip"
             )
             raise CampaignError(msg)
-        more = own.slider_radius - least
-        bottom, top = own.rim_displacement
-        return replace(
-            own.as_dcfp(), slider_radius=least, capacity=None, rims=(bottom + more, top + more)
-        )
-
-    def _larger(self, own: LIRBearing) -> LIRBearing:
-        if self.larger is None:
-            return own.as_dcfp(rims=False)
-        if self.larger <= own.lateral_capacity:
+        if name == SAME_PLAN:
+            return Device(kind="DCFP", slider_radius=least)
+        capacity = max(each.lateral_capacity for each in bearings)
+        if self.larger is not None and self.larger <= capacity:
             msg = (
                 f"larger = {1e3 * self.larger:g} mm must be above the capacity of the bearing, "
-                f"{1e3 * own.lateral_capacity:g} mm"
+                f"{1e3 * capacity:g} mm"
             )
             raise CampaignError(msg)
-        return replace(own.as_dcfp(), capacity=self.larger, rims=None)
-
-
-def _with_rims(device: LIRBearing, own: LIRBearing, strength: Strength | None) -> LIRBearing:
-    # The rims are those of the LIR-DCFP, whatever slides in them, with another strength.
-    options = own.resolved()
-    if math.isinf(device.lateral_capacity):
-        return device
-    same = replace(
-        device,
-        rim_stiffness=options["rim_stiffness"],
-        rim_damping=options["rim_damping"],
-        rim_overrun=options["rim_overrun"],
-    )
-    if strength is None:
-        return same
-    if isinstance(strength, str):  # unbreakable
-        # before a rim deforms so far the slider has left the sphere
-        return replace(same, rim_yield_force=math.inf, rim_overrun=max(own.radii))
-    return replace(same, rim_yield_force=strength * options["design_load"])
+        return Device(kind="DCFP", capacity=self.larger or math.inf)
 
 
 def _rims(strength: Strength) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +27,7 @@ from frames.design.project.structure_loads import loads_of
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
 from frames.risk.campaign.comparison import DeviceComparison, filling_intensity
-from frames.risk.campaign.file_schema import CampaignFile, Range, parameters_of
+from frames.risk.campaign.file_schema import CampaignFile, DeviceTable, Range, parameters_of
 from frames.risk.campaign.sampling import (
     Choice,
     full_grid,
@@ -149,7 +150,9 @@ def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
     frame = _frame(file, whole)
     return DeviceComparison(
         frames=in_section("compare", lambda: _devices(frame, file)),
-        groups=asked.made().groups(),
+        groups={"the rims of each": [next(iter(file.devices)), *file.compared()]}
+        if file.devices
+        else asked.made().groups(),
         collapse=asked.collapse(),
         considered=considered,
         filling=filling,
@@ -177,6 +180,13 @@ def _motions(file: CampaignFile, folder: Path) -> tuple[MotionSet, Sequence[floa
 
 
 def _devices(frame: Frame, file: CampaignFile) -> dict[str, Frame]:
+    if file.devices:
+
+        def made(table: DeviceTable) -> Frame:
+            return table.made().on(frame)  # type: ignore[no-any-return]
+
+        tables = file.devices.items()
+        return {n: in_section(f"devices.{n}", partial(made, each)) for n, each in tables}
     if file.compare is not None:
         return file.compare.made().frames(frame)
     devices = file.campaign.devices

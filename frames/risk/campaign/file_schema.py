@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, Self, TypeVar, get_type_hints
 
-from pydantic import Field, create_model, model_validator
+from pydantic import BeforeValidator, Field, create_model, model_validator
 
-from frames.design.project.derived import Table, WholeFile
-from frames.design.project.quantities import Acceleration, Length, Ratio, Time, quantity
+from frames.design.project.derived import Table, WholeFile, table_of
+from frames.design.project.quantities import Acceleration, Length, Ratio, Time, quantity, si
 from frames.design.project.schema import MotionSource
 from frames.design.project.schema_bearing import Bearing
 from frames.design.project.schema_structure import Structure
 from frames.design.project.structure_loads import LoadsTable
-from frames.risk.campaign.comparison import LARGER, SAME_PLAN, ComparedDevices, collapse_limit
+from frames.risk.campaign.comparison import (
+    LARGER,
+    OTHERS,
+    SAME_PLAN,
+    ComparedDevices,
+    collapse_limit,
+)
 from frames.risk.campaign.designs import FACTOR, UNITS, names_of
+from frames.risk.campaign.devices import Device
 from frames.risk.fragility.intensity import Intensity, Kind
 from frames.risk.fragility.limit_state import LimitState
 from lir_element.device.friction import VelocityFriction
@@ -82,11 +90,24 @@ _IN_G = "Sa", "Sa_avg", "PGA"  # measures that are accelerations
 
 
 _Length = Annotated[Length, Field(gt=0.0)]
-_Device = Literal["DCFP", "DCFP of the same plan", "larger DCFP"]
 _Strength = Annotated[Ratio, Field(gt=0.0)] | Literal["unbreakable"]
 
+MOST_COMPARED = 5
+"""Devices beside the first in one figure."""
+
 GEOMETRY = "radius", "slider_height", "slider_radius", "capacity"
-"""Parameters that ``[parameters]`` does not vary beside ``[compare]``: they make the devices."""
+"""Parameters that ``[parameters]`` does not vary beside devices of the file: they make them."""
+
+
+def _strength(given: object) -> float:
+    # Of rims over the design load; "unbreakable" is infinite.
+    return math.inf if given == "unbreakable" else si(given, "", "1.0")
+
+
+class DeviceTable(table_of(Device)):  # type: ignore[misc]  # its keys are the fields
+    """``[devices.<name>]``: how the bearings of a device differ from ``[bearing]``."""
+
+    rims: Annotated[float, BeforeValidator(_strength)] | None = None
 
 
 class CampaignTable(Table):
@@ -171,9 +192,9 @@ class CampaignAnalysis(Table):
 
 
 class CompareTable(Table):
-    """``[compare]``: the DCFPs beside the LIR-DCFP, strengths of their rims, collapse."""
+    """``[compare]``: devices beside the LIR-DCFP, strengths of their rims, collapse."""
 
-    devices: tuple[_Device, ...] = Field(default=("DCFP", "larger DCFP"), min_length=1)
+    devices: tuple[str, ...] = Field(default=("DCFP", "larger DCFP"), min_length=1)
     rims: tuple[_Strength, ...] = ()
     slider_radius: _Length | None = None
     larger: _Length | None = None
@@ -198,7 +219,7 @@ class CompareTable(Table):
         return self
 
     def made(self) -> ComparedDevices:
-        """Return the devices."""
+        """Return the devices where the file has none of its own."""
         return ComparedDevices(
             others=self.devices,
             rims=self.rims,
@@ -218,6 +239,7 @@ class CampaignFile(WholeFile):
     structure: Structure
     loads: LoadsTable | None = None
     bearing: Bearing
+    devices: dict[str, DeviceTable] = Field(default_factory=dict)
     motions: CampaignMotions
     parameters: Parameters | None = None
     sample: Sampling | None = None
@@ -239,17 +261,44 @@ class CampaignFile(WholeFile):
         return self
 
     @model_validator(mode="after")
-    def _compared_alone(self) -> Self:
-        if self.compare is None:
+    def _devices_made_once(self) -> Self:
+        section = "[devices]" if self.devices else "[compare]" if self.compare else ""
+        if not section:
             return self
         if "devices" in self.campaign.model_fields_set:
-            msg = "campaign.devices: [compare] has the devices, leave it out"
+            msg = f"campaign.devices: {section} has the devices, leave it out"
             raise ValueError(msg)
         for name in (*GEOMETRY, *(f"{each}{FACTOR}" for each in GEOMETRY)):
             if getattr(self.parameters, name, None) is not None:
-                msg = f"parameters.{name}: [compare] makes its devices by it, leave it out"
+                msg = f"parameters.{name}: {section} makes its devices by it, leave it out"
                 raise ValueError(msg)
         return self
+
+    @model_validator(mode="after")
+    def _compared_devices_are_there(self) -> Self:
+        if self.compare is None:
+            return self
+        known = list(self.devices)[1:] if self.devices else list(OTHERS)
+        given = self.compare.model_fields_set
+        wrong = [name for name in self.compare.devices if name not in known]
+        if wrong and (not self.devices or "devices" in given):
+            msg = f'compare.devices: "{wrong[0]}" is none of {", ".join(known)}'
+            raise ValueError(msg)
+        if self.devices and len(self.compared()) > MOST_COMPARED:
+            msg = (
+                f"compare.devices are {len(self.compared())}, of at most {MOST_COMPARED}: name some"
+            )
+            raise ValueError(msg)
+        for key in {"rims", "slider_radius", "larger"} & given if self.devices else ():
+            msg = f"compare.{key}: [devices] says it of each device, leave it out"
+            raise ValueError(msg)
+        return self
+
+    def compared(self) -> tuple[str, ...]:
+        """Return the names of ``[devices]`` that its first one is compared with."""
+        if self.compare is not None and "devices" in self.compare.model_fields_set:
+            return self.compare.devices
+        return tuple(self.devices)[1:]
 
     @model_validator(mode="after")
     def _both_or_none(self) -> Self:

@@ -97,7 +97,7 @@ def _ratio_table(ratios: pd.DataFrame) -> Table:
             ends = f"({row['low [-]']:.2f} to {row['high [-]']:.2f})"
             said = f"{said}, {row['ratio [-]']:.2f} {ends}"
         said = f"{said}; {row['less']} to {row['more']} records"
-        over = str(row["over"]).split(",", maxsplit=1)[0]
+        over = str(row["over"]).removesuffix(f", {row['rims']}")
         rows.setdefault((row["rims"], row["limit state"]), {})[f"over {over}"] = said
     words = pd.DataFrame(list(rows.values()))
     words.insert(0, "limit state", [limit for _, limit in rows])
@@ -141,7 +141,7 @@ def _considered(comparison: DeviceComparison, tables: CampaignTables) -> str:
     return f"The maximum considered earthquake is the one {whose}, {value}."
 
 
-MARKERS = "os^d"
+MARKERS = "os^dvP*X"
 POINTS = 80
 
 
