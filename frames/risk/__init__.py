@@ -40,10 +40,10 @@ from frames.risk.fragility.risk import RiskWarning as RiskWarning
 from frames.risk.fragility.risk import collapse_margin_ratio as collapse_margin_ratio
 from frames.risk.fragility.risk import mean_annual_frequency as mean_annual_frequency
 from frames.risk.fragility.runs import IntensityRuns as IntensityRuns
-from frames.risk.fragility.sensitivity import SobolIndices as SobolIndices
 from frames.risk.fragility.sensitivity import Tornado as Tornado
-from frames.risk.fragility.sensitivity import sobol_indices as sobol_indices
 from frames.risk.fragility.sensitivity import tornado as tornado
+from frames.risk.fragility.sobol import SobolIndices as SobolIndices
+from frames.risk.fragility.sobol import sobol_indices as sobol_indices
 from lir_element import _lazy
 
 __all__ = _lazy.listed(__file__)

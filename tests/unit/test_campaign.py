@@ -37,6 +37,8 @@ from frames.risk import (
     full_grid,
     latin_hypercube,
     open_campaign,
+    saltelli_sample,
+    sobol_indices,
     sobol_sample,
 )
 from frames.risk.campaign import batches, plan_description, store_writing
@@ -67,7 +69,7 @@ def structure(bearing: LIRBearing = BEARING) -> Frame:
 
 def small(store: Path, batch: int | None = 3, motions: Any = PULSES, **other: Any) -> Campaign:
     given = {"sample": SETS, "scales": [0.5, 1.0]} | other
-    return Campaign(structure(), motions, store=store, batch=batch, **given)
+    return Campaign(given.pop("models", structure()), motions, store=store, batch=batch, **given)
 
 
 @pytest.fixture
@@ -164,6 +166,45 @@ def test_factors_multiply_what_each_bearing_has() -> None:
     none = {"flange_factor": 2.0}
     words = "no flange that it could multiply: give flange"
     refused(CampaignError, words, with_parameters, frame, none)
+
+
+def test_indices_of_a_campaign_are_those_of_its_results(tmp_path: Path) -> None:
+    inputs, samples = {"friction": uniform(0.04, 0.04)}, 16
+    sample = saltelli_sample(inputs, samples)
+    refuse = float(np.sort(sample.values[samples : 2 * samples, 0])[-2])
+
+    def model(parameters: dict[str, float]) -> Frame:
+        if parameters["friction"] > refuse:
+            msg = "no such friction"
+            raise ValueError(msg)
+        return with_parameters(structure(), parameters)
+
+    runs = small(tmp_path / "runs", 96, sample=sample, models=model)
+    with pytest.warns(AnalysisWarning, match="not_built"):
+        runs.run(workers=1)
+    given = {"samples": samples, "widest": 2.0}
+    found = sobol_indices(runs, inputs, scale=1.0, **given)
+    table = runs.to_dataframe()
+    own = table[table["scale"] == 1.0].pivot_table(
+        index="parameter_set", columns="motion", values="bearing displacement", dropna=False
+    )
+    again = sobol_indices(own[sorted(PULSES)].to_numpy(), inputs, **given)
+    assert (again.table == found.table).all(axis=None)
+    assert found.left_out == again.left_out > 0
+    peaks = sobol_indices(
+        open_campaign(tmp_path / "runs"),
+        inputs,
+        scale=1.0,
+        quantity=lambda data: data["peak"].sel(quantity="bearing displacement"),
+        **given,
+    )
+    assert (peaks.table == found.table).all(axis=None)
+    for words, other in (
+        ("2 factors on the motions: name one as scale=", {}),
+        ("other values of friction", {"scale": 1.0, "seed": 2}),
+        ("quantity = 'height': choose one of", {"scale": 1.0, "quantity": "height"}),
+    ):
+        refused(FragilityError, words, sobol_indices, runs, inputs, **{**given, **other})
 
 
 def test_rows_hold_what_time_histories_gives(store: Path) -> None:

@@ -16,7 +16,6 @@ from validation.study.device_cost_page import equal_ratios
 from validation.study.pairs import OURS as EQUAL
 from validation.study.part import write_part
 from validation.study.rounded import with_interval
-from validation.study.uncertainty_runs import MEANINGS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -166,19 +165,11 @@ def _robust(parts: Parts) -> str:
         f"{name} {sum(r['collapsed'] for r in own)} of {sum(r['known'] for r in own)}"
         for name, own in (("LIR-DCFP", rows), ("DCFP", plains))
     ]
-    shares = parts["uncertainty"]["shares"]
-    record = [f"{shares[key]['total']['record'][0]:.2f}" for key in ("LIR-DCFP", "DCFP")]
-    leading = []
-    for key in ("LIR-DCFP", "DCFP"):
-        totals = {k: v[0] for k, v in shares[key]["total"].items() if k != "record"}
-        first, second = sorted(totals, key=lambda k, t=totals: -t[k])[:2]  # type: ignore[misc]
-        leading.append(" and ".join(f"{MEANINGS[k]} ({totals[k]:.2f})" for k in (first, second)))
     return (
         "\n".join(words)
         + f"\n\n**A second shock** collapses, of the buildings that survived the first: "
-        f"{'; '.join(counts)} ([study_motions.md](study_motions.md)). **Properties**: of the variance "
-        f"of ductility the record explains {record[0]} (LIR-DCFP) and {record[1]} (DCFP) in total; of "
-        f"the properties {leading[0]} matter most to the LIR-DCFP, {leading[1]} to the DCFP; rims "
+        f"{'; '.join(counts)} ([study_motions.md](study_motions.md)). **Properties**: the share of the record in "
+        "the variance of ductility, and the order of the properties, are not known from the samples. Rims "
         "that break at one deformation lose the DCFP its margin where they are soft "
         "([study_uncertainty.md](study_uncertainty.md))."
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from frames.plots import plot_style as ps
+from frames.risk.fragility.sobol import WIDEST
 from validation.page import render
 from validation.study.rounded import with_interval
 from validation.study.uncertainty_runs import (
@@ -25,7 +26,7 @@ from validation.study.uncertainty_runs import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from matplotlib.figure import Figure
 
@@ -62,7 +63,14 @@ def shares_of_kind(kind: str) -> tuple[float, ...]:
 def page(found: Found) -> str:
     """Return the page in Markdown."""
     return render(
-        globals(), found=found, BEST=BEST, LEVEL=LEVEL, SAMPLES=SAMPLES, SPREADS=SPREADS, math=math
+        globals(),
+        found=found,
+        BEST=BEST,
+        LEVEL=LEVEL,
+        SAMPLES=SAMPLES,
+        SPREADS=SPREADS,
+        WIDEST=WIDEST,
+        math=math,
     )
 
 
@@ -71,21 +79,32 @@ def _introduction(found: Found) -> Any:
     return rows
 
 
-def _leading(found: Found, name: str) -> list[str]:
-    totals = {k: v[0] for k, v in found["shares"][name]["total"].items() if k != RECORD}
-    return sorted(totals, key=lambda key: -totals[key])
+def is_known(index: Sequence[float]) -> bool:
+    """Return whether an index is a result: its interval is not too wide, and it is no more than 1."""
+    return index[2] - index[1] <= WIDEST and index[0] <= 1.0
+
+
+def known(index: Sequence[float]) -> str:
+    """Return an index with its interval, if it is a result."""
+    return with_interval(index) if is_known(index) else "not known"
+
+
+def leading(found: Found, name: str) -> dict[str, Sequence[float]]:
+    """Return the total indices of the properties that are known, the largest first."""
+    rows = found["shares"][name]["total"].items()
+    totals = {key: each for key, each in rows if key != RECORD and is_known(each)}
+    return dict(sorted(totals.items(), key=lambda row: -row[1][0]))
 
 
 def _verdict(found: Found) -> str:
     lines = []
     for name, text in WHAT.items():
-        own = found["shares"][name]
-        first, second = _leading(found, name)[:2]
+        totals = leading(found, name)
+        largest = "; ".join(f"{key} {with_interval(totals[key])}" for key in list(totals)[:2])
+        open_ = ", ".join(key for key in SPREADS if key != RECORD and key not in totals)
         lines.append(
-            f"- **{text}**: the record explains {with_interval(own['first'][RECORD])} of the variance alone "
-            f"and {with_interval(own['total'][RECORD])} with all that it does together with others; of the "
-            f"properties {first} ({with_interval(own['total'][first])} in total) and {second} "
-            f"({with_interval(own['total'][second])}) matter most."
+            f"- **{text}**: the share of the record is not known, nor the total index of: {open_ or '-'}. "
+            f"The largest of those that are known: {largest}."
         )
     ratios = found["stiffness"]["ratios"]
     below = [name for name, r in ratios.items() if r[2] < 1.0]
@@ -123,7 +142,7 @@ def _indices(found: Found) -> tuple[Any, ...]:
         cells = []
         for name in WHAT:
             own = found["shares"][name]
-            cells += [with_interval(own["first"][key]), with_interval(own["total"][key])]
+            cells += [known(own["first"][key]), known(own["total"][key])]
         rows.append([key, *cells])
     told = "; ".join(
         f"{text}: mean {found['shares'][name]['mean']:.2f}, deviation "
@@ -193,9 +212,10 @@ def _bars(found: Found) -> Figure:
     (panels,) = ps.grid_of(figure, 1, 3, share_y=True)
     keys = [key for key in SPREADS if key != RECORD]
     places = np.arange(len(keys))[::-1]
-    farthest = 1.1 * max(found["shares"][n]["total"][key][2] for n in WHAT for key in keys)
+    farthest = 1.1 * max(row[2] for n in WHAT for row in leading(found, n).values())
     for panel, (name, text) in zip(panels, WHAT.items(), strict=True):
-        values = np.array([found["shares"][name]["total"][key] for key in keys])
+        shown = leading(found, name)
+        values = np.array([shown.get(key, [np.nan] * 3) for key in keys])
         ends = np.abs(values[:, 1:] - values[:, :1]).T
         panel.barh(places, values[:, 0], height=0.6, color="0.75", edgecolor="black", linewidth=0.6)
         panel.errorbar(

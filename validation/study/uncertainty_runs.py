@@ -15,7 +15,7 @@ from scipy import stats
 
 from frames import ModalDamping
 from frames.risk import Campaign, ParameterSample
-from frames.risk.fragility.sensitivity import saltelli_sets
+from frames.risk.fragility.sobol import saltelli_sets
 from validation.study.pairs import BY_LOAD, OURS, UNBREAKABLE, device
 from validation.study.records_runs import STEP
 from validation.study.rims_runs import BREAKS

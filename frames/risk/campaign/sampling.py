@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Protocol, TypeGuard
 import numpy as np
 
 from frames.risk._errors import CampaignError
-from frames.risk.fragility.sensitivity import saltelli_sets
+from frames.risk.fragility.sobol import saltelli_sets
 from lir_element.argument_checks import as_number, require_type
 
 if TYPE_CHECKING:
