@@ -102,7 +102,7 @@ def read_opensees(
     wiped (`wipeAnalysis`), and copies of its nonlinear uniaxial materials are added under tags
     from 2,147,000,000 on to be tried; no element has them. Displacements count from its present
     state. What OpenSees does not show cannot be seen: damping by `modalDampingQ` and by
-    elements' option ``-damp``. See docs/choices.md.
+    elements' option ``-damp``. See docs/choices_opensees.md.
     """
     from frames.opensees.frame import imported  # needs the optional openseespy
     from frames.opensees.structure import Options

@@ -49,7 +49,7 @@ def with_moved_masses(frame: F, shares: tuple[float, float], name: str | None = 
     ``M_rz,uy = m c_x``, ``M_rz,rz = m c^2``. The side of such a floor is that of the whole
     structure, else that of its nodes. Only the inertia in plan moves: a pendulum is as stiff as
     what it carries is heavy, so that weights that moved along would move the centre of stiffness
-    with them, and take most of the torsion away (docs/choices.md).
+    with them, and take most of the torsion away (docs/choices_structure.md).
 
     Examples
     --------

@@ -57,7 +57,7 @@ BARE = 0.02
 """The same over the sliders' radius, below which nothing is said of it."""
 
 LOOSE_ERROR = 0.3
-"""Share of that slip by which it differs between steps of 1 ms and 0.125 ms (docs/choices.md)."""
+"""Share of that slip by which steps of 1 ms and 0.125 ms differ (docs/choices_time_step.md)."""
 
 _NAMED = 3
 """Bearings that a sentence names."""

@@ -80,11 +80,11 @@ def time_history(
     method : {"direct", "reduced"}
         "direct": all degrees of freedom. "reduced": the bearings' ones and few load-dependent
         vectors of the structure, in a run with few and runs with more, until two agree: for
-        structures whose modes are many beside their bearings (docs/choices.md).
+        structures whose modes are many beside their bearings (docs/choices_structure.md).
     integrator : {None, "newmark", "corrected-newmark", "generalised-alpha", "explicit"}
         Time integration. None is Newmark's average acceleration, which conserves energy;
         "corrected-newmark" adds what it misses in a step, of structures with links or hinges, so
-        that steps may be twice as long for the same error (docs/choices.md);
+        that steps may be twice as long for the same error (docs/choices_time_step.md);
         "generalised-alpha" that of Chung and Hulbert (1993). At the level "rigid_body" None is
         Bossak's implicit method, and "explicit" takes small equal steps of `dt`.
     spectral_radius : float
@@ -92,8 +92,8 @@ def time_history(
     tolerance : float, optional
         Error that the bearings' displacement histories may have, over the displacement reached,
         where the program controls it: 1e-3 by default. Between 5e-5 and 5e-4 the error is within a
-        factor of three of it (docs/choices.md). At the level "rigid_body" that of a step over the
-        effective radius: 1e-8.
+        factor of three of it (docs/choices_time_step.md). At the level "rigid_body" that of a step
+        over the effective radius: 1e-8.
     reduction_tolerance : float, optional
         Of the method "reduced": largest difference of two runs in the peaks of bearing
         displacement and base shear, 1e-3 by default; ten times that in axial forces, floor

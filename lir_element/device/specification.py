@@ -23,7 +23,7 @@ _NO_RIMS = "no restraining rims"
 
 _STACK_MODULUS = 20e9  # Pa, slider with its liners: a tenth of steel's
 STACK_RANGE = 0.3, 3.0
-"""Of the default axial stiffness, in which sliders with liners lie (docs/choices.md)."""
+"""Of the default axial stiffness, in which sliders with liners lie (docs/choices_bearing.md)."""
 
 _DESIGN_PRESSURE = 30e6  # Pa, on the slider's area
 _AXIAL_DAMPING_RATIO = 0.05

@@ -1,4 +1,4 @@
-"""The numbers of docs/choices.md on the example of the README, and their range in the README."""
+"""Numbers of docs/choices_*.md on the example of the README, and their range in the README."""
 
 import re
 from dataclasses import replace
@@ -12,7 +12,11 @@ from lir_element import LIRBearing
 from tests.scenes import paper_bearing
 
 ROOT = Path(__file__).parents[2]
-CHOICES = (ROOT / "docs" / "choices.md").read_text(encoding="utf-8")
+CHOICES = " ".join(
+    word
+    for page in sorted((ROOT / "docs").glob("choices_*.md"))
+    for word in page.read_text(encoding="utf-8").split()
+)
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 T = np.arange(0.0, 6.0, 0.005)
 MOTION = GroundMotion(x=2.0 * np.sin(2.0 * np.pi * T / 1.6) * (T < 1.6), dt=0.005)
@@ -41,7 +45,7 @@ def peaks(bearing: LIRBearing, **options: object) -> tuple[float, float]:
 
 
 def shown(pattern: str) -> list[float]:
-    """Return the numbers in the groups of a pattern that the page holds once."""
+    """Return the numbers in the groups of a pattern that the pages hold once."""
     (found,) = re.findall(pattern, CHOICES)
     return [float(number) for number in ([found] if isinstance(found, str) else found)]
 
@@ -65,7 +69,7 @@ def test_steps_and_yield_displacements() -> None:
     )
     for dt, number in zip((None, 0.02, 0.001), steps, strict=True):
         assert peaks(BEARING, dt=dt)[0] == pytest.approx(number, abs=0.06)
-    small = shown(r"matters less: ([\d.]+) mm\nwith 0.001 mm, ([\d.]+) mm with 0.5 mm")
+    small = shown(r"matters less: ([\d.]+) mm with 0.001 mm, ([\d.]+) mm with 0.5 mm")
     for size, number in zip((1e-6, 5e-4), small, strict=True):
         device = replace(BEARING, interface_yield_displacement=size)
         assert peaks(device)[0] == pytest.approx(number, abs=0.06)

@@ -115,7 +115,7 @@ class HistoryRules:
     least_gap : float
         Gap up to which a bearing counts as in contact all the same [m]. A proposal: what sliders
         and liners under a common pressure spring back by, 60 MPa times 225 mm over 20 GPa
-        (docs/choices.md) is 0.7 mm, rounded up. Notes name each such run; 0 counts any gap.
+        (docs/choices_bearing.md) is 0.7 mm, rounded up. Notes name each such run; 0 counts any gap.
     unacceptable_allowed : int
         How many runs may fail while the mean of the others stands for all: then the median of all
         times `median_factor` is its lower bound.
