@@ -232,11 +232,11 @@ def saltelli_sample(
     >>> from scipy.stats import uniform
     >>> from frames.risk import saltelli_sample, sobol_indices
     >>> inputs = {"radius": uniform(1.0, 1.0), "friction": uniform(0.04, 0.04)}
-    >>> sample = saltelli_sample(inputs, 128)
+    >>> sample = saltelli_sample(inputs, 1024)
     >>> sample.values.shape
-    (512, 2)
+    (4096, 2)
     >>> results = sample.values @ [1.0, 2.0]  # one a set, as a campaign gives them
-    >>> sobol_indices(results, inputs, samples=128).table["first"].idxmax()
+    >>> sobol_indices(results, inputs, samples=1024).table["first"].idxmax()
     'radius'
     """
     sets = saltelli_sets(distributions, samples, seed)

@@ -64,7 +64,7 @@ class SobolIndices:
     ...     return [each["a"] + 0.1 * each["b"] for each in sets]
     ...
     >>> inputs = {"a": uniform(), "b": uniform()}
-    >>> found = sobol_indices(results, inputs, samples=256)
+    >>> found = sobol_indices(results, inputs, samples=1024)
     >>> bool(found.table.loc["a", "total"] > 0.9)
     True
     """
@@ -155,7 +155,7 @@ def sobol_indices(
     ...     return [each["a"] + 0.1 * each["b"] for each in sets]
     ...
     >>> inputs = {"a": uniform(), "b": uniform()}
-    >>> found = sobol_indices(results, inputs, samples=256)
+    >>> found = sobol_indices(results, inputs, samples=1024)
     >>> found.table["total"].idxmax()
     'a'
     """
