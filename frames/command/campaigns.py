@@ -38,6 +38,9 @@ def campaign(
 
         given = campaign_file(file)
         sources = SourceFiles(given, file.resolve().parent)
+        if given.search is not None:
+            _search(given, file, store, workers)
+            return
         found = read_campaign(given, store=store)
         comparison_in(given)  # whether there is what it compares
         sources.require_unchanged()
@@ -47,6 +50,20 @@ def campaign(
         sources.warn_of_changes()
         _write(found, given, figures=figures)
         say(f"{found.status()}\nresults in {found.store.path}, digest {found.digest()[:16]}")
+
+
+def _search(given: CampaignFile, file: Path, store: Path | None, workers: int | None) -> None:
+    # All points as a table beside their results, and the best one.
+    from frames.results.storage import csv_of, refuse_links, write_whole
+    from frames.risk.campaign.file import STORE, run_search
+
+    folder = file.with_name(f"{file.stem}-{STORE}") if store is None else store
+    refuse_links(folder)
+    table = run_search(given, store=folder, workers=workers)
+    write_whole(folder / "search.csv", csv_of(table))
+    best = table[table["best"]].iloc[0].drop(["best", "stage"])
+    said = ", ".join(f"{name} {value:.4g}" for name, value in best.items())
+    say(f"{len(table)} points in {folder / 'search.csv'}\nbest: {said}")
 
 
 def _run(found: Campaign, workers: int | None, reuse: list[Path]) -> None:

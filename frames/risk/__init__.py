@@ -11,6 +11,7 @@ from frames.risk.campaign.sampling import full_grid as full_grid
 from frames.risk.campaign.sampling import latin_hypercube as latin_hypercube
 from frames.risk.campaign.sampling import saltelli_sample as saltelli_sample
 from frames.risk.campaign.sampling import sobol_sample as sobol_sample
+from frames.risk.campaign.search import MedianSearch as MedianSearch
 from frames.risk.campaign.store import CampaignStatus as CampaignStatus
 from frames.risk.campaign.store import CampaignStore as CampaignStore
 from frames.risk.campaign.store import open_campaign as open_campaign

@@ -27,8 +27,9 @@ from frames.risk.campaign.comparison import (
     dish_diameter,
     filling_intensity,
 )
-from frames.risk.campaign.devices import Device, moat_of
+from frames.risk.campaign.devices import Device, highest_ratio, moat_of
 from frames.risk.campaign.file import comparison_in, read_campaign
+from frames.risk.campaign.search import MedianSearch
 from lir_element import AnalysisWarning
 from tests.refusals import refused
 from tests.scenes import DEVICE, STICK, wide_bearing
@@ -183,6 +184,74 @@ def test_devices_that_cannot_be_are_refused(asked: dict[str, Any], words: str) -
     refused(CampaignError, words, frames, lumped_mass(bearing, 3e4))
 
 
+SEARCH = (
+    OWN.partition("[devices.wide]")[0].replace('plan = "700 mm"', "rims = 1")
+    + """[search]
+device = "LIR"
+limit = "collapse"
+points = 4
+trials = 1
+[search.parameters]
+interface_friction = {low = 0.1, high = 0.3}
+plan = {low = "500 mm", high = "750 mm"}
+"""
+)
+
+
+def test_a_search_runs_allowed_points_and_names_the_best(folder: Path) -> None:
+    compare = '[compare]\ncollapse_drift = "0.3 %"\n'
+    few = FILE.replace(COMPARED, SEARCH + compare).replace('"2.5 m/s2", "3 m/s2", ', "")
+    (folder / "search.toml").write_text(few)
+    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
+        done = run(app, ["campaign", str(folder / "search.toml")])
+    assert done.exit_code == 0, done.output
+    table = pd.read_csv(folder / "search-results/search.csv", index_col=0)
+    assert table["stage"].tolist() == [0, 0, 0, 0, 1]
+    assert (table["ratio of checks [-]"] <= 1.0).all()
+    assert table["interface_friction"].between(0.1, 0.3).all()
+    assert table.loc[table["best"], "median [m/s2]"].item() == table["median [m/s2]"].max()
+    compared_frames = comparison_in(folder / "search.toml")
+    assert compared_frames is not None
+    loaded = compared_frames.frames["LIR"]
+    for _, row in table.iterrows():
+        device = Device(plan=row["plan"], interface_friction=row["interface_friction"])
+        ratio = highest_ratio(device.on(loaded))
+        assert ratio == pytest.approx(row["ratio of checks [-]"])
+    data = open_campaign(folder / "search-results/stage-1").results()
+    im, _, exceeded = collapsed(data, str(data["model"].to_numpy()[0]))
+    median, shares = (
+        table["median [m/s2]"].iloc[-1],
+        [exceeded[im == at].mean() for at in (2, 4, 5)],
+    )
+    curve = stats.norm.cdf(np.log(np.array([2.0, 4.0, 5.0]) / median) / 0.4)
+    assert curve.mean() == pytest.approx(min(max(np.mean(shares), 1e-3), 0.999), abs=1e-6)
+
+
+def test_a_search_finds_the_top_of_a_surface_that_is_known_within_its_constraint() -> None:
+    """Medians fall off from a ridge; beyond x = 0.4 nothing is allowed."""
+    search = MedianSearch(
+        build=dict,  # type: ignore[arg-type]
+        bounds={"x": (0.0, 1.0), "y": (0.0, 2.0)},
+        limit=collapse_limit(None),
+        intensity=Intensity(kind="PGA"),
+        scales=[1.0],
+        constraint=lambda point: point["x"] / 0.4,  # type: ignore[index]
+        points=32,
+    )
+    points = search.first_points()
+    assert len(points) == 32
+    assert max(point["x"] for point in points) <= 0.4
+    rows = [p | {"median [m/s2]": math.exp(-abs(p["x"] - 0.7) - abs(p["y"] - 0.5))} for p in points]
+    found = search.proposed(rows)
+    assert 0.3 < found["x"] <= 0.4
+    assert found["y"] == pytest.approx(0.5, abs=0.3)
+    refused(
+        CampaignError,
+        "choose bounds",
+        dataclasses.replace(search, constraint=lambda _: 2.0).first_points,
+    )
+
+
 def test_devices_of_the_file_are_sized_as_it_says(folder: Path) -> None:
     """By hand: sliders by pressure, the way by plan or moat; R = 1.5 m, L = 2.8 m."""
     asked = FILE.replace('rims = [0.5, "unbreakable"]', 'devices = ["wide"]')
@@ -324,6 +393,9 @@ def test_the_intensity_considered_may_be_given(folder: Path) -> None:
         (COMPARED, f'{OWN}[compare]\ndevices = ["LIR"]\n', "none of wide, tall"),
         (COMPARED, f'{OWN}capacity = "0.3 m"\n', "[devices.tall] plan and capacity are given"),
         (COMPARED, f"{OWN}interface_friction = 0.2\n", "that of an LIR-DCFP"),
+        (COMPARED, SEARCH.replace('"LIR"', '"FPS"'), '"FPS" is no table of [devices]'),
+        (COMPARED, SEARCH.replace('"collapse"', '"ruin"'), "none of this file: floor acceleration"),
+        (COMPARED, SEARCH.replace("0.3}", "0.1}").replace("limit", "#"), "low = 0.1 must be below"),
         (COMPARED, OWN.replace("800", "300"), "no way to the rims: give more than 400 mm"),
         ('name = "Rims"', 'name = "Rims"\ndevices = ["DCFP"]', "[compare] has the devices"),
         ('tail = "1 s"', "scales = [1.0]", "has scales and intensities"),

@@ -258,3 +258,8 @@ def device_ratios(frame: Frame, limits: DesignLimits | None = None) -> dict[str,
         load = each.resolved()["design_load"]
         found[name] = device_checks(each, (load, load), slip=slip, limits=limits).governing
     return found
+
+
+def highest_ratio(frame: Frame) -> float:
+    """Return the largest ratio of `device_ratios` [-]: at most 1 where its LIR-DCFPs pass."""
+    return max((check.ratio for check in device_ratios(frame).values()), default=0.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,6 +28,7 @@ from frames.design.project.structure_loads import loads_of
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
 from frames.risk.campaign.comparison import DeviceComparison, filling_intensity
+from frames.risk.campaign.devices import Device, highest_ratio
 from frames.risk.campaign.file_schema import CampaignFile, DeviceTable, Range, parameters_of
 from frames.risk.campaign.sampling import (
     Choice,
@@ -35,11 +37,14 @@ from frames.risk.campaign.sampling import (
     saltelli_sample,
     sobol_sample,
 )
+from frames.risk.campaign.search import MedianSearch
 from frames.risk.fragility.scaled_motions import at_one
 from lir_element.device.friction import CoulombFriction
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+
+    import pandas as pd
 
     from frames.frame import Frame
     from frames.risk.campaign.file_schema import FragilityTable
@@ -156,6 +161,60 @@ def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
         collapse=asked.collapse(),
         considered=considered,
         filling=filling,
+    )
+
+
+def run_search(
+    given: CampaignFile | str | Path, *, store: str | Path | None = None, workers: int | None = None
+) -> pd.DataFrame:
+    """Return the points of the search of a campaign's file, run where they are not done."""
+    file = _read(given)
+    whole, asked = _path_of(file), file.analysis
+    motions, scales = _motions(file, whole.resolve().parent)
+    search = in_section("search", lambda: _search(file, _frame(file, whole), scales))
+    return search.run(
+        motions,
+        store=whole.with_name(f"{whole.stem}-{STORE}") if store is None else store,
+        workers=workers or asked.workers,
+        level=asked.level,
+        dt=asked.dt,
+        duration=asked.duration,
+        batch=file.campaign.batch,
+    )
+
+
+def _search(file: CampaignFile, frame: Frame, scales: Sequence[float]) -> MedianSearch:
+    asked, fragility = file.search, file.fragility
+    if asked is None or fragility is None:
+        msg = "this file has no [search]: `lir campaign` runs it"
+        raise CampaignError(msg)
+    collapse = [] if file.compare is None else [file.compare.collapse()]
+    limits = {limit.name: limit for limit in [*fragility.limits(), *collapse]}
+    name = asked.limit or list(limits)[-1]
+    if name not in limits:
+        msg = f'limit = "{name}" is none of this file: {", ".join(limits)}'
+        raise CampaignError(msg)
+    device: Device = file.devices[asked.device].made()
+    bounds = {
+        key: (each.low, each.high)
+        for key in asked.parameters.model_fields_set
+        if (each := getattr(asked.parameters, key)) is not None
+    }
+    loaded = frame
+    if "pressure" not in bounds:  # sliders by loads, once for all points
+        loaded = Device(kind=device.kind, pressure=device.pressure).on(frame)
+        device = replace(device, pressure=None)
+    return MedianSearch(
+        build=lambda point: replace(device, **point).on(loaded),  # type: ignore[arg-type]
+        bounds={key: bounds[key] for key in type(asked.parameters).model_fields if key in bounds},
+        limit=limits[name],
+        intensity=fragility.measured(),
+        scales=scales,
+        constraint=highest_ratio if asked.checked else None,
+        points=asked.points,
+        trials=asked.trials,
+        dispersion=asked.dispersion,
+        seed=asked.seed,
     )
 
 

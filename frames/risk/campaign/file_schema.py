@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import fields
 from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, Self, TypeVar, get_type_hints
 
 from pydantic import BeforeValidator, Field, create_model, model_validator
@@ -108,6 +109,35 @@ class DeviceTable(table_of(Device)):  # type: ignore[misc]  # its keys are the f
     """``[devices.<name>]``: how the bearings of a device differ from ``[bearing]``."""
 
     rims: Annotated[float, BeforeValidator(_strength)] | None = None
+
+
+class Between(Table, Generic[T]):
+    """Bounds between which a number is searched."""
+
+    low: T
+    high: T
+
+
+_NUMBERS: dict[str, Any] = {
+    each.name: (Between[quantity(unit_of(Device, each.name))] | None, None)  # type: ignore[misc]
+    for each in fields(Device)
+    if each.metadata
+}
+SearchedNumbers: Any = create_model("SearchedNumbers", __base__=Table, **_NUMBERS)
+SearchedNumbers.__doc__ = "``[search.parameters]``: numbers of a device, between bounds."
+
+
+class SearchTable(Table):
+    """``[search]``: the device, what of it is searched, and the limit state whose median counts."""
+
+    device: str
+    limit: str | None = None
+    parameters: SearchedNumbers
+    checked: bool = True
+    points: int = Field(default=16, ge=2)
+    trials: int = Field(default=4, ge=0)
+    dispersion: Annotated[Ratio, Field(gt=0.0)] = 0.4
+    seed: int = Field(default=0, ge=0)
 
 
 class CampaignTable(Table):
@@ -246,6 +276,7 @@ class CampaignFile(WholeFile):
     analysis: CampaignAnalysis = CampaignAnalysis()
     fragility: FragilityTable | None = None
     compare: CompareTable | None = None
+    search: SearchTable | None = None
 
     @model_validator(mode="after")
     def _intensities_of_a_measure(self) -> Self:
@@ -272,6 +303,24 @@ class CampaignFile(WholeFile):
             if getattr(self.parameters, name, None) is not None:
                 msg = f"parameters.{name}: {section} makes its devices by it, leave it out"
                 raise ValueError(msg)
+        return self
+
+    @model_validator(mode="after")
+    def _searched_is_there(self) -> Self:
+        if self.search is None:
+            return self
+        if self.search.device not in self.devices:
+            msg = f'search.device: "{self.search.device}" is no table of [devices]'
+            raise ValueError(msg)
+        if not self.search.parameters.model_fields_set:
+            msg = 'search.parameters: name one, as plan = {low = "600 mm", high = "900 mm"}'
+            raise ValueError(msg)
+        if self.fragility is None:
+            msg = "[search] needs [fragility]: the measure of intensity, and limit states"
+            raise ValueError(msg)
+        if self.parameters is not None:
+            msg = "[search] has its own parameters: leave [parameters] and [sample] out"
+            raise ValueError(msg)
         return self
 
     @model_validator(mode="after")
