@@ -17,6 +17,8 @@ ROOT = Path(__file__).parents[2]
 PAGES = (
     "README.md",
     "docs/guide.md",
+    "docs/guide_building.md",
+    "docs/guide_results.md",
     "docs/how_it_works.md",
     "docs/walls.md",
     "docs/motions.md",
@@ -27,6 +29,8 @@ PAGES = (
     "docs/test_programme.md",
     "docs/view.md",
 )
+GUIDE = PAGES[1:4]
+"""Each page continues the one before."""
 AT_NIGHT = ("docs/motions.md", "docs/fragility.md", "docs/campaigns.md")
 """Five seconds each."""
 BLOCK = re.compile(r"^```python\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.DOTALL | re.MULTILINE)
@@ -55,17 +59,25 @@ def assert_same_output(printed: str, shown: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "page",
-    [pytest.param(p, marks=[pytest.mark.nightly] if p in AT_NIGHT else []) for p in PAGES],
+    "pages",
+    [
+        pytest.param(
+            GUIDE if page in GUIDE else (page,),
+            id=page,
+            marks=[pytest.mark.nightly] if page in AT_NIGHT else [],
+        )
+        for page in PAGES
+        if page not in GUIDE[1:]
+    ],
 )
-def test_blocks_print_what_the_page_shows(
-    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_blocks_print_what_the_pages_show(
+    pages: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    found = blocks(page)
-    assert found
+    assert all(blocks(page) for page in pages)
+    found = [(page, *block) for page in pages for block in blocks(page)]
     namespace: dict[str, object] = {"__name__": "page"}
-    for k, (code, shown) in enumerate(found):
+    for k, (page, code, shown) in enumerate(found):
         name, output = f"{page}, block {k}", io.StringIO()
         # as a notebook does: the source of functions can be read
         monkeypatch.setitem(linecache.cache, name, (len(code), None, code.splitlines(True), name))

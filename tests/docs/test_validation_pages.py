@@ -132,7 +132,7 @@ def numbers_of_the_readme():
     for limit in ("storey drift 2 %", "ductility 4", "floor acceleration 1 g", "collapse"):
         found = re.search(rf"{limit} ([\d.]+ \([\d.]+ to [\d.]+\))[;.]", summary)[1]
         yield f"| {limit} | {found} |"
-    table = (FOLDER.parent / "demo.md").read_text(encoding="utf-8")
+    table = (FOLDER.parent / "how_it_works.md").read_text(encoding="utf-8")
     row = {name: re.search(rf"{re.escape(name)} +(.*)", table)[1].split() for name in DEMO}
     shear, floor = ([f"{float(cell):.2f}" for cell in row[name]] for name in DEMO)
     yield f"base shear is {shear[0]} times the weight and the peak floor acceleration {floor[0]} g."
