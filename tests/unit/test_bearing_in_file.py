@@ -168,7 +168,7 @@ def test_what_is_wrong_is_said_at_its_place(tmp_path, key, text, words):
 
 
 def test_the_section_of_the_page_is_a_bearing(tmp_path: Path) -> None:
-    page = (Path(__file__).parents[2] / "docs" / "projects.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "project_file.md").read_text(encoding="utf-8")
     section = page.split("    [bearing]\n", 1)[1].split("\n\n", 1)[0]
     given = dict(line.strip().split(" = ", 1) for line in section.splitlines())
     found = of_file(tmp_path, given)

@@ -234,7 +234,7 @@ def _measures(
 
 def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget, asked: Asked) -> None:
     # As told; else by intent where the code has a rule for it, beyond all its checks where not.
-    rule, share, source = code_named(analysis.code).rims, target.rim_share, "docs/design_checks.md"
+    rule, share, source = code_named(analysis.code).rims, target.rim_share, "docs/sizing.md"
     if share is None and rule.least < 1.0:
         share = max(MET_SHARE, rule.least)
     if share is not None:

@@ -109,7 +109,7 @@ def tried_candidates(tried: pd.DataFrame) -> Figure:
 
     Examples
     --------
-    In the how-to: "A design project: the command `lir`" (docs/projects.md).
+    In the how-to: "Bearings proposed: `lir design`" (docs/sizing.md).
     """
     if not len(tried):
         msg = "there is no row: give those of front.csv"
