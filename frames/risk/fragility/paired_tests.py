@@ -65,6 +65,10 @@ def paired_tests(
     rate of Benjamini and Hochberg (1995). Rows in which so few records differ that no outcome has a
     p of `rate` are left out of the family (Tarone 1990; Gilbert 2005). Tests of one campaign share
     records; the rate holds for tests that depend positively on each other.
+
+    Examples
+    --------
+    In the how-to: "How to compute fragility and risk" (docs/fragility.md).
     """
     require_between("rate", rate, 0.0, 1.0, error=FragilityError)
     for name in {name for pair in pairs for name in pair}:
