@@ -192,6 +192,20 @@ def write_at2(path: Path, values: np.ndarray) -> None:
     path.write_text(head + "\n".join(f"{value:.9e}" for value in values), encoding="utf-8")
 
 
+def test_columns_of_one_file_elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As of the SCEC Broadband Platform: times, and three components in cm/s2."""
+    motion = shaken(4)
+    columns = [motion.time, 100.0 * motion.y, 100.0 * motion.x, 50.0 * motion.x]
+    np.savetxt(tmp_path / "luc.bbp", np.column_stack(columns))
+    monkeypatch.setenv("OUR_RECORDS", str(tmp_path))
+    (tmp_path / "here").mkdir()
+    table = "name,file,x,y,z,unit\nLucerne,$OUR_RECORDS/luc.bbp,2,1,3,cm/s2\n"
+    (tmp_path / "here/motions.csv").write_text(table)
+    read = MotionSet.from_folder(tmp_path / "here")["Lucerne"]
+    for axis, values in (("x", motion.x), ("y", motion.y), ("z", 0.5 * motion.x)):
+        np.testing.assert_allclose(getattr(read, axis), values, atol=1e-7)
+
+
 def test_a_folder_with_a_table(tmp_path: Path) -> None:
     motion = shaken(4)
     write_at2(tmp_path / "a.AT2", motion.x / G)
@@ -306,6 +320,8 @@ def test_a_motion_is_a_ground_motion() -> None:
         ("name,x\na,missing.txt\n", "is no file"),
         ("name,x\na,a.txt\n", "unit"),
         ("name,x,unit,dt\na,a.txt,g,fast\n", "dt = fast is no number: give the time step in s"),
+        ("name,file,x,unit\na,a.txt,east,g\n", "x = east is no number: give a whole number"),
+        ("name,file,x,unit\na,$NONE/a.txt,1,g\n", r"\$NONE.a.txt is no file"),
         ("name,x,unit,skip\na,a.txt,g,few\n", "skip = few is no number: give a whole number"),
     ],
 )

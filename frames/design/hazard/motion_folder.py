@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 import warnings
 from collections.abc import Mapping
@@ -99,7 +100,7 @@ Facts = dict[str, object]
 Loaded = tuple[dict[str, GroundMotion], dict[str, Facts]]
 
 _OPTIONS = {"dt", "unit", "order", "skip", "width", "decimal", "delimiter"}
-_READ = {"name", "record", *_OPTIONS, *AXES}
+_READ = {"name", "record", "file", *_OPTIONS, *AXES}
 _YES_NO = {"yes": True, "true": True, "no": False, "false": False}
 _VERTICAL = re.compile(
     r"(?:[-_.]?(UP|VERT?|VRT|UD|DWN|DN|[BHEL][HNL]Z|V|Z)|[-_.](H?3|U))$", re.IGNORECASE
@@ -142,9 +143,12 @@ def table_rows(folder: PathLike, table: str) -> list[dict[str, str]]:
 
 
 def files_of(row: Mapping[str, str]) -> list[str]:
-    """Return the names of the files of a row of a table of motions."""
-    named = row["record"].split("|") if "record" in row else [row[a] for a in AXES if a in row]
-    return [name.strip() for name in named]
+    """Return the names of the files of a row of a table of motions, variables in them filled in."""
+    if "file" in row:
+        named = [row["file"]]
+    else:
+        named = row["record"].split("|") if "record" in row else [row[a] for a in AXES if a in row]
+    return [os.path.expandvars(name.strip()) for name in named]
 
 
 def read_table(folder: PathLike, table: str) -> Loaded:
@@ -174,36 +178,59 @@ def _motion(folder: Path, row: Mapping[str, str], table: str) -> tuple[GroundMot
     if "record" in row:
         traces, azimuths = record_traces(files, {axis: row.get(axis) for axis in AXES})
         return GroundMotion.from_traces(traces, name), dict(azimuths)
-    by_axis = dict(zip((axis for axis in AXES if axis in row), files, strict=True))
+    given = [axis for axis in AXES if axis in row]
+    if "file" in row:
+        columns = {axis: _whole(name, axis, row[axis]) for axis in given}
+        return _of_columns(name, row, table, files[0], columns), {}
+    by_axis = dict(zip(given, files, strict=True))
     x, y, z = (by_axis.get(axis) for axis in AXES)
     if all(path.suffix.lower() == ".at2" for path in files):
         return GroundMotion.from_at2(x, y, z, name=name), {}
     if not set(row) & _OPTIONS and all(is_record(path) for path in files):
         traces, azimuths = single_traces(by_axis)
         return GroundMotion.from_traces(traces, name), dict(azimuths)
+    return _of_columns(name, row, table, None, by_axis), {}
+
+
+def _of_columns(
+    name: str,
+    row: Mapping[str, str],
+    table: str,
+    file: Path | None,
+    by_axis: Mapping[str, Any],  # files, or numbers of columns
+) -> GroundMotion:
+    # Files of numbers, one a component, or columns of one file.
     if "unit" not in row:
         msg = (
             f"{name}: files of columns need their unit in the column unit: g, m/s2, cm/s2, gal, "
             "mm/s2, g/10"
         )
         raise MotionError(msg)
-    options: dict[str, Any] = {key: row[key] for key in _OPTIONS & set(row)}
-    for key, kind in {"dt": float, "skip": int, "width": int}.items():
+    options: dict[str, Any] = {key: row[key] for key in _OPTIONS & set(row)} | dict(by_axis)
+    for key in {"skip", "width"} & set(row):
+        options[key] = _whole(name, key, row[key])
+    if "dt" in row:
         try:
-            options |= {key: kind(row[key])} if key in row else {}
+            options["dt"] = float(row["dt"])
         except ValueError as cause:
-            step = "the time step in s" if key == "dt" else "a whole number"
-            msg = f"{name}: {key} = {row[key]} is no number: give {step}"
+            msg = f"{name}: dt = {row['dt']} is no number: give the time step in s"
             raise MotionError(msg) from cause
     timed = "dt" not in row and options.get("order", "columns") == "columns"
+    time = 0 if timed else None
     try:
-        motion = GroundMotion.from_columns(
-            x=x, y=y, z=z, time=0 if timed else None, name=name, **options
-        )
+        return GroundMotion.from_columns(file, time=time, name=name, **options)
     except MotionError as cause:
         msg = f"{name}: {cause} ({', '.join(sorted(_OPTIONS))} are columns of {table})"
         raise MotionError(msg) from cause
-    return motion, {}
+
+
+def _whole(name: str, key: str, text: str) -> int:
+    # A whole number of a cell.
+    try:
+        return int(text)
+    except ValueError as cause:
+        msg = f"{name}: {key} = {text} is no number: give a whole number"
+        raise MotionError(msg) from cause
 
 
 def _value(text: str) -> object:
