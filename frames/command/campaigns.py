@@ -34,7 +34,12 @@ def campaign(
         _require_packages()
         from frames.design.project.source_files import SourceFiles
         from frames.results.storage import refuse_links
-        from frames.risk.campaign.file import campaign_file, comparison_in, read_campaign
+        from frames.risk.campaign.file import (
+            campaign_file,
+            comparison_in,
+            loss_in,
+            read_campaign,
+        )
 
         given = campaign_file(file)
         sources = SourceFiles(given, file.resolve().parent)
@@ -43,6 +48,7 @@ def campaign(
             return
         found = read_campaign(given, store=store)
         comparison_in(given)  # whether there is what it compares
+        loss_in(given)
         sources.require_unchanged()
         refuse_links(found.store.path)
         say(str(found))

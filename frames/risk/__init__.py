@@ -4,6 +4,10 @@ from frames.risk._errors import CampaignError as CampaignError
 from frames.risk._errors import FragilityError as FragilityError
 from frames.risk.campaign.campaign import Campaign as Campaign
 from frames.risk.campaign.devices import Device as Device
+from frames.risk.campaign.loss import ExpectedLoss as ExpectedLoss
+from frames.risk.campaign.loss import LossComponent as LossComponent
+from frames.risk.campaign.loss import expected_loss as expected_loss
+from frames.risk.campaign.loss_file import read_components as read_components
 from frames.risk.campaign.measures import Measure as Measure
 from frames.risk.campaign.other_databases import convert_campaign as convert_campaign
 from frames.risk.campaign.sampling import ParameterSample as ParameterSample

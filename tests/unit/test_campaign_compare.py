@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import re
 import warnings
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,8 @@ from typer.testing import CliRunner
 
 from frames import gravity, lumped_mass
 from frames.command.app import app
-from frames.risk import CampaignError, Intensity, open_campaign
+from frames.design import ProjectError
+from frames.risk import CampaignError, FragilityError, Intensity, LossComponent, open_campaign
 from frames.risk.campaign.comparison import (
     OTHERS,
     ComparedDevices,
@@ -28,7 +30,7 @@ from frames.risk.campaign.comparison import (
     filling_intensity,
 )
 from frames.risk.campaign.devices import Device, highest_ratio, moat_of
-from frames.risk.campaign.file import comparison_in, read_campaign
+from frames.risk.campaign.file import comparison_in, loss_in, read_campaign
 from frames.risk.campaign.search import MedianSearch
 from lir_element import AnalysisWarning
 from tests.refusals import refused
@@ -412,3 +414,108 @@ def test_messages_name_key_and_remedy(folder: Path, old: str, new: str, words: s
     found = run(app, ["campaign", str(folder / "bad.toml")])
     assert found.exit_code == 2
     assert words in " ".join(found.output.split())
+
+
+COMPONENTS = """component,damaged by,quantity,median,dispersion,cost,source
+walls,drift,10,0.2 %,0.4,200,assumed
+walls,drift,10,0.6 %,0.4,900,assumed
+ceilings,floor acceleration above,10,0.3 g,0.5,100,assumed
+"""
+HAZARD = "Sa [g],return period [years]\n0.05,30\n0.2,300\n0.9,20000\n"
+LOSS = """
+[loss]
+components = "components.csv"
+replacement = 2e4
+hazard = "hazard.csv"
+"""
+
+
+def test_losses_are_those_of_numpy_and_scipy(folder: Path, data: xr.Dataset) -> None:
+    (folder / "components.csv").write_text(COMPONENTS)
+    (folder / "hazard.csv").write_text(HAZARD)
+    (folder / "loss.toml").write_text(FILE + LOSS)
+    store = ["--store", str(folder / "rims-results")]
+    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
+        done = run(app, ["campaign", str(folder / "loss.toml"), *store])
+    assert done.exit_code == 0, done.output
+    page = folder / "rims-results/campaign.html"
+    text = page.read_text()
+    assert '<h2 id="loss">' in text
+    loss = pd.read_csv(page.with_name("campaign-loss.csv"))
+    annual = pd.read_csv(page.with_name("campaign-annual_loss.csv")).set_index("structure")
+    for device in ("LIR-DCFP, rims of 0.5 W", "DCFP, rims of 0.5 W"):
+        im, _, down = collapsed(data, device)
+        own = data.isel(run=np.flatnonzero(data["model"].to_numpy() == device))
+        drift = own["peak_drift"].to_numpy()[:, 0]
+        slight, severe = (stats.lognorm.cdf(drift, 0.4, scale=m) for m in (0.002, 0.006))
+        walls = 10.0 * (200.0 * (slight - severe) + 900.0 * severe)
+        floors = own["peak_floor_plan"].to_numpy()[:, 1:]
+        ceilings = 1e3 * stats.lognorm.cdf(floors, 0.5, scale=0.3 * 9.80665).sum(axis=1)
+        each = np.where(down, 1.0, np.minimum((walls + ceilings) / 2e4, 1.0))
+        at = np.unique(im)
+        mean = np.array([each[im == level].mean() for level in at])
+        row = loss[loss["structure"] == device]
+        np.testing.assert_allclose(row["loss [-]"], mean, rtol=1e-6)
+        parts = ["collapse [-]", "walls [-]", "ceilings [-]"]
+        np.testing.assert_allclose(row[parts].sum(axis=1), mean, rtol=1e-6)
+        assert (row["loss, low [-]"] <= mean).all()
+        assert (mean <= row["loss, high [-]"]).all()
+        g, years = np.log([0.05, 0.2, 0.9]), np.log([30.0, 300.0, 20000.0])
+
+        def rate(sa: float, g: np.ndarray = g, years: np.ndarray = years) -> float:
+            return float(np.exp(-np.interp(np.log(sa / 9.80665), g, years)))
+
+        line = lambda sa, at=at, mean=mean: np.interp(sa, [0.0, *at], [0.0, *mean])  # noqa: E731
+        steps = np.geomspace(0.05 * 9.80665, 0.9 * 9.80665, 40001)
+        rates = np.array([rate(sa) for sa in steps])
+        middle = line(np.sqrt(steps[1:] * steps[:-1]))
+        expected = float(-np.diff(rates) @ middle) + mean[-1] * rates[-1]
+        assert annual.loc[device, "loss [1/year]"] == pytest.approx(expected, rel=1e-3)
+        above = mean[-1] * rate(at[-1]) / expected
+        assert annual.loc[device, "above [-]"] == pytest.approx(above, rel=1e-3)
+    ratio = annual["loss [1/year]"].iloc[0] / annual["loss [1/year]"]
+    np.testing.assert_allclose(annual["ratio [-]"].iloc[1:], ratio.iloc[1:], rtol=1e-6)
+
+
+def test_components_stand_in_storeys_from_below() -> None:
+    own = xr.Dataset(
+        {
+            "peak_drift": (("run", "storey"), np.array([[0.01, 0.02]])),
+            "peak_floor_plan": (("run", "level"), np.array([[1.0, 2.0, 4.0]])),
+        }
+    )
+    one = {"medians": [0.02], "dispersions": [1e-3], "costs": [7.0], "quantity": [3.0, 5.0]}
+    walls = LossComponent(name="walls", damaged_by="drift", **one)
+    assert walls.repair(own)[0] == pytest.approx(0.5 * 5.0 * 7.0)
+    one["medians"] = [2.0]
+    below = LossComponent(name="desks", damaged_by="floor acceleration", **one)
+    assert below.repair(own)[0] == pytest.approx(0.5 * 5.0 * 7.0)
+    above = LossComponent(name="ceilings", damaged_by="floor acceleration above", **one)
+    assert above.repair(own)[0] == pytest.approx(0.5 * 3.0 * 7.0 + 5.0 * 7.0)
+    one["quantity"] = [3.0, 5.0, 7.0]
+    more = LossComponent(name="desks", damaged_by="floor acceleration", **one)
+    refused(FragilityError, "3 quantities for 2 storeys", more.repair, own)
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "words"),
+    [
+        ("components.csv", "dispersion", "beta", 'has no column "dispersion"'),
+        ("components.csv", "0.3 g", "0.3", 'line 4: median = "0.3" has no unit'),
+        ("components.csv", "0.6 %", "0.1 %", "component walls: medians must rise"),
+        ("components.csv", "floor acceleration above", "wind", "damaged_by"),
+        ("hazard.csv", "return period", "return", "its first line must be"),
+        ("hazard.csv", "0.2,", "0.02,", "must be positive and rise"),
+        ("loss.toml", 'hazard = "hazard.csv"', 'hazard = [["1 m/s2", 30]]', "loss.hazard"),
+        ("loss.toml", "2e4\n", '2e4\nintensity = "PGA"\n', "[fragility] has another measure"),
+        ("loss.toml", 'hazard = "hazard.csv"', 'hazard = "none.csv"', "none.csv"),
+    ],
+)
+def test_what_is_no_loss_is_refused(
+    tmp_path: Path, file: str, old: str, new: str, words: str
+) -> None:
+    texts = {"components.csv": COMPONENTS, "hazard.csv": HAZARD, "loss.toml": FILE + LOSS}
+    texts[file] = texts[file].replace(old, new)
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    refused(ProjectError, re.escape(words), loss_in, tmp_path / "loss.toml")

@@ -177,7 +177,7 @@ class SourceFiles:
 
 
 def _named(file: Any, folder: Path) -> list[Path]:
-    # A model or its script, libraries of sections, points of a spectrum, records with their table.
+    # A model or its script, libraries of sections, points of a spectrum, tables of losses, records.
     names: list[Path] = []
     structure, motions = file.structure, file.motions
     if isinstance(structure, OpenSeesModel):
@@ -185,7 +185,9 @@ def _named(file: Any, folder: Path) -> list[Path]:
     elif isinstance(structure, ImportedModel):
         names = [structure.file, *structure.library]
     points = getattr(getattr(file, "spectrum", None), "points", None)
-    names += [points] if isinstance(points, Path) else []
+    loss = getattr(file, "loss", None)
+    tables = [points] if loss is None else [points, loss.components, loss.hazard]
+    names += [each for each in tables if isinstance(each, Path)]
     if motions.folder is not None:
         names.append(motions.folder / motions.table)
         records = _records_in(folder / motions.folder, motions.table)

@@ -27,9 +27,11 @@ from frames.design.project.source_files import load_extensions
 from frames.design.project.structure_loads import loads_of
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
-from frames.risk.campaign.comparison import DeviceComparison, filling_intensity
+from frames.risk.campaign.comparison import DeviceComparison, collapse_limit, filling_intensity
 from frames.risk.campaign.devices import Device, highest_ratio
 from frames.risk.campaign.file_schema import CampaignFile, DeviceTable, Range, parameters_of
+from frames.risk.campaign.loss import LossInput
+from frames.risk.campaign.loss_file import hazard_of, read_components, read_hazard
 from frames.risk.campaign.sampling import (
     Choice,
     full_grid,
@@ -135,9 +137,29 @@ def fragility_in(given: CampaignFile | str | Path) -> FragilityTable | None:
 def scaled_to(given: CampaignFile | str | Path) -> Intensity | None:
     """Return the measure that a campaign's file scales the motions to; None: they are as read."""
     file = _read(given)
-    if not file.motions.intensities or file.fragility is None:
+    return file.measured() if file.motions.intensities else None
+
+
+def loss_in(given: CampaignFile | str | Path) -> LossInput | None:
+    """Return components, hazard and collapse of a campaign's file; None without ``[loss]``."""
+    file = _read(given)
+    asked, measure, folder = file.loss, file.measured(), _path_of(file).resolve().parent
+    if asked is None or measure is None:
         return None
-    return file.fragility.measured()
+    drift, hazard = asked.collapse_drift, asked.hazard
+    if drift is None and file.compare is not None:
+        drift = file.compare.collapse_drift
+    return in_section(
+        "loss",
+        lambda: LossInput(
+            components=read_components(folder / asked.components),
+            replacement=asked.replacement,
+            hazard=read_hazard(folder / hazard, measure)
+            if isinstance(hazard, Path)
+            else hazard_of(hazard, measure),
+            collapse=collapse_limit(drift),
+        ),
+    )
 
 
 def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
@@ -147,7 +169,7 @@ def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
     if file.compare is None:
         return None
     bearing, asked = bearing_of(file.bearing), file.compare
-    measure = None if file.fragility is None else file.fragility.measured()
+    measure = file.measured()
     filling = asked.maximum_considered is None and measure is not None and measure.kind == "Sa"
     considered = asked.maximum_considered
     if filling and measure is not None and measure.period is not None:

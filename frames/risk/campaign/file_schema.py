@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import fields
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Generic, Literal, Self, TypeVar, get_type_hints
 
 from pydantic import BeforeValidator, Field, create_model, model_validator
@@ -38,13 +39,35 @@ _Ratios = tuple[Annotated[Ratio, Field(gt=0.0)], ...]
 _Accelerations = tuple[Annotated[Acceleration, Field(gt=0.0)], ...]
 
 
-class FragilityTable(Table):
-    """``[fragility]``: limit states, and the measure that their curves are over."""
+class MeasureTable(Table):
+    """Keys of the intensity measure."""
 
     intensity: Kind = "scale"
     period: Time | None = None
     periods: tuple[Annotated[Time, Field(gt=0.0)], ...] = ()
     measure: str = "RotD50"
+
+    @model_validator(mode="after")
+    def _of_its_kind(self) -> Self:
+        if (self.intensity == "Sa") != (self.period is not None):
+            msg = 'period goes with intensity = "Sa", as period = "3 s": give both, or neither'
+            raise ValueError(msg)
+        if (self.intensity == "Sa_avg") != bool(self.periods):
+            msg = 'periods go with intensity = "Sa_avg", as periods = ["0.6 s", "3 s", "9 s"]: '
+            raise ValueError(msg + "give both, or neither")
+        self.measured()  # periods rise
+        return self
+
+    def measured(self) -> Intensity:
+        """Return the intensity measure."""
+        return Intensity(
+            kind=self.intensity, period=self.period, measure=self.measure, periods=self.periods
+        )
+
+
+class FragilityTable(MeasureTable):
+    """``[fragility]``: limit states, and the measure that their curves are over."""
+
     drift: _Ratios = ()
     displacement: _Lengths = ()
     residual_displacement: _Lengths = ()
@@ -57,13 +80,6 @@ class FragilityTable(Table):
         if not self.limits():
             msg = "has no limit state: give drift = [0.005], bearing_failure = true or the like"
             raise ValueError(msg)
-        if (self.intensity == "Sa") != (self.period is not None):
-            msg = 'period goes with intensity = "Sa", as period = "3 s": give both, or neither'
-            raise ValueError(msg)
-        if (self.intensity == "Sa_avg") != bool(self.periods):
-            msg = 'periods go with intensity = "Sa_avg", as periods = ["0.6 s", "3 s", "9 s"]: '
-            raise ValueError(msg + "give both, or neither")
-        self.measured()  # periods rise
         return self
 
     def limits(self) -> list[LimitState]:
@@ -78,11 +94,19 @@ class FragilityTable(Table):
         found += [LimitState.rim_contact()] if self.rim_contact else []
         return found + ([LimitState.bearing_failure()] if self.bearing_failure else [])
 
-    def measured(self) -> Intensity:
-        """Return the intensity measure."""
-        return Intensity(
-            kind=self.intensity, period=self.period, measure=self.measure, periods=self.periods
-        )
+
+class LossTable(MeasureTable):
+    """``[loss]``: components and their repair, the hazard of the site, collapse."""
+
+    components: Path
+    replacement: float = Field(gt=0.0)
+    hazard: (
+        Path
+        | Annotated[
+            tuple[tuple[Acceleration, Annotated[float, Field(gt=0.0)]], ...], Field(min_length=2)
+        ]
+    )
+    collapse_drift: Annotated[Ratio, Field(gt=0.0)] | None = None
 
 
 T = TypeVar("T")
@@ -277,10 +301,30 @@ class CampaignFile(WholeFile):
     fragility: FragilityTable | None = None
     compare: CompareTable | None = None
     search: SearchTable | None = None
+    loss: LossTable | None = None
+
+    def measured(self) -> Intensity | None:
+        """Return the intensity measure of ``[fragility]``, or that of ``[loss]``, if any."""
+        table = self.fragility or self.loss
+        return None if table is None else table.measured()
+
+    @model_validator(mode="after")
+    def _loss_over_intensities(self) -> Self:
+        if self.loss is None:
+            return self
+        if not self.motions.intensities:
+            msg = '[loss] needs motions.intensities, as ["1 m/s2", "2 m/s2"]: a loss is over what '
+            raise ValueError(msg + "all records are scaled to")
+        stated = self.loss.model_fields_set & {*MeasureTable.model_fields}
+        if self.fragility is not None and stated and self.loss.measured() != self.measured():
+            msg = f"loss.{min(stated)}: [fragility] has another measure, leave it out of [loss]"
+            raise ValueError(msg)
+        return self
 
     @model_validator(mode="after")
     def _intensities_of_a_measure(self) -> Self:
-        measure = None if self.fragility is None else self.fragility.intensity
+        table = self.fragility or self.loss
+        measure = None if table is None else table.intensity
         if self.motions.intensities and measure not in _IN_G:
             msg = 'motions.intensities are accelerations: [fragility] intensity = "Sa" with its '
             msg += 'period, "Sa_avg" with its periods, or "PGA", says of what'

@@ -118,6 +118,62 @@ def _margin_table(margins: pd.DataFrame) -> Table:
     return page_table(words, "device")
 
 
+def _losses(tables: CampaignTables, *, figures: bool) -> dict[str, Any]:
+    # Losses by what the page has for them: numbers with their intervals in one cell, in per cent.
+    annual, loss = tables.annual_loss, tables.loss
+    words = pd.DataFrame({"loss a year [%]": _with_ends(100.0 * annual.iloc[:, 1:], LOSS, ".3g")})
+    parts = [c for c in annual.columns[2:] if str(c).endswith(" [1/year]")]
+    for name in [str(c) for c in parts if not str(c).startswith("loss,")]:
+        words[f"of it {name.removesuffix(' [1/year]')} [%]"] = 100.0 * annual[name] / annual[LOSS]
+    if "ratio [-]" in annual:
+        first = annual["structure"].iloc[0]
+        words[f"{first} over it"] = _with_ends(annual, "ratio [-]", ".2f")
+    for name in ("below [-]", "above [-]"):
+        words[name.replace("[-]", "what was run [%]")] = 100.0 * annual[name]
+    im = str(loss.columns[1])
+    curves = pd.DataFrame(
+        {
+            str(name): pd.Series(_with_ends(100.0 * own.iloc[:, 2:], "loss [-]", ".3g"), own[im])
+            for name, own in loss.groupby("structure", sort=False)
+        }
+    )
+    return {
+        "annual": page_table(words.set_index(annual["structure"]), "structure"),
+        "curves": page_table(curves, tables.axis),
+        "pictures": [picture("Expected loss", loss_curves(loss, tables.axis))] if figures else [],
+        "unknown": int(loss["unknown"].sum()),
+        "beyond": annual.loc[(annual["above [-]"] > BEYOND), "structure"].tolist(),
+    }
+
+
+LOSS = "loss [1/year]"
+BEYOND = 0.1
+"""Share of the annual loss that may come from above the highest intensity without a word [-]."""
+
+
+def loss_curves(loss: pd.DataFrame, axis: str) -> Figure:
+    """Draw expected losses of structures over the intensity, those of collapse and of repair."""
+    figure = ps.new_figure(3.2)
+    (panels,) = ps.grid_of(figure, 1, 3, share_x=True, share_y=True)
+    im = str(loss.columns[1])
+    for k, (name, own) in enumerate(loss.groupby("structure", sort=False)):
+        look, at = ps.line_of(k), own[im]
+        low, high = 100.0 * own["loss, low [-]"], 100.0 * own["loss, high [-]"]
+        panels[0].fill_between(at, low, high, alpha=0.15, color=look["color"], linewidth=0.0)
+        whole, down = own["loss [-]"], own["collapse [-]"]
+        for panel, values in zip(panels, (whole, down, whole - down), strict=True):
+            panel.plot(
+                at, 100.0 * values, label=str(name), marker=MARKERS[k % 8], markersize=3.0, **look
+            )
+    titles = "expected loss", "of it collapse", "of it repair"
+    for panel, title in zip(panels, titles, strict=True):
+        panel.set_ylim(0.0, 102.0)
+        ps.caption(panel, title=title, x=axis)
+    ps.caption(panels[0], y="of a new building [%]")
+    ps.add_legend(figure, panels[0].get_lines(), columns=2)
+    return figure
+
+
 def _collapse(limit: LimitState) -> str:
     if limit.limit is None:
         return "Collapse is failure of a bearing"
@@ -224,6 +280,7 @@ def write_page(
         ],
         fragility=_fragility_table(fragility) if len(fragility) else None,
         compared=devices,
+        losses=_losses(tables, figures=figures) if len(tables.loss) else None,
         confidence=f"{100.0 * CONFIDENCE:g} %",
         several_sets=campaign.sets > 1,
         response_pictures=_responses(models, tables.axis) if drawn else [],

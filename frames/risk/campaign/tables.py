@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from frames.design.project.inputs import in_section
 from frames.risk._errors import FragilityError
-from frames.risk.campaign.file import comparison_in, fragility_in, scaled_to
+from frames.risk.campaign.file import comparison_in, fragility_in, loss_in, scaled_to
+from frames.risk.campaign.loss import expected_loss
 from frames.risk.campaign.plot_response import failure_table, response_table, runs_by_model
 from frames.risk.fragility.of_runs import fragility_of
 
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 
     from frames.risk.campaign.campaign import Campaign
     from frames.risk.campaign.file_schema import CampaignFile
+    from frames.risk.campaign.loss import ExpectedLoss
     from frames.risk.fragility.curve import Fragility
     from frames.risk.fragility.limit_state import LimitState
     from frames.risk.fragility.runs import IntensityRuns
@@ -27,7 +30,17 @@ if TYPE_CHECKING:
 CONFIDENCE = 0.9
 """Of intervals [-]."""
 
-FILES = "response", "failures", "fragility", "devices", "ratios", "margins", "tests"
+FILES = (
+    "response",
+    "failures",
+    "fragility",
+    "devices",
+    "ratios",
+    "margins",
+    "tests",
+    "loss",
+    "annual_loss",
+)
 """Tables that are written as CSV, in SI units, by their names."""
 
 
@@ -37,11 +50,11 @@ class CampaignTables:
     def __init__(self, campaign: Campaign, file: CampaignFile) -> None:
         self.campaign, self.file = campaign, file
         asked, scaled = fragility_in(file), scaled_to(file)
-        self.comparison = comparison_in(file)
+        self.comparison, self._loss = comparison_in(file), loss_in(file)
         self.limits: list[LimitState] = [] if asked is None else asked.limits()
         if self.comparison is not None:
             self.limits.append(self.comparison.collapse)
-        self.intensity = None if asked is None else asked.measured()
+        self.intensity = file.measured()
         self.axis = "factor on the motions"
         if scaled is not None:
             self.axis = f"{scaled.label} [{scaled.unit}]"
@@ -122,6 +135,23 @@ class CampaignTables:
         own = self.fragility[self.fragility["limit state"] == name]
         why = dict(zip(own["structure"], own["no curve"], strict=True))
         return self.comparison.margins(self.runs, self.curves.get(name, {}), why, CONFIDENCE)
+
+    @cached_property
+    def _losses(self) -> ExpectedLoss | None:
+        if self._loss is None:
+            return None
+        told = self._loss._asdict() | {"confidence": CONFIDENCE}
+        return in_section("loss", lambda: expected_loss(self.data, self.runs, **told))
+
+    @property
+    def loss(self) -> pd.DataFrame:
+        """Expected loss, a row a structure and intensity; empty without a table of components."""
+        return pd.DataFrame() if self._losses is None else self._losses.curves
+
+    @property
+    def annual_loss(self) -> pd.DataFrame:
+        """Expected loss a year, a row a structure; empty without a table of components."""
+        return pd.DataFrame() if self._losses is None else self._losses.annual
 
     @cached_property
     def plan(self) -> pd.DataFrame:

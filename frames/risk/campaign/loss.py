@@ -1,0 +1,342 @@
+"""Loss: repair of components by what runs reached, over intensity and a year, device by device."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import pandas as pd
+from scipy import special
+
+from frames.risk._errors import FragilityError
+from frames.risk.fragility.curve import checked_confidence
+from frames.risk.fragility.fitting import RESAMPLES
+from frames.risk.fragility.intensity import is_same
+from lir_element.argument_checks import require_choice, require_positive
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from frames._types import FloatArray
+    from frames.risk.fragility.hazard_curve import HazardCurve
+    from frames.risk.fragility.limit_state import LimitState
+    from frames.risk.fragility.runs import IntensityRuns
+
+DRIFT, BELOW, ABOVE = "drift", "floor acceleration", "floor acceleration above"
+"""What damages a component of a storey: its drift, the floor that it stands on or hangs from."""
+
+POINTS = 1000
+"""Intensities of the integration over the hazard, equally spaced in their logarithms."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class LossComponent:
+    """A kind of component: what damages it, and what its repair costs.
+
+    Parameters
+    ----------
+    name : str
+        The component.
+    damaged_by : {"drift", "floor acceleration", "floor acceleration above"}
+        Of its storey; the acceleration is that of the floor below it, or above it, in plan.
+    medians, dispersions : sequence of float, (damage states,)
+        Lognormal curves of the damage states, which come one after the other: medians rise, drift
+        [-] or acceleration [m/s2]; dispersions [-].
+    costs : sequence of float, (damage states,)
+        Cost of the repair of a unit at each damage state, in any currency.
+    quantity : sequence of float
+        Units in each storey from below, or one number for each of them.
+
+    Raises
+    ------
+    FragilityError
+        If numbers of damage states differ, or a number is out of its bounds.
+
+    Examples
+    --------
+    >>> from frames.risk import LossComponent
+    >>> walls = LossComponent(
+    ...     name="partitions", damaged_by="drift", medians=[0.005, 0.02], dispersions=[0.4, 0.4],
+    ...     costs=[100.0, 400.0], quantity=[10.0],
+    ... )
+    >>> float(walls.cost(0.005).round(1))  # half of them slightly damaged
+    50.1
+    """
+
+    name: str
+    damaged_by: str
+    medians: Sequence[float]
+    dispersions: Sequence[float]
+    costs: Sequence[float]
+    quantity: Sequence[float]
+
+    def __post_init__(self) -> None:
+        """Check."""
+        where = f"component {self.name}"
+        require_choice(
+            f"{where}: damaged_by", self.damaged_by, (DRIFT, BELOW, ABOVE), error=FragilityError
+        )
+        sizes = {len(self.medians), len(self.dispersions), len(self.costs)}
+        if len(sizes) > 1 or not len(self.medians):
+            msg = f"{where}: medians, dispersions and costs need one number a damage state each"
+            raise FragilityError(msg)
+        for name in ("medians", "dispersions", "quantity"):
+            for value in getattr(self, name):
+                require_positive(f"{where}: {name}", value, error=FragilityError)
+        if (np.diff(self.medians) < 0.0).any() or min(self.costs) < 0.0:
+            msg = f"{where}: medians must rise from state to state, and costs be at least 0"
+            raise FragilityError(msg)
+
+    def cost(self, demand: FloatArray | float) -> FloatArray:
+        """Return the expected cost of a unit.
+
+        Parameters
+        ----------
+        demand : array_like
+            Drift [-] or acceleration [m/s2].
+
+        Returns
+        -------
+        ndarray
+            Cost, in the shape of the demand.
+        """
+        with np.errstate(divide="ignore"):
+            at = np.log(np.asarray(demand, dtype=np.float64))[..., None]
+        reached = special.ndtr((at - np.log(self.medians)) / np.asarray(self.dispersions))
+        # states in sequence: none reaches one that has not reached the one before
+        steps = np.diff(np.asarray(self.costs), prepend=0.0)
+        return np.asarray(np.minimum.accumulate(reached, axis=-1) @ steps)
+
+    def repair(self, data: xr.Dataset) -> FloatArray:
+        """Return the expected cost of all units in each run of a Dataset, (runs,)."""
+        name = "peak_drift" if self.damaged_by == DRIFT else "peak_floor_plan"
+        if name not in data:
+            msg = f"component {self.name}: the structure has no storeys with levels; give it levels"
+            raise FragilityError(msg)
+        demand = data[name].to_numpy()
+        if self.damaged_by != DRIFT:
+            demand = demand[:, 1:] if self.damaged_by == ABOVE else demand[:, :-1]
+        storeys = demand.shape[1]
+        if len(self.quantity) not in {1, storeys}:
+            msg = (
+                f"component {self.name}: {len(self.quantity)} quantities for {storeys} storeys: "
+                "give one for each storey, or one number for all"
+            )
+            raise FragilityError(msg)
+        return np.asarray((self.cost(demand) * np.asarray(self.quantity)).sum(axis=1))
+
+
+COLLAPSE = "collapse"
+"""Part of the loss that is the whole building."""
+
+
+class LossInput(NamedTuple):
+    """What a campaign's file says of losses."""
+
+    components: tuple[LossComponent, ...]
+    replacement: float  # cost of a new building, in the currency of the components
+    hazard: HazardCurve
+    collapse: LimitState
+
+
+@dataclass(frozen=True, eq=False)
+class ExpectedLoss:
+    """Expected losses of structures under the same records, over the cost of a new building.
+
+    Attributes
+    ----------
+    curves : pandas.DataFrame
+        A row a structure and intensity: "loss [-]" with "low" and "high" of its interval, its parts
+        by component, that of collapse among them, "runs", and "unknown" ones that are left out.
+    annual : pandas.DataFrame
+        A row a structure: "loss [1/year]" with its interval and its parts; "ratio [-]", the loss of
+        the first structure over it; "below [-]" and "above [-]", shares of the loss that come from
+        below the lowest and above the highest intensity that was run.
+
+    Examples
+    --------
+    In docs/campaigns.md, under "Loss".
+    """
+
+    curves: pd.DataFrame
+    annual: pd.DataFrame
+
+
+def expected_loss(
+    data: xr.Dataset,
+    runs: Mapping[str, IntensityRuns],
+    components: Sequence[LossComponent],
+    hazard: HazardCurve,
+    *,
+    replacement: float,
+    collapse: LimitState,
+    confidence: float = 0.9,
+    resamples: int = RESAMPLES,
+    seed: int = 1,
+) -> ExpectedLoss:
+    """Return losses of structures whose records were run at the same intensities.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Results of a campaign.
+    runs : mapping of str to IntensityRuns
+        Its runs by structure, ``IntensityRuns.from_dataset(data, ..., parameters="all")``, over the
+        measure of the hazard; the first is the one that the others are compared with.
+    components : sequence of LossComponent
+        What is repaired.
+    hazard : HazardCurve
+        The hazard of the site.
+    replacement : float
+        Cost of a new building, in the currency of the components.
+    collapse : LimitState
+        What counts as the loss of the building; a failed bearing always does.
+    confidence : float
+        Confidence of the intervals [-].
+    resamples, seed : int
+        Resamples of the records, the same for all structures, and their seed.
+
+    Returns
+    -------
+    ExpectedLoss
+        Losses over intensity and a year, with intervals.
+
+    Raises
+    ------
+    FragilityError
+        If measures differ, records have not the same intensities, or a number cannot be.
+
+    Notes
+    -----
+    The loss falls straight to 0 below the lowest intensity, and stays as it is above the highest.
+    Repair that costs more than a new building is a new building. Runs whose analysis failed are
+    left out. Source: the method of FEMA P-58 (2018) with expected values in place of realizations.
+    """
+    cost = require_positive("replacement", replacement, error=FragilityError)
+    tail = 0.5 * (1.0 - checked_confidence(confidence))
+    records = sorted({name for each in runs.values() for name in each.motions})
+    drawn = np.random.default_rng(seed).integers(0, len(records), (resamples, len(records)))
+    rows, yearly = [], {}
+    means: dict[str, FloatArray] = {}
+    at = _intensities(runs, hazard)
+    for name, each in runs.items():
+        parts = {
+            part: _by_record(values, each, records, at)
+            for part, values in _parts(data, name, each, components, cost, collapse).items()
+        }
+        total = np.sum([*parts.values()], axis=0)
+        drawn_means = np.nanmean(total[drawn], axis=1)
+        low, high = np.nanquantile(drawn_means, [tail, 1.0 - tail], axis=0)
+        curve = {part: np.nanmean(values, axis=0) for part, values in parts.items()}
+        mean = np.nanmean(total, axis=0)
+        table = {"loss [-]": mean, "loss, low [-]": low, "loss, high [-]": high}
+        table |= {f"{part} [-]": values for part, values in curve.items()}
+        table |= {"runs": np.full(len(at), len(records)), "unknown": np.isnan(total).sum(axis=0)}
+        rows.append(pd.DataFrame({"structure": name, f"im [{hazard.unit}]": at, **table}))
+        means[name] = annual_losses(drawn_means, at, hazard)
+        yearly[name] = _year(curve, mean, at, hazard)
+    annual = pd.DataFrame(yearly).T
+    first = next(iter(means))
+    for name, own in means.items():
+        annual.loc[name, ["loss, low [1/year]", "loss, high [1/year]"]] = _ends(own, tail)
+        if name != first:
+            ratio = yearly[first]["loss [1/year]"] / yearly[name]["loss [1/year]"]
+            columns = ["ratio [-]", "ratio, low [-]", "ratio, high [-]"]
+            annual.loc[name, columns] = [ratio, *_ends(means[first] / own, tail)]
+    annual.insert(0, "structure", annual.index)
+    return ExpectedLoss(pd.concat(rows, ignore_index=True), annual.reset_index(drop=True))
+
+
+def _ends(values: FloatArray, tail: float) -> list[float]:
+    return [float(v) for v in np.nanquantile(values, [tail, 1.0 - tail])]
+
+
+def _intensities(runs: Mapping[str, IntensityRuns], hazard: HazardCurve) -> FloatArray:
+    # Those of every record, or an error: a mean over other records is another one.
+    for each in runs.values():
+        own, other = each.intensity, hazard.intensity
+        if own.unit != hazard.unit or (other is not None and not is_same(own, other)):
+            label = hazard.unit if other is None else other.label
+            msg = f"the runs are over {own.label}, the hazard over {label}: give it of that measure"
+            raise FragilityError(msg)
+    sets = {
+        (name, motion): tuple(sorted({*rows["im"].tolist()}))
+        for name, each in runs.items()
+        for motion, rows in each.table.groupby("motion")
+    }
+    if len({*sets.values()}) > 1:
+        (_, motion), found = min(sets.items(), key=lambda row: len(row[1]))
+        msg = (
+            f"record {motion} was run at {len(found)} intensities, others at others: a loss over "
+            "intensity needs all records at the same ones, as motions.intensities give them"
+        )
+        raise FragilityError(msg)
+    return np.array(next(iter(sets.values())))
+
+
+def _parts(
+    data: xr.Dataset,
+    name: str,
+    runs: IntensityRuns,
+    components: Sequence[LossComponent],
+    replacement: float,
+    collapse: LimitState,
+) -> dict[str, FloatArray]:
+    # Parts of the expected loss of each run, over the cost of a new building; NaN where unknown.
+    done = (data["model"] == name).to_numpy() & (data["status"] != "").to_numpy()
+    own = data.isel(run=np.flatnonzero(done))
+    lost = runs.exceeded(collapse)
+    repair = {each.name: each.repair(own) / replacement for each in components}
+    whole = np.sum([*repair.values()], axis=0)
+    share = 1.0 / np.maximum(whole, 1.0)
+    found = {COLLAPSE: lost}
+    return found | {
+        part: np.where(lost > 0.0, 0.0, share * values) + 0.0 * lost
+        for part, values in repair.items()
+    }
+
+
+def _by_record(
+    values: FloatArray, runs: IntensityRuns, records: list[str], at: FloatArray
+) -> FloatArray:
+    # A table (records, intensities); the mean where there are several sets of parameters.
+    table = runs.table[["motion", "im"]].assign(value=values)
+    wide = table.pivot_table(index="motion", columns="im", values="value", dropna=False)
+    return np.asarray(wide.reindex(index=records, columns=at).to_numpy())
+
+
+def _year(
+    parts: Mapping[str, FloatArray], mean: FloatArray, at: FloatArray, hazard: HazardCurve
+) -> dict[str, float]:
+    # Annual loss and its parts, and the shares from beyond the intensities.
+    one = float(annual_losses(mean, at, hazard))
+    found = {"loss [1/year]": one, "loss, low [1/year]": np.nan, "loss, high [1/year]": np.nan}
+    found |= {
+        f"{part} [1/year]": float(annual_losses(values, at, hazard))
+        for part, values in parts.items()
+    }
+    low, high = hazard.ends
+    beyond = float(mean[-1] * hazard.rates(np.clip(at[-1], low, high)))
+    inside = annual_losses(mean, at, hazard, lowest=float(at[0]))
+    below = one - float(inside)
+    return found | {
+        "below [-]": below / one if one > 0.0 else 0.0,
+        "above [-]": beyond / one if one > 0.0 else 0.0,
+    }
+
+
+def annual_losses(
+    loss: FloatArray, at: FloatArray, hazard: HazardCurve, lowest: float = 0.0
+) -> FloatArray:
+    """Return annual losses of losses (..., n) at intensities (n,), those above a lowest one."""
+    low, high = hazard.ends
+    low = min(max(low, lowest), high)
+    im = np.union1d(np.geomspace(low, high, POINTS), np.clip(at, low, high))
+    rate = hazard.rates(im)
+    flat = loss.reshape(-1, loss.shape[-1])
+    known = np.concatenate([[0.0], at])
+    lines = np.array([np.interp(im, known, [0.0, *row]) for row in flat])
+    found = 0.5 * (lines[:, 1:] + lines[:, :-1]) @ -np.diff(rate) + lines[:, -1] * rate[-1]
+    return np.asarray(found.reshape(loss.shape[:-1]))
