@@ -222,17 +222,17 @@ def levels() -> Figure:
     figure = Figure(figsize=(8.6, 5.4))
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     questions = (
-        (5.6, "One bearing, and a reference\nto trust other results by?", "yes"),
+        (5.6, "One bearing, and a reference\nfor other results?", "yes"),
         (
             4.1,
-            "A design, in which bearings meet their\nrims, lift, or have unlike friction?",
+            "A design, in which bearings meet their\nrims, lift, or have different friction?",
             "yes",
         ),
-        (2.6, "Not known?", "yes"),
+        (2.6, "Not sure?", "yes"),
     )
     answers = (
-        '"rigid_body"\n150 to 450 times the cost',
-        '"contact", the default of projects\n3 to 5 times the cost',
+        '"rigid_body"\n10 to 30 times the cost',
+        '"contact", the default of projects\nabout 3 times the cost',
         '"auto": runs, then again with the\nbearings concerned at "contact"',
     )
     for (y, question, said), answer in zip(questions, answers, strict=True):

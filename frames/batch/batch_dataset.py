@@ -93,7 +93,7 @@ def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
 def stack(
     rows: Sequence[RunResult], cases: Sequence[Case], digests: Mapping[str, str]
 ) -> xr.Dataset:
-    """Put rows together (docs/results.md)."""
+    """Put rows together (docs/recording.md)."""
     rows = sorted(rows, key=lambda row: row.place)
     of = [cases[row.place] for row in rows]
     variables = _of_runs(rows) | _of_peaks(rows) | _of_reached(rows)

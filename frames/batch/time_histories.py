@@ -97,8 +97,8 @@ def time_histories(
     -------
     xarray.Dataset
         A row a run along `run`, in the order models, motions, scales (the last change first) or
-        that of the cases; `model`, `motion` and `scale` are coordinates. See docs/results.md. A run
-        that stopped early is a row like the others, with its `status` and `message`; what it
+        that of the cases; `model`, `motion` and `scale` are coordinates. See docs/recording.md. A
+        run that stopped early is a row like the others, with its `status` and `message`; what it
         reached is until then. Two warnings at most tell how many runs stopped or are inaccurate,
         and in how many the assumption check marks something.
 

@@ -52,7 +52,7 @@ class ForceTracker:
             self._taken = first + rows.stop
 
     def variables(self) -> tuple[dict[str, xr.Variable], dict[str, list[str]]]:
-        """Return what was reached as variables (docs/results.md), and their coordinates."""
+        """Return what was reached as variables (docs/recording.md), and their coordinates."""
         variables: dict[str, xr.Variable] = {}
         coordinates: dict[str, list[str]] = {}
         first = 0

@@ -58,7 +58,7 @@ class Recording:
         Whether the largest and smallest forces in members, storeys and under bearings are kept,
         each with the others that act at its instant, over all base steps: the variables
         ``peak_member_force``, ``peak_storey_force`` and ``peak_reaction_force``
-        (docs/results.md).
+        (docs/recording.md).
 
     Raises
     ------

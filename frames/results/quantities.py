@@ -261,7 +261,7 @@ QUANTITIES: dict[str, Quantity] = {
         "shift of the spheres' centres by tilt of the plates",
         lambda d: in_plan(centre_shift(d)),
     ),
-    "tilt": Quantity(_B, "rad", "tilt of a slider with contact points", formulas.tilt),
+    "tilt": Quantity(_B, "rad", "tilt of a slider (levels contact and rigid_body)", formulas.tilt),
     "temperature": Quantity(
         (*_B, "contact"),
         "degC",

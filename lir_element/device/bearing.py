@@ -99,7 +99,7 @@ class LIRBearing(Specification):
     plate_thickness : float or (float, float)
         Distance from each node to the vertex of its concave surface [m].
     slider_density : float
-        Density of the sliders [kg/m3], for mass and inertia at the levels with contact points.
+        Density of the sliders [kg/m3], for mass and inertia at levels "contact" and "rigid_body".
     slider_mass : float or (float, float), optional
         Mass of the bottom and the top slider [kg] instead of that from density and geometry.
     slider_inertia : ((float, float), (float, float)), optional
