@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 from rich.markup import escape
 
-from frames.command.campaigns import campaign, campaign_status
+from frames.command.campaigns import campaign, campaign_archive, campaign_status
 from frames.command.console import FAILED_CHECKS, err, exit_codes, out, project_in, say, trust
 from frames.command.designing import propose
 from frames.command.viewing import compare, export, view
@@ -303,6 +303,7 @@ def _line_of(way: Way) -> str:
 
 app.command()(campaign)
 app.command()(campaign_status)
+app.command()(campaign_archive)
 
 
 @app.command(name="schema")

@@ -105,6 +105,21 @@ def campaign_status(
             say(f"warning: {text}")
 
 
+def campaign_archive(
+    store: Annotated[Path, typer.Argument(help="Folder of the results.")],
+    archive: Annotated[Path, typer.Argument(help="The archive, a .zip.")],
+) -> None:
+    """Write a campaign's results as data for others: zarr, CSV and a README in one archive."""
+    with exit_codes():
+        _require_packages()
+        from frames.risk.campaign.archive import archive_campaign
+
+        written = archive_campaign(store, archive)
+        say(
+            f"{written}, {written.stat().st_size / 1e6:.1f} MB; README.md in it says how to read it"
+        )
+
+
 def _require_packages() -> None:
     from frames.design._errors import ProjectError
     from frames.risk.campaign.store_writing import lacking_packages

@@ -2,6 +2,7 @@
 
 from frames.risk._errors import CampaignError as CampaignError
 from frames.risk._errors import FragilityError as FragilityError
+from frames.risk.campaign.archive import archive_campaign as archive_campaign
 from frames.risk.campaign.campaign import Campaign as Campaign
 from frames.risk.campaign.devices import Device as Device
 from frames.risk.campaign.loss import ExpectedLoss as ExpectedLoss

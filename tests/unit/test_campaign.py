@@ -1,8 +1,11 @@
 """Campaigns: samples, plan, results beside those of time_histories, failures, refusals."""
 
+import json
+import shutil
 import subprocess  # this interpreter  # noqa: S404
 import sys
 import tarfile
+import zipfile
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -33,6 +36,7 @@ from frames.risk import (
     IntensityRuns,
     LimitState,
     ParameterSample,
+    archive_campaign,
     convert_campaign,
     full_grid,
     latin_hypercube,
@@ -51,6 +55,7 @@ from lir_element import CoulombFriction, LIRBearing, VelocityFriction
 from lir_element.errors import AnalysisWarning
 from tests.refusals import refused
 from tests.scenes import small_bearing
+from validation.study import __main__ as whole
 
 pytest.importorskip("filelock")
 
@@ -645,3 +650,48 @@ def test_sources_that_numbers_depend_on_are_all_in_the_plan() -> None:
     assert len(kernels) > 10
     assert {k for k in kernels if "opensees" not in k} <= known
     assert {"lir_element/device/specification.py", "frames/batch/batch_run.py"} <= known
+
+
+def test_an_archive_is_read_without_the_package(store: Path, tmp_path: Path) -> None:
+    """By zarr and pandas alone, in a process that has not this package."""
+    archive = archive_campaign(store, tmp_path / "runs.zip", command="lir campaign small.toml")
+    first = archive.read_bytes()
+    assert archive_campaign(store, archive, command="lir campaign small.toml").read_bytes() == first
+    with zipfile.ZipFile(archive) as packed:
+        packed.extractall(tmp_path / "read")  # noqa: S202  (written above)
+    code = """
+import json, sys
+import numpy as np, pandas as pd, zarr
+table = pd.read_csv("runs.csv")
+group = zarr.open_group("results.zarr", mode="r")
+quantities = [str(name) for name in group["quantity"][:]]
+peak = group["peak"][:, quantities.index("bearing displacement")]
+assert np.allclose(peak, table["bearing displacement"], rtol=1e-9)
+assert group["motion"][:].tolist() == table["motion"].tolist()
+assert not [name for name in sys.modules if name.startswith(("frames", "lir_element"))]
+print(json.dumps([len(table), table["radius"].tolist(), peak.tolist()]))
+"""
+    given = [sys.executable, "-I", "-c", code]
+    read = subprocess.run(given, cwd=tmp_path / "read", capture_output=True, check=False, text=True)  # noqa: S603
+    assert read.returncode == 0, read.stderr
+    count, radii, peak = json.loads(read.stdout)
+    own = open_campaign(store).to_dataframe()
+    assert count == len(own) == 16
+    assert radii == own["radius"].tolist()
+    np.testing.assert_allclose(peak, own["bearing displacement"], rtol=1e-12)
+    told = (tmp_path / "read/README.md").read_text()
+    for words in (
+        *("lir campaign small.toml", open_campaign(store).digest(), "BSD-3-Clause"),
+        *("| radius | m | parameter |", "| bearing displacement | m |", "No ground motion"),
+    ):
+        assert words in told
+    assert "Redistribution and use" in (tmp_path / "read/LICENSE").read_text()
+    shutil.copytree(store, tmp_path / "study/rims/all")
+    whole.main(["rims", "after", "--store", str(tmp_path / "study"), "--archive", str(tmp_path)])
+    with zipfile.ZipFile(tmp_path / "study_rims.zip") as packed:
+        assert {"README.md", "all/runs.csv", "all/results.zarr/.zmetadata"} <= {*packed.namelist()}
+    assert not (tmp_path / "study_after.zip").exists()
+    next((store / "runs").glob("*.npz")).unlink()
+    refused(CampaignError, "run it to its end first", archive_campaign, store, archive)
+    assert archive.read_bytes() == first
+    refused(CampaignError, "must end in .zip", archive_campaign, store, tmp_path / "runs.tar")
