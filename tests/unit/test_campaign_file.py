@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 pytest.importorskip("filelock")
@@ -13,7 +14,7 @@ from typer.testing import CliRunner
 
 from frames.command.app import app
 from frames.design import ProjectError
-from frames.risk import Intensity, open_campaign
+from frames.risk import Intensity, open_campaign, sobol_indices
 from frames.risk.campaign.file import read_campaign
 from lir_element.units import STANDARD_GRAVITY
 from tests.refusals import refused
@@ -216,3 +217,30 @@ mass = { dead = 1.0, live = 0.25 }
     checked = read_campaign(folder / "loads.toml")._work.build("LIR-DCFP", 0).check()
     assert checked.carried == pytest.approx(2 * 30.0 * (5e3 + 0.5 * 2e3))
     assert checked.mass == pytest.approx(2 * 30.0 * (5e3 + 0.25 * 2e3) / 9.80665)
+
+
+def test_a_file_with_saltellis_sets_has_indices(folder: Path) -> None:
+    text = FILE
+    for old, new in (
+        ('"latin hypercube"\nsize = 4', '"saltelli"\nsize = 8'),
+        ('radius = {values = ["1500 mm", "2 m"]}', "modal_damping = {low = 0, high = 0.1}"),
+        ('["artificial-1"]', '["artificial-1", "artificial-2"]'),
+        ("1.0, 1.5", "1.0"),
+    ):
+        text = text.replace(old, new)
+    (folder / "sets.toml").write_text(text.replace('"LIR-DCFP", "DCFP"', '"DCFP"'))
+    done = run(app, ["campaign", "--no-figures", str(folder / "sets.toml")])
+    assert done.exit_code == 0, done.output
+    assert "64 runs = 1 models x 32 sets" in done.output
+    store = folder / "sets-results"
+    table = pd.read_csv(store / "campaign-indices.csv")
+    own = table[table["quantity"] == "bearing displacement"].set_index("parameter")
+    given = {"friction": stats.uniform(0.04, 0.04), "modal_damping": stats.uniform(0.0, 0.1)}
+    found = sobol_indices(open_campaign(store), given, samples=8, seed=3, widest=9.0)
+    for name in given:
+        assert own.loc[name, "share of"] == "variance within records"
+        assert own.loc[name, "total, high [-]"] == pytest.approx(
+            found.table.loc[name, "total, high"]
+        )
+    assert own.loc["record", "share of"] == "whole variance"
+    assert "not known (" in (store / "campaign.html").read_text()

@@ -146,9 +146,9 @@ def loss_in(given: CampaignFile | str | Path) -> LossInput | None:
     asked, measure, folder = file.loss, file.measured(), _path_of(file).resolve().parent
     if asked is None or measure is None:
         return None
-    drift, hazard = asked.collapse_drift, asked.hazard
-    if drift is None and file.compare is not None:
-        drift = file.compare.collapse_drift
+    hazard, collapse = asked.hazard, collapse_limit(asked.collapse_drift)
+    if asked.collapse_drift is None and file.compare is not None:
+        collapse = file.compare.collapse()
     return in_section(
         "loss",
         lambda: LossInput(
@@ -157,7 +157,7 @@ def loss_in(given: CampaignFile | str | Path) -> LossInput | None:
             hazard=read_hazard(folder / hazard, measure)
             if isinstance(hazard, Path)
             else hazard_of(hazard, measure),
-            collapse=collapse_limit(drift),
+            collapse=collapse,
         ),
     )
 
@@ -276,20 +276,23 @@ def _devices(frame: Frame, file: CampaignFile) -> dict[str, Frame]:
     return {name: both[name] for name in devices}
 
 
+def distributions_in(given: CampaignFile | str | Path) -> dict[str, Choice]:
+    """Return the values or distributions of the parameters of a campaign's file, by name."""
+    table = _read(given).parameters
+    names = () if table is None else type(table).model_fields
+    ranges = {name: value for name in names if (value := getattr(table, name)) is not None}
+    return {name: _choice(name, each) for name, each in ranges.items()}
+
+
 def _sample(file: CampaignFile) -> ParameterSample | None:
     if file.parameters is None or file.sample is None:
         return None
-    ranges = {
-        name: value
-        for name in type(file.parameters).model_fields
-        if (value := getattr(file.parameters, name)) is not None
-    }
-    choices: dict[str, Any] = {name: _choice(name, each) for name, each in ranges.items()}
+    choices: dict[str, Any] = distributions_in(file)
     size, seed = file.sample.size, file.sample.seed
     if file.sample.kind == "grid" or size is None:
         return full_grid(choices)
     if file.sample.kind == "saltelli":
-        for name in [n for n, each in ranges.items() if each.values is not None]:
+        for name in [n for n in choices if getattr(file.parameters, n).values is not None]:
             msg = f'{name} has values: the kind "saltelli" needs its distribution, low and high'
             raise CampaignError(msg)
         return saltelli_sample(choices, size, seed=seed)

@@ -118,6 +118,23 @@ def _margin_table(margins: pd.DataFrame) -> Table:
     return page_table(words, "device")
 
 
+def _indices(indices: pd.DataFrame) -> Table:
+    # Total indices with their intervals, a row a structure, factor and parameter.
+    rows: dict[str, dict[str, str]] = {}
+    for _, row in indices.iterrows():
+        name = f"{row['structure']}, {row['factor']:.4g}"
+        if row["no index"]:
+            rows.setdefault(name, {})[str(row["quantity"])] = str(row["no index"])
+            continue
+        ends = f"{row['total, low [-]']:.2f} to {row['total, high [-]']:.2f}"
+        value = row["total [-]"]
+        said = f"not known ({ends})" if pd.isna(value) else f"{value:.2f} ({ends})"
+        place = f"{name}: {row['parameter']}, of the {row['share of']}"
+        rows.setdefault(place, {})[str(row["quantity"])] = said
+    table = pd.DataFrame.from_dict(rows, orient="index").fillna("")
+    return page_table(table, "structure, factor on the motions, parameter")
+
+
 def _losses(tables: CampaignTables, *, figures: bool) -> dict[str, Any]:
     # Losses by what the page has for them: numbers with their intervals in one cell, in per cent.
     annual, loss = tables.annual_loss, tables.loss
@@ -280,6 +297,7 @@ def write_page(
         ],
         fragility=_fragility_table(fragility) if len(fragility) else None,
         compared=devices,
+        indices=_indices(tables.indices) if len(tables.indices) else None,
         losses=_losses(tables, figures=figures) if len(tables.loss) else None,
         confidence=f"{100.0 * CONFIDENCE:g} %",
         several_sets=campaign.sets > 1,

@@ -10,7 +10,14 @@ import pandas as pd
 
 from frames.design.project.inputs import in_section
 from frames.risk._errors import FragilityError
-from frames.risk.campaign.file import comparison_in, fragility_in, loss_in, scaled_to
+from frames.risk.campaign.file import (
+    comparison_in,
+    distributions_in,
+    fragility_in,
+    loss_in,
+    scaled_to,
+)
+from frames.risk.campaign.indices import index_table
 from frames.risk.campaign.loss import expected_loss
 from frames.risk.campaign.plot_response import failure_table, response_table, runs_by_model
 from frames.risk.fragility.of_runs import fragility_of
@@ -40,6 +47,7 @@ FILES = (
     "tests",
     "loss",
     "annual_loss",
+    "indices",
 )
 """Tables that are written as CSV, in SI units, by their names."""
 
@@ -152,6 +160,15 @@ class CampaignTables:
     def annual_loss(self) -> pd.DataFrame:
         """Expected loss a year, a row a structure; empty without a table of components."""
         return pd.DataFrame() if self._losses is None else self._losses.annual
+
+    @cached_property
+    def indices(self) -> pd.DataFrame:
+        """Sobol' indices, a row a parameter; empty unless Saltelli's sets were drawn."""
+        sample = self.file.sample
+        if sample is None or sample.kind != "saltelli" or sample.size is None:
+            return pd.DataFrame()
+        given = distributions_in(self.file)
+        return index_table(self.data, given, samples=sample.size, seed=sample.seed)
 
     @cached_property
     def plan(self) -> pd.DataFrame:
