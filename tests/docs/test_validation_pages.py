@@ -167,6 +167,8 @@ def rendered():
     for path in sorted(PACKAGE.rglob("*.py")):
         for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "render":
+                if ast.unparse(call.args[0]) != "globals()":
+                    continue  # the parts of the study that are campaign files
                 name = call.args[1].value if len(call.args) > 1 else path.stem
                 given = {keyword.arg for keyword in call.keywords}
                 yield path, path.with_name(f"{name}.md.j2"), given
