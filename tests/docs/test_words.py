@@ -10,7 +10,10 @@ from typing import NamedTuple
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGES = ["README.md"] + [f"docs/{path.name}" for path in sorted((ROOT / "docs").glob("*.md"))]
+DOCS = sorted((ROOT / "docs").glob("*.md")) + sorted((ROOT / "docs/validation").glob("[!s]*.md"))
+DOCS += [ROOT / f"docs/validation/{name}.md" for name in ("shake_table", "slip", "speed_error")]
+PAGES = ["README.md"] + [path.relative_to(ROOT).as_posix() for path in DOCS]
+"""All but those of the study."""
 
 
 class Measure(NamedTuple):
