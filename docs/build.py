@@ -169,6 +169,7 @@ def runs() -> tuple[Frame, xr.Dataset, xr.Dataset, xr.Dataset]:
         capacity=0.1,
         friction=(CoulombFriction(0.05), Rising()),
         interface_friction=0.12,
+        interface_hold=1e3,
         pressure_dependence=PressureDependence(),
         friction_heating=FrictionHeating(),
         backup=BackupSupport(drop=0.02),

@@ -90,6 +90,7 @@ PROPS_FIELDS = (
     Field("heat_rate", "1/s", "", "rates at which parts of a temperature decay", (HEAT_PARTS,)),
     Field("heat_gain", "K m2/J", "", "what heat that enters adds to them", (HEAT_PARTS,)),
     Field("heat_skin", "K m2/W", "", "what flux that enters adds at once"),
+    Field("interface_preload", "N", "N_h", "load beside N that the interface rubs by"),
 )
 
 STATE_FIELDS = (
@@ -402,6 +403,7 @@ SCRATCH_FIELDS = (
     Field("couple", "N m", "", "couple of a pair, axes of its carrier", (3,)),
     Field("held", "", "", "of discs, rims: two arms, normal force, friction, couple", (5, 5, 3)),
     Field("momentum", "N m s", "", "sliders' angular momentum at the committed state", (2, 3)),
+    Field("ground", "m/s2", "", "ground's acceleration at the end of the step", (3,)),
     Field("axes", "-", "", "axes of a face where they were, turned with the carrier", (2, 3)),
     Field("six", "", "", "derivative of force and couple by shift and turn", (6, 6)),
     Field("pair_row", "", "", "the same by one body", (6, 6)),

@@ -21,6 +21,7 @@ from frames.kernels.step_error import is_rough, keep_motion
 from frames.kernels.stepping import commit_bearings, newton, predict, solve_gravity
 from frames.kernels.yielding import begin_parts, has_yielded, part_load_on_modes
 from lir_element.errors import RunStatus
+from lir_element.kernels.contact.slider_motion import shake_sliders
 from lir_element.kernels.linear import add_product, copy_words, set_product, subtract_squares
 from lir_element.kernels.sampling import ground_acceleration
 
@@ -227,6 +228,8 @@ def try_step(
         if parts is not None:
             set_part_follow(model, run, parts, settings)
     set_load(model, run, parts, settings, ground)
+    if contacts is not None:
+        shake_sliders(contacts.scratch, ground.acceleration, ground.dt, clock.time + clock.dt)
     for a in range(run.b.shape[0]):
         run.step[a] = clock.dt * run.mean_v_b[a]
     foreseen = clock.kept == clock.halvings + 1 and clock.dt_before > 0.0

@@ -59,7 +59,8 @@ def bearing_quantities(
     now.rim_force = either(state.rim_force[0], state.rim_force[1])
     now.rims_met = presses(now.rim_force)
     h = state.interface_force
-    now.interface_share = interface_share(in_plan(h[0], h[1]), load, static, p.interface_friction)
+    rubs = load + p.interface_preload
+    now.interface_share = interface_share(in_plan(h[0], h[1]), rubs, static, p.interface_friction)
     now.slipped = slips(now.interface_share)
     e = eccentricity(
         load,

@@ -127,10 +127,13 @@ def rim_force(data: xr.Dataset) -> FloatArray:
 
 def share_of_interface(data: xr.Dataset) -> FloatArray:
     """Return the force of the interfaces over what friction holds (time, bearing)."""
+    load = of_bearings(data, "axial_force")
+    if "interface_preload" in data.variables:
+        load = load + known(data, "interface_preload")
     return formed(
         interface_share,
         of_bearings(data, "interface_force"),
-        of_bearings(data, "axial_force"),
+        load,
         known(data, "static_axial_force"),
         known(data, "interface_friction"),
     )

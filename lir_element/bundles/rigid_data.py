@@ -209,7 +209,8 @@ def stable_step(sliders: Records, props: Records, load: float) -> float:
     damping = 2.0 * float(sliders["damping"][0])
     friction = load * float((props["friction_max"] / props["yield_displacement"]).max())
     if not props["fused"][0]:
-        friction += load * float(props["interface_friction"][0] / props["interface_yield"][0])
+        pressed = load + float(props["interface_preload"][0])
+        friction += pressed * float(props["interface_friction"][0] / props["interface_yield"][0])
     inverse = max(1.0 / mass, 0.5 * across)
     rate = damping * inverse + math.sqrt((stiffness + friction) * inverse)
     return float(1.0 / rate)

@@ -88,6 +88,10 @@ class LIRBearing(Specification):
         Axial load the defaults refer to [N]. Default: 30 MPa on the slider's area.
     yield_displacement, interface_yield_displacement : float
         Elastic sliding before slip, on a concave surface and in the interface [m].
+    interface_hold : float
+        Force that resists slip of the interface besides friction, whatever the axial force [N]:
+        that of a seal or ring that slides with it. It holds the halves of a slider that carries
+        nothing. Default: none.
     friction_law : {"elastic-plastic", "bouc-wen"}
         Regularisation of friction. Bouc-Wen models ratchet under small vibration about a biased
         force, the more the larger the yield displacement (docs/theory.md); it is there for
@@ -230,7 +234,8 @@ class LIRBearing(Specification):
         """Return the lateral force that starts the high-friction sliding at the rim [N].
 
         ``W tan(theta_max + atan(mu_h))`` with ``sin(theta_max) = U_cap / L``: the interface,
-        tilted by theta_max, carries W and mu_h times its normal force.
+        tilted by theta_max, carries W and mu_h times its normal force. With an `interface_hold`
+        F_0 add ``F_0 / (cos(theta_max) - mu_h sin(theta_max))``.
 
         Parameters
         ----------
@@ -248,7 +253,10 @@ class LIRBearing(Specification):
             return math.inf
         tilt = math.asin(self.lateral_capacity / self.effective_radius)
         angle = tilt + math.atan(self.interface_friction)
-        return axial_load * math.tan(angle) if angle < 0.5 * math.pi else math.inf
+        if angle >= 0.5 * math.pi:
+            return math.inf
+        held = math.cos(tilt) - self.interface_friction * math.sin(tilt)
+        return axial_load * math.tan(angle) + self.interface_hold / held
 
     def as_dcfp(self, *, rims: bool = True) -> LIRBearing:
         """Return the same bearing with its rigid slider, with or without its rims."""
@@ -311,6 +319,7 @@ class LIRBearing(Specification):
             "exponent": self.bouc_wen_exponent,
             "yield_displacement": self.yield_displacement,
             "interface_yield": self.interface_yield_displacement,
+            "interface_preload": self.interface_hold / self.interface_friction,
             "axial_floor": 1e-3 * options["design_load"],
             "rim_displacement": self.rim_displacement,
             "rim_yield_force": self.rim_yield_force,

@@ -178,6 +178,10 @@ class Specification:
         default=0.01e-3,
         metadata=number("m", "(0, inf)", "elastic displacement before slip, interface"),
     )
+    interface_hold: float = field(
+        default=0.0,
+        metadata=number("N", "[0, inf)", "force that holds the halves of the slider together"),
+    )
     friction_law: Literal["elastic-plastic", "bouc-wen"] = field(
         default="elastic-plastic", metadata={"title": "hysteretic model of friction"}
     )

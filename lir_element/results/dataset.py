@@ -53,8 +53,9 @@ TABLE = ("friction_table",)
 PRESSURE = ("pressure_rate", "pressure_load")
 SOFTENING = ("softening_scale", "softening_rate", "softening_rest")
 RIMS = ("rim_yield_force", "rim_hardening", "rim_stiffness", "rim_overrun", "flange")
+PRELOAD = ("interface_preload",)
 """The same of bearings whose friction is read from a table, depends on pressure, on temperature,
-and of those whose rims yield."""
+of those whose rims yield, and of those whose halves are held together."""
 
 BODY_NAMES = ("bottom_slider", "top_slider", "top_plate")
 
@@ -233,6 +234,7 @@ def device_variables(records: Records) -> dict[str, xr.Variable]:
     names += PRESSURE if records["pressure_rate"].any() else ()
     names += SOFTENING if records["softens"].any() else ()
     names += RIMS if rims_give_way(records) else ()
+    names += PRELOAD if records["interface_preload"].any() else ()
     for name in names:
         field = PROPS_BY_NAME[name]
         dims = ("bearing", "surface", "knot")[: 1 + len(field.shape)]

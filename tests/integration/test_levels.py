@@ -58,6 +58,7 @@ CASES: dict[str, tuple[dict[str, Any], np.ndarray]] = {
     "unequal": (UNEQUAL, 1.02 * LINE),
     "bouc-wen": ({"friction_law": "bouc-wen", "bouc_wen_exponent": 3.0}, LINE),
     "velocity": ({"friction": LAW, "interface_friction": 0.14}, LINE),
+    "held": ({"interface_hold": 0.05 * W}, LINE),
     "rigid slider": ({"interface_friction": math.inf}, 0.94 * LINE),
 }
 

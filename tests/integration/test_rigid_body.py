@@ -78,6 +78,9 @@ def test_flight_follows_the_parabola(level: str) -> None:
         a, _, _ = np.polyfit(t, y, 2)
         assert_allclose(2.0 * a, curvature, rtol=1e-5)
         assert_allclose(np.polyval(np.polyfit(t, y, 2), t), y, rtol=0.0, atol=1e-8)
+    bodies = data["body_position"].sel(axis="z")[first + 2 : 16, 0, :2].to_numpy()
+    bends = np.diff(bodies, n=2, axis=0) / 0.005**2  # the sliders fly as well, but for rebounds
+    assert_allclose(np.median(bends, axis=0), G, rtol=1e-3)
     landed = axial[last : last + 20].max()
     assert landed > 5.0 * MASS * G
     assert (axial >= 0.0).all()

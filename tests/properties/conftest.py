@@ -46,6 +46,7 @@ VARIANTS: dict[str, dict[str, Any]] = {
         "bouc_wen_exponent": 4.5,
         "friction": VELOCITY,
         "torsional_friction": True,
+        "interface_hold": 4e3,
     },
     "fused": {"interface_friction": math.inf},
     "fused_velocity_torsion": {
@@ -55,7 +56,7 @@ VARIANTS: dict[str, dict[str, Any]] = {
     },
     "no_rims": {"rims": None, "capacity": math.inf},
     "one_rim": {"rims": (math.inf, 0.09)},
-    "thick_plates": {"plate_thickness": (0.03, 0.08), "friction": VELOCITY},
+    "thick_plates": {"plate_thickness": (0.03, 0.08), "friction": VELOCITY, "interface_hold": 2e3},
     "flat_bottom": {"radius": (2.5, 0.6), "rims": (0.2, 0.05)},
     "pressed_and_heated": {
         "friction": VELOCITY,

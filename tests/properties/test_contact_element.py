@@ -647,6 +647,29 @@ def test_weight_and_flight_of_lifted_sliders(lab: SimpleNamespace) -> None:
     assert_allclose(np.mean(reactions), 60.0 * 9.80665, rtol=0.05, atol=0.0)
 
 
+def test_what_holds_the_halves_stops_them(lab: SimpleNamespace) -> None:
+    """Lifted halves, one thrown: friction F = R + mu_h m g takes their relative motion.
+
+    ``s = v^2 / 2 a`` with ``a = F / m + (F - 2 mu m g) / m``: the bottom half rubs on its plate.
+    """
+    mass, hold, speed, dt = 30.0, 300.0, 0.8, 2e-4
+    flat = {"radius": 4.0, "rims": 0.5, "friction": 0.05}
+    element = Element(lab.make("coulomb", **flat, slider_mass=mass, interface_hold=hold), "contact")
+    u = np.zeros(12)
+    u[8] = 0.2
+    for k in range(1, 400):
+        element.set_trial(u, STILL, 1e-3 * k)
+        element.commit()
+    contacts(element).bodies_old["velocity"][0, 1, 0] += speed
+    for k in range(1, 500):
+        element.set_trial(u, STILL, 0.4 + dt * k)
+        element.commit()
+    weight = mass * 9.80665
+    force = hold + 0.15 * weight
+    way = 0.5 * speed**2 * mass / (2.0 * force - 0.05 * 2.0 * weight)
+    assert_allclose(element.response("largest_slip"), way, rtol=0.01, atol=0.0)
+
+
 # ------------------------------------------------------------------------------- works
 
 WORKS = (

@@ -223,7 +223,8 @@ def test_initial_stiffness(variant: str, lab: SimpleNamespace) -> None:
     if math.isinf(bearing.interface_friction):
         lateral = turn / length**2 + load / length
     else:  # axis turned by eta, slip U - l eta: stationary strain energy
-        spring = bearing.interface_friction * load / bearing.interface_yield_displacement
+        held = bearing.interface_friction * load + bearing.interface_hold
+        spring = held / bearing.interface_yield_displacement
         k_ue, k_ee = -spring * length + load, turn + spring * length**2 - load * length
         lateral = spring - k_ue**2 / k_ee
     assert_allclose(k[8, 8], axial, rtol=1e-9, atol=0.0)  # round-off of the string's length
@@ -475,7 +476,9 @@ def test_friction_and_contact_stay_within_bounds(
         assert (r.friction_coefficient[:, k] <= left * law.f_max * (1.0 + 1e-15)).all()
     if math.isfinite(bearing.interface_friction):
         slip = np.linalg.norm(r.interface_force, axis=-1)
-        assert (slip <= bearing.interface_friction * r.axial_force * (1.0 + 1e-14)).all()
+        held = np.where(r.axial_force > 0.0, bearing.interface_hold, 0.0)
+        most = bearing.interface_friction * r.axial_force + held
+        assert (slip <= most * (1.0 + 1e-14)).all()
     assert (r.axial_force >= 0.0).all()
     assert (r.rim_force >= 0.0).all()
     lifted = r.string <= bearing.effective_radius

@@ -60,7 +60,7 @@ POSITIVE = [
     "yield_displacement",
     "interface_yield_displacement",
 ]
-NOT_NEGATIVE = ["axial_damping", "rim_damping", "plate_thickness"]
+NOT_NEGATIVE = ["axial_damping", "rim_damping", "plate_thickness", "interface_hold"]
 LEAST = dict.fromkeys(NOT_NEGATIVE, 0.0) | {"bouc_wen_exponent": 1.0}
 MAY_BE_INFINITE = {"interface_friction", "capacity"}
 UNITS = {
@@ -368,6 +368,7 @@ OTHER: dict[str, Any] = {
     "design_load": 2e5,
     "yield_displacement": 3e-4,
     "interface_yield_displacement": 2e-4,
+    "interface_hold": 3e3,
     "friction_law": "bouc-wen",
     "bouc_wen_exponent": 3.0,
     "torsional_friction": False,
@@ -460,6 +461,7 @@ def test_record_is_complete() -> None:
         "softening_rest": 0.22,
         "initial_temperature": 5.0,
         **dict(zip(("heat_rate", "heat_gain", "heat_skin"), HEATING.parts(), strict=True)),
+        "interface_preload": 3e3 / 0.126,
     }
     assert set(expected) == set(record.dtype.names)
     for name, value in expected.items():

@@ -56,6 +56,7 @@ OTHERS: dict[str, tuple[str, Any]] = {
     "design_load": ('"3.5 MN"', 3.5e6),
     "yield_displacement": ('"0.5 mm"', 0.5e-3),
     "interface_yield_displacement": ('"0.02 mm"', 0.02e-3),
+    "interface_hold": ('"2 kN"', 2e3),
     "friction_law": ('"bouc-wen"', "bouc-wen"),
     "bouc_wen_exponent": ("3.0", 3.0),
     "torsional_friction": ("false", False),

@@ -169,7 +169,8 @@ def test_sphere_law(side: int, law: str, dt: float) -> None:
 
 @pytest.mark.parametrize("dt", [0.0, 2e-3])
 @pytest.mark.parametrize("law", LAWS)
-def test_plane_law(law: str, dt: float) -> None:
+@pytest.mark.parametrize("held", [0.0, 5e3])
+def test_plane_law(held: float, law: str, dt: float) -> None:
     b = bearing(**LAWS[law])
     p, w, rng = b.to_record()[0], one(SCRATCH), np.random.default_rng(4)
     for _ in range(12):
@@ -179,13 +180,13 @@ def test_plane_law(law: str, dt: float) -> None:
         dw = rng.uniform(-6e-4, 6e-4, 2)
         clear_pair(w)
         w.d[:2], w.d[2] = old.spot[:2] + dw, -1e-4
-        plane(p, w, old, new, STIFF, DAMP, dt)
+        plane(p, w, old, new, STIFF, DAMP, dt, held)
         push = contact_force(1e-4, 0.8e-4, STIFF, DAMP, dt)
-        kept = share_kept(old, push, dt)
+        kept = share_kept(SimpleNamespace(push=old.push + held), push + held, dt)
         u_y = 2.0 * b.interface_yield_displacement / (1.0 + kept)
         z = hysteresis(b, kept * old.hysteresis, dw, u_y)
         assert_allclose(w.normal, [0.0, 0.0, push], **CLOSE)
-        expected = [*(-0.15 * push * z), 0.0]
+        expected = [*(-0.15 * (push + held) * z), 0.0]
         assert_allclose(w.tangential, expected, rtol=1e-9, atol=1e-6)
         assert_allclose(new.hysteresis, z, rtol=0.0, atol=1e-11)
         assert new.friction == 0.15
@@ -236,7 +237,7 @@ def test_contacts_never_pull() -> None:
                 assert_allclose(new.hysteresis, [0.5, 0.3], rtol=0.0, atol=1e-15)  # for the landing
                 assert_allclose(new.closure, max(gap, 0.0), rtol=1e-9, atol=1e-18)
             elif pair == "plane":
-                plane(p, w, old, new, STIFF, DAMP, dt)
+                plane(p, w, old, new, STIFF, DAMP, dt, 0.0)
             else:
                 rim(p, 0, w, past, after, dt)
             assert new.push == after.rim_force[0] == 0.0
@@ -302,7 +303,7 @@ def test_slope_is_the_derivative(pair: str, law: str, dt: float) -> None:
             clear_pair(w)
             w.d[:] = at
             if pair == "plane":
-                plane(p, w, old, new, STIFF, DAMP, dt)
+                plane(p, w, old, new, STIFF, DAMP, dt, 2e3)
             elif pair == "rim":
                 rim(p, 0, w, before, after, dt)
             else:
@@ -326,6 +327,7 @@ CONFIGS: dict[str, dict[str, Any]] = {
     "bouc-wen": {"friction_law": "bouc-wen"},
     "fused": {"interface_friction": math.inf, "reach": 1.02},
     "thick": {"plate_thickness": (0.05, 0.08)},
+    "held": {"interface_hold": 4e3, "noise": 1e-3},
 }
 
 

@@ -53,7 +53,7 @@ def lateral_force(test: PlannedTest, bearing: LIRBearing | FrictionPendulum) -> 
         return test.lateral
     own = FrictionPendulum.of(bearing)
     if test.alone and isinstance(bearing, LIRBearing):
-        return bearing.interface_friction * test.load
+        return bearing.interface_friction * test.load + bearing.interface_hold
     if own.corner <= test.displacement <= own.capacity:
         more = (pressure_factor(bearing, test.load) - 1.0) * own.effective_friction
         return own.force(test.displacement, test.load) + more * test.load
@@ -78,7 +78,7 @@ def expected_loop(test: PlannedTest, bearing: LIRBearing | FrictionPendulum) -> 
         energy = own.loop_energy(d, load)
         return Loop(own.force(d, load) / d, energy, energy / (4.0 * load * d))
     if test.alone:
-        mu = bearing.interface_friction
+        mu = bearing.interface_friction + bearing.interface_hold / load
         return _loop(d, load, mu * load, mu * (d - bearing.interface_yield_displacement))
     reach = min(d, own.capacity)
     beyond = d - reach
@@ -93,7 +93,8 @@ def expected_loop(test: PlannedTest, bearing: LIRBearing | FrictionPendulum) -> 
     force = load * (reach / length + strength)
     if beyond > 0.0:
         tilt, mu = math.asin(reach / length), bearing.interface_friction
-        way += mu * beyond / (math.cos(tilt) - mu * math.sin(tilt)) / math.cos(tilt)
+        held = mu + bearing.interface_hold / load * math.cos(tilt)
+        way += held * beyond / (math.cos(tilt) - mu * math.sin(tilt)) / math.cos(tilt)
         force = lateral_force(test, bearing)
     return _loop(d, load, force, way)
 

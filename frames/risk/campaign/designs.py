@@ -35,6 +35,7 @@ FIELDS = (
     "uplift_capacity",
     "yield_displacement",
     "interface_yield_displacement",
+    "interface_hold",
 )
 """Fields of `LIRBearing` that a sample may name: one number for both surfaces, SI."""
 
@@ -50,7 +51,7 @@ DAMPING = "modal_damping"
 UNITS = OF_BEARINGS | dict.fromkeys((DAMPING, *(f"{name}{FACTOR}" for name in OF_BEARINGS)), "")
 """Units of all parameters but those of friction laws."""
 
-_INTERFACE = "interface_friction", "interface_yield_displacement"
+_INTERFACE = "interface_friction", "interface_yield_displacement", "interface_hold"
 """Fields that no run on a plain DCFP reads."""
 
 

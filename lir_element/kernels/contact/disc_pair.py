@@ -235,22 +235,30 @@ def sphere_disc(
 def plane_disc(
     p: Props, c: Sliders, w: Scratch, old: Touch, new: Touch, a: float, dt: float, derive: bool
 ) -> float:
-    """Set force and couple of the top slider's face on the bottom slider's plane; see above."""
+    """Set force and couple of the top slider's face on the bottom slider's plane; see above.
+
+    What holds the halves together rubs where the pressure is, in the middle if there is none.
+    """
     keep_place(w, new)
     w.tilt[0], w.tilt[1] = -w.face[0, 2], -w.face[1, 2]
     q, face = w.q[1], w.q[2]
     if derive:
         slope_of_tilt(w, face, -q[0, 2], -q[1, 2], -q[2, 2], 0.0)
     push = press_bed(w, c, 2, old, new, -w.d[2], a, dt, derive)
-    if push <= 0.0:
+    load = push + p.interface_preload  # what it rubs by (3.14)
+    if load <= 0.0:
         rest_disc(w, old, new, p.interface_friction)
         return 0.0
+    if derive and push <= 0.0:
+        w.push_by[:] = 0.0
     e_1, e_2 = new.centre[0], new.centre[1]
     spread = torsion_radius(old, a)
     way_1 = w.d[0] - old.spot[0] - e_1 * old.axes[0, 0] - e_2 * old.axes[1, 0]
     way_2 = w.d[1] - old.spot[1] - e_1 * old.axes[0, 1] - e_2 * old.axes[1, 1]
     way_3 = spread * spun(w, old, 0.0, 0.0, 1.0)
-    kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
+    kept, by_push = 1.0, 0.0
+    if dt > 0.0:
+        kept, by_push = kept_share(old.push + p.interface_preload, load, 0.0)
     f_1, f_2, f_3, slid, new.norm = rub(
         w,
         p.bouc_wen,
@@ -274,14 +282,14 @@ def plane_disc(
     new.speed = slid / dt if dt > 0.0 else 0.0
     new.hysteresis[0], new.hysteresis[1] = f_1, f_2
     if derive:
-        scale_slope(w, push, mu, 0.0, f_1, f_2, f_3)
+        scale_slope(w, load, mu, 0.0, f_1, f_2, f_3)
     w.normal[0], w.normal[1], w.normal[2] = 0.0, 0.0, push
-    w.tangential[0], w.tangential[1] = -push * mu * f_1, -push * mu * f_2
+    w.tangential[0], w.tangential[1] = -load * mu * f_1, -load * mu * f_2
     w.tangential[2] = 0.0
-    w.couple[0], w.couple[1], w.couple[2] = 0.0, 0.0, -spread * push * mu * f_3
+    w.couple[0], w.couple[1], w.couple[2] = 0.0, 0.0, -spread * load * mu * f_3
     if derive:
-        slope_on_plane(w, q, face, old, push, spread)
-    return push
+        slope_on_plane(w, q, face, old, push, load, spread)
+    return load
 
 
 @kernel

@@ -230,9 +230,9 @@ def slope_of_cap(
 
 @kernel
 def slope_on_plane(
-    w: Scratch, q: Floats, face: Floats, old: Touch, push: float, spread: float
+    w: Scratch, q: Floats, face: Floats, old: Touch, push: float, load: float, spread: float
 ) -> None:
-    """Set ``w.six`` (6, 6) of a face on the plane, as `slope_of_cap`."""
+    """Set ``w.six`` (6, 6) of a face on the plane, as `slope_of_cap`; it rubs by its `load`."""
     t_0, t_1, t_2 = q[0, 0], q[1, 0], q[2, 0]
     s_0, s_1, s_2 = q[0, 1], q[1, 1], q[2, 1]
     n_0, n_1, n_2 = q[0, 2], q[1, 2], q[2, 2]
@@ -255,9 +255,9 @@ def slope_on_plane(
             w_2 += q[col, 1]
         else:
             w_3 = spread * w.spin_by[col]
-        g_1 = push * (r[0, 0] * w_1 + r[0, 1] * w_2 + r[0, 2] * w_3) + r[0, 3] * d_n
-        g_2 = push * (r[1, 0] * w_1 + r[1, 1] * w_2 + r[1, 2] * w_3) + r[1, 3] * d_n
-        g_3 = spread * (push * (r[2, 0] * w_1 + r[2, 1] * w_2 + r[2, 2] * w_3) + r[2, 3] * d_n)
+        g_1 = load * (r[0, 0] * w_1 + r[0, 1] * w_2 + r[0, 2] * w_3) + r[0, 3] * d_n
+        g_2 = load * (r[1, 0] * w_1 + r[1, 1] * w_2 + r[1, 2] * w_3) + r[1, 3] * d_n
+        g_3 = spread * (load * (r[2, 0] * w_1 + r[2, 1] * w_2 + r[2, 2] * w_3) + r[2, 3] * d_n)
         six[0, col] = d_n * n_0 - g_1 * t_0 - g_2 * s_0
         six[1, col] = d_n * n_1 - g_1 * t_1 - g_2 * s_1
         six[2, col] = d_n * n_2 - g_1 * t_2 - g_2 * s_2

@@ -130,16 +130,24 @@ def sphere(
 
 @kernel
 def plane(
-    p: Props, w: Scratch, old: Touch, new: Touch, stiffness: float, damping: float, dt: float
+    p: Props,
+    w: Scratch,
+    old: Touch,
+    new: Touch,
+    stiffness: float,
+    damping: float,
+    dt: float,
+    preload: float,
 ) -> None:
     """Set force and derivative of a point of the top slider on the bottom slider's plane.
 
-    `w.d` runs from the plane's centre, its third entry is the gap.
+    `w.d` runs from the plane's centre, its third entry is the gap. Push and `preload` rub.
     """
     d, o = w.d, old.spot
     dw_1, dw_2 = d[0] - o[0], d[1] - o[1]
     push, stiff, closure = kelvin_voigt(-d[2], old.closure, stiffness, damping, dt)
-    kept, by_push = kept_share(old.push, push, 0.0) if dt > 0.0 else (1.0, 0.0)
+    load = push + preload
+    kept, by_push = kept_share(old.push + preload, load, 0.0) if dt > 0.0 else (1.0, 0.0)
     z_1, z_2, h_11, h_12, h_21, h_22, slid, _, _, z_n1, z_n2 = friction_map(
         p.bouc_wen,
         p.exponent,
@@ -162,12 +170,12 @@ def plane(
     new.friction, new.slid = mu, slid
     new.speed = slid / dt if dt > 0.0 else 0.0
     w.normal[2] = push  # (7.2)
-    w.tangential[0], w.tangential[1] = -push * mu * z_1, -push * mu * z_2
+    w.tangential[0], w.tangential[1] = -load * mu * z_1, -load * mu * z_2
     w.slope[2, 2] = -stiff
-    w.slope[0, 2] = stiff * mu * (z_1 + push * z_n1)
-    w.slope[1, 2] = stiff * mu * (z_2 + push * z_n2)
-    w.slope[0, 0], w.slope[0, 1] = -push * mu * h_11, -push * mu * h_12
-    w.slope[1, 0], w.slope[1, 1] = -push * mu * h_21, -push * mu * h_22
+    w.slope[0, 2] = stiff * mu * (z_1 + load * z_n1)
+    w.slope[1, 2] = stiff * mu * (z_2 + load * z_n2)
+    w.slope[0, 0], w.slope[0, 1] = -load * mu * h_11, -load * mu * h_12
+    w.slope[1, 0], w.slope[1, 1] = -load * mu * h_21, -load * mu * h_22
 
 
 @kernel

@@ -161,8 +161,9 @@ def press_points(
             if p.fused:
                 bond(w, s.touch_old[j], s.touch_new[j], arm[0], arm[1], stiffness, damping, dt)
             else:
-                plane(p, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt)
-        if s.touch_new[j].push == 0.0 and not (pair == 1 and p.fused):
+                held = points[j].share * p.interface_preload
+                plane(p, w, s.touch_old[j], s.touch_new[j], stiffness, damping, dt, held)
+        if s.touch_new[j].push == 0.0 and not (pair == 1 and (p.fused or p.interface_preload)):
             continue
         add_pair(w, new.parts, body, carrier, friction, NORMAL)
         if derive:

@@ -75,7 +75,7 @@ def small_forces(p: Props, c: Sliders, touch: Records, dt: float) -> float:
         p.friction_max[0] / p.yield_displacement[0] + p.friction_max[1] / p.yield_displacement[1]
     )
     if not p.fused:
-        stiff += total * p.interface_friction / p.interface_yield
+        stiff += (total + p.interface_preload) * p.interface_friction / p.interface_yield
     if dt > 0.0:
         stiff += c.damping / dt + (c.mass[0] + c.mass[1]) / (dt * dt)
     return _TOLERANCE * total + ROUND_OFF * stiff * (p.radius[0] + p.radius[1])

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 from lir_element._compile.jit import kernel
 from lir_element.kernels.contact.places import OWN, matrix_of, turn_between
 from lir_element.kernels.rotation import add_cross
+from lir_element.kernels.sampling import ground_acceleration
 
 if TYPE_CHECKING:
     from lir_element.bundles.contact_data import BodyStep
-    from lir_element.layout import Floats
+    from lir_element.layout import Floats, Records
 
 
 @kernel
@@ -23,6 +24,15 @@ def momentum(
         own = q[0, b] * spin[0] + q[1, b] * spin[1] + q[2, b] * spin[2]
         for a in range(3):
             out[first + a] += factor * inertia[b] * own * q[a, b]
+
+
+@kernel
+def shake_sliders(scratch: Records, motion: Floats, motion_dt: float, time: float) -> None:
+    """Set the ground's acceleration at `time`, the end of a step, for sliders of all bearings."""
+    for axis in range(3):
+        pull = ground_acceleration(motion, motion_dt, time, axis)
+        for k in range(scratch.shape[0]):
+            scratch[k].ground[axis] = pull
 
 
 @kernel
@@ -56,7 +66,7 @@ def own_forces(s: BodyStep, dt: float, b: int) -> None:
     for a in range(3):
         new.velocity[k, a] = rate * (new.displacement[k, a] - old.displacement[k, a])
         new.acceleration[k, a] = rate * (new.velocity[k, a] - old.velocity[k, a])
-        part[first + a] = -c.mass[k] * new.acceleration[k, a]  # (7.5)
+        part[first + a] = -c.mass[k] * (new.acceleration[k, a] + w.ground[a])  # (7.5)
         part[first + 3 + a] = rate * w.momentum[k, a]
     part[first + 2] -= c.mass[k] * c.gravity
     momentum(c.inertia[k], w.q[b], new.spin[k], part, first + 3, -rate)

@@ -52,7 +52,7 @@ def fill_state(s: BodyStep, old: State, new: State, u: Floats) -> None:
     keep_works(old, new)
     set_axes(p, w, new)
     set_slip(p, c, w, old, new)
-    set_averages(c, s.points, s.touch_new, new)
+    set_averages(p, c, s.points, s.touch_new, new)
     new.offset = pressure_offset(p, s.points, s.touch_new)
     set_surfaces(p, c, w, bodies, old, new)
     new.twist = u[11] - u[5]
@@ -120,7 +120,7 @@ def set_slip(p: Props, c: Sliders, w: Scratch, old: State, new: State) -> None:
 
 
 @kernel
-def set_averages(c: Sliders, points: Records, touch: Records, new: State) -> None:
+def set_averages(p: Props, c: Sliders, points: Records, touch: Records, new: State) -> None:
     """Set friction states and forces of the three interfaces from their points."""
     new.axial_force = 0.0
     for a in range(2):
@@ -132,9 +132,10 @@ def set_averages(c: Sliders, points: Records, touch: Records, new: State) -> Non
     for j in range(points.shape[0]):
         t, share, pair = touch[j], points[j].share, points[j].pair
         if pair == 1:
+            load = t.push + share * p.interface_preload
             for a in range(2):
                 new.interface_hysteresis[a] += share * t.hysteresis[a]
-                new.interface_force[a] += t.push * t.friction * t.hysteresis[a]
+                new.interface_force[a] += load * t.friction * t.hysteresis[a]
             continue
         side = 0 if pair == 0 else 1
         sign = 1.0 if pair == 0 else -1.0  # on the top surface the plate's motion counts
@@ -227,14 +228,18 @@ def spring_gains(s: BodyStep) -> tuple[float, float, float]:
         mu, u_y = store_law(s.props, side)
         before, after = s.touch_old[j], s.touch_new[j]
         y, z = before.hysteresis, after.hysteresis
+        first, last = before.push, after.push
         if side < 2:
             mu *= s.sliders.grip[side]
-        if s.points[j].disc > 0.0:
-            gain = stored(mu, after.push, u_y, after.norm, 0.0)
-            gain -= stored(mu, before.push, u_y, before.norm, 0.0)
         else:
-            gain = stored(mu, after.push, u_y, z[0], z[1])
-            gain -= stored(mu, before.push, u_y, y[0], y[1])
+            held = s.points[j].share * s.props.interface_preload
+            first, last = first + held, last + held
+        if s.points[j].disc > 0.0:
+            gain = stored(mu, last, u_y, after.norm, 0.0)
+            gain -= stored(mu, first, u_y, before.norm, 0.0)
+        else:
+            gain = stored(mu, last, u_y, z[0], z[1])
+            gain -= stored(mu, first, u_y, y[0], y[1])
         if side == 0:
             bottom += gain
         elif side == 1:

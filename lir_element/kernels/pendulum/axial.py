@@ -72,6 +72,16 @@ def axial(p: Props, old: State, w: Work) -> None:
         press_surfaces(p, old, w)
 
 
+@inlined_by_llvm
+def rubs_by(p: Props, force: float) -> tuple[float, float]:
+    """Return what the load that the interface rubs by (3.14) is over its axial force, and its own.
+
+    Beside a fixed load it is taken as a share of that. Where all forces fade the preload does, too.
+    """
+    by = p.fixed_load if p.fixed_load > 0.0 else max(force, p.axial_floor)
+    return 1.0 + p.interface_preload / by, by + p.interface_preload
+
+
 @kernel
 def press_surfaces(p: Props, old: State, w: Work) -> None:
     """Set the share of the surfaces' friction that the pressure leaves, and of their z.

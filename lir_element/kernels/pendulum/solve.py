@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.friction_law import left_by_heat, steepest
+from lir_element.kernels.pendulum.axial import rubs_by
 from lir_element.kernels.pendulum.string import elastic_jacobian, evaluate, set_axis
 from lir_element.kernels.pendulum.tangent import slider_jacobian
 from lir_element.kernels.slip import step_share
@@ -69,7 +70,8 @@ def residual_square(w: Work) -> float:
 @kernel
 def square_to_reach(p: Props, w: Work) -> float:
     """Return the square of the residual to reach: that of round-off in lengths under stiff laws."""
-    stiff = w.l * w.law_stiffness[1] + w.law_stiffness[0]
+    more, _ = rubs_by(p, w.n_hat)
+    stiff = w.l * w.law_stiffness[1] * more + w.law_stiffness[0]
     enough = (_TOLERANCE + ROUND_OFF * stiff) * w.n_hat * w.l
     for k in range(2):
         enough += ROUND_OFF * p.radius[k] ** 2 * w.stiff_rim[k]

@@ -10,6 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
+from lir_element.kernels.pendulum.axial import rubs_by
 from lir_element.kernels.pendulum.solve import (
     NEARLY,
     ROUND_OFF,
@@ -106,7 +107,8 @@ def round_off(p: Props, old: State, w: Work) -> float:
     As `square_to_reach` has it for the axis: friction over N is known to ``l mu / u_y`` times the
     round-off of lengths, centres of pressure with it and with the forces of the rims.
     """
-    held = ROUND_OFF * w.l * w.law_stiffness[1]
+    more, _ = rubs_by(p, w.n_hat)
+    held = ROUND_OFF * w.l * w.law_stiffness[1] * more
     total = math.sqrt(w.sigma[0] ** 2 + w.sigma[1] ** 2) * held
     rims = 0.0
     for k in range(2):

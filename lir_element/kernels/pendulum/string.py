@@ -25,12 +25,13 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import inlined_by_llvm, kernel
 from lir_element.kernels.friction_law import lowered_near
-from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load
+from lir_element.kernels.pendulum.axial import axial, fix_length, hold_load, rubs_by
 from lir_element.kernels.pendulum.spin import turn_with_sliders
 from lir_element.kernels.rim import meet_rim
 from lir_element.kernels.rotation import turn_matrix
 from lir_element.kernels.slip import (
     friction_step,
+    kept_share,
     speed_at_end,
 )
 
@@ -237,6 +238,24 @@ def surface(p: Props, old: State, w: Work, k: int) -> None:
     w.h[k, 1, 0], w.h[k, 1, 1] = mu * h_21 + z_2 * by_1, mu * h_22 + z_2 * by_2
 
 
+@kernel
+def preloaded(p: Props, old: State, w: Work) -> tuple[float, float, float, float, float]:
+    """Return how a preload of the interface changes its friction.
+
+    The share of z that the axial force leaves, its derivative, 2 over one more than it; the load
+    that the interface rubs by over the axial force, and how fast friction over N falls by that.
+    """
+    more, load = rubs_by(p, w.n_pos)
+    if p.fixed_load > 0.0:
+        return 1.0, 0.0, 1.0, more, 0.0
+    less = p.interface_friction * (more - 1.0) / w.n_hat if w.scale == 1.0 else 0.0
+    if w.dt == 0.0:
+        return 1.0, 0.0, 1.0, more, less
+    _, before = rubs_by(p, old.axial_force)
+    kept, by_load = kept_share(before, load, 0.0)
+    return kept, by_load if w.scale == 1.0 else 0.0, 2.0 / (1.0 + kept), more, less
+
+
 @inlined_by_llvm
 def interface(p: Props, old: State, w: Work) -> None:
     """Set the friction of the plane interface: force and derivative over N.
@@ -251,6 +270,9 @@ def interface(p: Props, old: State, w: Work) -> None:
         cos, sin = math.cos(w.spin), math.sin(w.spin)
         x, y = turn_with_sliders(cos, -sin, x, y)
     d_1, d_2 = x - old.slip[0], y - old.slip[1]
+    kept, kept_n, softer, more, less = w.kept, w.kept_n, w.softer, 1.0, 0.0
+    if p.interface_preload > 0.0:
+        kept, kept_n, softer, more, less = preloaded(p, old, w)
     z_1, z_2, h_11, h_12, h_21, h_22, _, _, _, n_1, n_2 = friction_step(
         p.bouc_wen,
         p.exponent,
@@ -261,9 +283,9 @@ def interface(p: Props, old: State, w: Work) -> None:
         d_2,
         p.interface_yield,
         w.per_yield[2],
-        w.kept,
-        w.kept_n,
-        w.softer,
+        kept,
+        kept_n,
+        softer,
         before[0],
         before[1],
         w.share,
@@ -276,10 +298,10 @@ def interface(p: Props, old: State, w: Work) -> None:
         h_12, h_22 = turn_with_sliders(cos, sin, h_12, h_22)
         h_11, h_12 = turn_with_sliders(cos, sin, h_11, h_12)
         h_21, h_22 = turn_with_sliders(cos, sin, h_21, h_22)
-    mu = p.interface_friction
+    mu = more * p.interface_friction
     w.slip_step[0], w.slip_step[1] = d_1, d_2
     w.z_s[0], w.z_s[1] = z_1, z_2
-    w.phi_sn[0], w.phi_sn[1] = mu * n_1, mu * n_2
+    w.phi_sn[0], w.phi_sn[1] = mu * n_1 - less * z_1, mu * n_2 - less * z_2
     w.phi_s[0], w.phi_s[1] = mu * z_1, mu * z_2
     w.h_s[0, 0], w.h_s[0, 1], w.h_s[1, 0], w.h_s[1, 1] = mu * h_11, mu * h_12, mu * h_21, mu * h_22
 
@@ -374,6 +396,7 @@ def elastic_jacobian(p: Props, w: Work) -> None:
         + p.radius[0] ** 2 * w.mu[0] / p.yield_displacement[0]
         + p.radius[1] ** 2 * w.mu[1] / p.yield_displacement[1]
     )
+    friction += w.l * w.l * p.interface_friction * p.interface_preload / p.interface_yield
     for a in range(2):
         for b in range(2):
             w.jacobian[a, b] = 0.0

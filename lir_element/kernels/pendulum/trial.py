@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
+from lir_element.kernels.pendulum.axial import rubs_by
 from lir_element.kernels.pendulum.solve import solve_axis, start_search
 from lir_element.kernels.pendulum.spin import keep_spin, spin_by, start_spin
 from lir_element.kernels.pendulum.spinning import first_spin, spin_sliders, spin_with_axis
@@ -210,11 +211,14 @@ def is_finite(x: Floats) -> bool:
 def last_slip(p: Props, at: State) -> float:
     """Return the slip at which equilibrium ends in a state: ``L mu_h + mu_1 R_1 + mu_2 R_2``.
 
+    The load that the interface rubs by counts with mu_h, over the axial force.
+
     The axial force drives the slip on with ``N s``, both frictions resist: beyond that slip the
     slider leaves the rim, and the only equilibrium left is far away (docs/theory.md, section 2).
     """
     mu = at.friction_coefficient
-    return at.string * p.interface_friction + p.radius[0] * mu[0] + p.radius[1] * mu[1]
+    more, _ = rubs_by(p, at.axial_force)
+    return at.string * p.interface_friction * more + p.radius[0] * mu[0] + p.radius[1] * mu[1]
 
 
 @kernel

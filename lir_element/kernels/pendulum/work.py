@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.kernels.friction_law import least
+from lir_element.kernels.pendulum.axial import rubs_by
 from lir_element.kernels.pendulum.spin import spin_work
 from lir_element.kernels.slip import open_work, stored, surplus
 
@@ -111,13 +112,20 @@ def spring_energy(p: Props, at: State, k: int) -> float:
 
 
 @kernel
+def rubbing_load(p: Props, force: float) -> float:
+    """Return the load that the interface rubs by under an axial force, 0 in tension."""
+    more, _ = rubs_by(p, force)
+    return max(force, 0.0) * more
+
+
+@kernel
 def interface_energy(p: Props, at: State) -> float:
     """Return the same of the interface."""
     if p.fused:
         return 0.0
     mu, u_y = store_law(p, 2)
     z = at.interface_hysteresis
-    return stored(mu, pressing(p, at), u_y, z[0], z[1])
+    return stored(mu, rubbing_load(p, pressing(p, at)), u_y, z[0], z[1])
 
 
 @kernel
@@ -126,8 +134,8 @@ def interface_work(p: Props, old: State, new: State) -> float:
 
     What the interface holds beyond it, while the bearing is pulled, is the contact's.
     """
-    before = p.interface_friction * max(old.axial_force, 0.0)
-    after = p.interface_friction * max(new.axial_force, 0.0)
+    before = p.interface_friction * rubbing_load(p, old.axial_force)
+    after = p.interface_friction * rubbing_load(p, new.axial_force)
     y, z = old.interface_hysteresis, new.interface_hysteresis
     d_1, d_2 = new.slip[0] - old.slip[0], new.slip[1] - old.slip[1]
     along = (before * y[0] + after * z[0]) * d_1 + (before * y[1] + after * z[1]) * d_2

@@ -193,7 +193,7 @@ def macro_model(
     rims = build.rims(node_i, middle, directions)
     interface = None
     if middle != node_j:
-        limit = bearing.force_limit(1.0)
+        limit = bearing.force_limit(weight) / weight
         if across:  # the springs carry the restoring force past it
             limit -= bearing.lateral_capacity / bearing.effective_radius
         soft = max(bearing.interface_yield_displacement, bearing.yield_displacement)
