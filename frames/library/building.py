@@ -73,7 +73,8 @@ def _add_level(frame: Frame, plan: BuildingPlan, level: int) -> None:
         start, end = f"{floor}-{part.start}", f"{floor}-{part.end}"
         name = f"{part.name}-{start}"
         alone = begun[part.name, part.start] == 1
-        frame.add_member(name if alone else f"{name}-{part.end}", start, end, part.section)
+        name = name if alone else f"{name}-{part.end}"
+        frame.add_member(name, start, end, part.section, offsets=part.offsets)
     nodes = [f"{floor}-{line}" for line in lines]
     axes = add_wall_nodes(frame, plan, level)
     add_arms(frame, plan, level)

@@ -33,6 +33,8 @@ class BeamPart(NamedTuple):
     start: str  # its lines in plan
     end: str
     section: Section
+    # from the axes of its columns to its ends, "i" and "j", in global axes [m]
+    offsets: Mapping[str, Vector] | None = None
 
 
 class BracePart(NamedTuple):

@@ -350,6 +350,9 @@ class PlasticHinge(_Checked):
     hardening : float
         Stiffness of the hinged member in double curvature after yielding over the elastic one [-],
         in [0, 0.9); steel beams 0.03 (ASCE/SEI 41-17, 9.4.2.2).
+    yield_rotation : float, optional
+        Rotation that counts as ductility 1 in campaigns [rad]; None: ``M L / (6 E I)`` of the
+        member.
 
     Examples
     --------
@@ -367,6 +370,7 @@ class PlasticHinge(_Checked):
     axial_centre: float = field(default=0.0, metadata=number("N"))
     axial_exponent: float = field(default=2.0, metadata=number("-", "[1, 4]"))
     hardening: float = field(default=0.01, metadata=number("-", "[0, 0.9)"))
+    yield_rotation: float | None = field(default=None, metadata=number("rad", "(0, inf)"))
 
     def __post_init__(self) -> None:
         """Check the numbers, and that they go together."""

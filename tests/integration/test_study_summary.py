@@ -8,13 +8,10 @@ from validation.page import FOLDER
 from validation.study import __main__ as whole
 from validation.study import (
     after,
-    buildings_page,
     device,
     device_page,
     loss,
     motions_page,
-    records_page,
-    rims,
     uncertainty_page,
 )
 from validation.study.records_runs import considered
@@ -22,13 +19,10 @@ from validation.study.rounded import csv_of
 from validation.study.summary import LIMITS, NAME, READ, comparisons, page, parts_of
 
 PAGES = {
-    "study": records_page.page,
     "study_after": after.page,
-    "study_buildings": buildings_page.page,
     "study_device": device_page.page,
     "study_loss": loss.page,
     "study_motions": motions_page.page,
-    "study_rims": rims.page,
     "study_uncertainty": uncertainty_page.page,
 }
 
@@ -51,8 +45,7 @@ def test_a_page_is_that_of_its_numbers(name):
 def test_tables_are_those_of_the_numbers():
     given, rows = stored(device_page.NAME), f"{device_page.NAME}-devices.csv"
     tables = {rows: csv_of(device.table_rows(given))}
-    for part in (buildings_page, motions_page):
-        tables |= part.csv_tables(stored(part.NAME))
+    tables |= motions_page.csv_tables(stored(motions_page.NAME))
     assert {name: text_of(f"tables/{name}") for name in tables} == tables
 
 

@@ -30,7 +30,7 @@ from frames.risk.campaign.comparison import (
     filling_intensity,
 )
 from frames.risk.campaign.devices import Device, highest_ratio, moat_of
-from frames.risk.campaign.file import comparison_in, loss_in, read_campaign
+from frames.risk.campaign.file import comparison_in, loss_in, models_in, read_campaign
 from frames.risk.campaign.search import MedianSearch
 from lir_element import AnalysisWarning
 from tests.refusals import refused
@@ -156,6 +156,92 @@ def test_devices_are_what_they_are_called() -> None:
     # 50 mm less in radius are 50 mm more of sliding on a surface of R = 1.5 m, L = 2.8 m
     assert same.lateral_capacity == pytest.approx(0.2 + 0.05 * 2.8 / 1.5, rel=1e-12)
     assert dish_diameter(BEARING) == pytest.approx(2.0 * (0.2 * 1.5 / 2.8 + 0.2), rel=1e-12)
+
+
+SEVERAL = FILE.replace(ABOVE, "")
+for old, new in (
+    ('["2 m/s2", "2.5 m/s2", "3 m/s2", "4 m/s2", "5 m/s2"]', '["2 m/s2", "5 m/s2"]'),
+    ("tail =", 'only = ["p1.6", "p2.5"]\ntail ='),
+    ('collapse_drift = "0.3 %"', 'collapse_ductility = 3\ndevices = ["DCFP"]'),
+    ("[fragility]", "[fragility]\nductility = [2]\nslip_over_overlap = [0.5]"),
+):
+    SEVERAL = SEVERAL.replace(old, new)
+for kind, bays in (("low", 1), ("long", 2)):
+    SEVERAL += f"""
+[structures.{kind}]
+kind = "moment frame"
+bays = [{bays}, 1]
+bay_width = ["6 m", "6 m"]
+storeys = 1
+storey_height = "3 m"
+floor_load = "800 kg/m2"
+columns = {{ box = ["160 mm", "8 mm"], hinges = {{ yield_stress = "235 MPa" }} }}
+beams = {{ i_shape = ["300 mm", "150 mm", "10 mm", "7 mm"] }}
+"""
+
+
+def test_several_structures_with_hinges(tmp_path: Path) -> None:
+    """Ductility from the rotations of the database; pairs within a structure; own bearings."""
+    folder = put_pulses(tmp_path)
+    own = '[bearings.low]\ndesign_load = "200 kN"\n'
+    (folder / "two.toml").write_text(SEVERAL + own)
+    frames = models_in(folder / "two.toml")
+    loads = {
+        n: {b.bearing.design_load for b in each.bearings.values()} for n, each in frames.items()
+    }
+    assert {n: each for n, each in loads.items() if "unbreakable" in n} == {
+        f"{kind}, {device}, unbreakable rims": {load}
+        for kind, load in (("low", 200e3), ("long", 300e3))
+        for device in ("LIR-DCFP", "DCFP")
+    }
+    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
+        done = run(app, ["campaign", "--no-figures", str(folder / "two.toml")])
+    assert done.exit_code == 0, done.output
+    data = open_campaign(folder / "two-results").results().load()
+    margins = pd.read_csv(folder / "two-results/campaign-margins.csv", index_col=0)
+    for name, frame in frames.items():
+        at = data.isel(run=np.flatnonzero(data["model"].to_numpy() == name))
+        # box 160 x 8 mm of 235 MPa, 3 m: M_p L / (6 E I)
+        z, i = (0.16**3 - 0.144**3) / 4.0, (0.16**4 - 0.144**4) / 12.0
+        hinges = [str(h) for h in at["hinge"].to_numpy() if str(h).split(":")[0] in frame.hinges]
+        turned = at["peak_hinge_rotation"].sel(hinge=hinges).max("hinge").to_numpy()
+        over = 1.0 + turned / (235e6 * z * 3.0 / (6.0 * 200e9 * i)) > 3.0
+        failed = ~np.isin(at["status"].to_numpy().astype(str), ["ok", "inaccurate"])
+        assert margins.loc[name, "collapsed"] == (over | failed).sum()
+    assert margins["collapsed"].sum() > margins["bearing failed"].sum()
+    ratios = pd.read_csv(folder / "two-results/campaign-ratios.csv")
+    assert {*ratios["structure"]} == {"low", "long"}
+    pairs = ratios[["structure", "rims", "own", "over"]].drop_duplicates()
+    assert len(pairs) == 4
+    for _, row in pairs.iterrows():
+        assert row["own"] == f"{row['structure']}, LIR-DCFP, {row['rims']}"
+        assert row["over"] == f"{row['structure']}, DCFP, {row['rims']}"
+    table = pd.read_csv(folder / "two-results/campaign-fragility.csv")
+    slips = table[table["limit state"] == "slip 50 % of the overlap"]
+    for _, row in slips[slips["structure"].str.contains(" DCFP")].iterrows():  # which do not slip
+        assert row["exceeded"] == margins.loc[row["structure"], "bearing failed"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("[structures.low]", "[structure]", "or several as "),
+        (
+            "[analysis]",
+            "[bearings.tall]\nradius = '2 m'\n[analysis]",
+            "of a structure that is not there",
+        ),
+        (', hinges = { yield_stress = "235 MPa" }', "", "no structure has any: give hinges"),
+        ("collapse_ductility = 3", "collapse_ductility = 3\ncollapse_drift = 0.1", "leave one out"),
+        ("collapse_ductility = 3", "collapse_ductility = 3\nown = ['LIR']", '"LIR" is no device'),
+    ],
+)
+def test_structures_that_cannot_be_are_refused(
+    tmp_path: Path, old: str, new: str, words: str
+) -> None:
+    put_pulses(tmp_path)
+    (tmp_path / "two.toml").write_text(SEVERAL.replace(old, new))
+    refused(ProjectError, words, read_campaign, tmp_path / "two.toml")
 
 
 def test_without_strengths_rims_are_those_of_the_bearing() -> None:

@@ -2,7 +2,9 @@
 
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from frames.design.project.inputs import ProjectInputs
 from frames.design.project.reading import read_project
 from frames.design.project.sanity_checks import file_doubts
 from frames.design.project.structure_statement import structure_rows
+from frames.risk.campaign.ductility import yield_rotations
 from tests.scenes import BOUNDS, DEVICE, MOTIONS, project_head
 
 SPECTRUM = "[spectrum]\ns_ms = 1.0\ns_m1 = 0.5\n"
@@ -154,6 +157,73 @@ def test_a_column_of_the_catalogue_turned(tmp_path: Path) -> None:
     assert member.up == (0.0, 1.0, 0.0)  # local z, along which the depth is
 
 
+HINGED = """
+[[structure.columns]]
+box = ["300 mm", "500 mm", "16 mm"]
+hinges = { yield_stress = "345 MPa", hardening = 0.02 }
+[[structure.columns]]
+at = ["1-0"]
+storeys = [1, 1]
+rectangle = ["3 m", "300 mm"]
+material = "C30/37"
+faces = true
+hinges = { moment_y = "5 MN m", ends = "foot", yield_rotation = "0.0025 rad" }
+[[structure.columns]]
+at = ["1-0"]
+storeys = [2, 3]
+rectangle = ["3 m", "300 mm"]
+material = "C30/37"
+faces = true
+[structure.beams]
+i_shape = ["400 mm", "180 mm", "13.5 mm", "8.6 mm"]
+hinges = { yield_stress = "345 MPa" }
+"""
+
+
+def numeric_modulus(inside: Callable[..., Any], width: float, depth: float) -> float:
+    """Return the plastic modulus about y by adding up |z| over a fine grid."""
+    y, z = (side * ((np.arange(2000) + 0.5) / 2000 - 0.5) for side in (width, depth))
+    over = inside(np.abs(y)[:, None], np.abs(z)[None, :])
+    return float((over * np.abs(z)[None, :]).sum() * width * depth / 2000**2)
+
+
+def test_plastic_hinges_of_shapes_and_columns_on_their_lines(tmp_path: Path) -> None:
+    """Plastic moments by a sum over the section; a wall of 3 m with a hinge at its foot."""
+    frame = frame_of(tmp_path, GRID + HINGED)
+    foot, head = frame.hinges["column-2-0-0"]
+    assert foot == head
+    assert foot is not None
+    # of columns the first side is along x, which is local z
+    hollow = lambda y, z: (y > 0.234) | (z > 0.134)  # noqa: E731
+    strength = 345e6 * numeric_modulus(hollow, 0.5, 0.3)
+    assert foot.moment_y == pytest.approx(strength, rel=5e-3)
+    turned = 345e6 * numeric_modulus(lambda y, z: (y > 0.134) | (z > 0.234), 0.3, 0.5)
+    assert foot.moment_z == pytest.approx(turned, rel=5e-3)
+    assert foot.axial == pytest.approx(345e6 * (0.3 * 0.5 - 0.268 * 0.468))
+    (beam, _) = frame.hinges["beam-x-floor-1-0-0"]
+    assert beam is not None
+    shape = lambda y, z: (z > 0.1865) | (y < 0.0043)  # noqa: E731
+    assert beam.moment_y == pytest.approx(345e6 * numeric_modulus(shape, 0.18, 0.4), rel=5e-3)
+    assert beam.axial == math.inf
+    assert not [name for name in frame.hinges if "base" in name]
+    wall, above = frame.hinges["column-1-1-0"]
+    assert (wall.moment_y, wall.moment_z, above) == (5e6, math.inf, None)  # type: ignore[union-attr]
+    assert "column-2-1-0" not in frame.hinges
+    assert frame.members["column-3-1-0"].section.inertia_y == pytest.approx(0.3 * 3.0**3 / 12.0)
+    first, second, across = (
+        frame.members[f"beam-{n}"].offsets for n in ("x-base-0-0", "x-base-1-0", "y-floor-3-1-0")
+    )
+    assert (first[1], second[0]) == ((-1.5, 0.0, 0.0), (1.5, 0.0, 0.0))
+    assert not any(map(any, (first[0], second[1], *across)))
+    yields = yield_rotations(frame)
+    assert yields["column-1-1-0:i"] == 0.0025
+    inertia = (0.18 * 0.4**3 - (0.18 - 0.0086) * 0.373**3) / 12.0
+    at_yield = beam.moment_y * 4.5 / (6.0 * 200e9 * inertia)  # between the axis and the face
+    assert yields["beam-x-floor-1-0-0:j"] == pytest.approx(at_yield)
+    said = dict(structure_rows(parts_of(tmp_path, GRID + HINGED).file, frame))
+    assert "with plastic hinges" in str(said["columns"])
+
+
 def test_cracked_sections(tmp_path: Path) -> None:
     """One factor on bending, torsion and shear, or one for each; area and mass stay."""
     one = MEMBERS.replace('"C30/37" }', '"C30/37", cracked = 0.5 }', 1)
@@ -209,6 +279,10 @@ REFUSED = {
     'columns = [{ box = ["400 mm", "25 mm"] }, { circle = "1 m", material = "S355" }]': (
         "storey 1 has two sections"
     ),
+    'columns = { box = ["400 mm", "25 mm"], hinges = { hardening = 0.1 } }': "needs yield_stress =",
+    'columns = { box = ["400 mm", "25 mm"], faces = true }': "faces = true, beams end at the faces",
+    'columns = [{ box = ["400 mm", "25 mm"], at = ["3-0"] }]': 'at = "3-0" is no column',
+    'columns = [{ box = ["400 mm", "25 mm"], at = ["0-0", "0-0"] }]': 'of column "0-0" has two',
     'columns = { box = ["400 mm", "25 mm"], storeys = [2, 4] }': "within the 3 of the building",
     'columns = { box = ["400 mm", "25 mm"], storeys = [0, 3] }': "storeys",
 }

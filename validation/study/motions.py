@@ -18,7 +18,6 @@ import numpy as np
 from frames.design import MotionSet
 from frames.risk.fragility.runs import COMPLETE, FAILURE, UNKNOWN
 from validation.measurements.yielding_runs import LIR
-from validation.study.buildings_numbers import RESAMPLES
 from validation.study.buildings_runs import BUILDINGS, SCALES, building, yield_rotations
 from validation.study.device_runs import best_devices
 from validation.study.motions_figures import figures
@@ -94,6 +93,9 @@ class Runner:
             key.removeprefix(f"{BASE.name}, "): table_of(each, motions, self._yields)
             for key, each in data.items()
         }
+
+
+RESAMPLES = 200
 
 
 def found_of(runner: Runner, folder: Path) -> dict[str, Any]:

@@ -1,106 +1,99 @@
-"""The records of FEMA P695 on four devices under a building that yields: writes the study's page.
-
-    python -m validation.study.records --store study-runs
-
-The campaign can be stopped; the same command goes on with its store. Needs the extras "campaign",
-"fema" and "fragility".
-"""
+"""Own numbers and figures of the part on the records of FEMA P695."""
 
 from __future__ import annotations
 
-import json
-import tempfile
-from math import isfinite
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from frames import time_histories
-from frames.design.hazard.motion_folder import RECORD_SETS
-from frames.risk import open_campaign
-from validation.measurements.yielding_runs import LIR, RIMS, WIDE
-from validation.page import FOLDER
-from validation.study.part import options_of, performed, quietly, write_part
-from validation.study.records_figures import figures
-from validation.study.records_page import page
-from validation.study.records_runs import (
-    DEMANDS,
-    SCALES,
-    STEP,
-    campaign,
-    devices,
-    ductilities,
-    found_of,
-    record_sets,
-)
+import numpy as np
+
+from frames.plots import plot_style as ps
+from frames.risk.campaign.comparison import dish_diameter
+from frames.risk.campaign.ductility import yield_rotations
+from validation.study.shown import where
+from validation.study.steps import at_two_steps, checked, checks_said, steps_said  # noqa: F401  (of the template)
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
-    from frames import GroundMotion
+    from matplotlib.figure import Figure
 
-    Sets = Mapping[str, Mapping[str, GroundMotion]]
+    from frames.risk.campaign.tables import CampaignTables
 
-FAR, PULSE, PLAIN = RECORD_SETS
-HALVED = (
-    (LIR, FAR, 0, 1.6),
-    (RIMS, FAR, 5, 2.2),
-    (RIMS, PULSE, 8, 1.9),
-    (WIDE, PULSE, 0, 2.6),
-    (LIR, PLAIN, 8, 1.6),
-)
-"""Runs at half the step: device, set, motion by number, intensity [m/s2]."""
+LIR, RIMS, WIDE = "LIR-DCFP", "DCFP with rims", "larger-diameter DCFP"
+ROOM = "LIR-DCFP, larger sliders"
+HALVED = ((LIR, 0, 1.6), (RIMS, 5, 2.2), (RIMS, 30, 1.9), (WIDE, 22, 2.6), (LIR, 44, 1.6))
+"""Runs at half the step: device, number of the motion, intensity [m/s2]."""
 
 
-def halved(sets: Sets) -> list[dict[str, Any]]:
-    """Return demands of some runs at the step of the campaign, and at half of it."""
-    models = devices()
-    rows = []
-    for device, kind, number, scale in HALVED:
-        name, motion = list(sets[kind].items())[number]
-        numbers = []
-        for dt in (STEP, 0.5 * STEP):
-            with quietly():
-                data = time_histories(
-                    {device: models[device]}, {name: motion}, scales=[scale], dt=dt
-                )
-            peaks = data["peak"].isel(run=0).to_series().to_dict()
-            peaks["ductility"] = float(ductilities(data)[0])
-            status = str(data["status"].item())
-            numbers.append(
-                {"status": status}
-                | {key: float(peaks[key]) if isfinite(peaks[key]) else None for key in DEMANDS}
-            )
-        rows.append({"device": device, "motion": name, "im": scale, "runs": numbers})
-    return rows
+def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
+    """Return what the tables do not have."""
+    tables = every["records"]
+    bearings = [link.bearing for link in tables.frames[LIR].bearings.values()]
+    options = [each.resolved() for each in bearings]
+    wide, widest = tables.runs[WIDE].table, max(bearings, key=lambda each: each.slider_radius)
+    reached = wide.groupby("im")["bearing displacement"]
+    strengths = {
+        round(o["rim_stiffness"] * o["rim_overrun"] / o["design_load"], 1) for o in options
+    }
+    return {
+        "halved": at_two_steps(tables, HALVED),
+        "checks": checked(tables),
+        "slip": min(o["slip_capacity"] for o in options),
+        "rims": sorted(strengths),
+        "yields": {
+            name.split("-")[0]: rotation
+            for name, rotation in yield_rotations(tables.frames[LIR]).items()
+        },
+        "dishes": {
+            f"{im:g}": [
+                dish_diameter(widest, d) for d in (own.median(), own.quantile(0.84), own.max())
+            ]
+            for im, own in reached
+        },
+        "displacements": {
+            f"{im:g}": [own.median(), own.quantile(0.84), own.max()] for im, own in reached
+        },
+    }
 
 
-def write(found: Mapping[str, Any]) -> None:
-    """Write the page, its figures and the numbers."""
-    write_part("study", page(found), figures(found), found)
+def same_as_failures(told: Mapping[str, Any], device: str) -> list[str]:
+    """Return the limit states that those runs alone exceed whose bearing fails."""
+    failed = where(told["tables"]["margins"], device=device, record_set="all")[
+        "bearing failed"
+    ].iloc[0]
+    own = where(told["tables"]["fragility"], structure=device, record_set="all")
+    return [str(row["limit state"]) for _, row in own.iterrows() if row["exceeded"] == failed]
 
 
-def study(sets: Sets, store: Path, workers: int | str, scales: Sequence[float]) -> dict[str, Any]:
-    """Run the campaign, and return what the page says of it."""
-    motions = {name: motion for each in sets.values() for name, motion in each.items()}
-    runs = campaign(motions, store, scales)
-    cost = performed(runs, workers)
-    return found_of(runs.results(), sets) | {"cost": cost}
+def stripe(told: Mapping[str, Any], device: str, at: float) -> Mapping[str, Any]:
+    """Return the responses of a device at the intensity next to a wanted one."""
+    own = where(told["tables"]["response"], structure=device)
+    return dict(own.iloc[int(np.argmin(np.abs(own["factor"].to_numpy() - at)))])
 
 
-def main(given: Sequence[str] | None = None) -> None:
-    """Run the campaign, and write the page."""
-    options = options_of("records", given)
-    if options.again:
-        found = json.loads((FOLDER / "study.json").read_text(encoding="utf-8"))
-        if options.store:  # fitted anew; cost and halved steps are those of the run
-            found |= found_of(open_campaign(options.store).results(), record_sets())
-        write(found)
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        sets = record_sets()
-        found = study(sets, options.store or Path(folder, "runs"), options.workers, SCALES)
-        write(found | {"halved": halved(sets)})
+def last_held(told: Mapping[str, Any], device: str) -> Mapping[str, Any]:
+    """Return the last responses of a device at which half of the records have no failed bearing."""
+    own = where(told["tables"]["response"], structure=device)
+    return dict(own[own["bearing failed [-]"] < 0.5].iloc[-1])
 
 
-if __name__ == "__main__":
-    main()
+def figures(campaigns: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, Figure]:
+    """Return the medians over the intensity, with the share of failed bearings."""
+    table = campaigns["records"]["tables"]["response"]
+    shown = {
+        "ductility": ("ductility [-]", 1.0),
+        "floor acceleration in plan, mean": ("floor acceleration [m/s2]", 1.0),
+        "residual bearing displacement": ("residual displacement [mm]", 1e3),
+        "bearing failed": ("bearings failed [%]", 100.0),
+    }
+    figure, panels = ps.panels_of(4, 2, 2.3, share=False)
+    for panel, (name, (text, factor)) in zip(panels, shown.items(), strict=True):
+        for k, (_, rows) in enumerate(table.groupby("structure", sort=False)):
+            column = next(c for c in rows if c.startswith((f"{name}, median [", f"{name} [")))
+            values = rows[column].replace(np.inf, np.nan)
+            panel.plot(rows["factor"], factor * values, marker="os^d"[k], **ps.line_of(k))
+        ps.caption(panel, x="Sa(3 s) [m/s2]", y=text)
+    for k, name in enumerate(dict.fromkeys(table["structure"])):
+        panels[0].plot([], [], marker="os^d"[k], label=name, **ps.line_of(k))
+    ps.add_legend(figure, panels[0].get_lines()[-len(set(table["structure"])) :], columns=2)
+    return {"medians": figure}

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 import math
+from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -19,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pandas as pd
 
-from frames.design.project.inputs import motions_of
+from frames.design.project.inputs import bearing_of, motions_of, sliding_period
 from frames.risk.campaign.file import campaign_file, read_campaign
 from frames.risk.campaign.page import device_curves
 from frames.risk.campaign.plot_response import response_by_factor
@@ -30,7 +31,7 @@ from validation.study.part import performed
 from validation.study.rounded import rounded
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from matplotlib.figure import Figure
 
@@ -82,24 +83,27 @@ def run(part: str, work: Work) -> None:
         for name, each in told.items()
         for kind, table in each["tables"].items()
     }
-    for file_name, figure in _figures(part, every).items():
-        _save(figure, work.to / "figures" / file_name)
     kept = {name: _kept(each) for name, each in told.items()}
     texts[f"{name_of(part)}.json"] = json.dumps(rounded({"campaigns": kept, "own": numbers})) + "\n"
     for place, text in texts.items():
         _put(work.to / place, text)
-    write(part, work.to)
+    text = write(part, work.to)
+    for target, drawn in _figures(part, every).items():
+        if f"figures/{target}" in text:
+            _save(drawn(), work.to / "figures" / target)
 
 
-def write(part: str, folder: Path = FOLDER) -> None:
-    """Write the page of a part, and its own figures, from the numbers in its folder."""
+def write(part: str, folder: Path = FOLDER) -> str:
+    """Write and return the page of a part, with its own figures, from the numbers in its folder."""
     given = json.loads((folder / f"{name_of(part)}.json").read_text(encoding="utf-8"))
     module = own_module(part)
-    _put(folder / f"{name_of(part)}.md", page(part, given))
+    text = page(part, given)
+    _put(folder / f"{name_of(part)}.md", text)
     if hasattr(module, "figures"):
         for name, figure in module.figures(told_of(given), given["own"]).items():
             _save(figure, folder / "figures" / f"{name_of(part)}-{name}.png")
     print(f"{name_of(part)}.md is written to {folder}")
+    return text
 
 
 def page(part: str, given: Mapping[str, Any]) -> str:
@@ -139,12 +143,15 @@ def own_module(part: str) -> Any:
 
 def tried(file: CampaignFile, few: int) -> CampaignFile:
     """Return a campaign's file with few records and few of its intensities, for a trial."""
-    given, path = file.motions, file.source_path
-    names = list(motions_of(given, (path or Path()).parent))
+    given, bearing = file.motions, bearing_of(file.bearing)
+    folder = (file.source_path or Path()).parent
+    sets = [given.model_copy(update={"fema_p695": (name,)}) for name in given.fema_p695] or [given]
+    read = [motions_of(each, folder, lambda: sliding_period(bearing)) for each in sets]
     key = "intensities" if given.intensities else "scales"
     values = getattr(given, key)
     chosen = sorted({values[k * (len(values) - 1) // max(few - 1, 1)] for k in range(few)})
-    less = given.model_copy(update={"only": tuple(names[:few]), key: tuple(chosen)})
+    names = tuple(name for each in read for name in list(each)[:few])
+    less = given.model_copy(update={"only": names, key: tuple(chosen)})
     return file.model_copy(update={"motions": less})
 
 
@@ -161,6 +168,7 @@ def _told(tables: CampaignTables, cost: Mapping[str, Any]) -> Told:
         "digest": tables.campaign.digest(),
         "considered": None if comparison is None else comparison.considered,
         "motions": len(tables.campaign.motions),
+        "axis": tables.axis,
     }
 
 
@@ -175,26 +183,28 @@ def _split(table: pd.DataFrame) -> dict[str, Any]:
     return {"columns": [str(name) for name in found], "data": found.to_numpy().tolist()}
 
 
-def _figures(part: str, every: Mapping[str, CampaignTables]) -> dict[str, Figure]:
-    # Those of the package's page, by the names of their files.
-    found: dict[str, Figure] = {}
+def _figures(part: str, every: Mapping[str, CampaignTables]) -> dict[str, Callable[[], Figure]]:
+    # Those of the package's page, drawn when they are called, by the names of their files.
+    found: dict[str, Callable[[], Figure]] = {}
     for name, tables in every.items():
         comparison = tables.comparison
         groups = {"": list(tables.runs)} if comparison is None else comparison.groups
         start = f"{name_of(part)}-" + ("" if name == part else f"{name}-")
         for k, devices in enumerate(groups.values(), start=1):
-            end = "" if len(groups) == 1 else f"-{k}"
-            by_factor = {device: tables.by_factor[device] for device in devices}
-            drawn = response_by_factor(by_factor, axis=tables.axis)
-            found[f"{start}response{end}.png"] = drawn
-            if tables.limits:
-                found[f"{start}fragility{end}.png"] = device_curves(
-                    {device: tables.runs[device] for device in devices},
-                    tables.curves,
-                    tables.limits,
-                    confidence=CONFIDENCE,
-                    considered=None if comparison is None else comparison.considered,
-                )
+            end = ".png" if len(groups) == 1 else f"-{k}.png"
+            found[f"{start}response{end}"] = partial(
+                response_by_factor,
+                {device: tables.by_factor[device] for device in devices},
+                axis=tables.axis,
+            )
+            found[f"{start}fragility{end}"] = partial(
+                device_curves,
+                {device: tables.runs[device] for device in devices},
+                tables.curves,
+                tables.limits,
+                confidence=CONFIDENCE,
+                considered=None if comparison is None else comparison.considered,
+            )
     return found
 
 

@@ -6,12 +6,26 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from lir_element.units import STANDARD_GRAVITY as G
 from validation.page import table as markdown
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     Told = Mapping[str, Any]
+
+DEMANDS = {
+    "ductility": ("ductility [-]", 1.0, ".2f"),
+    "storey drift, mean": ("storey drift [%]", 1e2, ".2f"),
+    "floor acceleration in plan, mean": ("floor acceleration [g]", 1.0 / G, ".2f"),
+    "bearing displacement": ("bearing displacement [mm]", 1e3, ".0f"),
+    "residual bearing displacement": ("residual displacement [mm]", 1e3, ".1f"),
+    "interface slip": ("interface slip [mm]", 1e3, ".1f"),
+    "residual interface slip": ("residual slip [mm]", 1e3, ".1f"),
+    "rim force": ("rim force [kN]", 1e-3, ".0f"),
+    "base shear over weight": ("base shear / W", 1.0, ".2f"),
+}
+"""Demands of the table "response": their text, a factor from SI, a format."""
 
 NONE = "-"
 """What stands where there is no number."""
@@ -69,6 +83,43 @@ def crossed(
         found.setdefault(place, {})[str(row[columns])] = interval(row, name, form)
     lines = [[*place, *(cells.get(h, NONE) for h in heads)] for place, cells in found.items()]
     return markdown([*keys, *heads], lines)
+
+
+def judged(ratios: pd.DataFrame, rows: str, corner: str = "") -> str:
+    """Return ratios in Markdown with verdicts of exact tests, a row a limit state or the like."""
+    others = list(dict.fromkeys(map(str, ratios["over"])))
+    found: dict[str, dict[str, str]] = {}
+    for row in rows_of(ratios):
+        counts = f"{row['less']:.0f} to {row['more']:.0f}"
+        said = f"{row['verdict']}, {interval(row, 'ratio')}; {counts}"
+        found.setdefault(str(row[rows]), {})[str(row["over"])] = said
+    lines = [[name, *(cells.get(other, NONE) for other in others)] for name, cells in found.items()]
+    return markdown([corner or rows, *others], lines)
+
+
+def ended(table: pd.DataFrame, column: str, end: str) -> pd.DataFrame:
+    """Return the rows of a table whose text in a column ends so: devices of several structures."""
+    return table[table[column].str.endswith(end)]
+
+
+def crossed_verdicts(ratios: pd.DataFrame, corner: str) -> str:
+    """Return ratios in Markdown with verdicts of exact tests, structures by limit states."""
+    return judged(ratios.assign(over=ratios["limit state"]), "structure", corner)
+
+
+def causes(failures: pd.DataFrame) -> str:
+    """Return how many runs of each structure stopped, by cause."""
+    if failures.empty:
+        return "No run failed."
+    words: dict[str, list[str]] = {}
+    for row in rows_of(failures):
+        words.setdefault(str(row["structure"]), []).append(f"{row['runs']} `{row['cause']}`")
+    return "Runs that failed: " + "; ".join(f"{n}: {', '.join(w)}" for n, w in words.items()) + "."
+
+
+def brief(reason: object) -> str:
+    """Return why there is no curve, without its remedy."""
+    return "" if pd.isna(reason) else str(reason).split(":")[0].split(";")[0]
 
 
 def cost_line(campaigns: Mapping[str, Told]) -> str:

@@ -43,7 +43,7 @@ from lir_element.argument_checks import shown
 from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from frames.design.codes.registry import AnalysisMethod
     from frames.design.hazard.spectrum import Spectrum
@@ -321,11 +321,22 @@ def motions_of(given: MotionSource, folder: Path, period: Callable[[], float]) -
         elif given.folder is not None:
             found = MotionSet.from_folder(folder / given.folder, given.table)
         else:
-            found = MotionSet.fema_p695(str(given.fema_p695))
+            found = _record_sets(given.fema_p695)
         found = found.only(given.only) if given.only else found
         return found.fault_normal() if given.fault_normal else found
 
     return in_section("motions", made)
+
+
+def _record_sets(names: Sequence[str]) -> MotionSet:
+    # Of FEMA P695, several as one; the fact "set" is the name of a motion's own.
+    sets = {name: MotionSet.fema_p695(name) for name in names}
+    facts = {
+        motion: {**known, "set": name}
+        for name, each in sets.items()
+        for motion, known in each.facts.items()
+    }
+    return MotionSet({n: motion for each in sets.values() for n, motion in each.items()}, facts)
 
 
 def varied(given: MotionSource, motions: MotionSet) -> MotionSet:

@@ -10,14 +10,17 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 from frames.design._errors import ProjectError
 from frames.design.project.schema_sections import BeamsTable, ColumnsTable
 from frames.model.sections import Section
+from frames.model.shapes import catalogue_dimensions
 from lir_element.texts import joined, worded
 
 if TYPE_CHECKING:
     from frames.design.project.schema_sections import (
         CrackedTable,
+        HingesTable,
         MaterialTable,
         SectionTable,
     )
+    from frames.model.laws import PlasticHinge
 
 EUROPEAN_STEELS = ("S235", "S275", "S355", "S420", "S450", "S460")
 """Grades with E = 210 GPa, G = 81 GPa as of nu = 0.3 (EN 1993-1-1:2005, 3.2.6)."""
@@ -119,7 +122,49 @@ def named_section(given: SectionTable, *, column: bool) -> NamedSection:
         shape = "given constants"
     section, cracked = cracked_said(section, given.cracked)
     up = (0.0, 1.0, 0.0) if given.depth_along == "y" else None
-    return NamedSection(section, up, joined(shape, of_material(material), cracked, by=", "))
+    hinged = "with plastic hinges" if getattr(given, "hinges", None) else ""
+    said = joined(shape, of_material(material), cracked, hinged, by=", ")
+    return NamedSection(section, up, said)
+
+
+def hinge_of(given: SectionTable, hinges: HingesTable, *, column: bool) -> PlasticHinge:
+    """Return the hinge that a table describes, on its section.
+
+    Of a yield stress it has the plastic moments of the shape without fillets; of columns the
+    squash load besides, while floors take the axial force of beams.
+    """
+    if hinges.yield_stress is None:
+        return hinges.made()  # type: ignore[no-any-return]
+    strength, moduli = hinges.yield_stress, _plastic_moduli(given, column=column)
+    moments = dict(zip(("moment_y", "moment_z"), (strength * each for each in moduli), strict=True))
+    if column:
+        moments["axial"] = strength * named_section(given, column=True).section.area
+    return hinges.made(**moments)  # type: ignore[no-any-return]
+
+
+def _plastic_moduli(given: SectionTable, *, column: bool) -> tuple[float, float]:
+    # About local y and z [m3].
+    def solid(width: float, depth: float) -> tuple[float, float]:
+        return 0.25 * width * depth**2, 0.25 * depth * width**2
+
+    if given.circle is not None:
+        diameter, *walls = given.circle
+        inner = diameter - 2.0 * walls[0] if walls else 0.0
+        return ((diameter**3 - inner**3) / 6.0,) * 2
+    if given.section is not None or given.i_shape is not None:
+        shape = given.i_shape or catalogue_dimensions(str(given.section))[:4]
+        depth, width, flange, web = shape
+        inner = depth - 2.0 * flange
+        strong = width * flange * (depth - flange) + 0.25 * web * inner**2
+        return strong, 0.5 * flange * width**2 + 0.25 * inner * web**2
+    if given.box is None and given.rectangle is None:
+        msg = "hinges.yield_stress: properties have no plastic moduli, give moment_y and moment_z"
+        raise ProjectError(msg)
+    *sides, wall = given.box or (*(given.rectangle or ()), 0.0)
+    width, depth = (sides[-1], sides[0]) if column else (sides[0], sides[-1])
+    hole = solid(width - 2.0 * wall, depth - 2.0 * wall) if wall else (0.0, 0.0)
+    strong, weak = (one - less for one, less in zip(solid(width, depth), hole, strict=True))
+    return strong, weak
 
 
 def cracked_said(section: Section, cracked: float | CrackedTable | None) -> tuple[Section, str]:

@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self, Union
 
-from pydantic import Field, create_model, field_validator, model_validator
+from pydantic import BeforeValidator, Field, create_model, field_validator, model_validator
 
 from frames._csv import csv_lines
 from frames.design._errors import ProjectError
@@ -175,12 +175,19 @@ class Repeated(Table):
     gap: Annotated[Time, NotNegative] = 10.0
 
 
+_Records = Literal["far-field", "near-fault pulse", "near-fault no pulse"]
+
+
+def _one_or_more(given: object) -> object:
+    return (given,) if isinstance(given, str) else given
+
+
 class MotionSource(Table):
     """Records from a folder with a table, a set ready by name, or pulses; how they are varied."""
 
     folder: Path | None = None
     table: str = "motions.csv"
-    fema_p695: Literal["far-field", "near-fault pulse", "near-fault no pulse"] | None = None
+    fema_p695: Annotated[tuple[_Records, ...], BeforeValidator(_one_or_more)] = ()
     pulses: Pulses | None = None
     fault_normal: bool = False
     only: tuple[str, ...] = ()
@@ -190,13 +197,13 @@ class MotionSource(Table):
 
     @model_validator(mode="after")
     def _one_source(self) -> Self:
-        given = [self.folder, self.fema_p695, self.pulses]
+        given = [self.folder, self.fema_p695 or None, self.pulses]
         if given.count(None) != len(given) - 1:
             msg = 'needs one source: folder = "motions", fema_p695 = "far-field", or pulses = '
             raise ValueError(msg + '{periods = ["3 s"], velocities = ["1 m/s"]}')
         return self
 
-    @field_validator("turned", "vertical")
+    @field_validator("turned", "vertical", "fema_p695")
     @classmethod
     def _each_once(cls, given: tuple[Any, ...]) -> tuple[Any, ...]:
         if len({*given}) < len(given):

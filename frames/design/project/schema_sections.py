@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, Discriminator, Field, Tag, model_validator
 
@@ -14,6 +14,7 @@ from frames.design.project.quantities import (
     Pressure,
     Ratio,
 )
+from frames.model.laws import PlasticHinge
 from frames.model.sections import Section
 
 Size = Annotated[Length, Positive]
@@ -123,10 +124,39 @@ class SectionTable(Table):
         return self
 
 
+class HingesTable(table_of(PlasticHinge)):  # type: ignore[misc]  # its keys are the fields
+    """``hinges``: plastic hinges at the ends of members; moments as given, or of a yield stress."""
+
+    beside: ClassVar[frozenset[str]] = frozenset({"yield_stress", "ends"})
+    yield_stress: Annotated[Pressure, Positive] | None = None
+    ends: Literal["both", "foot"] = "both"
+
+    @model_validator(mode="after")
+    def _one_strength(self) -> Self:
+        moments = {"moment_y", "moment_z"} & self.model_fields_set
+        if (self.yield_stress is None) != bool(moments):
+            msg = 'needs yield_stress = "345 MPa", or moment_y and moment_z = "400 kN m", not both'
+            raise ValueError(msg)
+        return self
+
+
 class ColumnsTable(SectionTable):
-    """``[structure.columns]``: the section of the columns, of some storeys if these are named."""
+    """``[structure.columns]``: the section of the columns, of some storeys if these are named.
+
+    With ``at`` of these lines alone, in place of the section that the others have.
+    """
 
     storeys: tuple[Count, Count] | None = None
+    at: tuple[str, ...] = ()
+    faces: bool = False
+    hinges: HingesTable | None = None
+
+    @model_validator(mode="after")
+    def _has_faces(self) -> Self:
+        if self.faces and (self.rectangle is None or not self.at):
+            msg = 'faces = true, beams end at the faces, is for rectangles on lines that "at" names'
+            raise ValueError(msg)
+        return self
 
 
 class BeamsTable(SectionTable):
@@ -134,11 +164,15 @@ class BeamsTable(SectionTable):
 
     storeys: tuple[Count, Count] | None = None
     direction: Literal["x", "y"] | None = None
+    hinges: HingesTable | None = None
 
     @model_validator(mode="after")
     def _lies(self) -> Self:
         if self.depth_along is not None:
             msg = "depth_along is for columns: the depth of beams is vertical"
+            raise ValueError(msg)
+        if self.hinges is not None and self.hinges.ends == "foot":
+            msg = 'hinges.ends = "foot" is for columns: beams have hinges at both ends'
             raise ValueError(msg)
         return self
 

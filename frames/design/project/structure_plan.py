@@ -13,6 +13,7 @@ from frames.design.project.irregular_plan import irregular_plan
 from frames.design.project.member_sections import (
     NamedSection,
     by_storey,
+    hinge_of,
     named_section,
     storeys_of,
 )
@@ -39,12 +40,13 @@ from frames.model.sections import Section
 from lir_element.texts import joined
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from frames.design.project.schema_sections import BraceTable, WallTable
     from frames.design.project.schema_structure import BuildingTable, IrregularFrame
     from frames.io import Frame
+    from frames.model.components import Vector
     from lir_element import LIRBearing
 
 T = TypeVar("T")
@@ -139,16 +141,38 @@ class MemberSections(NamedTuple):
     beams: dict[str, list[NamedSection]]  # by direction, "x" and "y", then by floor
     base_beams: dict[str, NamedSection]  # by direction
     assumed: tuple[str, ...]  # keys that are not in the file, whose sections are assumed
+    special: Mapping[tuple[str, int], ColumnsTable]  # of columns by line and storey
 
 
 def sections_of(given: MomentFrame) -> MemberSections:
     """Return the sections of a regular frame, those that the file leaves out assumed."""
     tables = {key: _tables(getattr(given, key)) for key in _DEFAULTS}
-    columns = _sections("columns", tables["columns"], given.storeys, None)
+    usual = [one for one in tables["columns"] if not one.at]
+    columns = _sections("columns", usual, given.storeys, None)
     beams = {d: _sections("beams", tables["beams"], given.storeys, d) for d in DIRECTIONS}
     base = {d: _sections("base_beams", tables["base_beams"], 1, d)[0] for d in DIRECTIONS}
-    assumed = tuple(key for key, each in tables.items() if not each)
-    return MemberSections(columns, beams, base, assumed)
+    assumed = tuple(key for key, each in (tables | {"columns": usual}).items() if not each)
+    special = _told("columns", lambda: _special(tables["columns"], given))
+    return MemberSections(columns, beams, base, assumed, special)
+
+
+def _special(
+    tables: Sequence[ColumnsTable], given: MomentFrame
+) -> dict[tuple[str, int], ColumnsTable]:
+    # Tables of columns on lines that they name.
+    lines = [f"{ix}-{iy}" for ix in range(given.bays[0] + 1) for iy in range(given.bays[1] + 1)]
+    found: dict[tuple[str, int], ColumnsTable] = {}
+    for one in tables:
+        for line in one.at:
+            if line not in lines:
+                msg = f'at = "{line}" is no column: they are "{lines[0]}" to "{lines[-1]}"'
+                raise ProjectError(msg)
+            for storey in storeys_of(one.storeys, given.storeys):
+                if (line, storey) in found:
+                    msg = f'storey {storey} of column "{line}" has two sections: give it one'
+                    raise ProjectError(msg)
+                found[line, storey] = one
+    return found
 
 
 def _tables(given: Kind | Sequence[Kind] | None) -> list[Kind]:
@@ -187,6 +211,8 @@ def building_frame(
     plan = with_walls_and_braces(plan, given)
     damping = ModalDamping(given.damping) if given.damping > 0.0 else None
     frame = build(plan, bearing, name=name, damping=damping)
+    if isinstance(given, MomentFrame):
+        add_hinges(frame, given)
     if given.floor_load is not None and isinstance(given, MomentFrame):
         masses = tributary_masses(given.bays, given.bay_width, given.floor_load, given.eccentricity)
         add_floor_masses(frame, given.storeys, masses, DEFAULT_BASE_DEPTH)
@@ -201,13 +227,72 @@ def building_frame(
 
 def _regular_plan(given: MomentFrame) -> BuildingPlan:
     own = sections_of(given)
-    return regular_plan(
+    plan = regular_plan(
         given.bays,
         given.bay_width,
         given.heights,
         [(column.section, column.up) for column in own.columns],
         {d: [each.section for each in (own.base_beams[d], *own.beams[d])] for d in DIRECTIONS},
     )
+    columns, beams = [], []
+    for part in plan.columns:
+        table = own.special.get((part.line, part.storey))
+        if table is not None:
+            section, up, _ = named_section(table, column=True)
+            part = part._replace(section=section, up=up)
+        columns.append(part)
+    for beam in plan.beams:
+        ends = {
+            end: _to_face(beam.name[-1], own.special.get((line, max(beam.level, 1))), side)
+            for end, line, side in (("i", beam.start, 1.0), ("j", beam.end, -1.0))
+        }
+        offsets = {end: away for end, away in ends.items() if away is not None}
+        beams.append(beam._replace(offsets=offsets or None))
+    return replace(plan, columns=tuple(columns), beams=tuple(beams))
+
+
+def _to_face(axis: str, table: ColumnsTable | None, side: float) -> Vector | None:
+    # From the axis of a column to its face, of a beam along its longer side.
+    if table is None or not table.faces or table.rectangle is None:
+        return None
+    along = dict(zip(DIRECTIONS, table.rectangle, strict=True))
+    if along[axis] < max(along.values()):
+        return None
+    half = 0.5 * side * along[axis]
+    return (half, 0.0, 0.0) if axis == "x" else (0.0, half, 0.0)
+
+
+def add_hinges(frame: Frame, given: MomentFrame) -> None:
+    """Give members the plastic hinges of their tables."""
+    special = sections_of(given).special
+    columns = [one for one in _tables(given.columns) if not one.at]
+    by_level = {"column": dict(enumerate(by_storey(columns, given.storeys), 1)) if columns else {}}
+    for way in DIRECTIONS:
+        beams, base = _tables(given.beams), _tables(given.base_beams)
+        own = dict(enumerate(by_storey(beams, given.storeys, way), 1)) if beams else {}
+        if base:
+            own[0] = by_storey(base, 1, way)[0]
+        by_level[f"beam-{way}"] = own
+    for name in list(frame.members):
+        kind, level, line = _placed(name)
+        table = by_level.get(kind, {}).get(level)
+        if kind == "column":
+            table = special.get((line, level), table)
+        if table is None or table.hinges is None:
+            continue
+        hinge = _told(name, lambda t=table, k=kind: hinge_of(t, t.hinges, column=k == "column"))  # type: ignore[misc]
+        frame.add_hinges(name, {"i": hinge} if table.hinges.ends == "foot" else hinge)
+
+
+def _placed(name: str) -> tuple[str, int, str]:
+    # Kind, level and line of "column-<storey>-<line>" and of "beam-x-<level>-<line>".
+    parts = name.split("-")
+    if parts[0] == "column":
+        return parts[0], int(parts[1]), "-".join(parts[2:])
+    if parts[0] != "beam":
+        return parts[0], 0, ""
+    level = 0 if parts[2] == "base" else int(parts[3])
+    return "-".join(parts[:2]), level, ""
 
 
 def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads | None) -> None:

@@ -178,6 +178,11 @@ def _sum(factors: Mapping[str, float]) -> str:
 def _sections(given: MomentFrame) -> Rows:
     found = sections_of(given)
     rows = _by_storey("columns", [one.said for one in found.columns])
+    tables = {id(one): one for one in found.special.values()}
+    for one in tables.values():
+        title = worded("columns at {lines}", lines=", ".join(one.at))
+        title = joined(title, storeys_said(one.storeys), by=", ")
+        rows.append((title, named_section(one, column=True).said))
     alike = [one.said for one in found.beams["x"]] == [one.said for one in found.beams["y"]]
     for direction in DIRECTIONS[: 1 if alike else 2]:
         what = "beams" if alike else worded("beams along {axis}", axis=direction)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import pandas as pd
 
 from frames.design.hazard.code_rules import damping_factor
+from frames.results.quantities import QUANTITIES
 from frames.risk._errors import CampaignError, FragilityError
 from frames.risk.campaign.devices import Device
+from frames.risk.campaign.ductility import DUCTILITY
 from frames.risk.fragility.comparison import compare_fragility
 from frames.risk.fragility.limit_state import LimitState
 from frames.risk.fragility.paired_tests import ALL, paired_tests
@@ -123,8 +125,16 @@ def dish_diameter(bearing: LIRBearing, displacement: float | None = None) -> flo
 COLLAPSE = "collapse"
 
 
-def collapse_limit(drift: float | None) -> LimitState:
-    """Return collapse: failure of a bearing or, if one is given, a storey drift beyond it."""
+def overlap_limit(share: float) -> LimitState:
+    """Return a slip of the interface above a share of the overlap of its sliders [-]."""
+    title = f"{QUANTITIES['slip'].title} over overlap"
+    return LimitState(f"slip {100.0 * share:g} % of the overlap", title, share)
+
+
+def collapse_limit(drift: float | None, ductility: float | None = None) -> LimitState:
+    """Return collapse: failure of a bearing or, if one is given, drift or ductility beyond it."""
+    if ductility is not None:
+        return LimitState(COLLAPSE, DUCTILITY, ductility)
     if drift is None:
         return LimitState(COLLAPSE)
     return LimitState(COLLAPSE, LimitState.drift(drift).quantity, drift)
@@ -157,6 +167,7 @@ class DeviceComparison:
     # known, and there are no margins
     considered: float | None
     filling: bool  # whether that is the one that fills the capacity, and none that was given
+    structures: Mapping[str, str] = field(default_factory=dict)  # by group, if there are several
 
     def ratios(
         self,
@@ -172,7 +183,10 @@ class DeviceComparison:
             own = curves.get(limit, {})
             for rims, (first, *others) in self.groups.items():
                 for other in others:
-                    row: dict[str, object] = {"limit state": limit, "rims": rims, "over": other}
+                    structure = self.structures.get(rims, "")
+                    row: dict[str, object] = {"structure": structure} if structure else {}
+                    row |= {"limit state": limit, "rims": rims.removeprefix(f"{structure}, ")}
+                    row |= {"own": first, "over": other}
                     row |= _ratio(own.get(first), own.get(other), confidence)
                     row |= whole.loc[(limit, first, other), list(TESTED)].to_dict()
                     rows.append(row)

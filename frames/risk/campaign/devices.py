@@ -57,6 +57,11 @@ class Device:
     rims : float, optional
         Force at which rims yield over the design load [-]; ``math.inf``: they never yield nor
         break. Default: as the bearings have them.
+    equal_sliders : bool
+        Whether all sliders are as wide as the widest that a load asks.
+    more_plan : float, optional
+        Diameter that the plan has more than that of the bearings, with their way to the rims around
+        the widest slider that a load asks [m]: in place of plan, for several structures.
     rim_stiffness : float
         Over that of the bearings [-].
     rim_overrun : float, optional
@@ -90,13 +95,16 @@ class Device:
     moat: float | None = field(default=None, metadata=_LENGTH)
     interface_friction: float | None = field(default=None, metadata=number("-", "(0, 1)"))
     rims: float | None = field(default=None, metadata=number("-", "(0, inf]"))
+    equal_sliders: bool = False
+    more_plan: float | None = field(default=None, metadata=number("m", "(-5, 5)"))
     rim_stiffness: float = field(default=1.0, metadata=number("-", "(0, 100)"))
     rim_overrun: float | None = field(default=None, metadata=number("m", "(0, 5)"))
     backup: BackupSupport | None = None
 
     def __post_init__(self) -> None:
         check_numbers(self, error=CampaignError)
-        sizes = [name for name in ("plan", "capacity", "moat") if getattr(self, name) is not None]
+        named = "plan", "more_plan", "capacity", "moat"
+        sizes = [name for name in named if getattr(self, name) is not None]
         if len(sizes) > 1:
             msg = f"{' and '.join(sizes)} are given: each makes the way to the rims, leave one"
             raise CampaignError(msg)
@@ -112,7 +120,18 @@ class Device:
 
     def on(self, frame: Frame) -> Frame:
         """Return a building on the device."""
-        own = self._loaded(frame)
+        own, device = self._loaded(frame), self
+        widest = max(each.slider_radius for each in own.values())
+        if self.equal_sliders:
+            device = replace(device, least_slider_radius=widest, equal_sliders=False)
+        if self.more_plan is not None:
+            ways = [max(link.bearing.rim_displacement) for link in frame.bearings.values()]
+            plan = 2.0 * (max(ways) + widest) + self.more_plan
+            device = replace(device, plan=plan, more_plan=None)
+        return device._on(frame, own)
+
+    def _on(self, frame: Frame, own: Mapping[str, LIRBearing]) -> Frame:
+        # On bearings with the sliders that their loads ask.
         sliders = {name: self._slider(each) for name, each in own.items()}
         sized = self._sized(own, sliders)
         return frame.with_bearings(

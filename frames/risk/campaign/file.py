@@ -7,9 +7,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pydantic import create_model
+from pydantic import Field, create_model
 from scipy import stats
 
+from frames.design._errors import ProjectError
 from frames.design.codes.history_rules import LOADS_OF_ASCE
 from frames.design.hazard.motion_set import MotionSet
 from frames.design.project.derived import DerivedTable
@@ -48,11 +49,12 @@ if TYPE_CHECKING:
 
     import pandas as pd
 
+    from frames.design.project.schema_structure import Structure
     from frames.frame import Frame
     from frames.risk.campaign.file_schema import FragilityTable
     from frames.risk.campaign.sampling import ParameterSample
     from frames.risk.fragility.intensity import Intensity
-    from lir_element import FrictionLaw
+    from lir_element import FrictionLaw, LIRBearing
 
 WEIGHS = {"D": 1.0, "L": 0.5, "S": 0.0}
 """Shares of dead load, live load and snow that buildings of campaigns carry [-]."""
@@ -73,6 +75,7 @@ def campaign_file(path: str | Path) -> CampaignFile:
             "CampaignFile",
             __base__=CampaignFile,
             bearing=(bearing, ...),
+            bearings=(dict[str, bearing], Field(default_factory=dict)),
             parameters=(keys | None, None),
         )
 
@@ -102,13 +105,12 @@ def read_campaign(given: CampaignFile | str | Path, *, store: str | Path | None 
     file = _read(given)
     whole = _path_of(file)
     folder = whole.resolve().parent
-    frame = _frame(file, whole)
     asked = file.analysis
     motions, scales = _motions(file, folder)
     return in_section(
         "campaign",
         lambda: Campaign(
-            _devices(frame, file),
+            models_in(file),
             motions,
             store=whole.with_name(f"{whole.stem}-{STORE}") if store is None else store,
             sample=in_section("sample", lambda: _sample(file)),
@@ -121,12 +123,58 @@ def read_campaign(given: CampaignFile | str | Path, *, store: str | Path | None 
     )
 
 
-def _frame(file: CampaignFile, path: Path) -> Frame:
-    # The structure on the bearings of the file.
-    bearing, name, folder = bearing_of(file.bearing), file.campaign.name, path.resolve().parent
-    loads = loads_of(file.loads, LOADS_OF_ASCE)
-    frame = in_section("structure", lambda: frame_of(file.structure, bearing, name, folder, loads))
+def _frames(file: CampaignFile) -> dict[str, Frame]:
+    # The structures on the bearings of the file, by name; "" of one alone.
+    own, bearing = file.campaign.name, bearing_of(file.bearing)
+    if file.structure is not None:
+        return {"": _frame(file, file.structure, "structure", bearing, own)}
+    found = {}
+    for name, given in file.structures.items():
+        each = bearing
+        if name in file.bearings:
+            each = bearing_of(file.bearings[name], f"bearings.{name}")
+        found[name] = _frame(file, given, f"structures.{name}", each, f"{own}, {name}")
+    return found
+
+
+def _frame(
+    file: CampaignFile, given: Structure, section: str, bearing: LIRBearing, name: str
+) -> Frame:
+    folder, loads = _path_of(file).resolve().parent, loads_of(file.loads, LOADS_OF_ASCE)
+    frame = in_section(section, lambda: frame_of(given, bearing, name, folder, loads))
     return frame.combined(WEIGHS) if frame.load_cases else frame
+
+
+def models_in(given: CampaignFile | str | Path) -> dict[str, Frame]:
+    """Return the structures of a campaign's file on its devices, by structure and device."""
+    file = _read(given)
+    frames = _frames(file)
+    asked = file.compare is not None and file.compare.collapse_ductility is not None
+    asked = asked or (file.fragility is not None and bool(file.fragility.ductility))
+    if asked and not any(frame.hinges for frame in frames.values()):
+        msg = "ductility is that of plastic hinges, and no structure has any: give hinges in "
+        raise ProjectError(msg + "[structure.columns] or [structure.beams], or leave it out")
+    return {
+        _of_structure(structure, device): made
+        for structure, frame in frames.items()
+        for device, made in in_section("compare", partial(_devices, frame, file)).items()
+    }
+
+
+def _of_structure(structure: str, name: str) -> str:
+    return f"{structure}, {name}" if structure else name
+
+
+def record_sets(given: CampaignFile | str | Path) -> dict[str, tuple[str, ...]]:
+    """Return the names of the motions of each set of records; empty unless there are several."""
+    file = _read(given)
+    if len(file.motions.fema_p695) < 2:
+        return {}
+    found: dict[str, list[str]] = {}
+    motions = _motions(file, _path_of(file).resolve().parent)[0]
+    for name, facts in motions.facts.items():
+        found.setdefault(str(facts["set"]), []).append(name)
+    return {kind: tuple(names) for kind, names in found.items()}
 
 
 def fragility_in(given: CampaignFile | str | Path) -> FragilityTable | None:
@@ -165,7 +213,6 @@ def loss_in(given: CampaignFile | str | Path) -> LossInput | None:
 def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
     """Return what a campaign's file compares; None without ``[compare]``."""
     file = _read(given)
-    whole = _path_of(file)
     if file.compare is None:
         return None
     bearing, asked = bearing_of(file.bearing), file.compare
@@ -174,15 +221,22 @@ def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
     considered = asked.maximum_considered
     if filling and measure is not None and measure.period is not None:
         considered = filling_intensity(bearing, measure.period)
-    frame = _frame(file, whole)
+    own = asked.made().groups()
+    if file.devices:
+        firsts = asked.own or tuple(file.devices)[:1]
+        rims = "the rims of each"
+        own = {n if asked.own else rims: [n, *file.compared()] for n in firsts}
+    pairs = [(each, rims) for each in file.structures or ("",) for rims in own]
     return DeviceComparison(
-        frames=in_section("compare", lambda: _devices(frame, file)),
-        groups={"the rims of each": [next(iter(file.devices)), *file.compared()]}
-        if file.devices
-        else asked.made().groups(),
+        frames=models_in(file),
+        groups={
+            _of_structure(each, rims): [_of_structure(each, name) for name in own[rims]]
+            for each, rims in pairs
+        },
         collapse=asked.collapse(),
         considered=considered,
         filling=filling,
+        structures={_of_structure(each, rims): each for each, rims in pairs if each},
     )
 
 
@@ -193,7 +247,7 @@ def run_search(
     file = _read(given)
     whole, asked = _path_of(file), file.analysis
     motions, scales = _motions(file, whole.resolve().parent)
-    search = in_section("search", lambda: _search(file, _frame(file, whole), scales))
+    search = in_section("search", lambda: _search(file, _frames(file)[""], scales))
     return search.run(
         motions,
         store=whole.with_name(f"{whole.stem}-{STORE}") if store is None else store,

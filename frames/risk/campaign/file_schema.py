@@ -12,7 +12,7 @@ from pydantic import BeforeValidator, Field, create_model, model_validator
 from frames.design.project.derived import Table, WholeFile, table_of
 from frames.design.project.quantities import Acceleration, Length, Ratio, Time, quantity, si
 from frames.design.project.schema import MotionSource
-from frames.design.project.schema_bearing import Bearing
+from frames.design.project.schema_bearing import Bearing, completed
 from frames.design.project.schema_structure import Structure
 from frames.design.project.structure_loads import LoadsTable
 from frames.risk.campaign.comparison import (
@@ -21,9 +21,11 @@ from frames.risk.campaign.comparison import (
     SAME_PLAN,
     ComparedDevices,
     collapse_limit,
+    overlap_limit,
 )
 from frames.risk.campaign.designs import FACTOR, UNITS, names_of
 from frames.risk.campaign.devices import Device
+from frames.risk.campaign.ductility import ductility_limit
 from frames.risk.fragility.intensity import Intensity, Kind
 from frames.risk.fragility.limit_state import LimitState
 from lir_element.device.friction import VelocityFriction
@@ -72,6 +74,8 @@ class FragilityTable(MeasureTable):
     displacement: _Lengths = ()
     residual_displacement: _Lengths = ()
     floor_acceleration: _Accelerations = ()
+    ductility: _Ratios = ()
+    slip_over_overlap: _Ratios = ()
     rim_contact: bool = False
     bearing_failure: bool = False
 
@@ -89,6 +93,8 @@ class FragilityTable(MeasureTable):
             (LimitState.displacement, self.displacement),
             (LimitState.residual_displacement, self.residual_displacement),
             (LimitState.floor_acceleration, self.floor_acceleration),
+            (ductility_limit, self.ductility),
+            (overlap_limit, self.slip_over_overlap),
         ]
         found = [make(value) for make, values in made for value in values]
         found += [LimitState.rim_contact()] if self.rim_contact else []
@@ -249,14 +255,19 @@ class CompareTable(Table):
     """``[compare]``: devices beside the LIR-DCFP, strengths of their rims, collapse."""
 
     devices: tuple[str, ...] = Field(default=("DCFP", "larger DCFP"), min_length=1)
+    own: tuple[str, ...] = ()
     rims: tuple[_Strength, ...] = ()
     slider_radius: _Length | None = None
     larger: _Length | None = None
     collapse_drift: Annotated[Ratio, Field(gt=0.0)] | None = None
+    collapse_ductility: Annotated[Ratio, Field(gt=1.0)] | None = None
     maximum_considered: Annotated[Acceleration, Field(gt=0.0)] | None = None
 
     @model_validator(mode="after")
     def _of_its_device(self) -> Self:
+        if self.collapse_drift is not None and self.collapse_ductility is not None:
+            msg = "has collapse_drift and collapse_ductility: leave one out"
+            raise ValueError(msg)
         for key, device in (("slider_radius", SAME_PLAN), ("larger", LARGER)):
             if getattr(self, key) is not None and device not in self.devices:
                 msg = f'{key} is that of the "{device}", which devices does not name'
@@ -283,16 +294,18 @@ class CompareTable(Table):
 
     def collapse(self) -> LimitState:
         """Return what counts as collapse."""
-        return collapse_limit(self.collapse_drift)
+        return collapse_limit(self.collapse_drift, self.collapse_ductility)
 
 
 class CampaignFile(WholeFile):
     """A whole file."""
 
     campaign: CampaignTable
-    structure: Structure
+    structure: Structure | None = None
+    structures: dict[str, Structure] = Field(default_factory=dict)
     loads: LoadsTable | None = None
     bearing: Bearing
+    bearings: dict[str, Bearing] = Field(default_factory=dict)
     devices: dict[str, DeviceTable] = Field(default_factory=dict)
     motions: CampaignMotions
     parameters: Parameters | None = None
@@ -319,6 +332,20 @@ class CampaignFile(WholeFile):
         if self.fragility is not None and stated and self.loss.measured() != self.measured():
             msg = f"loss.{min(stated)}: [fragility] has another measure, leave it out of [loss]"
             raise ValueError(msg)
+        return self
+
+    @model_validator(mode="after")
+    def _one_structure_or_several(self) -> Self:
+        if (self.structure is None) != bool(self.structures):
+            msg = "needs [structure], or several as [structures.<name>]: one of both"
+            raise ValueError(msg)
+        if self.structures and self.search is not None:
+            msg = "[search] is of one [structure]: leave the others out"
+            raise ValueError(msg)
+        unknown = sorted(set(self.bearings) - set(self.structures))
+        if unknown:
+            msg = f"[bearings.{unknown[0]}] is of a structure that is not there: give "
+            raise ValueError(msg + f"[structures.{unknown[0]}], or leave it out")
         return self
 
     @model_validator(mode="after")
@@ -371,7 +398,12 @@ class CampaignFile(WholeFile):
     def _compared_devices_are_there(self) -> Self:
         if self.compare is None:
             return self
-        known = list(self.devices)[1:] if self.devices else list(OTHERS)
+        own = self.compare.own
+        known = list(self.devices)[0 if own else 1 :] if self.devices else list(OTHERS)
+        strange = [name for name in own if name not in self.devices]
+        if strange:
+            msg = f'compare.own: "{strange[0]}" is no device: name some of [devices]'
+            raise ValueError(msg)
         given = self.compare.model_fields_set
         wrong = [name for name in self.compare.devices if name not in known]
         if wrong and (not self.devices or "devices" in given):
@@ -387,11 +419,17 @@ class CampaignFile(WholeFile):
             raise ValueError(msg)
         return self
 
+    @model_validator(mode="before")
+    @classmethod
+    def _bearings_of_structures(cls, given: object) -> object:
+        return completed(given) if isinstance(given, dict) else given
+
     def compared(self) -> tuple[str, ...]:
         """Return the names of ``[devices]`` that its first one is compared with."""
         if self.compare is not None and "devices" in self.compare.model_fields_set:
             return self.compare.devices
-        return tuple(self.devices)[1:]
+        own = tuple(self.devices)[:1] if self.compare is None else self.compare.own
+        return tuple(name for name in self.devices if name not in (own or (*self.devices,)[:1]))
 
     @model_validator(mode="after")
     def _both_or_none(self) -> Self:

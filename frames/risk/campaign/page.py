@@ -68,6 +68,8 @@ def _fragility_table(fragility: pd.DataFrame) -> Table:
             words[column] = _with_ends(fragility, str(column), ".3g")
     words["no curve"] = fragility["no curve"]
     names = fragility["structure"] + ", " + fragility["limit state"]
+    if "record set" in fragility:
+        names += ", " + fragility["record set"] + " records"
     return page_table(words.set_index(pd.Index(names)), "structure and limit state")
 
 
@@ -97,8 +99,13 @@ def _ratio_table(ratios: pd.DataFrame) -> Table:
             ends = f"({row['low [-]']:.2f} to {row['high [-]']:.2f})"
             said = f"{said}, {row['ratio [-]']:.2f} {ends}"
         said = f"{said}; {row['less']} to {row['more']} records"
-        over = str(row["over"]).removesuffix(f", {row['rims']}")
-        rows.setdefault((row["rims"], row["limit state"]), {})[f"over {over}"] = said
+        over, where = str(row["over"]).removesuffix(f", {row['rims']}"), str(row["rims"])
+        if "structure" in row:
+            over = over.removeprefix(f"{row['structure']}, ")
+            where = f"{row['structure']}, {where}"
+        records = f", {row['record set']} records" if "record set" in row else ""
+        place = (f"{where}{records}", row["limit state"])
+        rows.setdefault(place, {})[f"over {over}"] = said
     words = pd.DataFrame(list(rows.values()))
     words.insert(0, "limit state", [limit for _, limit in rows])
     return page_table(words.set_index(pd.Index([rims for rims, _ in rows])), f"{LIR} with")
@@ -106,7 +113,8 @@ def _ratio_table(ratios: pd.DataFrame) -> Table:
 
 def _margin_table(margins: pd.DataFrame) -> Table:
     # Numbers with their intervals in one cell; without a curve why there is none.
-    words = margins[["runs", "collapsed", "bearing failed", "analysis failed"]].copy()
+    counts = ["runs", "collapsed", "bearing failed", "analysis failed"]
+    words = margins[[*(["record set"] if "record set" in margins else []), *counts]].copy()
     for name in [str(c) for c in margins.columns if str(c).startswith(("median [", "margin ["))]:
         words[name] = _with_ends(margins, name, ".2f")
     if "dispersion [-]" in margins:

@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 
 from frames.plots import plot_style as ps
 from frames.results.quantities import QUANTITIES as TABLE
+from frames.risk.campaign.ductility import DUCTILITY
 from frames.risk.fragility.intensity import Intensity, IntensityMeasure
 from frames.risk.fragility.runs import COMPLETE, FAILURE, UNBUILT, UNKNOWN, IntensityRuns
 
@@ -114,11 +115,10 @@ def _shares(panel: Axes, models: Mapping[str, IntensityRuns], outcome: str, titl
     ps.caption(panel, title=title)
 
 
-QUANTITIES = tuple(
-    TABLE[name].title
-    for name in ("displacement", "drift", "floor_plan", "base_shear", "rim_force", "slip")
-)
-"""Quantities of `frames.peaks` that the page shows, where a structure has them."""
+_NAMES = "displacement drift floor_plan base_shear rim_force slip displacement_left slip_left"
+_TITLES = [TABLE[name].title for name in _NAMES.split()]
+QUANTITIES = (*_TITLES, f"{TABLE['base_shear'].title} over weight", DUCTILITY)
+"""Quantities of runs that the page shows, where a structure has them."""
 
 FRACTILES = (0.16, 0.5, 0.84)
 

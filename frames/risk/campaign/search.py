@@ -15,6 +15,7 @@ from scipy.stats import norm, qmc
 
 from frames.risk._errors import CampaignError
 from frames.risk.campaign.campaign import Campaign
+from frames.risk.campaign.ductility import with_ductility
 from frames.risk.campaign.plot_response import runs_by_model
 from lir_element.fields import check_numbers, number
 
@@ -158,7 +159,9 @@ class MedianSearch:
                 scales=self.scales,
                 **options,
             )
-            runs = runs_by_model(campaign.run(workers=workers), motions, self.intensity)
+            data = campaign.run(workers=workers)
+            runs = runs_by_model(data, motions, self.intensity)
+            runs = with_ductility(runs, data, lambda built=names: built, [self.limit])  # type: ignore[misc]
             for point in todo:
                 exceeded = runs[_named(point)].exceeded(self.limit)
                 scale = runs[_named(point)].table["scale"].to_numpy()

@@ -10,11 +10,14 @@ import pandas as pd
 
 from frames.design.project.inputs import in_section
 from frames.risk._errors import FragilityError
+from frames.risk.campaign.ductility import with_ductility
 from frames.risk.campaign.file import (
     comparison_in,
     distributions_in,
     fragility_in,
     loss_in,
+    models_in,
+    record_sets,
     scaled_to,
 )
 from frames.risk.campaign.indices import index_table
@@ -23,19 +26,24 @@ from frames.risk.campaign.plot_response import failure_table, response_table, ru
 from frames.risk.fragility.of_runs import fragility_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     import xarray as xr
 
+    from frames.frame import Frame
     from frames.risk.campaign.campaign import Campaign
     from frames.risk.campaign.file_schema import CampaignFile
     from frames.risk.campaign.loss import ExpectedLoss
     from frames.risk.fragility.curve import Fragility
+    from frames.risk.fragility.intensity import Intensity
     from frames.risk.fragility.limit_state import LimitState
     from frames.risk.fragility.runs import IntensityRuns
 
 CONFIDENCE = 0.9
 """Of intervals [-]."""
+
+ALL_RECORDS = "all"
+"""All sets of records together."""
 
 FILES = (
     "response",
@@ -80,28 +88,61 @@ class CampaignTables:
     @cached_property
     def by_factor(self) -> dict[str, IntensityRuns]:
         """Runs by structure, over the factor on the motions."""
-        return runs_by_model(self.data, self.campaign.motions)
+        return self._over(None)
 
     @cached_property
     def runs(self) -> dict[str, IntensityRuns]:
-        """The same over the measure of the curves."""
-        if self.intensity is None:
-            return self.by_factor
-        return runs_by_model(self.data, self.campaign.motions, self.intensity)
+        """The same over the measure of the curves, with the ductility of hinges if it is asked."""
+        return self.by_factor if self.intensity is None else self._over(self.intensity)
+
+    def _over(self, intensity: Intensity | None) -> dict[str, IntensityRuns]:
+        found = runs_by_model(self.data, self.campaign.motions, intensity)
+        return with_ductility(found, self.data, lambda: self.frames, self.limits)
 
     @cached_property
-    def _fitted(self) -> tuple[dict[str, dict[str, Fragility]], pd.DataFrame]:
-        return _fitted(self.runs, self.limits)
+    def frames(self) -> Mapping[str, Frame]:
+        """The structures on their devices."""
+        return models_in(self.file) if self.comparison is None else self.comparison.frames
+
+    @cached_property
+    def sets(self) -> dict[str, tuple[str, ...]]:
+        """Names of the motions: all, and of each set of records if there are several."""
+        return {ALL_RECORDS: tuple(self.campaign.motions), **record_sets(self.file)}
+
+    def _of_set(self, records: str) -> dict[str, IntensityRuns]:
+        if records == ALL_RECORDS:
+            return self.runs
+        names = self.sets[records]
+        return {
+            name: each.those(np.isin(each.of("motion").astype(str), names))
+            for name, each in self.runs.items()
+        }
+
+    @cached_property
+    def _fitted(self) -> dict[str, tuple[dict[str, dict[str, Fragility]], pd.DataFrame]]:
+        # By set of records.
+        return {records: _fitted(self._of_set(records), self.limits) for records in self.sets}
 
     @property
     def curves(self) -> dict[str, dict[str, Fragility]]:
-        """Curves by limit state and structure."""
-        return self._fitted[0]
+        """Curves by limit state and structure, of all records."""
+        return self._fitted[ALL_RECORDS][0]
 
-    @property
+    @cached_property
     def fragility(self) -> pd.DataFrame:
         """A row a structure and limit state; "no curve" says why there is none."""
-        return self._fitted[1]
+        return self._by_set(lambda records: self._fitted[records][1])
+
+    def _by_set(self, make: Callable[[str], pd.DataFrame]) -> pd.DataFrame:
+        # Tables of each set of records below each other, with its name if there are several.
+        parts = {records: make(records) for records in self.sets}
+        if len(parts) == 1:
+            return parts[ALL_RECORDS]
+        for records, table in parts.items():
+            if len(table):
+                table.insert(0, "record set", records)
+        unnamed = parts[ALL_RECORDS].index.name is None
+        return pd.concat(parts.values(), ignore_index=unnamed)
 
     @cached_property
     def response(self) -> pd.DataFrame:
@@ -123,26 +164,43 @@ class CampaignTables:
     @cached_property
     def tests(self) -> pd.DataFrame:
         """Exact tests of the LIR-DCFP against others; empty if none are compared."""
-        if self.comparison is None:
-            return pd.DataFrame()
-        return self.comparison.tests(self.runs, self.limits)
+        return self._by_set(lambda records: self._tests[records].copy())
+
+    @cached_property
+    def _tests(self) -> dict[str, pd.DataFrame]:
+        own = self.comparison
+        if own is None:
+            return dict.fromkeys(self.sets, pd.DataFrame())
+        return {records: own.tests(self._of_set(records), self.limits) for records in self.sets}
 
     @cached_property
     def ratios(self) -> pd.DataFrame:
         """Medians of the LIR-DCFP over those of others; empty if none are compared."""
-        if self.comparison is None:
+        own = self.comparison
+        if own is None:
             return pd.DataFrame()
-        return self.comparison.ratios(self.curves, self.limits, self.tests, CONFIDENCE)
+
+        def made(records: str) -> pd.DataFrame:
+            curves = self._fitted[records][0]
+            return own.ratios(curves, self.limits, self._tests[records], CONFIDENCE)
+
+        return self._by_set(made)
 
     @cached_property
     def margins(self) -> pd.DataFrame:
         """Collapse, a row a device; empty if none are compared."""
-        if self.comparison is None:
+        own = self.comparison
+        if own is None:
             return pd.DataFrame()
-        name = self.comparison.collapse.name
-        own = self.fragility[self.fragility["limit state"] == name]
-        why = dict(zip(own["structure"], own["no curve"], strict=True))
-        return self.comparison.margins(self.runs, self.curves.get(name, {}), why, CONFIDENCE)
+        name = own.collapse.name
+
+        def made(records: str) -> pd.DataFrame:
+            curves, table = self._fitted[records]
+            rows = table[table["limit state"] == name]
+            why = dict(zip(rows["structure"], rows["no curve"], strict=True))
+            return own.margins(self._of_set(records), curves.get(name, {}), why, CONFIDENCE)
+
+        return self._by_set(made)
 
     @cached_property
     def _losses(self) -> ExpectedLoss | None:
