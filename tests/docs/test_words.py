@@ -11,7 +11,10 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 DOCS = sorted((ROOT / "docs").glob("*.md")) + sorted((ROOT / "docs/validation").glob("[!s]*.md"))
-DOCS += [ROOT / f"docs/validation/{name}.md" for name in ("shake_table", "slip", "speed_error")]
+DOCS += [
+    ROOT / f"docs/validation/{name}.md"
+    for name in ("shake_table", "slip", "speed_error", "static_test")
+]
 PAGES = ["README.md"] + [path.relative_to(ROOT).as_posix() for path in DOCS]
 """All but those of the study."""
 
