@@ -1,4 +1,4 @@
-"""docs/design_guide.md: its file is accepted, its numbers are those of arithmetic and of runs.
+"""docs/design_guide.md, design_comparison.md: the file is accepted, numbers are those of runs.
 
 Formulas by hand: ASCE 7-22 17.5 (displacement, period, damping, shear), 17.2.4.4 (restoring force),
 docs/theory.md (2.1), (2.7); none of the packages' own.
@@ -17,7 +17,10 @@ import pytest
 from lir_element import DesignWarning
 
 ROOT = Path(__file__).parents[2]
-TEXT = (ROOT / "docs" / "design_guide.md").read_text(encoding="utf-8")
+TEXT = "\n".join(
+    (ROOT / "docs" / f"design_{name}.md").read_text(encoding="utf-8")
+    for name in ("guide", "comparison")
+)
 FLAT = " ".join(TEXT.split())
 TOML = re.findall(r"```toml\n(.*?)```", TEXT, re.DOTALL)[0]
 FOUND = json.loads((ROOT / "docs/validation/worked_building.json").read_text(encoding="utf-8"))
