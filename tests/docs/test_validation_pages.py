@@ -11,6 +11,7 @@ from jinja2 import meta
 import validation
 from validation.measurements.opensees_cost import BASE, verdict
 from validation.page import CLAIMS, FOLDER, TEMPLATES, index
+from validation.study import runner, shown
 
 MEASUREMENTS = (
     "benchmark",
@@ -23,6 +24,7 @@ MEASUREMENTS = (
     "slip",
     "study",
     "study_summary",
+    "study_near_fault",
     "study_loss",
     "study_uncertainty",
     "study_rims",
@@ -89,7 +91,7 @@ def test_the_index_is_that_of_the_pages():
 @pytest.mark.parametrize("name", MEASUREMENTS)
 def test_measurements_are_in_the_index(name):
     assert f"({name}.md)" in text_of("README")
-    command = name.replace("study_", "study.")
+    command = name.replace("study_", "study[. ]")
     assert re.search(rf"python -m validation\.(measurements\.)?{command}\b", text_of(name))
 
 
@@ -174,9 +176,22 @@ def rendered():
                 yield path, path.with_name(f"{name}.md.j2"), given
 
 
+def of_parts():
+    """Template and module of every part of the study that is a campaign file."""
+    for template in sorted((PACKAGE / "study").glob("*.md.j2")):
+        part = template.name.removesuffix(".md.j2")
+        if runner.files_of(part):
+            yield template, runner.own_module(part)
+
+
 def test_templates_have_the_names_they_use():
     found = list(rendered())
-    assert {template for _, template, _ in found} == set(PACKAGE.rglob("*.md.j2"))
+    parts = dict(of_parts())
+    assert {template for _, template, _ in found} | set(parts) == set(PACKAGE.rglob("*.md.j2"))
+    given = {"own", "campaigns", "only", "figure_of", "written", *vars(shown)}
+    for template, module in parts.items():
+        used = meta.find_undeclared_variables(TEMPLATES.parse(template.read_text("utf-8")))
+        assert used <= given | set(vars(module or shown)) | set(TEMPLATES.globals), template.name
     for path, template, given in found:
         used = meta.find_undeclared_variables(TEMPLATES.parse(template.read_text("utf-8")))
         module = ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts)

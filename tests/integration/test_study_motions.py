@@ -1,113 +1,98 @@
-"""The study of motions: what is run and counted is as stated."""
+"""The parts on pulses and on motions: what is counted, by hand, and what their files say."""
 
 import math
-import warnings
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from frames import GroundMotion, time_histories
-from frames.risk import Intensity
-from lir_element.errors import AnalysisWarning
-from validation.measurements.yielding_runs import LIR
-from validation.study.buildings_runs import BUILDINGS, building
-from validation.study.motions import first_over, of_seconds
-from validation.study.motions_runs import (
-    PULSES,
-    SECONDS,
-    After,
-    Pulse,
-    followed,
-    isolated_period,
-    pulses,
-    turned,
-    velocities,
-    vertical_over_horizontal,
-    without_vertical,
-)
-from validation.study.paired import on_devices
-from validation.study.records_runs import INTENSITY
+from frames.risk.campaign.devices import device_ratios, moat_of
+from frames.risk.campaign.file import campaign_file, comparison_in, read_campaign
+from validation.study import motions, near_fault
+from validation.study.near_fault import LOOKS, PAIRS, PLAN
+
+HERE = Path(near_fault.__file__).parent
 
 
-def motion(dt, count, seed, name):
-    values = np.random.default_rng(seed).normal(size=(2, count))
-    return GroundMotion(x=values[0], y=values[1], dt=dt, name=name)
+def test_devices_of_the_map_are_alike_but_for_what_is_limited():
+    """Equal plan, or equal moat, within 1 mm; the LIR-DCFP is within the package's checks."""
+    compared = comparison_in(HERE / "near_fault.toml")
+    bearings = {
+        name: [link.bearing for link in frame.bearings.values()]
+        for name, frame in compared.frames.items()
+    }
+    plans = {name: near_fault.sizes_of(each)[0] for name, each in bearings.items()}
+    for pair, names in PAIRS.items():
+        kind, *size = pair.split()[:2]
+        if kind == "plan":
+            assert [plans[name] for name in names] == pytest.approx(
+                [float(size[0]) / 1e3] * 2, abs=2e-3
+            )
+        if kind == "moat":
+            moats = [moat_of(bearings[name]) for name in names]
+            assert moats == pytest.approx([float(size[0]) / 1e3] * 2, abs=1e-3)
+    ratios = {
+        name: max(check.ratio for check in device_ratios(frame).values())
+        for name, frame in compared.frames.items()
+        if name.startswith("LIR")
+    }
+    assert ratios.pop(near_fault.BEYOND) > 1.2
+    assert max(ratios.values()) <= 1.0
 
 
-@pytest.mark.parametrize("after", SECONDS, ids=lambda after: after.name)
-def test_a_second_shock_comes_behind_the_first(after):
-    both = {"a": motion(0.02, 40, 1, "a"), "b": motion(0.01, 60, 2, "b")}
-    for name, found in followed(both, after).items():
-        first, second = both[name], both["ab".replace(name, "") if after.other else name]
-        dt = min(first.dt, second.dt)
-        fine = [each if each.dt == dt else each.resampled(dt) for each in (first, second)]
-        assert found.dt == dt
-        assert found.n_steps == sum(each.n_steps for each in fine)
-        start = fine[0].n_steps
-        for axis in ("x", "y"):
-            got = getattr(found, axis)
-            np.testing.assert_allclose(got[:start], getattr(fine[0], axis))
-            np.testing.assert_allclose(got[start:], after.share * getattr(fine[1], axis))
+def test_a_cell_of_the_map_is_for_the_device_that_stands_or_is_lower():
+    """One row: alike, lower drift, one of each, either alone, neither; 10 % are alike."""
+    one = {"drift": [1.0, 0.8, 0.8, 1.0, 9.0, 9.0], "acceleration": [1.0, 1.05, 1.2, 1.0, 1.0, 1.0]}
+    other = {"drift": [1.09, 1.0, 1.0, 9.0, 1.0, 9.0], "acceleration": [1.0] * 6}
+    lost = {"one": [0, 0, 0, 0, 1, 1], "other": [0, 0, 0, 1, 0, 1]}
+    devices = {
+        name: {key: [row] for key, row in given.items()}
+        | {"lost": [lost[which]], "failed": [[0] * 6]}
+        for name, given, which in zip(PAIRS[PLAN], (one, other), lost, strict=True)
+    }
+    own = {"devices": devices, "velocities": [1.0]}
+    found = near_fault.verdicts(own, PLAN)[0]
+    words = [LOOKS[int(kind)][3] for kind in found]
+    assert words == [
+        "both stand, alike",
+        "both stand, LIR-DCFP better",
+        "both stand, one better in each",
+        "LIR-DCFP alone stands",
+        "DCFP alone stands",
+        "neither stands",
+    ]
+    counted = near_fault.counts(own, PLAN)
+    assert sum(counted.values()) == 6
+    assert near_fault.both(counted) == 3
+    assert near_fault.frontier(own, PAIRS[PLAN][0]) == [math.inf] * 6
 
 
-def test_a_building_does_not_know_a_quarter_turn():
-    """Why angles of 90, 120 and 150 degrees are not run: peaks are those of 0, 30 and 60."""
-    pulse = Pulse(0.65, "antisymmetric").motion()
-    pair = GroundMotion(x=pulse.x, y=0.4 * np.roll(pulse.x, 40), dt=pulse.dt, name="pair")
-    frame = on_devices(building(BUILDINGS[0]))[LIR]
-    motions = {str(angle): turned({"": pair}, angle)[""] for angle in (20, 110)}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AnalysisWarning)
-        data = time_histories(frame, motions, dt=0.01)
-    assert data["status"].to_numpy().tolist() == ["ok", "ok"]
-    for quantity in ("bearing displacement", "interface slip", "storey drift, mean"):
-        one, other = data["peak"].sel(quantity=quantity).to_numpy()
-        assert one > 0.0
-        assert other == pytest.approx(one, rel=1e-6), quantity
-    assert INTENSITY.of(motions["20"]) == pytest.approx(INTENSITY.of(pair), rel=1e-3)
-
-
-def test_pulses_are_of_their_period_and_intensity():
-    along = Intensity(kind="Sa", period=3.0, measure="x")
-    assert isolated_period() == pytest.approx(2.0 * math.pi * math.sqrt(2.25 / 9.80665))
-    for name, scaled in pulses().items():
-        assert along.of(scaled) == pytest.approx(1.0)
-        velocity = np.abs(np.cumsum(scaled.x) * scaled.dt).max()
-        each = next(pulse for pulse in PULSES if pulse.name == name)
-        assert scaled.duration == pytest.approx(
-            2.0 * each.ratio * isolated_period() + 6.0, abs=0.03
-        )
-        amplitude = velocities()[name]
-        if each.kind == "symmetric":  # its velocity is largest in the middle of the envelope
-            assert velocity == pytest.approx(amplitude, rel=0.01)
-        else:
-            assert 0.6 * amplitude < velocity < amplitude
-
-
-def test_the_vertical_component_alone_is_taken_off():
-    x = np.sin(np.linspace(0.0, 9.0, 90))
-    whole = GroundMotion(x=x, y=4.0 * x, z=3.0 * x, dt=0.01, name="a")
-    assert vertical_over_horizontal(whole) == pytest.approx(1.5)
-    flat = without_vertical({"a": whole})["a"]
-    np.testing.assert_array_equal(flat.x, whole.x)
-    assert np.abs(flat.z).max() == 0.0
-
-
-def test_where_collapse_begins():
-    im = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
-    over = np.array([0.0, np.nan, 1.0, 0.0, 1.0])
-    found = first_over(im, over, ["ok", "?", "slip_exceeded", "ok", "ok"])
-    assert found == {"low": 1.0, "high": 3.0, "status": "slip_exceeded", "again": 1}
-    assert first_over(im, np.zeros(5), ["ok"] * 5)["high"] is None
+def test_records_are_turned_and_followed():
+    """Names of the files' motions are those that the numbers look for."""
+    names = [*read_campaign(HERE / "motions-turned.toml").motions]
+    runs = SimpleNamespace(table=pd.DataFrame({"motion": names}), those=np.flatnonzero)
+    parts = [motions.at_angle(runs, angle) for angle in motions.ANGLES]
+    assert [len(part) for part in parts] == [22, 22, 22]
+    assert np.unique(np.concatenate(parts)).size == 66
+    names = [*read_campaign(HERE / "motions-same.toml").motions]
+    assert len(names) == 4 * 22
+    assert sum(", then " in name for name in names) == 3 * 22
+    file = campaign_file(HERE / "motions-vertical.toml")
+    assert file.motions.vertical == ("with", "without")
 
 
 def runs_of(rows):
-    columns = ("motion", "scale", "outcome", "ductility", "slip")
+    columns = ("motion", "scale", "outcome", "ductility", "residual interface slip")
     table = pd.DataFrame(rows, columns=columns)
-    table["residual interface slip"] = table["slip"]
-    table["residual bearing displacement"] = 2.0 * table["slip"]
-    return table
+    over = (table["outcome"] == "bearing failure") | (table["ductility"] > 9.0)
+    over = over.astype(float).where(table["outcome"] != "numerical failure")
+    tables = SimpleNamespace(
+        runs={"LIR-DCFP": SimpleNamespace(table=table, exceeded=lambda limit: over.to_numpy())},
+        comparison=SimpleNamespace(collapse=None),
+    )
+    return tables
 
 
 def test_only_survivors_of_the_first_shock_count():
@@ -118,14 +103,9 @@ def test_only_survivors_of_the_first_shock_count():
          ("d", 2.0, ok, 1.0, 0.03)]
     )  # fmt: skip
     both = runs_of(
-        [("a", 2.0, fails, 1.0, 0.0), ("b", 2.0, ok, 9.5, 0.05), ("c", 2.0, ok, 2.0, 0.06),
-         ("d", 2.0, unknown, 1.0, 0.0)]
+        [("a, then 1 b", 2.0, fails, 1.0, 0.0), ("b, then 1 c", 2.0, ok, 9.5, 0.05),
+         ("c, then 1 d", 2.0, ok, 2.0, 0.06), ("d, then 1 a", 2.0, unknown, 1.0, 0.0)]
     )  # fmt: skip
-    (row,) = of_seconds({LIR: alone}, {"next": {LIR: both}}, {"next": After(True, 1.0)})["next"][
-        LIR
-    ]
-    assert (row["motions"], row["survived"], row["known"], row["collapsed"]) == (4, 3, 2, 1)
-    assert row["bearing"] == 0
-    assert row["intact"] == [0, 2]  # of b and c the next records, c and d, are survived alone
-    assert row["residual interface slip"] == pytest.approx([0.015, 0.055])
-    assert row["residual bearing displacement"] == pytest.approx([0.03, 0.11])
+    (row,) = motions.second_shock(alone, both, "LIR-DCFP", "next", 1.0)
+    assert (row["survived"], row["collapsed"], row["bearing"], row["intact"]) == (2, 1, 0, 0)
+    assert row["slip"] == pytest.approx([15.0, 55.0])

@@ -7,11 +7,10 @@ import pytest
 from validation.page import FOLDER
 from validation.study import __main__ as whole
 from validation.study import (
-    after,
     device,
     device_page,
     loss,
-    motions_page,
+    runner,
     uncertainty_page,
 )
 from validation.study.records_runs import considered
@@ -19,10 +18,9 @@ from validation.study.rounded import csv_of
 from validation.study.summary import LIMITS, NAME, READ, comparisons, page, parts_of
 
 PAGES = {
-    "study_after": after.page,
     "study_device": device_page.page,
     "study_loss": loss.page,
-    "study_motions": motions_page.page,
+    "study_near_fault": lambda numbers: runner.page("near_fault", numbers),
     "study_uncertainty": uncertainty_page.page,
 }
 
@@ -45,13 +43,12 @@ def test_a_page_is_that_of_its_numbers(name):
 def test_tables_are_those_of_the_numbers():
     given, rows = stored(device_page.NAME), f"{device_page.NAME}-devices.csv"
     tables = {rows: csv_of(device.table_rows(given))}
-    tables |= motions_page.csv_tables(stored(motions_page.NAME))
     assert {name: text_of(f"tables/{name}") for name in tables} == tables
 
 
 def test_the_page_is_that_of_the_numbers_of_the_parts():
     assert text_of(f"{NAME}.md") == page(parts_of())
-    assert set(READ) | {"records", "summary"} == set(whole.PARTS)
+    assert set(READ) | {"near_fault", "records", "summary"} == set(whole.PARTS)
 
 
 def test_parts_agree_where_they_have_the_same_devices():

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 PARTS = (
+    "near_fault",
     "records",
     "rims",
     "device",

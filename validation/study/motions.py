@@ -1,325 +1,190 @@
-"""Records turned, with a vertical component, one after another, and pulses: writes study_motions.md.
-
-    python -m validation.study.motions --store motion-runs
-
-The campaigns can be stopped; the same command goes on with their stores. Needs the extras
-"campaign", "fema", "fragility" and "demo", and for the vertical component the folder LIR_RECORDS
-with records of three components.
-"""
+"""Numbers and the figure of motions that are turned, repeated, with and without the vertical part."""
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames.design import MotionSet
+from frames.plots import plot_style as ps
+from frames.risk import FragilityError, compare_fragility, fragility_of
 from frames.risk.fragility.runs import COMPLETE, FAILURE, UNKNOWN
-from validation.measurements.yielding_runs import LIR
-from validation.study.buildings_runs import BUILDINGS, SCALES, building, yield_rotations
-from validation.study.device_runs import best_devices
-from validation.study.motions_figures import figures
-from validation.study.motions_page import NAME, csv_tables, page
-from validation.study.motions_runs import (
-    ANGLE_SCALES,
-    ANGLES,
-    MAIN_SCALES,
-    PULSE_SCALES,
-    PULSES,
-    SECONDS,
-    TRIED,
-    VERTICAL_SCALES,
-    After,
-    followed,
-    pulses,
-    three_components,
-    turned,
-    velocities,
-    vertical_over_horizontal,
-    without_vertical,
-)
-from validation.study.paired import (
-    LIMITS,
-    WEAK,
-    at_scales,
-    curve_of,
-    joined,
-    median_of,
-    on_devices,
-    performed_each,
-    ratio_of,
-    shares_of,
-    table_of,
-    told_of,
-)
-from validation.study.part import run_part, write_part
-from validation.study.records_runs import COLLAPSE, considered, normalised
-from validation.study.rounded import rounded
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from frames import GroundMotion
-    from frames.risk import IntensityRuns
-
-    Found = Mapping[str, Any]
-    from collections.abc import Mapping
-
     import pandas as pd
+    from matplotlib.figure import Figure
 
-BASE = BUILDINGS[0]
-RECORDS = "far-field"
+    Own = Mapping[str, Any]
 
+LIR, PLAIN = DEVICES = ("LIR-DCFP", "DCFP")
+ANGLES = 0, 30, 60
+"""By which records are turned [degrees]: the building is its own image after a quarter turn."""
 
-class Runner:
-    """Runs campaigns of the building of three storeys in folders of one store."""
+SECONDS = ("same", 0.5), ("same", 0.8), ("same", 1.0), ("next", 1.0)
+"""Second shocks: the same record or the next of the set, and the factor on it."""
 
-    def __init__(self, store: Path, workers: int) -> None:
-        self._store, self._workers = store, workers
-        self._frames = on_devices(building(BASE))
-        self._yields = yield_rotations(BASE)
-        self.costs: list[dict[str, Any]] = []
+WHOLE = {1.0}
+"""Factors of second shocks that intact buildings meet as their first one, too."""
 
-    def runs(
-        self, name: str, motions: Mapping[str, GroundMotion], scales: Sequence[float]
-    ) -> dict[str, IntensityRuns]:
-        """Return the runs of a campaign by device."""
-        frames = {self._frames[device].name: self._frames[device] for device in TRIED}
-        data, cost = performed_each(frames, motions, self._store / name, scales, self._workers)
-        self.costs.append(cost)
-        return {
-            key.removeprefix(f"{BASE.name}, "): table_of(each, motions, self._yields)
-            for key, each in data.items()
-        }
+PEAKS = {
+    "axial force": 1e-3,
+    "minimum axial force": 1e-3,
+    "maximum uplift": 1e3,
+    "bearing displacement": 1e3,
+    "interface slip": 1e3,
+}
+"""Peaks that a vertical component may change, and factors to kN and mm."""
 
 
-RESAMPLES = 200
-
-
-def found_of(runner: Runner, folder: Path) -> dict[str, Any]:
-    """Run what is not done, and return what the page says of it."""
-    motions = normalised(MotionSet.fema_p695(RECORDS))
-    base = runner.runs("base", motions, SCALES)
-    angles = {0: {name: at_scales(runs, ANGLE_SCALES) for name, runs in base.items()}} | {
-        angle: runner.runs(f"angle-{angle}", turned(motions, angle), ANGLE_SCALES)
-        for angle in ANGLES[1:]
-    }
-    after = {
-        each.name: {
-            name: runs.table
-            for name, runs in runner.runs(
-                f"after-{k}", followed(motions, each), MAIN_SCALES
-            ).items()
-        }
-        for k, each in enumerate(SECONDS)
-    }
-    impulses = runner.runs("pulses", pulses(), PULSE_SCALES)
-    whole = three_components(folder)
-    flat = without_vertical(whole)
-    vertical = of_vertical(
-        runner.runs("vertical-without", flat, VERTICAL_SCALES),
-        runner.runs("vertical-with", whole, VERTICAL_SCALES),
-        RESAMPLES,
-    )
+def numbers(every: Mapping[str, Any]) -> dict[str, Any]:
+    """Return by angle, second shock and vertical component how many runs collapse."""
     return {
-        "records": len(motions),
-        "lir": told_of(best_devices()[LIR]),
-        "considered": considered(),
-        "angles": of_angles(angles, RESAMPLES),
-        "seconds": of_seconds(
-            {name: runs.table for name, runs in base.items()},
-            after,
-            {each.name: each for each in SECONDS},
-        ),
-        "vertical": vertical,
-        "three": {
-            name: [motion.peak["z"], vertical_over_horizontal(motion)]
-            for name, motion in whole.items()
+        "turned": _turned(every["turned"]),
+        "seconds": {
+            f"{factor:g} of the {following} record": {
+                name: second_shock(every["same"], every[following], name, following, factor)
+                for name in DEVICES
+            }
+            for following, factor in SECONDS
         },
-        "pulses": of_pulses(impulses),
-        "velocities": velocities(),
-        "cost": joined(runner.costs),
+        "vertical": _vertical(every["vertical"]),
     }
 
 
-def write(found: Found) -> None:
-    """Write the page, its figures, its tables and the numbers."""
-    write_part(NAME, page(found), figures(found), found, csv_tables(found))
+def counted(over: Any) -> list[int]:
+    """Return how many runs exceed a limit, and of how many that is known."""
+    return [int(np.nansum(over)), int(np.isfinite(over).sum())]
 
 
-def run(store: Path, workers: int | str) -> dict[str, Any]:
-    """Run what is not done; records of three components are where LIR_RECORDS says."""
-    records = os.environ.get("LIR_RECORDS")
-    if not records:
-        msg = "LIR_RECORDS names no folder: set it to one with records of three components"
-        raise SystemExit(msg)
-    found: dict[str, Any] = rounded(found_of(Runner(store, workers), Path(records)))
-    return found
-
-
-def main(given: Sequence[str] | None = None) -> None:
-    """Run the campaigns, and write the page."""
-    run_part("motions", given, run, write)
-
-
-def of_angles(runs: Mapping[int, Mapping[str, IntensityRuns]], resamples: int) -> dict[str, Any]:
-    """Return medians by angle and device, ratios, and how often an angle decides."""
-    found: dict[str, Any] = {"limits": {}, "differ": {}}
-    for limit in LIMITS:
-        own: dict[str, Any] = {}
-        for angle, each in runs.items():
-            curves = {name: curve_of(table, limit, resamples) for name, table in each.items()}
-            own[str(angle)] = {
-                "medians": {name: median_of(curve) for name, curve in curves.items()},
-                "ratio": ratio_of(curves[LIR], curves[WEAK]),
-                "shares": {name: shares_of(table, limit) for name, table in each.items()},
+def _turned(tables: Any) -> dict[str, Any]:
+    # By limit state and angle: counts and the ratio of medians; how often the angle decides.
+    found: dict[str, Any] = {}
+    for limit in tables.limits:
+        rows = found[limit.name] = {}
+        for angle in ANGLES:
+            own = {name: at_angle(tables.runs[name], angle) for name in DEVICES}
+            rows[f"{angle}"] = {
+                "counts": [counted(own[name].exceeded(limit)) for name in DEVICES],
+                "ratio": _ratio([own[name] for name in DEVICES], limit),
             }
-        found["limits"][limit.name] = own
-    for name in next(iter(runs.values())):
-        over = np.array([each[name].exceeded(COLLAPSE) for each in runs.values()])
+    differ = {}
+    for name in DEVICES:
+        over = np.array(
+            [
+                at_angle(tables.runs[name], angle).exceeded(tables.comparison.collapse)
+                for angle in ANGLES
+            ]
+        )
         known = np.isfinite(over).all(axis=0)
         some = over[:, known].max(axis=0) > over[:, known].min(axis=0)
-        found["differ"][name] = [int(some.sum()), int(known.sum())]
-    return found
+        differ[name] = [int(some.sum()), int(known.sum())]
+    return {"limits": found, "differ": differ}
 
 
-def of_seconds(
-    alone: Mapping[str, pd.DataFrame],
-    after: Mapping[str, Mapping[str, pd.DataFrame]],
-    kinds: Mapping[str, After],
-) -> dict[str, Any]:
-    """Return what second shocks do to buildings that survived the first."""
-    return {
-        second: {name: _second(alone[name], table, kinds[second]) for name, table in own.items()}
-        for second, own in after.items()
-    }
+def at_angle(runs: Any, angle: int) -> Any:
+    """Return runs under records at an angle [degrees], in the order of the records."""
+    motions = runs.table["motion"].astype(str)
+    turned = motions.str.endswith(" degrees")
+    return runs.those((motions.str.endswith(f", {angle} degrees") if angle else ~turned).to_numpy())
 
 
-def _second(alone: pd.DataFrame, both: pd.DataFrame, after: After) -> list[dict[str, Any]]:
-    keys = ["motion", "scale"]
-    first = alone.set_index(keys)
+def _ratio(pair: Sequence[Any], limit: Any) -> list[float] | None:
+    # Median of the LIR-DCFP over that of the DCFP with its interval of 90 %.
+    try:
+        own, other = (fragility_of(runs, limit) for runs in pair)
+        row = compare_fragility(other, own).to_dataframe(confidence=0.9)
+    except FragilityError:
+        return None
+    return [float(row.loc["median, ratio [-]", key]) for key in ("value", "low", "high")]
+
+
+def second_shock(
+    same: Any, both: Any, name: str, following: str, factor: float
+) -> list[dict[str, Any]]:
+    """Return what a second shock does to survivors of the first, by intensity of the first."""
+    collapse = same.comparison.collapse
+    alone, after = (_table(each.runs[name], collapse) for each in (same, both))
+    alone = alone[~alone["motion"].str.contains(", then ")]
     names = list(dict.fromkeys(alone["motion"]))
-    following = dict(zip(names, names[1:] + names[:1] if after.other else names, strict=True))
+    others = dict(zip(names, names if following == "same" else names[1:] + names[:1], strict=True))
     rows = []
-    for scale, own in both.groupby("scale"):
-        row: dict[str, Any] = {"scale": float(scale)}
-        at = own.set_index("motion")
-        before = first.loc[[(name, scale) for name in at.index]].droplevel("scale")
-        survived = (before["outcome"] == COMPLETE) & ~collapsed(before)
-        known = survived & (at["outcome"] != UNKNOWN)
-        fallen = known & collapsed(at)
-        next_ones = first.loc[[(following[name], scale) for name in at.index]]
-        intact = next_ones["outcome"].to_numpy() != UNKNOWN
-        row["motions"] = len(at)
-        row["survived"] = int(survived.sum())
-        row["known"] = int(known.sum())
-        row["collapsed"] = int(fallen.sum())
-        row["bearing"] = int((known & (at["outcome"] == FAILURE)).sum())
-        alone_falls = known.to_numpy() & intact & collapsed(next_ones).to_numpy()
-        row["intact"] = [int(alone_falls.sum()), int((known.to_numpy() & intact).sum())]
-        held = known & (at["outcome"] == COMPLETE)
-        for key in ("residual interface slip", "residual bearing displacement"):
-            row[key] = [_median(before[key][held]), _median(at[key][held])]
-        rows.append(row)
+    for scale, first in alone.groupby("scale"):
+        one = first.set_index("motion")
+        second = after[np.isclose(after["scale"], scale)].set_index("motion")
+        two = second.loc[[f"{n}, then {factor:g} {others[n]}" for n in names]].set_axis(names)
+        known = (one["outcome"] == COMPLETE) & ~one["over"] & (two["outcome"] != UNKNOWN)
+        intact = one.loc[[others[n] for n in names]].set_axis(names)
+        held = known & (two["outcome"] == COMPLETE)
+        rows.append(
+            {
+                "scale": float(scale),
+                "survived": int(known.sum()),
+                "collapsed": int((known & two["over"]).sum()),
+                "bearing": int((known & (two["outcome"] == FAILURE)).sum()),
+                "intact": int((known & intact["over"]).sum()) if factor in WHOLE else None,
+                "slip": [_median(each["residual interface slip"][held]) for each in (one, two)],
+            }
+        )
     return rows
 
 
-def collapsed(table: pd.DataFrame) -> pd.Series:
-    """Return whether runs collapse: a bearing failed, or the ductility of collapse is exceeded."""
-    assert COLLAPSE.limit is not None
-    return (table["outcome"] == FAILURE) | (table["ductility"] > COLLAPSE.limit)
+def _table(runs: Any, collapse: Any) -> pd.DataFrame:
+    table = runs.table
+    return table.assign(motion=table["motion"].astype(str), over=runs.exceeded(collapse) > 0.0)
 
 
 def _median(values: pd.Series) -> float | None:
-    return float(values.median()) if len(values) else None
+    return 1e3 * float(values.median()) if len(values) else None
 
 
-VERTICAL_SHOWN = (
-    "axial force",
-    "minimum axial force",
-    "maximum uplift",
-    "floor acceleration, vertical, mean",
-    "bearing displacement",
-    "interface slip",
-)
-
-
-def of_vertical(
-    flat: Mapping[str, IntensityRuns], whole: Mapping[str, IntensityRuns], resamples: int
-) -> dict[str, Any]:
-    """Return what the vertical component changes, by device."""
+def _vertical(tables: Any) -> dict[str, Any]:
+    # Collapse with and without the component, runs that differ, medians of peaks.
     found: dict[str, Any] = {}
-    for name, before in flat.items():
-        after = whole[name]
-        curves = [curve_of(each, COLLAPSE, resamples) for each in (before, after)]
-        over = np.array([each.exceeded(COLLAPSE) for each in (before, after)])
-        both = (before.table["outcome"] == COMPLETE) & (after.table["outcome"] == COMPLETE)
-        at = before.table["im"]
+    for name in DEVICES:
+        table = _table(tables.runs[name], tables.comparison.collapse)
+        flat = table["motion"].str.endswith(", horizontal")
+        key = table["motion"].str.removesuffix(", horizontal")
+        index = [key.to_numpy(), table["scale"].round(9).to_numpy()]
+        whole, plain = (table.set_index(index)[mask.to_numpy()] for mask in (~flat, flat))
+        plain = plain.loc[whole.index]
+        both = (whole["outcome"] == COMPLETE) & (plain["outcome"] == COMPLETE)
         found[name] = {
-            "medians": [median_of(curve) for curve in curves],
-            "ratio": ratio_of(curves[1], curves[0]),
-            "shares": [shares_of(each, COLLAPSE) for each in (before, after)],
-            "turned": [int((one < other).sum()) for one, other in (over, over[::-1])],
+            "collapsed": [int(each["over"].sum()) for each in (plain, whole)],
+            "runs": len(whole),
+            "turned": [
+                int((whole["over"] & ~plain["over"]).sum()),
+                int((plain["over"] & ~whole["over"]).sum()),
+            ],
             "peaks": {
-                quantity: [
-                    [
-                        float(level),
-                        int((both & (at == level)).sum()),
-                        *(
-                            _median(each.table[quantity][both & (at == level)])
-                            for each in (before, after)
-                        ),
-                    ]
-                    for level in sorted(set(at))
-                ]
-                for quantity in VERTICAL_SHOWN
+                quantity: [factor * float(each[quantity][both].median()) for each in (plain, whole)]
+                for quantity, factor in PEAKS.items()
             },
         }
-    curves_of = {
-        kind: {name: curve_of(each, COLLAPSE, resamples) for name, each in runs.items()}
-        for kind, runs in (("flat", flat), ("whole", whole))
-    }
-    return {
-        "devices": found,
-        "ratios": {kind: ratio_of(c[LIR], c[WEAK]) for kind, c in curves_of.items()},
-    }
-
-
-def of_pulses(runs: Mapping[str, IntensityRuns]) -> dict[str, Any]:
-    """Return by device and pulse the intensity of collapse, and where the bearing failed first."""
-    found: dict[str, Any] = {}
-    for name, each in runs.items():
-        table = each.table.assign(over=each.exceeded(COLLAPSE))
-        rows = {}
-        for pulse in PULSES:
-            own = table[table["motion"] == pulse.name].sort_values("im")
-            rows[pulse.name] = first_over(
-                own["im"].to_numpy(), own["over"].to_numpy(), own["status"].to_numpy()
-            )
-        found[name] = rows
     return found
 
 
-def first_over(im: Any, over: Any, status: Sequence[str]) -> dict[str, Any]:
-    """Return between which intensities collapse begins, how, and whether it goes on above.
-
-    Shapes: im, over, status (n,).
-    """
-    known = np.isfinite(over)
-    places = np.flatnonzero(known & (np.asarray(over) > 0.5))
-    if not len(places):
-        return {"low": float(np.asarray(im)[known].max()), "high": None, "status": "", "again": 0}
-    first = int(places[0])
-    before = np.flatnonzero(known[:first])
-    return {
-        "low": float(im[before[-1]]) if len(before) else None,
-        "high": float(im[first]),
-        "status": str(status[first]),
-        "again": int((np.asarray(over)[first:] < 0.5).sum()),
-    }
+def totals(own: Own, second: str, device: str) -> tuple[int, int]:
+    """Return survivors of a first shock that collapse in a second, and all survivors."""
+    rows = own["seconds"][second][device]
+    return sum(row["collapsed"] for row in rows), sum(row["survived"] for row in rows)
 
 
-if __name__ == "__main__":
-    main()
+def figures(campaigns: object, own: Own) -> dict[str, Figure]:
+    """Return the share of survivors of a first shock that collapse in the second."""
+    del campaigns
+    figure = ps.new_figure(2.9)
+    ((panel,),) = ps.grid_of(figure, 1, 1)
+    seconds = list(own["seconds"])
+    for k, (name, shade) in enumerate(zip(DEVICES, ("#1a1a1a", "#bbbbbb"), strict=True)):
+        pairs = [totals(own, second, name) for second in seconds]
+        at = np.arange(len(seconds)) + 0.38 * (k - 0.5)
+        share = [100.0 * part / whole if whole else 0.0 for part, whole in pairs]
+        bars = panel.bar(at, share, 0.36, color=shade, edgecolor="black", label=name)
+        panel.bar_label(bars, [f"{a} of {b}" for a, b in pairs], fontsize=ps.SMALL)
+    panel.set_xticks(range(len(seconds)), seconds)
+    panel.margins(y=0.15)
+    ps.caption(panel, y="collapse in the second [%]")
+    ps.add_legend(figure, panel.get_legend_handles_labels()[0], columns=2)
+    return {"seconds": figure}

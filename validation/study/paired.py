@@ -140,12 +140,6 @@ def table_of(
     return IntensityRuns(table, FACTOR, {**found.units, "ductility": "1"})
 
 
-def at_scales(runs: IntensityRuns, scales: Sequence[float]) -> IntensityRuns:
-    """Return the runs at some of the factors."""
-    table = runs.table[runs.table["scale"].isin(scales)].reset_index(drop=True)
-    return IntensityRuns(table, runs.intensity, runs.units)
-
-
 def curve_of(runs: IntensityRuns, limit: LimitState, resamples: int) -> Curve | str:
     """Return the fragility of a building against a limit state, or why there is none."""
     try:

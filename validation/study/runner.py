@@ -42,6 +42,8 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 INFINITE = "inf"
+PULSES = "periods", "period_ratios", "velocities", "shapes"
+"""Of pulses: what a trial has few of."""
 
 
 class Work(NamedTuple):
@@ -144,15 +146,27 @@ def own_module(part: str) -> Any:
 def tried(file: CampaignFile, few: int) -> CampaignFile:
     """Return a campaign's file with few records and few of its intensities, for a trial."""
     given, bearing = file.motions, bearing_of(file.bearing)
+    if given.pulses is not None:
+        pulses = given.pulses.model_copy(
+            update={name: _few(getattr(given.pulses, name), few) for name in PULSES}
+        )
+        return file.model_copy(update={"motions": given.model_copy(update={"pulses": pulses})})
     folder = (file.source_path or Path()).parent
     sets = [given.model_copy(update={"fema_p695": (name,)}) for name in given.fema_p695] or [given]
     read = [motions_of(each, folder, lambda: sliding_period(bearing)) for each in sets]
     key = "intensities" if given.intensities else "scales"
     values = getattr(given, key)
-    chosen = sorted({values[k * (len(values) - 1) // max(few - 1, 1)] for k in range(few)})
     names = tuple(name for each in read for name in list(each)[:few])
-    less = given.model_copy(update={"only": names, key: tuple(chosen)})
+    less = given.model_copy(update={"only": names, key: _few(values, few)})
     return file.model_copy(update={"motions": less})
+
+
+def _few(values: tuple[Any, ...], few: int) -> tuple[Any, ...]:
+    # So many of them, the first and the last among them.
+    if not values:
+        return ()
+    last = len(values) - 1
+    return tuple(values[k] for k in sorted({k * last // max(few - 1, 1) for k in range(few)}))
 
 
 def _told(tables: CampaignTables, cost: Mapping[str, Any]) -> Told:

@@ -55,7 +55,13 @@ def at_two_steps(
         for dt in (step, 0.5 * step):
             with quietly():
                 frame = tables.frames[model]
-                data = time_histories({model: frame}, {name: motion}, scales=[scale], dt=dt)
+                data = time_histories(
+                    {model: frame},
+                    {name: motion},
+                    scales=[scale],
+                    dt=dt,
+                    level=tables.file.analysis.level,
+                )
             peaks = data["peak"].isel(run=0).to_series().to_dict()
             peaks[DUCTILITY] = float(ductility(data, frame)[0])
             values = {q: float(peaks[q]) if isfinite(peaks[q]) else None for q in SHOWN}
