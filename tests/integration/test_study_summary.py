@@ -7,18 +7,14 @@ import pytest
 from validation.page import FOLDER
 from validation.study import __main__ as whole
 from validation.study import (
-    device,
-    device_page,
     loss,
     runner,
     uncertainty_page,
 )
 from validation.study.records_runs import considered
-from validation.study.rounded import csv_of
 from validation.study.summary import LIMITS, NAME, READ, comparisons, page, parts_of
 
 PAGES = {
-    "study_device": device_page.page,
     "study_loss": loss.page,
     "study_near_fault": lambda numbers: runner.page("near_fault", numbers),
     "study_uncertainty": uncertainty_page.page,
@@ -38,12 +34,6 @@ def test_a_page_is_that_of_its_numbers(name):
     numbers = stored(name)
     assert text_of(f"{name}.md") == PAGES[name](numbers)
     assert numbers.get("considered", considered()) == pytest.approx(considered(), rel=1e-4)
-
-
-def test_tables_are_those_of_the_numbers():
-    given, rows = stored(device_page.NAME), f"{device_page.NAME}-devices.csv"
-    tables = {rows: csv_of(device.table_rows(given))}
-    assert {name: text_of(f"tables/{name}") for name in tables} == tables
 
 
 def test_the_page_is_that_of_the_numbers_of_the_parts():

@@ -1,275 +1,350 @@
-"""The best LIR-DCFP of a plan beside DCFPs, by plan and by cost: writes study_device.md.
-
-    python -m validation.study.device --store device-runs
-
-Several campaigns, each of which can be stopped; the same command goes on with its store. Needs the
-extras "campaign", "fema" and "fragility".
-"""
+"""Devices of equal plan, moat and cost: what they cost, who is ahead, and the figures of the page."""
 
 from __future__ import annotations
 
-import datetime
-import os
-import platform
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from matplotlib.lines import Line2D
 
-from frames.design import MotionSet
-from frames.risk.fragility.fitting import RESAMPLES
-from validation.measurements.benchmark import processor
-from validation.measurements.yielding_runs import LIR, WIDE
-from validation.study import device_search
-from validation.study.device_figures import figures
-from validation.study.device_numbers import (
-    device_numbers,
-    eccentricity_of,
-    free_of,
-    pair_of,
-)
-from validation.study.device_page import NAME, page
-from validation.study.device_runs import (
-    COMPARED,
-    HALF_STRIPES,
-    OTHERS,
-    REFERENCE,
-    STRIPES,
-    Device,
-    campaign_of,
-    free_campaign,
-    half_campaign,
-    own_bearings,
-    plain_devices,
-    plan_of,
-    soft_device,
-    varied_devices,
-)
-from validation.study.part import performed, run_part, write_part
-from validation.study.records_runs import COLLAPSE, considered, normalised, runs_of
-from validation.study.rounded import csv_of, rounded
+from frames.plots import plot_style as ps
+from frames.risk import Device, LimitState, compare_fragility, paired_tests
+from frames.risk.campaign.comparison import COLLAPSE, dish_diameter
+from frames.risk.campaign.devices import highest_ratio, moat_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
-    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-    from frames import GroundMotion
-    from frames.risk import Campaign, IntensityRuns
-    from validation.study.device_numbers import Curve
+    from frames.frame import Frame
+    from frames.risk.campaign.tables import CampaignTables
+    from lir_element import LIRBearing
 
-    Found = Mapping[str, Any]
+    Own = Mapping[str, Any]
 
-RECORDS = "far-field"
-DIGITS = 6
+CONFIDENCE = 0.9
+LEVELS = ("contact", "pendulum")
+PLANS = ("569 mm", "689 mm", "869 mm", "1009 mm")
+REFERENCE = "689 mm"
+RIMS = ("rims of 1 W", "unbreakable rims", "rims of 0.5 W")
+LIR = f"LIR-DCFP {REFERENCE}"
+TERMS = {"plan": PLANS, "moat": ("of moat 517 mm",), "cost": ("of cost as 689 mm",)}
+"""What is equal, and how the file calls the DCFPs."""
 
+LIMITS = ("storey drift 2 %", "ductility 4", "floor acceleration 1 g", COLLAPSE)
+"""Limit states of the tables."""
 
-class Performed:
-    """Campaigns of the study, run or gone on with, and what they cost."""
+PARTS = ("plates", "rims", "sliders", "liners", "overlays", "each")
+"""Of a bearing's cost."""
 
-    def __init__(self, motions: Mapping[str, GroundMotion], workers: int | str) -> None:
-        self.motions = motions
-        self.workers = workers
-        self.costs: list[dict[str, Any]] = []
+DENSITY = 7850.0
+"""Of steel [kg/m3]."""
 
-    def results(self, what: str, campaign: Campaign) -> xr.Dataset:
-        """Return the results of a campaign, which is run where it is not done."""
-        cost = performed(campaign, self.workers)
-        data = campaign.results()
-        seconds = float(data["seconds_loop"].sum())
-        self.costs.append(
-            {"what": what, "runs": cost["runs"], "seconds": seconds, "digest": cost["digest"]}
-        )
-        return data
+YIELD_STRESS = 345e6
+"""Of the rims' steel [Pa]; in shear 0.6 of it."""
 
+UNBROKEN = 4.0
+"""Strength over the design load that rims which never break are paid for: a lower bound."""
 
-def searched(done: Performed, store: Path) -> list[dict[str, Any]]:
-    """Return what the search says of all its points."""
-    points = device_search.first_points()
-    runs = device_search.campaign_of(points, done.motions, store / "search-1")
-    rows = device_search.rows_of(
-        points, done.results("search, first design", runs), done.motions, "first"
-    )
-    points = device_search.second_points(rows)
-    runs = device_search.campaign_of(points, done.motions, store / "search-2")
-    data = done.results("search, at each plan", runs)
-    return rows + device_search.rows_of(points, data, done.motions, "second")
+FLANGE = 0.025
+"""Width and height of the ring of a rim, at least [m]."""
 
 
-def study(motions: Mapping[str, GroundMotion], store: Path, workers: int | str) -> dict[str, Any]:
-    """Run all campaigns, and return what the page says of them."""
-    done = Performed(motions, workers)
-    rows = searched(done, store)
-    free = runs_of(done.results("no rims", free_campaign(motions, store / "free")), motions, WIDE)
-    plans = []
-    for more in COMPARED:
-        plan = plan_of(more)
-        row = device_search.best_of(rows, plan)
-        best = device_search.device_at(plan, *device_search.EDGE)
-        if row is not None:
-            best = Device(plan, False, least=row["least"], interface=row["interface"])
-        found, runs = _plan(done, best, free, store)
-        plans.append(found)
-        if more == REFERENCE:
-            varied = _varied(done, best, runs, store)
-    soft = soft_device()
-    data = done.results("soft rims", campaign_of([soft], motions, store / "soft"))
+class Prices(NamedTuple):
+    """Prices over that of a kilogram of machined steel, assumptions: makers publish none."""
+
+    plates: float = 1.0  # a kilogram
+    rims: float = 1.5
+    sliders: float = 1.5
+    liners: float = 500.0  # bonded, a square metre
+    overlays: float = 250.0  # stainless steel, formed and polished, a square metre
+    each: float = 200.0  # assembling and testing a bearing
+    thickness: float = 0.03  # of a plate under the lowest point of its dish [m]
+
+
+PRICES = Prices()
+
+
+def pairs_of(terms: str) -> list[tuple[str, str]]:
+    """Return the devices that are compared on terms: the LIR-DCFP, and a DCFP."""
+    labels = TERMS[terms]
+    own = {label: f"LIR-DCFP {label}" if terms == "plan" else LIR for label in labels}
+    return [(own[label], f"DCFP {label}, {rims}") for label in labels for rims in RIMS]
+
+
+def rim_width(bearing: LIRBearing) -> float:
+    """Return the width of the ring that a rim of its strength needs [m].
+
+    Its foot is sheared over the diameter of the slider that presses on it.
+    """
+    force = min(bearing.rim_yield_force, UNBROKEN * bearing.resolved()["design_load"])
+    return max(FLANGE, force / (2.0 * bearing.slider_radius * 0.6 * YIELD_STRESS))
+
+
+def parts_of(bearing: LIRBearing, prices: Prices = PRICES) -> dict[str, float]:
+    """Return the cost of a bearing by part, over that of a kilogram of machined steel."""
+    dish, a = dish_diameter(bearing), bearing.slider_radius
+    radius, width = max(bearing.radii), rim_width(bearing)
+    depth = radius - math.sqrt(radius**2 - 0.25 * dish**2)
+    blank = 0.25 * math.pi * (dish + 2.0 * width) ** 2 * (depth + prices.thickness)
+    ring = math.pi * (dish + width) * width * FLANGE
+    faces = 2 if bearing.is_dcfp else 3  # with a liner on one side, polished steel on the other
+    spheres = 2.0 * math.pi * radius * depth  # area of a dish
+    inside = 0.0 if bearing.is_dcfp else math.pi * a**2
     return {
-        "considered": considered(),
-        "records": len(motions),
-        "sliders": list(device_search.sliders()),
-        "least_load": min(each.resolved()["design_load"] for each in own_bearings()),
-        "search": rows,
-        "plans": plans,
-        "varied": varied,
-        "soft": _numbers({soft.name: soft}, data, motions)[0],
-        "costs": done.costs,
-        "date": f"{datetime.date.today():%Y-%m-%d}",
-        "machine": f"{processor()}, {os.cpu_count()} cores, Python {platform.python_version()}",
+        "plates": 2.0 * DENSITY * blank * prices.plates,
+        "rims": 2.0 * DENSITY * ring * prices.rims,
+        "sliders": DENSITY * math.pi * a**2 * bearing.slider_height * prices.sliders,
+        "liners": faces * math.pi * a**2 * prices.liners,
+        "overlays": (2.0 * spheres + inside) * prices.overlays,
+        "each": prices.each,
     }
 
 
-def _numbers(
-    devices: Mapping[str, Device], data: xr.Dataset, motions: Mapping[str, GroundMotion]
-) -> tuple[dict[str, Any], dict[str, IntensityRuns], dict[str, dict[str, Curve]]]:
-    kept: dict[str, Any] = {}
-    runs: dict[str, IntensityRuns] = {}
-    curves: dict[str, dict[str, Curve]] = {}
-    for name, device in devices.items():
-        runs[name] = runs_of(data, motions, device.name)
-        eccentric = eccentricity_of(data, device.name)
-        kept[name], curves[name] = device_numbers(device, runs[name], RESAMPLES, eccentric)
-    return kept, runs, curves
+def cost_of(bearings: Iterable[LIRBearing], prices: Prices = PRICES) -> dict[str, float]:
+    """Return the cost of all bearings of a building by part."""
+    total: dict[str, float] = {}
+    for bearing in bearings:
+        for name, value in parts_of(bearing, prices).items():
+            total[name] = total.get(name, 0.0) + value
+    return total
 
 
-def _plan(
-    done: Performed, best: Device, free: IntensityRuns, store: Path
-) -> tuple[dict[str, Any], dict[str, IntensityRuns]]:
-    # Devices of one plan, and the LIR-DCFP beside each other one.
-    label = f"{1e3 * best.plan:.0f}"
-    plain = plain_devices(best.plan)
-    kept: dict[str, Any] = {}
-    runs: dict[str, IntensityRuns] = {}
-    curves: dict[str, dict[str, Curve]] = {}
-    for kind, devices in (("lir", {LIR: best}), ("plain", plain)):
-        campaign = campaign_of(list(devices.values()), done.motions, store / f"{kind}-{label}")
-        data = done.results(f"{label} mm, {'LIR-DCFP' if kind == 'lir' else 'DCFPs'}", campaign)
-        each = _numbers(devices, data, done.motions)
-        kept |= each[0]
-        runs |= each[1]
-        curves |= each[2]
-    own, name = Device(best.plan, True, strength=None), OTHERS[-1]
-    runs[name] = free_of(free, best.plan)
-    kept[name], curves[name] = device_numbers(own, runs[name], RESAMPLES, None)
-    kept[name] |= {"name": f"DCFP {label} mm, no rims", "cost": None}
-    pairs = {
-        other: pair_of(runs[LIR], runs[other], (curves[LIR], curves[other]), RESAMPLES)
-        for other in OTHERS
-    }
-    return {"plan": best.plan, "devices": kept, "pairs": pairs}, runs
+def bearings_of(frame: Frame) -> list[LIRBearing]:
+    """Return the bearings of a building."""
+    return [link.bearing for link in frame.bearings.values()]
 
 
-def _varied(
-    done: Performed, best: Device, runs: Mapping[str, IntensityRuns], store: Path
-) -> list[dict[str, Any]]:
-    # Devices that are varied, and the same ones at the other level: runs that collapse, and that are
-    # known, under every second record.
-    found = [
-        {"device": name, "what": "as it is", "counts": _counted(runs[name], done.motions)}
-        for name in (LIR, OTHERS[1])
-    ]
-    varied = varied_devices(best)
-    campaign = half_campaign(list(varied.values()), done.motions, store / "varied")
-    data = done.results("LIR-DCFP, varied", campaign)
-    motions = dict(list(done.motions.items())[::2])
-    for what, device in varied.items():
-        own = runs_of(data, motions, device.name)
-        found.append({"device": LIR, "what": what, "counts": _counted(own, done.motions)})
-    bodies = {LIR: best, OTHERS[1]: plain_devices(best.plan)[OTHERS[1]]}
-    campaign = half_campaign(list(bodies.values()), done.motions, store / "contact", "contact")
-    data = done.results("level contact", campaign)
-    for name, device in bodies.items():
-        own = runs_of(data, motions, device.name)
-        counts = _counted(own, done.motions)
-        found.append({"device": name, "what": "level `contact`", "counts": counts})
-    return found
-
-
-def _counted(runs: IntensityRuns, motions: Mapping[str, GroundMotion]) -> list[list[float]]:
-    exceeded, im = runs.exceeded(COLLAPSE), runs.table["im"].to_numpy()
-    own = runs.table["motion"].isin(list(motions)[::2]).to_numpy()
-    rows = []
-    for at in HALF_STRIPES:
-        there = exceeded[own & np.isclose(im, at)]
-        rows.append([at, float(np.nansum(there)), float(np.isfinite(there).sum())])
-    return rows
-
-
-def table_rows(found: Found) -> list[dict[str, Any]]:
-    """Return the table of all devices in SI units."""
-    rows = []
-    for plan in found["plans"]:
-        for kind, kept in plan["devices"].items():
-            device, median = kept["device"], kept["limits"][COLLAPSE.name].get("median")
-            low, high = median[1:] if median else (None, None)
-            rows.append(
-                {
-                    "device": kept["name"],
-                    "plan [m]": plan["plan"],
-                    "capacity [m]": kept["capacity"],
-                    "smallest slider radius [m]": kept["sliders"][0],
-                    "interface friction [-]": None if device["plain"] else device["interface"],
-                    "rims": LIR if kind == LIR else kind,
-                    "collapse, median [m/s2]": median[0] if median else None,
-                    "collapse, low [m/s2]": low,
-                    "collapse, high [m/s2]": high,
-                    "cost [kg of steel]": sum(kept["cost"].values()) if kept["cost"] else None,
-                    "volume [m3]": kept["volume"],
-                }
-                | {
-                    f"share that collapses at {at:g} m/s2 [-]": share
-                    for at, share in zip(STRIPES, kept["collapse"], strict=True)
-                }
-                | {
-                    f"share with a failed bearing at {at:g} m/s2 [-]": share
-                    for at, share in zip(STRIPES, kept["failed"], strict=True)
-                }
-            )
-    return rows
-
-
-def write(found: Found) -> None:
-    """Write the page, its figures, tables and the numbers."""
-    tables = {"devices": table_rows(found), "search": _flat(found["search"])}
-    texts = {f"{NAME}-{name}.csv": csv_of(rows) for name, rows in tables.items()}
-    write_part(NAME, page(found), figures(found), found, texts)
-
-
-def _flat(rows: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    return [
-        {
-            "stage": row["stage"],
-            "plan [m]": row["plan"],
-            "smallest slider radius [m]": row["least"],
-            "interface friction [-]": row["interface"],
-            "kappa [-]": row["kappa"],
-            "collapse, median [m/s2]": row["median"],
+def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
+    """Return what the page says beside the tables of the campaigns, plain numbers."""
+    comparison = every[LEVELS[0]].comparison
+    assert comparison is not None
+    frames = comparison.frames
+    found: dict[str, Any] = {"devices": {name: _sizes(frame) for name, frame in frames.items()}}
+    for level in LEVELS:
+        tables = every[level]
+        found[level] = {
+            "shares": {name: _shares(tables, name) for name in frames},
+            "pairs": {terms: _pairs(tables, terms) for terms in TERMS},
         }
-        for row in rows
-    ]
-
-
-def run(store: Path, workers: int | str) -> dict[str, Any]:
-    """Run what is not done under the records, and return what the page says of it."""
-    motions = normalised(MotionSet.fema_p695(RECORDS))
-    found: dict[str, Any] = rounded(study(motions, store, workers), DIGITS)
+    margins = every[LEVELS[0]].margins.reindex(columns=["margin [-]"])["margin [-]"].to_dict()
+    found["turns"] = {rims: turning_prices(margins, frames, rims) for rims in RIMS}
     return found
 
 
-def main(given: Sequence[str] | None = None) -> None:
-    """Run the campaigns, and write the page."""
-    run_part("device", given, run, write)
+def _sizes(frame: Frame) -> dict[str, Any]:
+    bearings = bearings_of(frame)
+    return {
+        "plan": max(map(dish_diameter, bearings)),
+        "least plan": min(map(dish_diameter, bearings)),
+        "capacity": min(each.lateral_capacity for each in bearings),
+        "moat": moat_of(bearings),
+        "slider": min(each.slider_radius for each in bearings),
+        "interface": None if bearings[0].is_dcfp else bearings[0].interface_friction,
+        "ratio": None if bearings[0].is_dcfp else highest_ratio(frame),
+        "cost": cost_of(bearings),
+    }
 
 
-if __name__ == "__main__":
-    main()
+def _shares(tables: CampaignTables, name: str) -> list[list[float]]:
+    # By intensity: runs that collapse, with a failed bearing, and known ones.
+    runs = tables.runs[name]
+    collapse = next(each for each in tables.limits if each.name == COLLAPSE)
+    over, failed = runs.exceeded(collapse), runs.exceeded(LimitState.bearing_failure())
+    im = runs.table["scale"].to_numpy()
+    rows = []
+    for at in np.unique(im):
+        counts = (float(np.nansum(each[im == at])) for each in (over, failed))
+        rows.append([float(at), *counts, float(np.isfinite(over[im == at]).sum())])
+    return rows
+
+
+def _pairs(tables: CampaignTables, terms: str) -> list[dict[str, Any]]:
+    # Of each limit state: ratio of medians with its interval, and the exact test of the records.
+    pairs = pairs_of(terms)
+    tests = paired_tests(tables.runs, pairs, tables.limits).set_index(["measure", "own", "over"])
+    rows = []
+    for limit in tables.limits:
+        for own, other in pairs:
+            tested = tests.loc[[(limit.name, own, other)]]
+            whole = tested[np.isinf(tested["scale"])].iloc[0]
+            stripes = tested[np.isfinite(tested["scale"])]
+            row: dict[str, Any] = {"limit": limit.name, "own": own, "other": other}
+            row["ratio"] = _ratio(tables.curves.get(limit.name, {}), own, other)
+            row |= {key: int(whole[key]) for key in ("less", "more", "records")}
+            row |= {"p": float(whole["p"]), "verdict": str(whole["verdict"])}
+            row["stripes"] = stripes[["scale", "less", "more", "verdict"]].to_numpy().tolist()
+            rows.append(row)
+    return rows
+
+
+def _ratio(curves: Mapping[str, Any], own: str, other: str) -> list[float] | None:
+    if own not in curves or other not in curves:
+        return None
+    table = compare_fragility(curves[other], curves[own]).to_dataframe(CONFIDENCE)
+    row = table.loc["median, ratio [-]"]
+    return [float(row[key]) for key in ("value", "low", "high")]
+
+
+def turning_prices(
+    margins: Mapping[str, float], frames: Mapping[str, Frame], rims: str
+) -> dict[str, Any]:
+    """Return the plan of a DCFP of the margin of the LIR-DCFP, and the prices of equal cost.
+
+    The plan is interpolated between those that were run. Cost is linear in each price, so that one
+    factor on it makes both devices cost the same; None where no factor above zero does.
+    """
+    dcfps = {
+        max(map(dish_diameter, bearings_of(frame))): margins[name]
+        for name, frame in frames.items()
+        if name.endswith(f", {rims}") and math.isfinite(margins.get(name, math.nan))
+    }
+    plans, known = np.array(sorted(dcfps)), [dcfps[plan] for plan in sorted(dcfps)]
+    wanted = margins.get(LIR, math.nan)
+    if not len(plans) or not math.isfinite(wanted) or not min(known) <= wanted <= max(known):
+        return {"plan": None, "margin": None if not math.isfinite(wanted) else wanted}
+    rising = np.maximum.accumulate(known)  # of margins that scatter the first plan that has it
+    plan = float(np.interp(wanted, rising + 1e-9 * np.arange(len(rising)), plans))
+    like = frames[f"DCFP {REFERENCE}, {rims}"]
+    strength = {"rims of 1 W": 1.0, "rims of 0.5 W": 0.5}.get(rims, math.inf)
+    other = cost_of(bearings_of(Device(kind="DCFP", plan=plan, rims=strength).on(like)))
+    own = cost_of(bearings_of(frames[LIR]))
+    more = sum(own.values()) - sum(other.values())
+    factors = {
+        part: factor
+        for part in own
+        if abs(own[part] - other[part]) > 1e-9
+        and (factor := 1.0 - more / (own[part] - other[part])) > 0.0
+    }
+    return {"plan": plan, "margin": wanted, "cost": [sum(own.values()), sum(other.values())]} | {
+        "factors": factors
+    }
+
+
+def of_pair(own: Own, level: str, terms: str, other: str, limit: str = COLLAPSE) -> dict[str, Any]:
+    """Return what is kept of a DCFP beside its LIR-DCFP."""
+    rows = own[level]["pairs"][terms]
+    found: dict[str, Any] = next(r for r in rows if (r["other"], r["limit"]) == (other, limit))
+    return found
+
+
+def said(pair: Mapping[str, Any]) -> str:
+    """Return ratio of medians with its interval, discordant records and verdict, as text."""
+    ratio = pair["ratio"]
+    text = "no ratio" if ratio is None else "{:.2f} ({:.2f} to {:.2f})".format(*ratio)
+    return f"{text}; {pair['less']} to {pair['more']} records, {pair['verdict']}"
+
+
+MARKERS = "osd^v"
+
+
+def figures(campaigns: Mapping[str, Any], own: Own) -> dict[str, Figure]:
+    """Return the figures by name: each of the terms, cost, and the search."""
+    margins = {level: campaigns[level]["tables"]["margins"].set_index("device") for level in LEVELS}
+    considered = campaigns[LEVELS[0]]["considered"]
+    found = {terms: terms_figure(own, terms, considered) for terms in TERMS}
+    found["margins"] = margins_figure(own, margins)
+    found["price"] = price_figure(own, margins[LEVELS[0]])
+    if "search" in campaigns:
+        found["search"] = search_figure(campaigns["search"]["tables"]["search"])
+    return found
+
+
+def _legend(figure: Figure, names: Sequence[str]) -> None:
+    handles = [
+        Line2D([], [], label=name, marker=MARKERS[k], markersize=3.5, **ps.line_of(k))
+        for k, name in enumerate(names)
+    ]
+    ps.add_legend(figure, handles, columns=2)
+
+
+def terms_figure(own: Own, terms: str, considered: float) -> Figure:
+    """Return shares of collapse over intensity, a panel a pair of devices on equal terms."""
+    labels = TERMS[terms]
+    figure = ps.new_figure(2.9 if len(labels) == 1 else 4.6)
+    rows = ps.grid_of(figure, 1 if len(labels) == 1 else 2, min(2, len(labels)), share_y=True)
+    for panel, label in zip([p for row in rows for p in row], labels, strict=True):
+        first = f"LIR-DCFP {label}" if terms == "plan" else LIR
+        for k, name in enumerate((first, *(f"DCFP {label}, {rims}" for rims in RIMS))):
+            at, collapsed, failed, known = np.array(own[LEVELS[0]]["shares"][name]).T
+            panel.plot(
+                at, 100.0 * collapsed / known, marker=MARKERS[k], markersize=3.5, **ps.line_of(k)
+            )
+            frame = collapsed > failed
+            look = {"color": ps.line_of(k)["color"], "markerfacecolor": "white", "markersize": 3.5}
+            panel.plot(at[frame], (100.0 * failed / known)[frame], MARKERS[k], **look)
+        panel.axvline(considered, color=ps.GREY, linewidth=0.7, linestyle=":")
+        panel.set_ylim(-2.0, 103.0)
+        title = f"plan {label}" if terms == "plan" else f"DCFP {label}"
+        ps.caption(panel, title=title, x="Sa(3 s) [m/s2]", y="share of collapse [%]")
+    _legend(figure, ("LIR-DCFP", *(f"DCFP, {rims}" for rims in RIMS)))
+    return figure
+
+
+def _margin_line(
+    panel: Axes, margins: Any, names: Sequence[str], at: Sequence[float], k: int
+) -> None:
+    known = [(x, margins.loc[n]) for x, n in zip(at, names, strict=True) if n in margins.index]
+    known = [(x, row) for x, row in known if math.isfinite(row.get("margin [-]", math.nan))]
+    if not known:  # of few records there may be no curve
+        return
+    x = [place for place, _ in known]
+    value, low, high = (
+        np.array([row[f"margin{end} [-]"] for _, row in known]) for end in ("", ", low", ", high")
+    )
+    ends = [value - low, high - value]
+    look = ps.line_of(k)
+    panel.errorbar(x, value, yerr=ends, marker=MARKERS[k], markersize=3.5, elinewidth=0.6, **look)
+
+
+def margins_figure(own: Own, margins: Mapping[str, Any]) -> Figure:
+    """Return collapse margins over the plan, a panel a level of fidelity."""
+    figure = ps.new_figure(3.2)
+    (panels,) = ps.grid_of(figure, 1, len(LEVELS), share_y=True)
+    for panel, level in zip(panels, LEVELS, strict=True):
+        for k, end in enumerate(("", *(f", {rims}" for rims in RIMS))):
+            names = [f"{'DCFP' if end else 'LIR-DCFP'} {plan}{end}" for plan in PLANS]
+            at = [1e3 * own["devices"][name]["plan"] + 4.0 * (k - 1.5) for name in names]
+            _margin_line(panel, margins[level], names, at, k)
+        ps.caption(panel, title=f"level {level}", x="plan [mm]", y="collapse margin [-]")
+    _legend(figure, ("LIR-DCFP", *(f"DCFP, {rims}" for rims in RIMS)))
+    return figure
+
+
+def price_figure(own: Own, margins: Any) -> Figure:
+    """Return collapse margins over the cost of nine bearings and over the moat."""
+    figure = ps.new_figure(3.2)
+    (panels,) = ps.grid_of(figure, 1, 2, share_y=True)
+    texts = {"cost": "cost of nine bearings [t of steel]", "moat": "moat [mm]"}
+    for panel, (key, text) in zip(panels, texts.items(), strict=True):
+        for k, end in enumerate(("", *(f", {rims}" for rims in RIMS))):
+            start = "DCFP " if end else "LIR-DCFP "
+            names = [n for n in own["devices"] if n.startswith(start) and n.endswith(end)]
+            names = [n for n in names if end or n.removeprefix(start) in PLANS]
+            sizes = {n: own["devices"][n][key] for n in names}
+            at = {n: 1e-3 * sum(v.values()) if key == "cost" else 1e3 * v for n, v in sizes.items()}
+            names.sort(key=lambda name, at=at: at[name])  # type: ignore[misc]
+            _margin_line(panel, margins, names, [at[name] for name in names], k)
+        ps.caption(panel, x=text, y="collapse margin [-]")
+    _legend(figure, ("LIR-DCFP", *(f"DCFP, {rims}" for rims in RIMS)))
+    return figure
+
+
+def search_figure(table: Any) -> Figure:
+    """Return the medians of collapse of all points searched, over sliders and interface."""
+    figure = ps.new_figure(3.0)
+    ((panel,),) = ps.grid_of(figure, 1, 1)
+    shown = panel.scatter(
+        1e3 * table["least_slider_radius"],
+        table["interface_friction"],
+        c=table["median [m/s2]"],
+        edgecolors=["black" if best else "none" for best in table["best"]],
+        s=30,
+        cmap="viridis",
+    )
+    figure.colorbar(shown, ax=panel).set_label("collapse, median [m/s2]", fontsize=ps.LABEL)
+    ps.caption(panel, x="least slider radius [mm]", y="friction of the interface [-]")
+    return figure

@@ -43,8 +43,9 @@ def performed(runs: Campaign, workers: int | str) -> dict[str, Any]:
     """Run what is not done, and return what it cost, with the results database's digest."""
     before = runs.store.status().done if runs.store.exists else 0
     clock, cpu = perf_counter(), process_time()
-    with quietly():
-        workers = _run(runs, workers)
+    with quietly(), client_of(workers) as (own, client):
+        runs.run(workers=own, client=client, progress=True)
+        workers = workers if client is None else len(client.ncores())
     status = runs.status()
     return {
         "runs": status.done,
@@ -54,21 +55,28 @@ def performed(runs: Campaign, workers: int | str) -> dict[str, Any]:
         "cpu": process_time() - cpu,
         "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
         "digest": runs.digest(),
+        **made_on(),
+    }
+
+
+def made_on() -> dict[str, str]:
+    """Return the date, and the machine with its Python."""
+    return {
         "date": f"{datetime.date.today():%Y-%m-%d}",
         "machine": f"{processor()}, {os.cpu_count()} cores, Python {platform.python_version()}",
     }
 
 
-def _run(runs: Campaign, workers: int | str) -> int:
-    # Returns how many workers it had.
+@contextmanager
+def client_of(workers: int | str) -> Generator[tuple[int | None, Any], None, None]:
+    """Give the number of workers here, or the client of a Dask scheduler by its address."""
     if isinstance(workers, int):
-        runs.run(workers=workers, progress=True)
-        return workers
+        yield workers, None
+        return
     from distributed import Client
 
     with Client(workers) as client:
-        runs.run(client=client, progress=True)
-        return len(client.ncores())
+        yield None, client
 
 
 def workers_of(text: str) -> int | str:

@@ -10,9 +10,10 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from frames.plots import plot_style as ps
 from validation.page import FOLDER, render
-from validation.study.device_cost_page import equal_ratios
 from validation.study.pairs import OURS as EQUAL
 from validation.study.part import write_part
 from validation.study.rounded import with_interval
@@ -87,10 +88,28 @@ def _carried(parts: Parts) -> str:
     return " and ".join(words)
 
 
+def equal_ratios(found: Mapping[str, Any], other: str) -> list[float]:
+    """Return margins of the LIR-DCFP over those of a DCFP of the same cost, at some costs."""
+    own, their = (
+        {
+            sum(kept["cost"].values()): kept["margin"][0]
+            for plan in found["plans"]
+            if "margin" in (kept := plan["devices"][kind])
+        }
+        for kind in ("LIR-DCFP", other)
+    )
+    costs = sorted(their)
+    return [
+        margin / float(np.interp(cost, costs, [their[each] for each in costs]))
+        for cost, margin in sorted(own.items())
+        if costs and costs[0] <= cost <= costs[-1]
+    ]
+
+
 def _equal_cost(parts: Parts) -> str:
     words = []
     for rims in (RIMS[0], RIMS[2], RIMS[3]):
-        found = equal_ratios(parts["device"], rims, {})
+        found = equal_ratios(parts["device"], rims)
         words.append(f"{rims} {min(found):.2f} to {max(found):.2f}")
     return (
         "At equal cost, by assumed prices, the collapse margin of the LIR-DCFP over that of a DCFP, of a "

@@ -241,7 +241,11 @@ def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
 
 
 def run_search(
-    given: CampaignFile | str | Path, *, store: str | Path | None = None, workers: int | None = None
+    given: CampaignFile | str | Path,
+    *,
+    store: str | Path | None = None,
+    workers: int | None = None,
+    client: Any = None,
 ) -> pd.DataFrame:
     """Return the points of the search of a campaign's file, run where they are not done."""
     file = _read(given)
@@ -252,6 +256,7 @@ def run_search(
         motions,
         store=whole.with_name(f"{whole.stem}-{STORE}") if store is None else store,
         workers=workers or asked.workers,
+        client=client,
         level=asked.level,
         dt=asked.dt,
         duration=asked.duration,

@@ -125,6 +125,7 @@ class MedianSearch:
         *,
         store: str | Path,
         workers: int | None = None,
+        client: Any = None,
         **options: Any,
     ) -> pd.DataFrame:
         """Run the points, each stage a campaign that is gone on with, and return them.
@@ -135,8 +136,8 @@ class MedianSearch:
             As for `Campaign`.
         store : str or path
             Folder of the campaigns' results databases.
-        workers : int, optional
-            Runs at a time.
+        workers, client : int, distributed.Client, optional
+            As of `Campaign.run`.
         **options
             Others of `Campaign`, as level and dt.
 
@@ -159,7 +160,7 @@ class MedianSearch:
                 scales=self.scales,
                 **options,
             )
-            data = campaign.run(workers=workers)
+            data = campaign.run(workers=workers, client=client)
             runs = runs_by_model(data, motions, self.intensity)
             runs = with_ductility(runs, data, lambda built=names: built, [self.limit])  # type: ignore[misc]
             for point in todo:
