@@ -331,6 +331,14 @@ TOUCH_FIELDS = (
 )
 
 SEARCH_FIELDS = (
+    Field(
+        "follows",
+        "-",
+        "",
+        "1 where a trial is one of a step of a time history, 2 where the last one found a state",
+        (),
+        "i8",
+    ),
     Field("leads", "-", "", "last steps whose lead is known: none, one, two equal ones", (), "i8"),
     Field("lead", "m, rad", "", "where sliders rest beyond the start of their search", (2, 6)),
     Field("lead_before", "m, rad", "", "the same in the step before", (2, 6)),

@@ -22,6 +22,7 @@ from frames.kernels.stepping import commit_bearings, newton, predict, solve_grav
 from frames.kernels.yielding import begin_parts, has_yielded, part_load_on_modes
 from lir_element.errors import RunStatus
 from lir_element.kernels.contact.slider_motion import shake_sliders
+from lir_element.kernels.levels import begin_trials
 from lir_element.kernels.linear import add_product, copy_words, set_product, subtract_squares
 from lir_element.kernels.sampling import ground_acceleration
 
@@ -230,6 +231,7 @@ def try_step(
     set_load(model, run, parts, settings, ground)
     if contacts is not None:
         shake_sliders(contacts.scratch, ground.acceleration, ground.dt, clock.time + clock.dt)
+    begin_trials(contacts)
     for a in range(run.b.shape[0]):
         run.step[a] = clock.dt * run.mean_v_b[a]
     foreseen = clock.kept == clock.halvings + 1 and clock.dt_before > 0.0

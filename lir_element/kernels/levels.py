@@ -18,7 +18,7 @@ from lir_element.kernels.backup import (
     backup_trial,
     give_up,
 )
-from lir_element.kernels.contact.chord import keep_search
+from lir_element.kernels.contact.chord import begin_search, keep_search
 from lir_element.kernels.contact.condensed import contact_tangent, contact_trial, look_at_committed
 from lir_element.kernels.contact.state import contact_accumulate, points_defect
 from lir_element.kernels.friction_law import heat_up
@@ -49,6 +49,16 @@ def bodies_of(props: Records, contacts: Contacts, k: int, at: int) -> BodyStep:
         contacts.search_new[at],
         contacts.scratch[at],
     )
+
+
+@kernel
+def begin_trials(contacts: Contacts | None) -> None:
+    """Begin the trials of a step, each of which sets out from what the last one found."""
+    if contacts is None:
+        return
+    for at in range(contacts.search_new.shape[0]):
+        begin_search(contacts.search_new[at])
+        contacts.search_new[at].follows = 1
 
 
 @kernel

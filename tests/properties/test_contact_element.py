@@ -343,6 +343,12 @@ def test_what_a_search_keeps_only_saves_derivatives(name: str, lab: SimpleNamesp
             load = max(element.response("axial_force"), other.response("axial_force"))
             forces, found = element.resisting_force(), other.resisting_force()
             assert_allclose(found, forces, rtol=0.0, atol=1e-8 * load)
+            contacts(other).search_new["follows"] = 1  # as trials of a step of a time history
+            for at in (k + 1, k):
+                other.set_trial(u[at], STILL, time[k])
+                other.tangent_stiffness()
+            found = other.resisting_force()
+            assert_allclose(found, forces, rtol=0.0, atol=1e-8 * load)
         element.commit()
     assert count > 100
     assert renewed < 0.5 * count

@@ -2,8 +2,9 @@
 
 The inverse of Newton's matrix is kept from step to step, so that most iterations need forces alone;
 derivatives are taken anew where the time step differs or the residual falls too slowly. What is
-kept is part of the committed state: a trial is a function of that and of its displacements. Where
-it finds nothing, `condensed` searches by Newton's method. docs/theory.md, section 7.
+kept is part of the committed state: a trial is a function of that and of its displacements. Trials
+of one step of a time history alone set out from what the last one found (`begin_trials`). Where the
+search finds nothing, `condensed` searches by Newton's method. docs/theory.md, section 7.
 """
 
 from __future__ import annotations
@@ -75,24 +76,26 @@ def step_on(new: Bodies, w: Scratch) -> None:
 
 @kernel
 def lead_on(s: BodyStep, dt: float) -> None:
-    """Move the sliders on from the start of a search by what it missed in the last steps.
+    """Move the sliders on from the start of a search by what it missed before.
 
-    That of the last step, which goes on changing as it did where three steps are equal.
+    In the last trial of the step; else in the last step, which goes on changing as it did where
+    three steps are equal.
     """
-    old, new, w = s.search_old, s.new, s.scratch
+    old, trial, new, w = s.search_old, s.search_new, s.new, s.scratch
     for k in range(2):
         for a in range(3):
             w.start_displacement[k, a] = new.displacement[k, a]
         for a in range(4):
             w.start_turn[k, a] = new.turn[k, a]
-    if old.leads == 0:
+    if trial.leads == 0 and old.leads == 0:
         return
     bend = 1.0 if old.leads > 1 and abs(dt - s.old.step) <= _SAME * dt else 0.0
     way = w.step
     for k in range(2):
         for a in range(6):
             last = old.lead[k, a]
-            way[6 * k + a] = last + bend * (last - old.lead_before[k, a])
+            ahead = last + bend * (last - old.lead_before[k, a])
+            way[6 * k + a] = trial.lead[k, a] if trial.leads > 0 else ahead
     step_on(new, w)
 
 
@@ -113,16 +116,21 @@ def keep_lead(s: BodyStep, dt: float) -> None:
 
 
 @kernel
-def renew_inverse(s: BodyStep, dt: float) -> bool:
-    """Take the inverse anew from the derivative at hand; False where there is none."""
-    w, new = s.scratch, s.search_new
-    set_system(s, dt)
-    if not invert(w):
-        return False
+def keep_inverse(w: Scratch, new: Search, dt: float) -> None:
+    """Keep the inverse that stands in ``w.joint``."""
     for col in range(12):
         for row in range(12):
             new.inverse[col, row] = w.joint[col, 12 + row]
     new.renewed, new.inverse_step = 1, dt
+
+
+@kernel
+def renew_inverse(s: BodyStep, dt: float) -> bool:
+    """Take the inverse anew from the derivative at hand; False where there is none."""
+    set_system(s, dt)
+    if not invert(s.scratch):
+        return False
+    keep_inverse(s.scratch, s.search_new, dt)
     return True
 
 
@@ -160,7 +168,7 @@ def weigh(s: BodyStep, dt: float) -> float:
 def seek(s: BodyStep, dt: float, speeds: Floats) -> int:
     """Bring the sliders into equilibrium from where they are; return iterations, -1 if none."""
     p, c, w = s.props, s.sliders, s.scratch
-    kept = s.search_old
+    kept = s.search_new if s.search_new.renewed != 0 else s.search_old
     fresh = abs(kept.inverse_step - dt) > _LIKE * dt
     inverse = kept.inverse
     before = math.inf
@@ -173,14 +181,15 @@ def seek(s: BodyStep, dt: float, speeds: Floats) -> int:
                 clear_parts(s.new.parts)
                 add_up(s)
             return count
-        if fresh or size > _FALL * before:
+        fresh = fresh or size > _FALL * before or not chord_direction(c, w, inverse)
+        if fresh:
             if w.derived == 0:
                 unbalanced(s, dt, speeds, True)
             if not renew_inverse(s, dt):
                 return -1
             inverse, fresh = s.search_new.inverse, False
-        if not chord_direction(c, w, inverse):
-            return -1
+            if not chord_direction(c, w, inverse):
+                return -1
         step_on(s.new, w)
         before = size
         size = weigh(s, dt)

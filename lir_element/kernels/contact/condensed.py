@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from lir_element._compile.jit import kernel
 from lir_element.errors import RunStatus
-from lir_element.kernels.contact.chord import begin_search, keep_lead, lead_on, seek
+from lir_element.kernels.contact.chord import begin_search, keep_inverse, keep_lead, lead_on, seek
 from lir_element.kernels.contact.pairs import press
 from lir_element.kernels.contact.places import place_bodies, turn_by
 from lir_element.kernels.contact.residual import (
@@ -119,6 +119,8 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
             mark = size
         if size <= small_forces(p, c, touch_new, dt):
             return count
+        if w.derived == 0:
+            unbalanced(s, dt, speeds, True)
         set_system(s, dt)
         factor = newton_direction(c, new, w)
         if factor == 0.0:
@@ -129,7 +131,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
         best, kept, whole = math.inf, factor, factor
         for _ in range(_TRIES):
             move_sliders(new, w, factor)
-            attempt = unbalanced(s, dt, speeds, True)
+            attempt = unbalanced(s, dt, speeds, factor == whole)
             if attempt < best:
                 best, kept = attempt, factor
             if attempt < _GAIN * size or attempt <= small_forces(p, c, touch_new, dt):
@@ -141,7 +143,7 @@ def balance_sliders(s: BodyStep, dt: float, speeds: Floats) -> int:
             mark = math.inf
         if factor != kept or best >= size:
             move_sliders(new, w, kept)
-            best = unbalanced(s, dt, speeds, True)
+            best = unbalanced(s, dt, speeds, False)
         size = best
     return -1
 
@@ -220,10 +222,14 @@ def contact_trial(
     set_losses(p, old, w)
     place_nodes(p, c, w, u)
     count = -1
-    begin_search(s.search_new)
+    if s.search_new.follows == 0:
+        begin_search(s.search_new)
     set_momentum(s)
-    if dt > 0.0 and s.points[0].disc > 0.0 and carry_on(s, old, dt):
-        count = go_on(s, old, dt, pen.static_speed)
+    if dt > 0.0 and s.points[0].disc > 0.0:
+        if carry_on(s, old, dt):
+            count = go_on(s, old, dt, pen.static_speed)
+        elif s.search_new.follows == 2:  # from where the last trial has left the sliders
+            count = seek(s, dt, pen.static_speed)
     if count < 0:
         code = trial(p, old, new, pen, u, v, time)
         if code in (_NOT_FINITE, _SPHERE_EXCEEDED):
@@ -241,6 +247,8 @@ def contact_trial(
     if count < 0 and dt == 0.0:
         turn_back(b_old, b_new)
         count = balance_by_softer_friction(s, pen)
+    if s.search_new.follows > 0:
+        s.search_new.follows = 2 if count >= 0 else 1
     fill_state(s, old, new, u)
     new.time, new.step = time, dt
     new.iterations = count
@@ -310,6 +318,8 @@ def contact_tangent(s: BodyStep, pen: Work, k: Floats) -> None:
             k[row, col], k[row, 6 + col] = -w.k[at, col], -w.k[at, 18 + col]
     if invert(w):
         condense(w, k)
+        if s.search_new.follows > 0 and dt > 0.0:
+            keep_inverse(w, s.search_new, dt)
     apply_spin(w.spin_i, k, 3)
     apply_spin(w.spin_j, k, 9)
     if dt == 0.0:
