@@ -12,7 +12,7 @@ from frames.design.project.inputs import bearing_of, sliding_period
 from frames.plots import plot_style as ps
 from frames.risk.campaign.comparison import dish_diameter
 from frames.risk.campaign.devices import device_ratios, moat_of
-from frames.risk.fragility.runs import COMPLETE
+from frames.risk.fragility.runs import COMPLETE, FAILURE
 from lir_element.units import STANDARD_GRAVITY
 from validation.page import table
 from validation.study.steps import at_two_steps, steps_said  # noqa: F401  (of the template)
@@ -96,9 +96,8 @@ def numbers(every: Mapping[str, Any]) -> dict[str, Any]:
     runs = tables.campaign.to_dataframe()
     words = runs["motion"].str.extract(r"^(\w+) pulse of ([\d.]+) s")
     runs = runs.assign(shape=words[0], period=words[1].astype(float))
-    unknown = runs["outcome"].isin([COMPLETE, "bearing failure"])
-    runs["failed"] = runs["outcome"] != COMPLETE
-    runs["lost"] = runs["failed"] | (runs[QUANTITIES["drift"]] > DRIFT)
+    runs["failed"] = runs["outcome"] == FAILURE
+    runs["lost"] = (runs["outcome"] != COMPLETE) | (runs[QUANTITIES["drift"]] > DRIFT)
     found: dict[str, Any] = {}
     for device, own in runs.groupby("model"):
         grid = own.groupby(["scale", "period"])
@@ -110,7 +109,7 @@ def numbers(every: Mapping[str, Any]) -> dict[str, Any]:
         "velocities": sorted(set(runs["scale"])),
         "periods": sorted(set(runs["period"])),
         "ratios": sorted(tables.file.motions.pulses.period_ratios),
-        "unknown": int((~unknown).sum()),
+        "unknown": int((~runs["outcome"].isin([COMPLETE, FAILURE])).sum()),
         "devices": found,
         "period": sliding_period(bearing_of(tables.file.bearing)),
         "sizes": {
