@@ -5,18 +5,21 @@ import math
 import re
 import types
 
+import numpy as np
 import pandas as pd
 import pytest
 
 pytest.importorskip("filelock")
 pytest.importorskip("pyFragility")
 
+from frames.risk.campaign.comparison import dish_diameter
 from frames.risk.campaign.file import campaign_file, models_in
 from tests.unit.test_campaign_compare import COMPARED, FILE, SEARCH, put_pulses
 from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
 from validation.study import device, runner
 from validation.study.__main__ import PARTS, main
+from validation.study.buildings import strength
 from validation.study.device_runs import REFERENCE, Device, best_devices, frame_of, plan_of
 
 FILED = [part for part in PARTS if runner.files_of(part)]
@@ -241,3 +244,43 @@ def test_a_price_turns_the_answer_where_costs_are_equal(equal):
 def pressed(frame, plan):
     """Return a building whose DCFPs have another plan."""
     return device.Device(kind="DCFP", plan=plan, rims=1.0).on(frame)
+
+
+@pytest.mark.parametrize("file", ["rims-smaller", "rims-larger", "buildings"])
+def test_devices_that_are_compared_have_one_plan_and_load(file):
+    """Of a structure the largest dish, and under each column the load, are the same."""
+    given = campaign_file(runner.HERE / f"{file}.toml")
+    models, plans = models_in(given), {}
+    for name, frame in models.items():
+        structure = next((n for n in given.structures if name.startswith(f"{n}, ")), "")
+        bearings = [link.bearing for link in frame.bearings.values()]
+        loads = [round(each.design_load, 3) for each in bearings]
+        dish = max(map(dish_diameter, bearings))
+        plans.setdefault(structure, []).append((round(1e3 * dish, 2), loads))
+        pressures = {each.design_load / (math.pi * each.slider_radius**2) for each in bearings}
+        if name.split(", ", 2 if structure else 0)[-1].startswith("DCFP"):
+            assert max(pressures) == pytest.approx(min(pressures), rel=1e-6)
+    assert all(dish == own[0] for own in plans.values() for dish in own)
+    for structure, own in plans.items():
+        frame = models[f"{structure}, LIR-DCFP"] if structure else next(iter(models.values()))
+        weight = frame.gravity * sum(float(mass[0]) for mass in frame.masses.values())
+        steel = frame.gravity * sum(
+            each.section.density * each.section.area * _length(frame, each)
+            for each in frame.members.values()
+        )
+        assert sum(own[0][1]) == pytest.approx(weight + steel, rel=1e-6)
+    if file == "buildings":  # I 400 x 180 and box 300 x 16 mm of 345 MPa: 36 beam ends, 9 feet
+        beam = 345e6 * (0.18 * 0.0135 * 0.3865 + 0.25 * 0.0086 * 0.373**2)
+        column = 345e6 * (0.3**3 - 0.268**3) / 4.0
+        total = (36.0 * beam + 9.0 * column) / (0.5 * 4 * 3.5)
+        low = models["3 storeys, frames, LIR-DCFP"]
+        loads = plans["3 storeys, frames"][0][1]
+        assert strength(low) == pytest.approx(total / sum(loads), rel=1e-6)
+
+
+def _length(frame, member):
+    ends = [
+        np.array(frame.nodes[node].position) + np.array(offset)
+        for node, offset in zip((member.i, member.j), member.offsets, strict=True)
+    ]
+    return float(np.linalg.norm(ends[1] - ends[0]))

@@ -7,10 +7,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from scipy.stats import norm
 
 from frames import modes
 from frames.plots import plot_style as ps
 from frames.risk import FragilityError, LimitState, compare_fragility, fragility_of
+from frames.risk.campaign.page import shares_exceeded
 from frames.risk.fragility.runs import COMPLETE, FAILURE
 from lir_element.units import STANDARD_GRAVITY
 from validation.study.steps import at_two_steps, steps_said  # noqa: F401  (of the template)
@@ -83,6 +85,7 @@ def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
         found["buildings"][name] = {
             "facts": facts_of(tables.frames[f"{name}, {WEAK}"]),
             "definitions": {each.name: _defined(each, runs) for each in DEFINITIONS},
+            "shares": {device: _shares(each) for device, each in runs.items()},
             "uplift": {device: _uplift(each) for device, each in runs.items()},
             "unharmed": {device: _unharmed(each) for device, each in runs.items()},
         }
@@ -139,6 +142,25 @@ def _defined(definition: Definition, runs: Mapping[str, IntensityRuns]) -> dict[
     return {"counts": counts, "ratios": ratios}
 
 
+def span_of_definitions(own: Mapping[str, Any], other: str) -> str:
+    """Return the smallest and the largest ratio of medians, with what is called collapse there."""
+    found = [
+        (ratios[other]["value [-]"], each.name)
+        for each in DEFINITIONS
+        for one in own["buildings"].values()
+        if each.bearings and other in (ratios := one["definitions"][each.name]["ratios"])
+    ]
+    if not found:
+        return "is not known"
+    (low, first), (high, last) = min(found), max(found)
+    return f"from {low:.2f} ({first}) to {high:.2f} ({last})"
+
+
+def _shares(runs: IntensityRuns) -> list[list[float]]:
+    # Intensities, and the shares that collapse at each.
+    return [each.tolist() for each in shares_exceeded(*DEFINITIONS[0].of(runs))]
+
+
 def _uplift(runs: IntensityRuns) -> dict[str, list[float]]:
     # By intensity: complete runs, of them lifted by more than UPLIFT, their median uplift [m].
     table = runs.table[runs.table["outcome"] == COMPLETE]
@@ -173,4 +195,26 @@ def figures(campaigns: Mapping[str, Any], own: Mapping[str, Any]) -> dict[str, F
         panel.set_yticks(range(len(names)), names)
         ps.caption(panel, title=limit, x=f"median of the {LIR} over the other [-]")
     ps.add_legend(figure, panels[0].get_legend_handles_labels()[0], columns=2)
-    return {"ratios": figure}
+    return {"ratios": figure, "collapse": _collapse(campaigns["buildings"], own)}
+
+
+def _collapse(told: Mapping[str, Any], own: Mapping[str, Any]) -> Figure:
+    # Curves and shares, a panel a building.
+    table = told["tables"]["fragility"]
+    table = table[table["limit state"] == "collapse"].set_index("structure")
+    figure, panels = ps.panels_of(len(own["buildings"]), 3, 2.2)
+    at = np.linspace(0.1, 4.6, 80)
+    for panel, (name, one) in zip(panels, own["buildings"].items(), strict=True):
+        for k, (device, (im, shares)) in enumerate(one["shares"].items()):
+            row = table.loc[f"{name}, {device}"]
+            if row.get("median [m/s2]", 0.0) > 0.0:
+                curve = norm.cdf(np.log(at / row["median [m/s2]"]) / row["dispersion [-]"])
+                panel.plot(at, curve, **ps.line_of(k))
+            panel.plot(im, shares, "osd"[k], markersize=3.5, color=ps.PALETTE[k])
+        panel.axvline(told["considered"], color=ps.GREY, linewidth=0.7, linestyle=":")
+        panel.set_ylim(-0.02, 1.03)
+        ps.caption(panel, title=name, x="Sa(3 s) [m/s2]", y="collapse [-]")
+    for k, device in enumerate(DEVICES):
+        panels[0].plot([], [], marker="osd"[k], label=device, **ps.line_of(k))
+    ps.add_legend(figure, panels[0].get_lines()[-len(DEVICES) :], columns=3)
+    return figure

@@ -240,7 +240,7 @@ def _figures(part: str, every: Mapping[str, CampaignTables]) -> dict[str, Callab
     for name, tables in every.items():
         comparison = tables.comparison
         groups = {"": list(tables.runs)} if comparison is None else comparison.groups
-        start = f"{name_of(part)}-" + ("" if name == part else f"{name}-")
+        start = _start(part, name)
         for k, devices in enumerate(groups.values(), start=1):
             end = ".png" if len(groups) == 1 else f"-{k}.png"
             found[f"{start}response{end}"] = partial(
@@ -257,6 +257,11 @@ def _figures(part: str, every: Mapping[str, CampaignTables]) -> dict[str, Callab
                 considered=None if comparison is None else comparison.considered,
             )
     return found
+
+
+def _start(part: str, name: str) -> str:
+    # Of the names of tables and figures of a campaign.
+    return f"{name_of(part)}-" + ("" if name == part else f"{name}-")
 
 
 def _written(part: str, every: Mapping[str, Told]) -> str:
