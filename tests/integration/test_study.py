@@ -17,9 +17,8 @@ from frames.risk.campaign.file import campaign_file, models_in
 from tests.unit.test_campaign_compare import COMPARED, FILE, SEARCH, put_pulses
 from validation.measurements.yielding_runs import LIR
 from validation.page import FOLDER
-from validation.study import device, runner
+from validation.study import buildings, device, runner
 from validation.study.__main__ import PARTS, main
-from validation.study.buildings import strength
 from validation.study.device_runs import REFERENCE, Device, best_devices, frame_of, plan_of
 
 FILED = [part for part in PARTS if runner.files_of(part)]
@@ -275,7 +274,7 @@ def test_devices_that_are_compared_have_one_plan_and_load(file):
         total = (36.0 * beam + 9.0 * column) / (0.5 * 4 * 3.5)
         low = models["3 storeys, frames, LIR-DCFP"]
         loads = plans["3 storeys, frames"][0][1]
-        assert strength(low) == pytest.approx(total / sum(loads), rel=1e-6)
+        assert buildings.strength(low) == pytest.approx(total / sum(loads), rel=1e-6)
 
 
 def _length(frame, member):
