@@ -1,6 +1,7 @@
-"""The study of loss, by hand and by other routes."""
+"""The parts on loss and on uncertain properties, by hand and by other routes."""
 
 import math
+import warnings
 
 import numpy as np
 import pandas as pd
@@ -8,29 +9,15 @@ import pytest
 from scipy import stats
 
 from frames.risk import HazardCurve, IntensityRuns, LimitState
-from frames.risk.campaign.comparison import dish_diameter
+from frames.risk.campaign.comparison import collapse_limit, dish_diameter
+from frames.risk.campaign.file import campaign_file, loss_in, models_in
+from frames.risk.campaign.loss import annual_losses
+from lir_element import DesignWarning
 from lir_element.units import STANDARD_GRAVITY
 from validation.study.capacities import bounds_of, fitted
-from validation.study.consequences import AREA, COMPONENTS, REPLACEMENT, STOREYS, repair
-from validation.study.hazards import CONSIDERED_PERIOD, L_AQUILA, italian, sites
-from validation.study.loss_runs import annual
-from validation.study.pairs import BY_LOAD, NAMES, OTHERS, OURS, device
-from validation.study.records_runs import INTENSITY
-
-
-def test_devices_share_the_dish_under_the_centre():
-    places = device(OURS).bearings
-    dishes = {
-        name: max(dish_diameter(link.bearing) for link in device(name).bearings.values())
-        for name in NAMES
-    }
-    for name in OTHERS:
-        assert dishes[name] == pytest.approx(dishes[OURS])
-        assert all(
-            device(name).bearings[place].bearing.is_dcfp is (name != BY_LOAD) for place in places
-        )
-    assert len({link.bearing.slider_radius for link in places.values()}) == 1
-
+from validation.study.hazards import CONSIDERED_PERIOD, INTENSITY, L_AQUILA, italian, sites
+from validation.study.runner import HERE, files_of
+from validation.study.uncertainty import effects
 
 # Capacities
 
@@ -99,32 +86,50 @@ def test_hazards_go_through_what_is_known():
         assert moved.rates(2.0) == pytest.approx(1.0 / CONSIDERED_PERIOD)
 
 
-def test_a_component_at_its_median_is_half_damaged():
-    by_name = {each.name: each for each in COMPONENTS}
-    contents = by_name["E.20.22.023"]
-    assert float(contents.cost(np.array(0.4))) == pytest.approx(1000.0)
-    walls = by_name["C.10.11.001a"]  # 4.65 units: 2177.5 USD less (3.65 / 9) of the difference
-    total = 3.0 * 0.1 * AREA / 0.3048**2 / 100.0
+def test_components_are_those_of_the_file():
+    given = loss_in(HERE / "loss.toml")
+    by_name = {each.name: each for each in given.components}
+    contents, walls = by_name["E.20.22.023"], by_name["C.10.11.001a"]
+    assert float(contents.cost(0.4 * STANDARD_GRAVITY)) == pytest.approx(1000.0)
+    # 4.65 units in the building: 2677.5 USD less (3.65 / 9) of the difference to 1428 USD
+    area, storeys = 144.0, 3
+    total = storeys * 0.1 * area / 0.3048**2 / 100.0
     first = 2677.5 + (total - 1.0) / 9.0 * (1428.0 - 2677.5)
-    assert walls.costs[0] == pytest.approx(first)
-    at = np.array(0.01)
-    p = [stats.norm.cdf(np.log(0.01 / m) / b) for m, b in ((0.005, 0.4), (0.01, 0.3), (0.021, 0.2))]
-    one, two, three = walls.costs
-    expected = (p[0] - p[1]) * one + (p[1] - p[2]) * two + p[2] * three
-    assert float(walls.cost(at)) == pytest.approx(expected)
-    whole = REPLACEMENT * AREA * STOREYS
-    found = repair(np.array([0.01, 0.0, 0.0]), STANDARD_GRAVITY * np.array([0.4, 0.0, 0.0, 0.0]))
-    assert float(found["C.10.11.001a"]) == pytest.approx(walls.count * expected / whole)
-    assert float(found["E.20.22.023"]) == pytest.approx(contents.count * 1000.0 / whole)
-    assert float(found["C.30.32.003b"]) == 0.0  # the ceiling hangs from the floor above
+    assert walls.costs[0] == pytest.approx(first, rel=1e-5)
+    assert walls.quantity[0] * storeys == pytest.approx(total, rel=1e-4)
+    assert given.replacement == pytest.approx(2690.97 * area * storeys, rel=1e-6)
+    assert given.collapse == collapse_limit(None, 9.0)
 
 
 def test_annual_loss_under_a_power_law():
     # loss = im / 4 up to 4, under rate = 1e-3 im**-2 from 0.5 to 50:
     # 1/4 * integral of im * 2e-3 im**-3 = 5e-4 (1/0.5 - 1/4), and 1 * rate(4)
     hazard = HazardCurve.power(1e-3, 2.0, 0.5, 50.0)
-    found = annual(np.array([0.25, 1.0]), np.array([1.0, 4.0]), hazard)
+    found = annual_losses(np.array([0.25, 1.0]), np.array([1.0, 4.0]), hazard)
     assert float(found) == pytest.approx(5e-4 * (2.0 - 0.25) + 1e-3 / 16.0, rel=1e-4)
 
 
-# Pages
+def test_what_a_property_changes_on_average():
+    rng = np.random.default_rng(2)
+    shares = rng.random((80, 3))
+    slopes = np.array([[1.0, -0.5, 0.0], [2.0, -0.5, 0.0], [3.0, -0.5, 0.0]])
+    results = shares @ slopes.T + np.array([5.0, 0.0, -4.0])
+    results[3, 1] = np.nan
+    found = effects(results, shares, ["a", "b", "c"])
+    assert found["a"][0] == pytest.approx(0.68 * 2.0)
+    assert found["a"][1] < 0.68 * 2.0 < found["a"][2]
+    np.testing.assert_allclose(found["b"], -0.34, atol=1e-9)
+    np.testing.assert_allclose(found["c"], 0.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("part", ["loss", "uncertainty"])
+def test_parts_are_campaigns_of_devices_of_one_plan(part):
+    for path in files_of(part).values():
+        with warnings.catch_warnings(action="ignore", category=DesignWarning):  # soft rims
+            frames = models_in(campaign_file(path))
+        dishes = {
+            max(dish_diameter(link.bearing) for link in each.bearings.values())
+            for each in frames.values()
+        }
+        assert max(dishes) == pytest.approx(0.689)
+        assert min(dishes) == pytest.approx(0.689)

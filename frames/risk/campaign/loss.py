@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
@@ -227,7 +228,8 @@ def expected_loss(
             for part, values in _parts(data, name, each, components, cost, collapse).items()
         }
         total = np.sum([*parts.values()], axis=0)
-        drawn_means = np.nanmean(total[drawn], axis=1)
+        with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
+            drawn_means = np.nanmean(total[drawn], axis=1)  # NaN where all drawn are unknown
         low, high = np.nanquantile(drawn_means, [tail, 1.0 - tail], axis=0)
         curve = {part: np.nanmean(values, axis=0) for part, values in parts.items()}
         mean = np.nanmean(total, axis=0)
