@@ -20,7 +20,6 @@ from frames.plots import plot_style as ps
 from frames.risk import Campaign
 from validation.page import DPI, FOLDER
 from validation.study.device_runs import Device, frame_of, plan_of
-from validation.study.far_field import RECORDS
 from validation.study.part import performed, quietly, run_part
 from validation.study.records_runs import STEP, normalised
 
@@ -102,7 +101,7 @@ def trace(motion: GroundMotion) -> dict[str, Any]:
 
 def found_of(store: Path, workers: int | str) -> dict[str, Any]:
     """Run the campaigns, or go on with them, and return what is found."""
-    motions = dict(list(normalised(MotionSet.fema_p695(RECORDS)).items())[::2])
+    motions = dict(list(normalised(MotionSet.fema_p695("far-field")).items())[::2])
     found: dict[str, Any] = {"records": len(motions), "failed": {}, "cost": {}}
     for level, holds in RUNS.items():
         frames = {named(hold): frame(hold) for hold in holds}
