@@ -34,7 +34,7 @@ def csv_lines(path: Path) -> CsvLines:
     try:
         text = raw.decode("utf-16" if wide else "utf-8-sig")
     except UnicodeDecodeError as cause:
-        msg = f"is no text in UTF-8 ({cause.reason}): save it as UTF-8"
+        msg = f"is not text in UTF-8 ({cause.reason}): save it as UTF-8"
         raise ValueError(msg) from cause
     lines = [(k, line) for k, line in enumerate(text.splitlines(), start=1)]
     lines = [(k, line) for k, line in lines if line.strip() and not line.lstrip().startswith("#")]
@@ -76,7 +76,7 @@ def open_book(path: Path) -> Any:
     try:
         return openpyxl.load_workbook(path, read_only=True, data_only=True)
     except _DAMAGED as cause:
-        message = f"is no workbook that can be read ({cause}): save it as {BOOKS[0]}"
+        message = f"is not a readable workbook ({cause}): save it as {BOOKS[0]}"
         raise ValueError(message) from cause
 
 

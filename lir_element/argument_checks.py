@@ -193,7 +193,7 @@ def require_vector(
     if array.shape != (size,):
         msg = (
             f"{name} has shape {array.shape}, it must be ({size},): "
-            f"give {size} numbers, zeros where there is nothing"
+            f"give {size} numbers, 0 for absent components"
         )
         raise error(msg)
     if not np.isfinite(array).all():

@@ -76,7 +76,10 @@ class Element:
         self.features = Features.all() if features is None else features
         for name in ("plate_rotation", "second_direction"):
             if name in self.features.left_out:
-                msg = f"{name} = False: not for an element, impose no such displacement instead"
+                msg = (
+                    f"{name} = False is not supported by Element: keep it True, and impose zero "
+                    "motion there"
+                )
                 raise ValueError(msg)
         always = {"uplift", "vertical_coupling"} & set(self.features.left_out)
         if level == "contact" and always:

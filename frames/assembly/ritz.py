@@ -237,7 +237,7 @@ def _refuse_lag(system: System, basis: Basis) -> None:
     massless = np.flatnonzero(~(abs(system.mass).sum(axis=1) > 0.0))
     if couples_massless(basis, system.damping, massless):
         message = (
-            'method = "reduced": a damping matrix of this model acts on degrees of freedom without '
-            'mass, which lag behind; take method="direct"'
+            'method = "reduced" does not support damping on degrees of freedom without '
+            'mass: use method="direct"'
         )
         raise ModelError(message)

@@ -48,10 +48,9 @@ class LoadPath(NamedTuple):
             return ""
         names = listed((f'"{node}" ({1e-3 * force:.4g} kN)' for node, force in taken), NAMED)
         return worded(
-            "the bearings carry {bearings:.4g} kN of the {weight:.4g} kN above them: vertical "
-            'supports take the rest past them, at {names}. Free their "uz" and put the masses '
-            "where columns or bearings carry them (a diaphragm ties nothing vertically), unless "
-            "these supports are meant",
+            "the bearings carry {bearings:.4g} of the {weight:.4g} kN above them; vertical "
+            'supports carry the rest, at {names}. Free their "uz" and put the masses above '
+            "columns or bearings, unless these supports are meant",
             bearings=1e-3 * self.bearings,
             weight=1e-3 * self.weight,
             names=names,
@@ -112,9 +111,9 @@ def held_sideways(
         found.append(
             worded(
                 "springs or supports beside the bearings hold the structure along {axis}, "
-                "{beside:.3g} times as stiffly as the pendulums of the bearings: it hardly slides. "
-                "They are at {nodes}: put them below the bearings or take them out, unless they "
-                "are meant",
+                "{beside:.3g} times as stiffly as the pendulums: it hardly slides. Remove "
+                "them or put them below the bearings, unless they are meant. They are at "
+                "{nodes}",
                 axis=name,
                 beside=beside,
                 nodes=listed(nodes, NAMED),

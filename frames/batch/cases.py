@@ -151,7 +151,7 @@ def _factors(scales: object) -> list[float]:
 def _factor(value: object) -> float:
     number = require_finite("scale of a motion", value)
     if not abs(number) > 0.0:
-        msg = "scale of a motion = 0 leaves nothing of it: give a factor, 1 for the motion as it is"
+        msg = "the scale of a motion must not be 0: use 1 for the unscaled motion"
         raise ValueError(msg)
     return number
 

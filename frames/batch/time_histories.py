@@ -129,9 +129,7 @@ def time_histories(
     require_choice("method", method, ("direct",))
     check_options(level, method, integrator, "warn", features)
     if level in {"auto", "rigid_body"} if isinstance(level, str) else False:
-        msg = (
-            f'level = "{level}" is one of single runs: call time_history for each, or take another'
-        )
+        msg = f'time_histories does not support level="{level}": call time_history for each motion'
         raise ValueError(msg)
     histories = _recording_of(record)
     options = {

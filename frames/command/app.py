@@ -185,8 +185,8 @@ def report(
         found = evaluate_run(parts, known, *read_histories(results, inputs_of(parts, known)))
         if (results / UNFINISHED).is_dir():
             text = (
-                f"warning: {results / UNFINISHED} is of a later run that was interrupted: "
-                "the report is of the whole run before it"
+                "warning: the report shows the last complete run; a later run was "
+                f"interrupted ({results / UNFINISHED})"
             )
             err.print(text, markup=False, highlight=False, soft_wrap=True)
         source = parts.sources.text
@@ -207,8 +207,8 @@ def _said_to_be_kept(unfinished: Path) -> None:
     count = sum(1 for _ in unfinished.rglob("*.npz"))
     if count:
         err.print(
-            f"{count} runs that were complete are kept in {escape(str(unfinished))}: the same "
-            "command goes on from there",
+            f"{count} complete runs are kept in {escape(str(unfinished))}: the same command "
+            "continues from there",
             highlight=False,
             soft_wrap=True,
         )
@@ -224,7 +224,7 @@ def _told_of(found: ProjectRun, written: list[Path], results: Path) -> None:
         words = (f"{bound}: {said}" if bound else said for bound, said in statistics)
         say(f"values are: {'; '.join(words)}")
     if found.failures:
-        out.print("\n[bold]Runs that failed[/]: their largest values are no values for design")
+        out.print("[bold]Runs that failed[/]: their largest values are not valid for design")
         _say_each(map(str, found.failures))
     if len(moved := found.runs.moved):
         seconds = float(moved.parts[0].attrs["seconds"])  # of all of them: one batch
@@ -269,7 +269,7 @@ def bench(
                 write_whole(table, csv_of(pd.DataFrame(ways), index=False))
         best = recommended(ways[1:], error)
         if best is None:
-            say(f"no step keeps {error:.3g} of the peaks")
+            say(f"no step reaches an error of {100.0 * error:.3g} % in the peaks")
         else:
             step = "leave dt out" if math.isnan(best.dt) else f'dt = "{1e3 * best.dt:g} ms"'
             say(f'within {error:.3g} of the peaks: [analysis] {step}, level = "{best.level}"')

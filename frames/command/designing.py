@@ -54,15 +54,21 @@ def propose(
         typer.Option(
             "--objective",
             "--least",
-            help="What is made least: base-shear, displacement, plan (diameter of the plates), "
-            "cost-like (volume of all bearings) or cost (by the prices of [design]).",
+            help=(
+                "Quantity to minimise: base-shear, displacement, plan (diameter of the "
+                "plates), cost-like (volume of all bearings) or cost (by the prices of "
+                "[design])."
+            ),
         ),
     ] = "base-shear",
     top: Annotated[
         int, typer.Option(min=1, help="How many of the best are listed, and tried.")
     ] = 3,
     front: Annotated[
-        bool, typer.Option("--front", help="Try all that none beats, not until one passes.")
+        bool,
+        typer.Option(
+            "--front", help="Try all Pareto-optimal candidates, not only until one passes."
+        ),
     ] = False,
     verify: Annotated[
         bool, typer.Option("--verify", help="Run the time histories of the project as well.")
@@ -191,7 +197,7 @@ def _objective(word: str) -> Objective:
 
     named = OBJECTIVES | {name: name for name in OBJECTIVES.values()}  # as design() has them
     if word not in named:
-        msg = f"--objective {word!r} is none of {', '.join(OBJECTIVES)}"
+        msg = f"--objective {word!r} must be one of {', '.join(OBJECTIVES)}"
         raise ProjectError(msg)
     return named[word]
 
@@ -200,9 +206,9 @@ def _summary(found: Design, objective: str, top: int) -> None:
     # The best by the objective, the Pareto set, and why the others fell out.
     ranked, best = found.ranked, found.pareto
     say(
-        f"{len(found.candidates) + len(found.impossible)} candidates tried, {len(ranked)} keep "
-        f"what is asked, {len(best)} of them Pareto-optimal (none has less displacement, base "
-        "shear and plan diameter at once)"
+        f"{len(found.candidates) + len(found.impossible)} candidates tried, {len(ranked)} "
+        f"meet the requirements, {len(best)} of them Pareto-optimal (none has less "
+        "displacement, base shear and plan diameter at once)"
     )
     _reasons(found.candidates, found.impossible)
     shown = list(dict.fromkeys((*ranked[:top], *best)))

@@ -13,7 +13,7 @@ from frames.command.console import exit_codes, out, project_in, say
 def view(
     file: Annotated[Path, typer.Argument(help="The project's file.")] = Path("project.toml"),
     results: Annotated[Path, typer.Option(help="Folder with the results.")] = Path("results"),
-    size: Annotated[float, typer.Option(help="What the histories may take [MB].")] = 3.0,
+    size: Annotated[float, typer.Option(help="Largest size of the histories [MB].")] = 3.0,
 ) -> None:
     """Write view.html: model and bearings of the governing run in motion, on one page."""
     from frames.design._errors import ProjectError

@@ -46,9 +46,9 @@ def doubt_weights(
         part = 100.0 * sum(without.values()) / volume
         account.doubts.append(
             worded(
-                '{file}: material {names} has no weight, and pattern "{pattern}" has own weight: '
-                "{part:.3g} % of the volume of all elements do not weigh; give the material its "
-                "weight in that program, and export it again",
+                "{file}: material {names} has no weight, so {part:.3g} % of the volume of "
+                'all elements has none under pattern "{pattern}": give the material its '
+                "weight in that program, and export again",
                 file=account.file,
                 names=_quoted(without),
                 pattern=heavy[0],
@@ -98,8 +98,9 @@ def doubt_weights(
     same = {name: share for name, share in shares.items() if share and down.get(name, 0.0) > 0.0}
     account.doubts.append(
         worded(
-            "{file}: the mass ({said}) would weigh {mass:.4g} kN, and the permanent loads are "
-            "{weight:.4g} kN: {what}; mend the file, or let what weighs be the mass, {remedy}",
+            "{file}: the mass ({said}) corresponds to {mass:.4g} kN, but the permanent "
+            "loads are {weight:.4g} kN: {what}. Correct the file, or take the mass from "
+            "the loads, {remedy}",
             file=account.file,
             said=joined(*masses, by=", "),
             mass=1e-3 * mass,
@@ -124,9 +125,9 @@ def doubt_base(
             how = "settle by the same" if part.kind == "equal" else "settle as one rigid block"
             account.doubts.append(
                 worded(
-                    '{file}: constraint "{name}" ties uz of {count} joints on bearings, which '
-                    "{how}: a bearing does not carry the column above it; take UZ out of the "
-                    "constraint, and RX and RY with it, unless the base is that stiff",
+                    '{file}: constraint "{name}" ties uz of {count} joints on bearings, '
+                    "which {how}: bearings do not carry the columns above them. Remove UZ, "
+                    "RX and RY from it, unless the base is rigid",
                     file=account.file,
                     name=part.name,
                     count=len(tied),
@@ -138,9 +139,9 @@ def doubt_base(
     if options.base_rotations == "kept" and held and beams:
         account.doubts.append(
             worded(
-                "{file}: the supports hold the rotations of {count} joints on bearings ({some}), "
-                'and beams join them ("{beam}"): moments of the columns go to the ground in place '
-                "of the beams and the bearings; let the beams hold them, {remedy}",
+                "{file}: supports fix the rotations of {count} joints on bearings "
+                "({some}), so column moments go to the ground and not to the beams "
+                '("{beam}"): let the beams restrain them, {remedy}',
                 file=account.file,
                 count=len(held),
                 some=account.some(held),
@@ -156,9 +157,9 @@ def doubt_base(
     if base < LIGHT_BASE * whole:
         account.doubts.append(
             worded(
-                "{file}: the level on the bearings has {mass:.3g} t, {part:.2g} % of the mass: "
-                "friction shakes it as no floor is shaken, and its accelerations mean nothing; "
-                "model the slab or the beams there, or add their mass to these joints",
+                "{file}: the level on the bearings has {mass:.3g} t, {part:.2g} % of the "
+                "mass, so its accelerations have no meaning: model the slab or the beams "
+                "there, or add their mass to these joints",
                 file=account.file,
                 mass=1e-3 * base,
                 part=100.0 * base / whole,

@@ -89,7 +89,7 @@ class Objects:
         names = list(self.stories)
         place = names.index(known(row, "story", story, names)) - count
         if count < 0 or place < 0:
-            message = f'{count} stories below "{story}" there is none'
+            message = f'there are no {count} stories below "{story}"'
             raise row.error(message)
         return names[place]
 

@@ -76,8 +76,8 @@ def _refuse(frame: FrameData, displacement: float | None, program: str) -> None:
     ):
         if group:
             message = (
-                f'frame "{frame.name}" has {word} ("{next(iter(group))}"), which are not '
-                f"written for {program}: take them out of a copy, or model them there"
+                f'frame "{frame.name}" has {word} ("{next(iter(group))}"), which cannot be '
+                f"written for {program}: remove them from a copy, or model them there"
             )
             raise ModelError(message)
     if frame.bearings and displacement is None:
@@ -89,8 +89,8 @@ def _refuse(frame: FrameData, displacement: float | None, program: str) -> None:
     shared = [p.name for p in frame.floor_loads.values() if p.mass is not None]
     if shared:
         message = (
-            f'floor load "{shared[0]}" has a share of mass of its own: give it by the mass '
-            "source of its case"
+            f'floor load "{shared[0]}" has its own mass share, which cannot be written: use '
+            "the mass source of its case"
         )
         raise ModelError(message)
 
@@ -191,9 +191,9 @@ def _add_loads(frame: FrameData, building: Building) -> None:
         at[node, _DEAD] = np.array([0.0, 0.0, -weight, 0.0, 0.0, 0.0])
     if shares.get(_DEAD) and at:
         message = (
-            "masses and members that weigh cannot be written where dead loads are masses as "
-            "well: give add_mass(..., weighs=False), sections of density 0, and their weights "
-            "as loads"
+            "weighing masses and members cannot be written if dead loads are masses as "
+            "well: use add_mass(..., weighs=False), sections of density 0, and loads for "
+            "their weights"
         )
         raise ModelError(message)
     for node, cases in frame.loads_by_case.items():

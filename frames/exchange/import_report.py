@@ -59,7 +59,7 @@ class Options:
             raise TypeError(message)
         if self.at is not None and (self.bearing is None or isinstance(self.bearing, Mapping)):
             message = (
-                "at says where one bearing stands: give one LIRBearing, or a mapping without at"
+                "at= gives the places of one bearing: give one LIRBearing, or a mapping without at"
             )
             raise ModelError(message)
 
@@ -139,9 +139,8 @@ class ImportReport:
             self.left_out(table, "words that are not known here", list(found))
             self.doubts.append(
                 worded(
-                    "{file}, {table}: words that are not known here were not read: {words}; look "
-                    "up in that program whether they change the model, and model it without them "
-                    "if they do",
+                    "{file}, {table}: unknown words were not read: {words}. Check in that "
+                    "program whether they change the model, and if so model it without them",
                     file=self.file,
                     table=table,
                     words=self.some(found),
@@ -220,8 +219,8 @@ class ImportReport:
         idle = sorted(self.allow - self._used)
         if idle:
             message = (
-                f'{self.file}: allow names "{idle[0]}", and nothing of that name had to be '
-                "accepted: leave it out"
+                f'{self.file}: allow has "{idle[0]}", but the file needs no such '
+                "permission: remove it"
             )
             raise ModelError(message)
 

@@ -53,7 +53,7 @@ def add_line_load(
     axes = frame_axes(first, last, given.angle)
     found = direction_of(way, axes)
     if found is None:
-        msg = f'"{way}" of frame "{frame}" is no direction: Gravity, X, Y, Z, 1, 2, 3'
+        msg = f'direction "{way}" of frame "{frame}" must be Gravity, X, Y, Z, 1, 2 or 3'
         raise row.error(msg)
     vector, projected = found
     if absolute:
@@ -132,7 +132,7 @@ def add_area_load(
     if way.strip().lower() in {"3", "local-3"}:
         found = normal, False
     if found is None:
-        message = f'"{way}" of area "{area}" is no direction that is read: Gravity, X, Y, Z or 3'
+        message = f'direction "{way}" of area "{area}" must be Gravity, X, Y, Z or 3'
         raise row.error(message)
     vector, projected = found
     share = abs(float(normal @ vector)) if projected else 1.0

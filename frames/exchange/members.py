@@ -236,8 +236,9 @@ class Places:
             joints = [name]
         else:
             message = (
-                f'"{name}" is no group, link property, link or joint of {building.account.file}: '
-                f"it has groups {', '.join(building.groups) or 'none'}, link properties "
+                f'"{name}" is not a group, link property, link or joint of '
+                f"{building.account.file}: its groups are "
+                f"{', '.join(building.groups) or 'none'}, its link properties "
                 f"{', '.join(building.link_properties) or 'none'}"
             )
             raise ModelError(message)

@@ -54,8 +54,9 @@ def mesh_areas(
     for area in areas:
         if len(area.joints) > 4:
             message = (
-                f'{area.place}: area "{area.name}" is a shell of {len(area.joints)} corners, those '
-                "of 3 and 4 are read: divide it, or give it a rigid diaphragm"
+                f'{area.place}: area "{area.name}" is a shell of {len(area.joints)} '
+                "corners, only 3 and 4 are supported: divide it, or give it a rigid "
+                "diaphragm"
             )
             raise ModelError(message)
     inside = inside or {}
@@ -87,8 +88,8 @@ def mesh_areas(
         if divided:
             message = (
                 f'{area.place}: triangle "{area.name}" has joints along its edge between '
-                f'"{divided[0][0]}" and "{divided[0][1]}", or needs some for the elements beside '
-                "it: divide it into quadrilaterals"
+                f'"{divided[0][0]}" and "{divided[0][1]}", or its neighbours need some: '
+                "divide it into quadrilaterals"
             )
             raise ModelError(message)
         mesh.elements.append((area.name, area.joints))

@@ -196,8 +196,9 @@ def filled_section(
         raise row.error(msg) from cause
     if wall is None or core is None:
         message = (
-            f'section "{name}": TF = {sizes[2]:g} m and TW = {web:g} m differ; known are filled '
-            f"tubes of one thickness: give its constants, {argument('sections', {name: ...})}"
+            f'section "{name}": TF = {sizes[2]:g} m and TW = {web:g} m differ, but filled '
+            "tubes must have one thickness: give its constants, "
+            f"{argument('sections', {name: ...})}"
         )
         raise row.error(message)
     stretch = fill.elastic_modulus / steel.elastic_modulus
@@ -270,8 +271,8 @@ def _read(path: Path) -> dict[str, Shape]:
     words = rows.control.text("LENGTH_UNITS", "") if rows.control else ""
     if rows.root != ROOT or words.upper() not in LENGTHS:
         message = (
-            f"{path.name} is no property file of ETABS or SAP2000: it begins with {ROOT} and has "
-            f"LENGTH_UNITS of {', '.join(LENGTHS)} under CONTROL"
+            f"{path.name} is not a property file of ETABS or SAP2000, which begins with "
+            f"{ROOT} and has LENGTH_UNITS of {', '.join(LENGTHS)} under CONTROL"
         )
         raise ModelError(message)
     one = LENGTHS[words.upper()]

@@ -35,8 +35,8 @@ def read_text(path: Path) -> str:
             if text.count("\0") * _FEW <= len(text):  # ETABS ends a comment of its log by one
                 return text.replace("\0", "")
     message = (
-        f"{path.name} is no text file: export the model as text (File > Export), a binary "
-        "model cannot be read"
+        f"{path.name} is not a text file: export the model as text (File > Export); binary "
+        "models cannot be read"
     )
     raise ModelError(message)
 
@@ -88,8 +88,8 @@ def _refuse_end(name: str, tables: Tables, *, ended: bool, table: str) -> None:
         raise ModelError(message)
     if not ended:
         message = (
-            f'{name} ends in table "{table}" without the line {_END}: it is cut off, export it '
-            "again; where it is whole, add that line at its end"
+            f'{name} ends in table "{table}" without the line {_END}, so it may be cut off: '
+            "export it again, or add that line if the file is complete"
         )
         raise ModelError(message)
 
@@ -102,15 +102,16 @@ def _pairs(text: str, file: str, table: str, line: int) -> dict[str, Value]:
             break
         key = match[1]
         if key in found:
-            message = f'{file}, line {line}, table "{table}": {key} stands twice in the row'
+            message = f'{file}, line {line}, table "{table}": {key} occurs twice in the row'
             raise ModelError(message)
         found[key] = match[2].replace('""', '"') if match[2] is not None else match[3]
         at = match.end()
     rest = text[at:].strip(" _")
     if rest:
         message = (
-            f'{file}, line {line}, table "{table}": "{rest[:60]}" is not of the form Key=Value: '
-            "export the file again, or correct the line (text with spaces stands in quotes)"
+            f'{file}, line {line}, table "{table}": "{rest[:60]}" must have the form '
+            "Key=Value: export the file again, or correct the line (text with spaces needs "
+            "quotes)"
         )
         raise ModelError(message)
     return found
@@ -199,14 +200,14 @@ def read_e2k(path: Path, decimal: Decimal = ".") -> Tables:
         _add(tables, _row(name, section, line, text, decimal))
     if not begun:
         message = (
-            f"{name} is no ETABS text file: it has no section $ PROGRAM INFORMATION; export the "
-            "model with File > Export > ETABS Text File"
+            f"{name} is not an ETABS text file, which has a section $ PROGRAM INFORMATION: "
+            "export the model with File > Export > ETABS Text File"
         )
         raise ModelError(message)
     if not ended:
         message = (
-            f'{name} ends in section "{section}" without the line {_E2K_END}: it is cut off, '
-            "export it again; where it is whole, add that line at its end"
+            f'{name} ends in section "{section}" without the line {_E2K_END}, so it may be '
+            "cut off: export it again, or add that line if the file is complete"
         )
         raise ModelError(message)
     return tables

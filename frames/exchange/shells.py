@@ -185,8 +185,8 @@ def add_shells(frame: Frame, building: Building, mesh: Mesh) -> None:
     ops = opensees()
     if ops.getNodeTags():
         message = (
-            "walls and slabs are read through OpenSees, which holds a model of yours: call "
-            "openseespy.opensees.wipe() first, or import in a process of its own"
+            "walls and slabs are read through OpenSees, which holds another model: call "
+            "openseespy.opensees.wipe() first, or import in a separate process"
         )
         raise ModelError(message)
     names = list(dict.fromkeys(node for _, nodes in mesh.elements for node in nodes))
@@ -305,8 +305,9 @@ def shells_of(frame: FrameData, building: Building) -> None:
         within = [name for name, nodes in diaphragms if nodes.issuperset(shell.nodes)]
         if within:
             message = (
-                f'a shell of area "{shell.area}" lies within the rigid diaphragm "{within[0]}", '
-                f"where {building.program} has it as a slab: take it out, or the diaphragm"
+                f'a shell of area "{shell.area}" lies within the rigid diaphragm '
+                f'"{within[0]}", and {building.program} would take it for a slab: remove '
+                "the shell or the diaphragm"
             )
             raise ModelError(message)
         stiffest = shell.elastic_modulus * max(shell.bending, 1.0)

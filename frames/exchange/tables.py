@@ -116,7 +116,7 @@ def as_number(row: Row, field: str, text: str) -> float:
                 "it was written with the other decimal sign: read the file with "
                 f"{argument('decimal', other)}"
             )
-        msg = f'{field} = "{text}" is no number: {remedy}'
+        msg = f'{field} = "{text}" is not a number: {remedy}'
         raise row.error(msg, field) from None
     if not math.isfinite(found) or "_" in text:
         msg = f'{field} = "{text}" must be a finite number'
@@ -189,7 +189,7 @@ def by_name(rows: Sequence[Row], field: str) -> dict[str, Row]:
         row.looked_at.discard(field)  # a row of which the name alone is read is not looked at
         if name in found:
             message = (
-                f'{field} "{name}" stands in line {found[name].line} already: keep one of the two'
+                f'{field} "{name}" already occurs in line {found[name].line}: keep one of the two'
             )
             raise row.error(message)
         found[name] = row

@@ -175,7 +175,7 @@ def permanent_shares(building: Building, options: Options) -> dict[str, float]:
         if given not in building.combinations:
             some = ", ".join(building.combinations) or "none"
             message = (
-                f'loads = "{given}" is no combination of {building.account.file}: it has {some}'
+                f'loads = "{given}" is not a combination of {building.account.file}: it has {some}'
             )
             raise ModelError(message)
         given = building.combinations[given]
@@ -184,7 +184,9 @@ def permanent_shares(building: Building, options: Options) -> dict[str, float]:
         for name, factor in given.items():
             if name not in building.patterns:
                 some = ", ".join(building.patterns) or "none"
-                message = f'loads: "{name}" is no load pattern of {building.account.file}: {some}'
+                message = (
+                    f'loads: "{name}" is not a load pattern of {building.account.file}: {some}'
+                )
                 raise ModelError(message)
             shares[name] = float(factor)
     else:
@@ -217,7 +219,7 @@ def _source(building: Building, options: Options) -> MassSource:
     unknown = [name for name in options.mass if name not in building.patterns]
     if unknown:
         some = ", ".join(building.patterns) or "none"
-        message = f'mass: "{unknown[0]}" is no load pattern of {building.account.file}: {some}'
+        message = f'mass: "{unknown[0]}" is not a load pattern of {building.account.file}: {some}'
         raise ModelError(message)
     return MassSource(elements=False, added=False, patterns=dict(options.mass))
 

@@ -55,8 +55,8 @@ class Places:
             place = self._place(joint)
             if place in taken:
                 message = (
-                    f'nodes "{taken[place]}" and "{joint.name}" stand at one place, which ETABS '
-                    "merges: move one of them, or join them in the frame"
+                    f'nodes "{taken[place]}" and "{joint.name}" coincide, and ETABS would '
+                    "merge them: move one, or join them in the frame"
                 )
                 raise ModelError(message)
             taken[place] = joint.name
@@ -272,8 +272,8 @@ class EtabsWriter:
         for joint, (x, y, z, *turns) in building.masses.items():
             if x != y:
                 message = (
-                    f'masses of node "{joint}" differ between x and y, which ETABS\' text '
-                    "cannot hold: give one mass in plan"
+                    f'masses of node "{joint}" differ between x and y, which the text of ETABS '
+                    "does not support: give one mass in plan"
                 )
                 raise ModelError(message)
             found[joint].append(_words(written(dialect.MASS, (x, z, *turns), self.units)))

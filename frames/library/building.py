@@ -133,14 +133,14 @@ def require_whole(plan: BuildingPlan) -> None:
         hanging = sorted(nodes - heads - ends)
         if hanging and level == 0:
             msg = (
-                f'column "{hanging[0]}": no beam at the base, floor 0, reaches its foot, and a '
-                "bearing holds none upright: give base beams between the feet of columns"
+                f'column "{hanging[0]}" has no base beam, and a bearing does not restrain '
+                "rotation: give base beams between the feet of columns"
             )
             raise ModelError(msg)
         if hanging:
             msg = (
-                f'column "{hanging[0]}" begins at {level_name(level)}, where no beam reaches it: '
-                "let it begin on the base, or give the beams that carry it"
+                f'column "{hanging[0]}" begins at {level_name(level)}, and no beam reaches '
+                "it: let it begin on the base, or add the beams that carry it"
             )
             raise ModelError(msg)
         if plan.walls:  # which must not lie over beams

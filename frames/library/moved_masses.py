@@ -154,7 +154,7 @@ def _require_turning(system: System, floor: _Floor) -> None:
     if not turns.all():
         node = system.node_names[floor.nodes[int(np.argmin(turns))]]
         msg = (
-            f'floor "{floor.name}" cannot turn about the vertical (rz of its node "{node}" is '
-            "held): masses that are moved in plan change nothing there"
+            f'floor "{floor.name}" cannot rotate about the vertical (rz of its node '
+            f'"{node}" is fixed), so moved masses change nothing there'
         )
         raise ModelError(msg)

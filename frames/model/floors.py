@@ -200,9 +200,8 @@ def turning(corners: FloatArray, owner: str) -> float:
     turns_back = np.abs(angles) > math.pi - 1e-6
     if (side * sines < -1e-6).any() or turns_back.any() or abs(angles.sum()) > 2.0 * math.pi + 1e-3:
         message = (
-            f"{owner}: its corners are not those of a convex outline in order: name them one after "
-            "the other around the panel (not all on one line), and split it where a corner points "
-            "inwards"
+            f"{owner}: the corners must form a convex outline in order: list them around "
+            "the panel, and split a panel with a reentrant corner"
         )
         raise ModelError(message)
     return side

@@ -119,8 +119,8 @@ def member_offsets(
     unknown = [end for end in given if end not in {"i", "j"}]
     if unknown:
         message = (
-            f'offsets of member "{name}": {unknown[0]!r} is no end; give "i" and "j" with vectors '
-            'from node to end [m], such as {"j": (-0.25, 0, 0)}'
+            f'offsets of member "{name}": {unknown[0]!r} is not an end: give "i" and "j" '
+            f'with vectors from node to end [m], such as {{"j": (-0.25, 0, 0)}}'
         )
         raise ModelError(message)
     found = []
@@ -195,8 +195,8 @@ def require_bearing_place(nodes: Nodes, name: str, i: str, j: str, bearing: LIRB
     rise = above.z - below.z
     if offset > SAME_PLACE:
         message = (
-            f'bearing "{name}": node "{j}" stands {offset:g} m beside the vertical through '
-            f'node "{i}", at most {SAME_PLACE:g} m is allowed: give both one x and y'
+            f'bearing "{name}": node "{j}" is {offset:g} m aside of the vertical through '
+            f'node "{i}", at most {SAME_PLACE:g} m is allowed: give both the same x and y'
         )
         raise ModelError(message)
     if not fits(rise, height):

@@ -69,8 +69,8 @@ def combination(frame: FrameData, factors: Mapping[str, float], weight: str) -> 
     if lacking:
         what = "what masses weigh" if lacking[0] == weight else "loads of the frame"
         message = (
-            f'combined: load case "{lacking[0]}" ({what}) has no factor: give it one, 0 to leave '
-            f"it out; there are factors of {', '.join(found) or 'nothing'}"
+            f'combined: load case "{lacking[0]}" ({what}) has no factor: give one (0 leaves '
+            f"it out). Factors were given for {', '.join(found) or 'no case'}"
         )
         raise ModelError(message)
     return found

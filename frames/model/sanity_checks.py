@@ -94,8 +94,8 @@ def _of_members(frame: FrameData) -> list[str]:
     if middle > SLENDEREST:
         return [
             worded(
-                "half of the members are more than {middle:.3g} radii of gyration long, as thin as "
-                'a wire (member "{first}": {ratios:.3g}): give coordinates and sections in m, m2 '
+                "half of the members are longer than {middle:.3g} radii of gyration "
+                '(member "{first}": {ratios:.3g}): give coordinates and sections in m, m2 '
                 "and m4 (are the coordinates in mm or cm?)",
                 middle=middle,
                 first=first,
@@ -163,8 +163,8 @@ def _of_mass_source(frame: FrameData) -> list[str]:
         return []
     return [
         worded(
-            'set_mass_source takes mass from load case "{name}", of which there is no load: there '
-            "are {cases}",
+            'set_mass_source: load case "{name}" has no loads, so it adds no mass; the '
+            "cases are {cases}",
             name=empty[0],
             cases=", ".join(cases) or "no load cases",
         )

@@ -162,7 +162,9 @@ def require_elements(elements: PartElements, nodes: tuple[str, ...], owner: str)
     for name, ends in zip(elements.names, elements.nodes, strict=True):
         for node in ends:
             if node not in known:
-                message = f'element "{name}" of {owner} ends at "{node}", which is no node of it'
+                message = (
+                    f'element "{name}" of {owner} ends at "{node}", which is not one of its nodes'
+                )
                 raise ModelError(message)
     return elements
 

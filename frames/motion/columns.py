@@ -59,7 +59,7 @@ def read_columns(path: PathLike, column: int | None, layout: ColumnLayout) -> Ac
     factor = acceleration_unit(layout.unit)
     if factor is None:
         known = ", ".join(UNITS)
-        msg = f"unit = {layout.unit!r} must be one of {known}: say in what the file is written"
+        msg = f"unit = {layout.unit!r} must be one of {known}, the unit of the file"
         raise MotionError(msg)
     require_choice("order", layout.order, ORDERS, error=MotionError)
     require_choice("decimal", layout.decimal, (".", ","), error=MotionError)
@@ -105,8 +105,9 @@ def _one_history(
     if pairs:
         if len(values) % 2:
             msg = (
-                f"{name} holds {len(values)} numbers, which make no pairs of time and value: look "
-                f"at its last line, line {lines[-1][0]}, or leave a header out with skip"
+                f"{name} holds {len(values)} numbers, which do not form pairs of time and "
+                f"value: check line {lines[-1][0]}, its last one, or skip a header with "
+                "skip="
             )
             raise MotionError(msg)
         return AccelerationTrace(values[1::2] * factor, even_step(name, values[::2]))
@@ -181,8 +182,8 @@ def _only_column(name: str, table: FloatArray, time: int | None) -> int:
         seem = "the numbers seem to be" if likely_order(table) == "rows" else "if they are"
         told = f'; {seem} one history, row by row, read it with order="rows"'
     msg = (
-        f"{name} has {table.shape[1]} columns: say which one holds the accelerations, "
-        f"(path, column){told}"
+        f"{name} has {table.shape[1]} columns: name the one with the accelerations, (path, "
+        f"column){told}"
     )
     raise MotionError(msg)
 
@@ -207,8 +208,8 @@ def _doubt_columns(name: str, table: FloatArray, layout: ColumnLayout) -> None:
         return
     remedy = 'order="rows"' if layout.time is None else 'order="rows" and a file without its times'
     msg = worded(
-        "{name}: each row seems to go on where its columns end: one history row by row, of which a "
-        "column is every {count}th sample; read it with {remedy}",
+        "{name}: rows seem to continue one history, so that a column is only every "
+        "{count}th sample: read it with {remedy}",
         name=name,
         count=others.shape[1],
         remedy=remedy,

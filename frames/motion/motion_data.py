@@ -48,8 +48,8 @@ class MotionData:
         left = left_at_end(self._given(), self.dt, recorded=recorded)
         if left:
             msg = worded(
-                "{motion}: the ground is not at rest at its end, {left}. corrected() takes that "
-                "out, unless the motion was cut or shall end so",
+                "{motion}: the ground still moves at the end, {left}. Use corrected(), "
+                "unless the motion was cut on purpose",
                 motion=self.name or "ground motion",
                 left=left,
             )

@@ -138,8 +138,9 @@ def _cause(name: str, lines: Lines, at: int, where: int, writing: Writing) -> st
     head = f"{name}, line {where}: {bad[:40]!r}"
     if writing.width is not None:
         return (
-            f"{head} is no number: fields of width = {writing.width} do not fit this line; count "
-            "the characters of a number with the blanks before it, or leave the header out by skip"
+            f"{head} is not a number: width = {writing.width} does not match this line. "
+            "Count the characters of a number with its leading blanks, or skip the header "
+            "with skip="
         )
     if _TOUCHING.fullmatch(bad):
         found = _fitting_width([text for _, text in lines[at : at + 20]])

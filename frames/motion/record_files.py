@@ -171,8 +171,8 @@ def _factor(name: str, form: Format, text: str) -> float:
     factor = acceleration_unit(unit)
     if factor is None:
         msg = (
-            f"{name}: its numbers are in {unit!r}, which is no unit of acceleration: give the "
-            "processed record with accelerations (volume 1 or 2)"
+            f"{name}: the unit {unit!r} is not an acceleration: use the processed record "
+            "(volume 1 or 2)"
         )
         raise MotionError(msg)
     return factor
@@ -246,8 +246,8 @@ def _compare_peak(name: str, form: Format, text: str, values: FloatArray) -> Non
     digits = 0.5 * 10.0 ** -len(match[1].partition(".")[2]) * factor
     if said > 0.0 and abs(peak - said) > _PEAK_TOLERANCE * said + digits:
         msg = worded(
-            "{name}: its header names a peak of {said:.4g} m/s2, the samples reach {peak:.4g}: "
-            "look into the file, the unit or an offset may not be what the format says",
+            "{name}: the header states a peak of {said:.4g} m/s2, but the samples reach "
+            "{peak:.4g}: check the unit and the offset in the file",
             name=name,
             said=said,
             peak=peak,

@@ -66,9 +66,9 @@ def read_at2(path: PathLike) -> AccelerationTrace:
     if sizes is None:
         found = repr(lines[3].strip()) if len(lines) > 3 else f"only {len(lines)} lines"
         msg = (
-            f"{name}: line 4 of an AT2 file reads 'NPTS= 4000, DT= .005 SEC' or '4000 0.005 NPTS, "
-            f"DT', this one has {found}: give an AT2 file, or read it with from_columns(x=..., "
-            'order="rows", skip=<lines of the header>, dt=<step in s>, unit="g")'
+            f"{name}: line 4 of an AT2 file must read 'NPTS= 4000, DT= .005 SEC' or '4000 "
+            f"0.005 NPTS, DT', not {found}: give an AT2 file, or use from_columns(x=..., "
+            'order="rows", skip=<header lines>, dt=<s>, unit="g")'
         )
         raise MotionError(msg)
     points, step = int(sizes[1]), float(re.sub(r"[Dd]", "E", sizes[2]).replace(",", "."))
@@ -81,7 +81,7 @@ def read_at2(path: PathLike) -> AccelerationTrace:
     if len(values) != points:
         state = "is cut short" if len(values) < points else "holds more than one record"
         msg = (
-            f"{name} {state}: {len(values)} values, and its header says NPTS = {points}; "
+            f"{name} {state}: {len(values)} values, but the header states NPTS = {points}: "
             "fetch the file again"
         )
         raise MotionError(msg)
@@ -147,7 +147,7 @@ def common_step(traces: Mapping[str, AccelerationTrace]) -> float:
     steps = {axis: trace.dt for axis, trace in traces.items()}
     if steps and max(steps.values()) - min(steps.values()) > 1e-6 * max(steps.values()):
         found = ", ".join(f"{axis} {step:g} s" for axis, step in steps.items())
-        msg = f"the components have unlike time steps ({found}): resample them to one dt first"
+        msg = f"the time steps of the components differ ({found}): resample them to one dt first"
         raise MotionError(msg)
     return next(iter(steps.values()), 1.0)
 

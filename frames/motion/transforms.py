@@ -104,9 +104,10 @@ def baseline_corrected(given: Given, dt: float, *, displacement: bool) -> tuple[
             left = drift_of(values, dt)
             msg = (
                 f"the correction would change the peak of {axis} by {change:.1%}, at most "
-                f"{LARGEST_CHANGE:.0%}: velocity {left.velocity:.3g} m/s and displacement "
-                f"{left.displacement:.3g} m at the end are no matter of a baseline; use the "
-                "whole record, or corrected(displacement=False)"
+                f"{LARGEST_CHANGE:.0%} is allowed, because the final velocity of "
+                f"{left.velocity:.3g} m/s and displacement of {left.displacement:.3g} m are "
+                "too large for a baseline: use the whole record, or "
+                "corrected(displacement=False)"
             )
             raise MotionError(msg)
         largest = max(largest, abs(change))

@@ -107,8 +107,8 @@ def judge_elements(
         )
         if not accept:
             message = (
-                f"{text}: they yield, open or crack, and are not linear in this state; take the "
-                f"model over before, or freeze their present stiffness, "
+                f"{text} yield, open or crack and are not linear in this state: import the "
+                "model before, or freeze their present stiffness, "
                 f"{argument('accept_nonlinear', True)}"
             )
             raise ModelError(message)
@@ -170,10 +170,9 @@ def refuse_leaning(system: System, initial: SparseMatrix) -> None:
     node, dof = label.rsplit(" ", 1)
     if elastic < _LEANING * loads:
         message = (
-            f"node {node} can move along {dof} (axes of the frame, z up) without deforming an "
-            "element, and the loads push it over: a hinged (leaning) column or a truss member "
-            "under compression that nothing braces in this direction; tie its top to the frame "
-            "(equalDOF, rigidDiaphragm, a beam) or brace it"
+            f"node {node} can move along {dof} (frame axes, z up) without deforming an "
+            "element, and the loads push it over: brace the column or strut there, or tie "
+            "its top to the frame (equalDOF, rigidDiaphragm, a beam)"
         )
         raise ModelError(message)
     message = (

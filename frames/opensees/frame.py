@@ -166,7 +166,7 @@ def _released(structure: Structure, options: Options) -> Structure:
     fixed |= np.all(structure.fixed[used], axis=0)
     idle = [tag for tag in options.bases if not used[structure.tags.index(tag)]]
     if idle:
-        message = f"base node {idle[0]} carries nothing: no element, mass or constraint is there"
+        message = f"base node {idle[0]} carries nothing: it has no element, mass or constraint"
         raise ModelError(message)
     places = np.flatnonzero(used)
     dofs = (6 * places[:, None] + np.arange(6)).ravel()

@@ -102,8 +102,9 @@ def permanent_load(structure: Structure, options: Options) -> tuple[FloatArray, 
         raise ModelError(message)
     if options.gravity is not None and is_loaded:
         message = (
-            f"gravity = {options.gravity:g} m/s2, but the OpenSees model carries a vertical load "
-            f"of {weight:.4g} N already: leave gravity out, or take the model over without loads"
+            f"gravity = {options.gravity:g} m/s2, but the OpenSees model already carries "
+            f"{weight:.4g} N of vertical load: leave gravity out, or import the model "
+            "without loads"
         )
         raise ModelError(message)
     notes = []

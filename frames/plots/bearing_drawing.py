@@ -263,12 +263,14 @@ def _instants(
     else:
         chosen = {" " * k: float(time) for k, time in enumerate(instants)}
     if not chosen:
-        msg = "instants is empty: give one or more times [s] by title, or leave it out"
+        msg = "instants is empty: give at least one time [s] by title, or leave it out"
         raise ValueError(msg)
     first, last = (float(data["time"][k]) for k in (0, -1))
     for title, time in chosen.items():
         if not first <= time <= last:
-            msg = f"instant {title!r} = {time:g} s: the result goes from {first:g} to {last:g} s"
+            msg = (
+                f"instant {title!r} = {time:g} s is outside of the result, {first:g} to {last:g} s"
+            )
             raise ValueError(msg)
     return chosen
 

@@ -179,8 +179,8 @@ def _bent_rims(data: xr.Dataset, bent: FloatArray) -> str:
         if broken.size > _NAMED:
             who = worded("{names} and {count} more", names=who, count=broken.size - _NAMED)
         return worded(
-            "a rim broke of {names}: the slider went on over the flange, on the same sphere, and "
-            "nothing holds it there",
+            "a rim of {names} broke: the slider passed over the flange, on the same "
+            "sphere, without restraint",
             names=who,
         )
     k = int(np.argmax(bent))
@@ -204,7 +204,7 @@ def _interface(data: xr.Dataset, out: bool) -> Finding:
     loose = "" if out else _loose_slip(data)
     if out or (share < FULL_SLIP and not loose):
         mattered = out and share >= _reached(data, "interface")
-        text = worded("carried {share} of what its friction holds", share=percent(share))
+        text = worded("carried {share} of its friction strength", share=percent(share))
         return finding("interface", out, mattered, share, text)
     slips, slipped = largest(data, "slip").values, largest(data, "slipped")
     text = worded("slipped up to {slip:.3g} mm", slip=1e3 * slips.max())
@@ -229,9 +229,9 @@ def _loose_slip(data: xr.Dataset) -> str:
     if not by > max(LOOSE_SLIP * float(slips.max()), least):
         return ""
     return worded(
-        "{bearing} slipped {slip:.3g} of its {total:.3g} mm under less than {share} of its load at "
-        "rest: its sliders fly and bounce, which no step settles; count on {factor} of those "
-        "{slip:.3g} mm",
+        "{bearing}: {slip:.3g} of {total:.3g} mm of slip occurred under less than {share} "
+        "of the load at rest, with the sliders out of contact. No step resolves this; "
+        "count on {factor} of those {slip:.3g} mm",
         bearing=names_of(data, "bearing")[k],
         slip=1e3 * by,
         total=1e3 * slips[k],

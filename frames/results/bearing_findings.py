@@ -110,8 +110,9 @@ def slip_stability(data: xr.Dataset) -> Finding:
         limit = 1e3 * max(float(held[worst]), 0.0)
         parts.append(
             worded(
-                "{bearing} slipped {slip:.3g} mm, without rims the interface holds {limit:.3g} mm: "
-                "where the motion turns again in that direction, the sliders slip on; raise mu_h",
+                "{bearing}: the slip of {slip:.3g} mm exceeds the stable limit of "
+                "{limit:.3g} mm, so the interface may slip further without rim contact: "
+                "raise mu_h",
                 bearing=names[worst],
                 slip=1e3 * slip[worst],
                 limit=limit,
@@ -121,8 +122,9 @@ def slip_stability(data: xr.Dataset) -> Finding:
         limit = 1e3 * float(data.variables["slip_capacity"].values[last])
         parts.append(
             worded(
-                "{bearing} slipped {slip:.4g} mm of the {total:.4g} mm at which the sliders' "
-                "overlap ends: a few per cent decide whether it fails; raise mu_h or the capacity",
+                "{bearing} slipped {slip:.4g} of {total:.4g} mm, the overlap of the "
+                "sliders: a few per cent decide whether it fails. Raise mu_h or the "
+                "capacity",
                 bearing=names[last],
                 slip=1e3 * slip[last],
                 total=limit,
@@ -130,7 +132,9 @@ def slip_stability(data: xr.Dataset) -> Finding:
         )
     text = joined(*parts)
     if not parts:
-        text = worded("the slip reached {share} of what holds without rims", share=percent(share))
+        text = worded(
+            "the slip reached {share} of the stable limit without rim contact", share=percent(share)
+        )
     if np.isinf(friction).all():
         text = "the slider is rigid"
     at_pendulum = np.array(levels_of_bearings(data)) == "pendulum"
@@ -157,9 +161,9 @@ def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     assumed = bool(np.isclose(stiffness[k], stack_stiffness(area[k], height[k]), rtol=1e-6))
     low, high = STACK_RANGE
     text = worded(
-        "{bearing} met a rim with a slip at {time:.2f} s: the axial stiffness stops {speed:.3g} "
-        "mm/s along the slider, by which the axial force rises by up to {share} of that at rest, "
-        "and the bearing's force with it",
+        "{bearing} met a rim with a slip at {time:.2f} s: the axial stiffness stops "
+        "{speed:.3g} mm/s along the slider, which raises the axial force by up to {share} "
+        "of that at rest, and the bearing force with it",
         bearing=names_of(data, "bearing")[k],
         time=closing.at[k],
         speed=1e3 * closing.values[k],
@@ -196,9 +200,9 @@ def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
     if shares[least] < STUCK:
         parts.append(
             worded(
-                "{bearing} moved {share} of what its friction holds (L Q/W = {held:.3g} mm): a "
-                "yield_displacement of {yield_displacement:.2g} mm moves such a peak by some 10 %, "
-                "far smaller ones by more",
+                "{bearing} moved {share} of its friction length (L Q/W = {held:.3g} mm): a "
+                "yield_displacement of {yield_displacement:.2g} mm changes a peak of this "
+                "size by some 10 %, smaller ones by more",
                 bearing=names[least],
                 share=percent(float(shares[least])),
                 held=1e3 * held[least],
@@ -208,8 +212,8 @@ def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
     if LEFT_OVER * held[most] < rest[most] <= held[most]:  # beyond it it still swings
         parts.append(
             worded(
-                "{bearing} is left {rest:.3g} mm aside, friction holds up to {held:.3g} mm: the "
-                "residual displacement of one run means little, take the median of many",
+                "{bearing} has a residual displacement of {rest:.3g} mm, and friction "
+                "holds up to {held:.3g} mm: one run means little, use the median of many",
                 bearing=names[most],
                 rest=1e3 * rest[most],
                 held=1e3 * held[most],
@@ -253,8 +257,8 @@ def equilibrium(data: xr.Dataset) -> tuple[Finding, ...]:
         if doubtful:
             text = worded(
                 "equilibrium: {name} of bearing forces, weight and inertia differ by "
-                "{difference:.3g} % of {over} at t = {time:.4g} s: forces and accelerations of one "
-                "instant do not belong together; take neither for a design",
+                "{difference:.3g} % of {over} at t = {time:.4g} s: do not use forces or "
+                "accelerations of this run for design",
                 name=name,
                 difference=100.0 * most,
                 over=over,
@@ -275,16 +279,16 @@ def _violence(data: xr.Dataset) -> tuple[Finding, ...]:
     cause = "look at the stiffness of what holds its mass"
     if own < _LIGHT * mean:
         cause = worded(
-            "its mass of {mass:.3g} kg is next to nothing beside {mean:.3g} kg at a node: give it "
-            "what stands there, or none",
+            "its mass of {mass:.3g} kg is negligible beside {mean:.3g} kg at a node: add "
+            "the mass that is there, or none",
             mass=own,
             mean=mean,
         )
     elif struck:
         cause = "an impact, at a rim or in landing: compare smaller steps, and softer rims"
     text = worded(
-        "accelerations: node {node} reached {most:.3g} g at t = {time:.4g} s (more than "
-        "{limit:.0f} g is beyond what structures do): {cause}",
+        "accelerations: node {node} reached {most:.3g} g at t = {time:.4g} s (structures "
+        "stay below {limit:.0f} g): {cause}",
         node=names_of(data, "node")[k],
         most=most,
         time=float(found.at[k]),
@@ -324,9 +328,9 @@ def yielding(data: xr.Dataset) -> tuple[Finding, ...]:
     text = worded("plastic rotation of hinges up to {turned:.3g} mrad", turned=1e3 * most)
     if most > TURNED:
         text = worded(
-            "plastic rotation of hinge {hinge}: {turned:.3g} mrad at t = {time:.4g} s: members "
-            "lose strength from about {limit:.0f} mrad on, which is not modelled; take it as the "
-            "beginning of a failure",
+            "plastic rotation of hinge {hinge}: {turned:.3g} mrad at t = {time:.4g} s "
+            "exceeds {limit:.0f} mrad, beyond which strength loss is not modelled: treat "
+            "this run as member failure",
             hinge=names_of(data, "hinge")[k],
             turned=1e3 * most,
             time=float(turned.at[k]),
@@ -342,10 +346,9 @@ def strained(data: xr.Dataset) -> tuple[Finding, ...]:
         return ()
     count = int(data.attrs["strain_over_limit_count"])
     text = worded(
-        "{member} strains {strain:.3g} times as far as its material keeps its stiffness, at t = "
-        "{time:.4g} s ({count} imported members are beyond that): here they stay elastic, in "
-        "OpenSees they yield, and displacements differ; put the bearings under the model there by "
-        "isolate, and compare",
+        "{member} strains to {strain:.3g} times the linear limit of its material at t = "
+        "{time:.4g} s ({count} imported members exceed theirs). It stays elastic here and "
+        "yields in OpenSees: put the bearings under that model by isolate, and compare",
         member=data.attrs["strain_over_limit_in"],
         strain=most,
         time=float(data.attrs["strain_over_limit_at"]),

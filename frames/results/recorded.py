@@ -78,9 +78,9 @@ def require_between_ends(recording: str, what: str) -> None:
     """Raise a ValueError if a recording, in words, has no step between its ends."""
     if recording.startswith(ENDS) and "rim contact" not in recording:
         msg = (
-            f"{what}: the recording is the {ENDS} only: run with "
-            "recording=Recording(every=n), or all of it; what was reached is in peaks(data), and "
-            "with extremes=True in envelope(data, variable)"
+            f"{what}: only the {ENDS} was recorded: run with recording=Recording(every=n), "
+            "or record all. Maxima are in peaks(data), and with extremes=True in "
+            "envelope(data, variable)"
         )
         raise ValueError(msg)
 

@@ -127,8 +127,9 @@ def write_whole(path: str | Path, content: bytes | memoryview | str) -> None:
         if not isinstance(cause, OSError):
             raise
         msg = (
-            f"{path} could not be written ({len(whole) / 1e6:.3g} MB): {cause.strerror}. What "
-            "stood there before is untouched: save to another place, or make room"
+            f"{path} could not be written ({len(whole) / 1000000.0:.3g} MB): "
+            f"{cause.strerror}. The file that was there is unchanged: save to another "
+            "place, or free some space"
         )
         raise OSError(cause.errno, msg) from cause
 
@@ -154,8 +155,8 @@ def refuse_links(folder: str | Path) -> None:
 
 def _leads_out(link: Path) -> str:
     return (
-        f"{link} is a link that leads out of its folder, to {os.path.realpath(link)}: nothing is "
-        "written there. Remove the link, or name that place itself"
+        f"{link} is a link out of its folder, to {os.path.realpath(link)}, and nothing was "
+        "written there. Remove the link, or name that place"
     )
 
 
@@ -166,7 +167,10 @@ def make_folder(path: str | Path) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as cause:
-        msg = f"{folder} is no folder and cannot be made one ({cause.strerror}): name another place"
+        msg = (
+            f"{folder} is not a folder and cannot be made one ({cause.strerror}): name "
+            "another place"
+        )
         taken = cause.errno == errno.EEXIST  # by a file
         raise OSError(errno.ENOTDIR if taken else cause.errno, msg) from cause
     return folder
@@ -246,7 +250,7 @@ def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
     True
     """
     if not Path(path).is_file():
-        msg = f"{path} is no file: give one that save, or `lir run`, has written"
+        msg = f"{path} is not a file: give one that save or `lir run` wrote"
         raise FileNotFoundError(msg)
     try:
         data = xr.open_dataset(path, engine="netcdf4")

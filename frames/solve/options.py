@@ -105,12 +105,15 @@ def check_reduction(method: str, level: object, tolerance: float | None) -> None
     """Refuse what does not go together with a method."""
     if method == "direct" and tolerance is not None:
         msg = (
-            f'reduction_tolerance = {tolerance!r} belongs to method="reduced": leave it out, or '
-            "take that method"
+            f'reduction_tolerance = {tolerance!r} needs method="reduced": set it, or leave '
+            "the tolerance out"
         )
         raise ValueError(msg)
     if method == "reduced" and level == "rigid_body":
-        msg = 'method = "reduced": level="rigid_body" has one bearing and a mass; take "direct"'
+        msg = (
+            'method = "reduced" does not go with level="rigid_body", which has one '
+            'bearing: use method="direct"'
+        )
         raise ValueError(msg)
     if tolerance is not None:
         require_between("reduction_tolerance", tolerance, 1e-8, 1e-1, "-")

@@ -68,8 +68,8 @@ def energy_status(data: xr.Dataset) -> tuple[RunStatus, str, tuple[Finding, ...]
         if numerical <= PROMISE:
             return RunStatus.OK, "", ()
         doubt = worded(
-            "the generalised-alpha method took out {share:.3g} % of the energy put in (more than "
-            "{limit:g} %): take a spectral_radius nearer to 1 or a smaller dt where that matters",
+            "the generalised-alpha method dissipated {share:.3g} % of the input energy "
+            "(more than {limit:g} %): use a spectral_radius nearer to 1, or a smaller dt",
             share=100.0 * numerical,
             limit=100.0 * PROMISE,
         )
@@ -110,9 +110,9 @@ def _tumbled(data: xr.Dataset) -> str:
         return ""
     worst, degrees, rim = data["bearing"].to_numpy()[k], np.degrees(tilt[k]), np.degrees(lying[k])
     return worded(
-        "the slider of bearing {bearing} tilted by {tilt:.0f} degrees (at its rim it lies at "
-        "{rim:.0f}): it tumbled, and what followed depends on the step and on how it landed; "
-        "compare smaller steps, and take it as a failure of the bearing",
+        "the slider of bearing {bearing} tumbled: it tilted by {tilt:.0f} degrees (at its "
+        "rim {rim:.0f}). The rest of the run depends on the step; treat this as a failure "
+        "of the bearing",
         bearing=worst,
         tilt=degrees,
         rim=rim,

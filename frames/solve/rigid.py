@@ -193,13 +193,13 @@ def _top_plate(state: GravityState) -> tuple[FloatArray, FloatArray, IntArray]:
     system = state.system
     message = ""
     if len(system.bearings) != 1:
-        message = f"it has {len(system.bearings)} bearings, the level takes one"
+        message = f"it has {len(system.bearings)} bearings, not one"
     elif system.stiffness.nnz and np.abs(system.stiffness.data).max() > 0.0:
-        message = "it has members or springs, the level takes a mass on a bearing"
+        message = "it has members or springs; only a mass on a bearing is supported"
     elif len(system.parts.kind):
-        message = "it has links or hinges, the level takes a mass on a bearing"
+        message = "it has links or hinges; only a mass on a bearing is supported"
     elif system.damping.nnz:
-        message = "it has a damping matrix, the level takes a mass on a bearing"
+        message = "it has a damping matrix; only a mass on a bearing is supported"
     rows = system.bearing_rows.toarray()
     if not message and rows[:6].any():
         message = "node i of its bearing is not fixed"
@@ -207,8 +207,8 @@ def _top_plate(state: GravityState) -> tuple[FloatArray, FloatArray, IntArray]:
         message = "it has degrees of freedom away from its bearing"
     if message:
         msg = (
-            f'level = "rigid_body" cannot take this model: {message}; use level="contact" or '
-            "lumped_mass(bearing, mass)"
+            f'level = "rigid_body" does not support this model: {message}. Use '
+            'level="contact" or lumped_mass(bearing, mass)'
         )
         raise ModelError(msg)
     free: IntArray = np.array([row.any() for row in rows[6:]], dtype=np.int64)

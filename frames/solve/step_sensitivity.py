@@ -121,15 +121,14 @@ def _tell(table: pd.DataFrame) -> None:
     text = ""
     if by_noise > SENSITIVE:
         text = worded(
-            "a billionth of the ground motion changes displacements by {change:.2g} % of the "
-            "largest: the run is chaotic, and its peak one of many; judge several disturbed "
-            "motions, not a smaller step",
+            "a change of 1e-9 in the motion changes displacements by {change:.2g} % of the "
+            "largest: use the envelope of several disturbed runs, not a smaller step",
             change=100.0 * by_noise,
         )
     elif by_step > SENSITIVE:
         text = worded(
-            "half the step changes displacements by {change:.2g} % of the largest: take a smaller "
-            "dt, or leave it out",
+            "half the step changes displacements by {change:.2g} % of the largest: use a "
+            "smaller dt, or leave dt out",
             change=100.0 * by_step,
         )
     if text:

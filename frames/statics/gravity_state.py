@@ -103,10 +103,10 @@ class GravityState:
             return []
         return [
             worded(
-                "the structure has {free} displacements, too many for all its modes: {count} "
-                "load-dependent vectors stand for them. Peaks of floor accelerations differ by "
-                "some percent, vertical ones of single nodes more. Below {most} displacements all "
-                "modes count: take a coarser mesh of walls and slabs",
+                "{free} displacements are too many for all modes: {count} load-dependent "
+                "vectors replace them. Floor accelerations differ by some percent, "
+                "vertical ones of single nodes by more. For all modes stay below {most}, "
+                "with a coarser mesh",
                 free=len(self.displacement),
                 count=len(self.basis.omega2),
                 most=LARGE,

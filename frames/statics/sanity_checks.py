@@ -141,9 +141,9 @@ def _of_settlement(loads: tuple[BearingLoad, ...], devices: dict[str, LIRBearing
     stiffness = devices[most.name].resolved()["axial_stiffness"]
     return [
         worded(
-            'bearing "{name}" settles by {settlement:.3g} mm under {axial_force:.4g} N, {part:.3g} '
-            "% of its slider's height: look at the units of axial_stiffness = {stiffness:.4g} N/m "
-            "(kN/mm?) and of the loads",
+            'bearing "{name}" settles by {settlement:.3g} mm under {axial_force:.4g} N, '
+            "{part:.3g} % of its slider's height: check the units of axial_stiffness = "
+            "{stiffness:.4g} N/m (kN/mm?) and of the loads",
             name=most.name,
             settlement=1e3 * most.settlement,
             axial_force=most.axial_force,
@@ -163,8 +163,9 @@ def _of_design_loads(loads: tuple[BearingLoad, ...], devices: dict[str, LIRBeari
         return []
     return [
         worded(
-            "the bearings carry {ratio:.3g} times their design_load ({design:.4g} N in all): look "
-            "at the units of loads and masses (t or N for kg, kN for N) and of design_load [N]",
+            "the bearings carry {ratio:.3g} times their design_load ({design:.4g} N in "
+            "all): check the units of loads and masses (t or N for kg, kN for N) and of "
+            "design_load [N]",
             ratio=ratio,
             design=design,
         )
@@ -182,8 +183,9 @@ def _of_density(system: System, axial_forces: FloatArray) -> list[str]:
     what = "a weight in N for a mass in kg?" if density > DENSEST else "t for kg, kN for N?"
     return [
         worded(
-            "the bearings carry {mass:.4g} kg on {x:.3g} x {y:.3g} x {z:.3g} m, {density:.3g} "
-            "kg/m3 (buildings have 100 to 600): look at the units of the masses ({what})",
+            "the bearings carry {mass:.4g} kg on {x:.3g} x {y:.3g} x {z:.3g} m, "
+            "{density:.3g} kg/m3 (buildings have 100 to 600): check the units of the "
+            "masses ({what})",
             mass=mass,
             x=spans[0],
             y=spans[1],
@@ -199,9 +201,9 @@ def _of_periods(periods: tuple[float, ...], isolated: float) -> list[str]:
         return []
     return [
         worded(
-            "the structure on a fixed base has a period of {fixed:.3g} s, the isolation "
-            "{isolated:.3g} s: look at the units of stiffness (kN/m or kN/mm for N/m, MPa for Pa) "
-            "and mass (N for kg)",
+            "the fixed-base period is {fixed:.3g} s, the isolation period {isolated:.3g} "
+            "s: check the units of stiffness (kN/m or kN/mm for N/m, MPa for Pa) and mass "
+            "(N for kg)",
             fixed=periods[0],
             isolated=isolated,
         )
@@ -232,9 +234,9 @@ def motion_doubts(frame: FrameData, motion: GroundMotion) -> tuple[str, ...]:
     if FEEBLE < peak < 0.5 * least * frame.gravity:
         return (
             worded(
-                "the motion's horizontal peak is {peak:.3g} m/s2 = {in_g:.2g} g, less than half of "
-                "what friction holds ({least:.3g} g): the bearings hardly slide; a motion is given "
-                "in m/s2 ({peak:.3g} g would be {in_si:.3g} m/s2)",
+                "the bearings hardly slide: the horizontal peak of the motion, {peak:.3g} "
+                "m/s2 = {in_g:.2g} g, is below half of the friction, {least:.3g} g. "
+                "Motions are in m/s2 ({peak:.3g} g would be {in_si:.3g} m/s2)",
                 peak=peak,
                 in_g=peak / STANDARD_GRAVITY,
                 least=least,

@@ -175,8 +175,8 @@ def apply(features: Features, props: Records, static_load: ArrayLike | None = No
             raise ValueError(msg)
         if out["goes_on"].any():
             msg = (
-                "vertical_coupling = False: a bearing with a backup passes its load on when it "
-                "fails: keep vertical_coupling=True, or take bearings with backup=None"
+                "vertical_coupling = False does not go with a bearing that has a backup: keep "
+                "vertical_coupling=True, or set backup=None"
             )
             raise ValueError(msg)
         out["fixed_load"] = load

@@ -89,7 +89,8 @@ class FrictionLaw(abc.ABC):
         closed = [base.__name__ for base in cls.__bases__ if getattr(base, "__final__", False)]
         if closed:
             msg = (
-                f"{cls.__name__}: kernels know {closed[0]} by its formula: derive from FrictionLaw"
+                f"{cls.__name__} must derive from FrictionLaw: the formula of {closed[0]} is "
+                "built in"
             )
             raise TypeError(msg)
         _KNOWN.setdefault(cls.__name__, {})[cls.__module__, cls.__qualname__] = cls
@@ -144,7 +145,9 @@ class FrictionLaw(abc.ABC):
         name = type(self).__name__
         parameters: Any = getattr(self, "__dataclass_params__", None)
         if parameters is None or not parameters.frozen:
-            msg = f"{name} is no frozen dataclass: write @dataclass(frozen=True) above its class"
+            msg = (
+                f"{name} must be a frozen dataclass: write @dataclass(frozen=True) above its class"
+            )
             raise TypeError(msg)
         try:
             hash(self)

@@ -157,9 +157,8 @@ def _checked(name: str, law: Law) -> Floats:
             end += 1
         msg = (
             f"{name} falls with speed, from {whole[k]:.6g} at {at[k]:.3g} m/s to {whole[end]:.6g} "
-            f"at {at[end]:.3g} m/s: a friction that falls with speed has no unique step, for a "
-            "faster and a slower one then have the same force; give a law that never falls, and "
-            "what heat takes by FrictionHeating"
+            f"at {at[end]:.3g} m/s: friction must not decrease with speed: model the decrease "
+            "by heating with FrictionHeating"
         )
         raise ValueError(msg)
     if ends[1] - ends[0] > _AT_LIMIT * ends[1]:

@@ -100,7 +100,7 @@ def _of_geometry(bearing: Specification) -> Iterator[str]:
     if not USUAL_DENSITY[0] <= bearing.slider_density <= USUAL_DENSITY[1]:
         density = bearing.slider_density
         yield worded(
-            "slider_density = {density:g} kg/m3 is no metal's: {hint}",
+            "slider_density = {density:g} kg/m3 is outside the range of metals: {hint}",
             density=density,
             hint=meant(density, "kg/m3", *USUAL_DENSITY),
         )
@@ -109,7 +109,7 @@ def _of_geometry(bearing: Specification) -> Iterator[str]:
         if value is None or 0.005 <= value / mass <= 200.0:
             continue
         yield worded(
-            "slider_mass = {value:g} kg, where half a slider of steel has {mass:.3g} kg: {hint}",
+            "slider_mass = {value:g} kg, but half a slider of steel has {mass:.3g} kg: {hint}",
             value=value,
             mass=mass,
             hint=meant(value, "kg", 0.1 * mass, 10.0 * mass),
@@ -239,9 +239,8 @@ def _of_slip(bearing: Specification) -> Iterator[str]:
         return
     needed = (overlap / bearing.effective_radius) + bearing.effective_friction
     yield worded(
-        "interface_friction = {mu:g} holds a slip of {holds:.3g} mm without rims (slip_stability), "
-        "the sliders overlap up to {overlap:.3g} mm: after a larger slip they slip off where the "
-        "motion turns again in its direction; raise it, to {needed:.3g} for the whole overlap, or "
+        "interface_friction = {mu:g} holds a slip of at most {holds:.3g} mm without rim contact "
+        "(slip_stability), less than the overlap of {overlap:.3g} mm: raise it to {needed:.3g}, or "
         "count on {holds:.3g} mm",
         mu=bearing.interface_friction,
         holds=1e3 * holds,

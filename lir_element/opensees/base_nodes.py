@@ -26,7 +26,7 @@ def bearings_by_node(
     repeated = [tag for tag in bases if bases.count(tag) > 1]
     if not bases or repeated:
         what = f"lists node {repeated[0]} more than once" if repeated else "is empty"
-        msg = f"base_nodes {what}: give the tag of each node that shall stand on a bearing once"
+        msg = f"base_nodes {what}: give the tag of each node on a bearing once"
         raise error(msg)
     given = bearing if isinstance(bearing, Mapping) else dict.fromkeys(bases, bearing)
     apart = sorted(set(bases) ^ {int(tag) for tag in given})
@@ -62,9 +62,9 @@ def check_base(ops: Any, bases: list[int], metre: float) -> None:
         moved = metre * max(abs(value) for value in ops.nodeDisp(tag)[:3])
         if moved > SAME_PLACE:
             msg = (
-                f"base node {tag} has moved by {moved:.3g} m, at most {SAME_PLACE:g} m is allowed, "
-                "for its bearing would start displaced: call isolate on the model as it was built "
-                "(ops.reset() takes it back), or while its supports hold it"
+                f"base node {tag} has moved by {moved:.3g} m, at most {SAME_PLACE:g} m is allowed: "
+                "call isolate on the undeformed model (after ops.reset()), or while its supports "
+                "are fixed"
             )
             raise ValueError(msg)
 

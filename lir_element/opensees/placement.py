@@ -97,8 +97,8 @@ def place(
     if orient is None and ndm == 3 and _stands_on_y(ops, int(i)):
         msg = (
             f"the bearing between nodes {i} and {j} points along z, but the supports lie in one "
-            "plane y = const. with the model above it: where y is the vertical, give "
-            "orient=(0, 1, 0); where z is, orient=(0, 0, 1)"
+            "plane y = const. with the model above it: give orient=(0, 1, 0) if y is "
+            "vertical, orient=(0, 0, 1) if z is"
         )
         warnings.warn(msg, PlacementWarning, stacklevel=3)
     rise = metre * (points[1] - points[0])
@@ -106,7 +106,7 @@ def place(
     if np.linalg.norm(rise) <= SAME_PLACE and _hangs(ops, i, j, ndm):
         msg = (
             f"node {j}, the upper one, is held by a support and node {i}, the lower one, is not: "
-            f"where the bearing stands on node {j} the nodes are swapped, give i={j} and j={i}"
+            f"if the bearing is supported at node {j}, give i={j} and j={i}"
         )
         warnings.warn(msg, PlacementWarning, stacklevel=3)
     matrix = np.zeros((12, 12))
@@ -184,7 +184,7 @@ def _any_side(up: Floats, ndm: int) -> Floats:
 def _two_tags(i: int, j: int) -> tuple[int, int]:
     for name, tag in (("i", i), ("j", j)):
         if isinstance(tag, bool) or not isinstance(tag, (int, np.integer)):
-            msg = f"node {name} = {tag!r} is no tag: give an integer"
+            msg = f"node {name} = {tag!r} must be an integer tag"
             raise TypeError(msg)
     if i == j:
         msg = f"the bearing starts and ends at node {i}: give two different nodes"
@@ -216,8 +216,8 @@ def _check_rise(i: int, j: int, rise: Floats, axes: Floats, height: float) -> No
     if abs(thousandth - height) <= SAME_PLACE and apart > SAME_PLACE:
         msg = (
             f"nodes {i} and {j} are {apart:g} m apart, a thousand times the bearing's height of "
-            f"{height:g} m: where the model is in mm, give length_unit=0.001 (and force_unit=1e3 "
-            "where it is in kN)"
+            f"{height:g} m: if the model is in mm, give length_unit=0.001 (and force_unit=1e3 if "
+            "it is in kN)"
         )
         raise ValueError(msg)
     if abs(z + height) <= SAME_PLACE and max(abs(x), abs(y)) <= SAME_PLACE:
@@ -230,7 +230,7 @@ def _check_rise(i: int, j: int, rise: Floats, axes: Floats, height: float) -> No
         msg = (
             f"node {j} lies {np.hypot(x, y):g} m beside the bearing's axis through node {i}, at "
             f"most {SAME_PLACE:g} m is allowed: move it, or give the axis by orient=(x, y, z), "
-            "(0, 1, 0) where y points upwards"
+            "(0, 1, 0) if y points upwards"
         )
         raise ValueError(msg)
     if min(abs(z), abs(z - height)) > SAME_PLACE:

@@ -278,7 +278,7 @@ def bearing_at(tag: int) -> InProcessElement | Remote:
     """Return what stands behind a bearing's element."""
     found = _SESSION.bearings.get(tag)
     if found is None or tag not in element_tags() or not found.alive:
-        msg = f"element {tag} is no bearing of the current model: it has {bearing_tags()}"
+        msg = f"element {tag} is not a bearing of the current model: it has {bearing_tags()}"
         raise ValueError(msg)
     return found
 
@@ -288,10 +288,10 @@ def _check(tag: object, bearing: object, level: str, route: str) -> None:
         msg = f"tag = {tag!r} must be an integer"
         raise TypeError(msg)
     if abs(int(tag)) > _LARGEST_TAG:
-        msg = f"tag = {tag} is beyond what OpenSees can hold: choose one up to {_LARGEST_TAG}"
+        msg = f"tag = {tag} exceeds the largest tag of OpenSees: choose one up to {_LARGEST_TAG}"
         raise ValueError(msg)
     if not isinstance(bearing, LIRBearing):
-        msg = f"bearing = {bearing!r} is no LIRBearing: describe the device by one"
+        msg = f"bearing = {bearing!r} must be an LIRBearing"
         raise TypeError(msg)
     require_choice("level", level, LEVELS)
     require_choice("route", route, ROUTES)

@@ -292,5 +292,5 @@ def note_end(data: xr.Dataset, status: RunStatus, time: float, where: str, detai
 def require_on_failure(value: str) -> None:
     """Raise unless `value` is 'warn' or 'raise'."""
     if value not in {"warn", "raise"}:
-        msg = f"on_failure = {value!r}: choose 'warn' (hand back what was computed) or 'raise'"
+        msg = f"on_failure = {value!r}: choose 'warn' (return the computed steps) or 'raise'"
         raise ValueError(msg)

@@ -393,8 +393,8 @@ def test_a_structure_without_equilibrium_is_a_row(building, device, motions):
         ({"cases": [("house", "near", 1.0)]}, "no model 'house'; there are 'frame'"),
         ({"cases": [("frame", "near", 1.0)] * 2}, "is there twice"),
         ({"cases": [("frame", "near")]}, "name of model, name of motion, scale"),
-        ({"level": "auto"}, 'level = "auto" is one of single runs'),
-        ({"level": "rigid_body"}, 'level = "rigid_body" is one of single runs'),
+        ({"level": "auto"}, 'does not support level="auto"'),
+        ({"level": "rigid_body"}, 'does not support level="rigid_body"'),
         ({"method": "modal"}, "method = 'modal': choose one of"),
         ({"record": Recording(nodes=("attic",))}, '"attic" is not among the nodes'),
         ({"record": "all"}, "record = 'all' must be None"),
@@ -416,7 +416,7 @@ def test_what_cannot_be_is_refused(building, motions, options, message):
 def test_more_than_the_memory_holds_is_refused(building, motions, monkeypatch):
     monkeypatch.setattr("frames.recording.recording.memory", lambda: 1e6)
     quietly(time_histories, building, motions["near"], scales=[0.4, 0.5], duration=0.2)
-    with pytest.raises(ValueError, match="results of 2 of 2 runs take about"):
+    with pytest.raises(ValueError, match="results of 2 of 2 runs need about"):
         time_histories(building, motions["near"], scales=[0.4, 0.5], record=Recording())
 
 

@@ -174,8 +174,8 @@ def test_tags_begin_where_asked_and_do_not_collide(ops):
         ({"restoring": "both"}, "restoring = 'both'"),
         ({"middle_mass": -1.0}, "middle_mass = -1"),
         ({"first_tag": 0}, "first_tag = 0"),
-        ({"node_j": 77}, "node_j = 77 is no node"),
-        ({"node_i": ABOVE, "node_j": BELOW}, "node j stands above"),
+        ({"node_j": 77}, "node_j = 77 is not a node"),
+        ({"node_i": ABOVE, "node_j": BELOW}, "node j must be above"),
     ],
 )
 def test_refuses_what_cannot_be_and_leaves_the_model_alone(ops, changes, message):

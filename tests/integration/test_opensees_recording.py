@@ -31,7 +31,9 @@ def test_all_names_of_responses(stand: Any) -> None:
     assert bearing_response(1, "deformation") == pytest.approx(moved, abs=1e-15)
     with pytest.raises(KeyError, match=r"'colour' is not known: choose one of .*axial_force.*slip"):
         bearing_response(1, "colour")
-    with pytest.raises(ValueError, match=r"element 9 is no bearing of the current model.*\(1,\)"):
+    with pytest.raises(
+        ValueError, match=r"element 9 is not a bearing of the current model.*\(1,\)"
+    ):
         bearing_response(9, "slip")
 
 
@@ -237,5 +239,5 @@ def test_refusals_of_recordings(stand: Any) -> None:
     for every in (0, -1, 1.5, "a", None):
         with pytest.raises(ValueError, match=r"every = .* must be an integer of at least 1"):
             record_bearings(1, every=every)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="element 2 is no bearing"):
+    with pytest.raises(ValueError, match="element 2 is not a bearing"):
         record_bearings(2)

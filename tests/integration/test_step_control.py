@@ -69,7 +69,7 @@ BOUC_WEN = {"friction_law": "bouc-wen", "bouc_wen_exponent": 1.0}
     [(BOUC_WEN, {}), ({}, {"integrator": "generalised-alpha", "spectral_radius": 0.0})],
     ids=["bouc-wen", "generalised-alpha"],
 )
-@pytest.mark.meant("the generalised-alpha method took out")
+@pytest.mark.meant("the generalised-alpha method dissipated")
 def test_laws_and_schemes_with_larger_errors(run, law, scheme):
     """Implicit steps of Bouc and Wen's law are of first order; a scheme that damps errs more."""
     model, moves = lumped_mass(bearing(**BARELY, **law), 1e5), motion(1, 0.7, vertical=0.0)

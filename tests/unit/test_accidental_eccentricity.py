@@ -177,7 +177,7 @@ def test_the_report_reads_moved_runs_again(ran: Path) -> None:
     off.write_text(PROJECT + 'accidental_eccentricity = "4 %"\n')
     done = run(app, ["report", str(off), "--results", str(out)])
     assert done.exit_code == 2
-    assert "are of another input (analysis differ)" in " ".join(done.output.split())
+    assert "belong to other input (analysis differ)" in " ".join(done.output.split())
 
 
 def test_a_run_goes_on_between_its_moved_masses(ran: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -233,7 +233,7 @@ def test_all_motions_are_compared_as_the_code_counts_them(ran: Path) -> None:
         ("is not among the runs: give runs of the same motions", many, moved),
         ("mass_shift = 'up' must be one of", data, odd),
         ("no coordinate 'mass_shift'", data, data),
-        ("of which there are no runs", {"lower": data}, {"upper": moved}),
+        ("but there are no runs", {"lower": data}, {"upper": moved}),
     ):
         refused(CheckError, words, history_demands, runs, "ASCE 7-22", moved=beside)
 
@@ -270,7 +270,7 @@ def test_it_is_left_out_where_the_file_says_so(ran: Path, value: str) -> None:
     [
         ("0.5", "must be a share of the sides of the plan between 0 and 0.25"),
         ("-0.05", "must be a share of the sides of the plan between 0 and 0.25"),
-        ('"5 mm"', "no unit of a pure number"),
+        ('"5 mm"', "not a unit of a pure number"),
     ],
 )
 def test_shares_out_of_bounds_are_refused(ran: Path, value: str, words: str) -> None:

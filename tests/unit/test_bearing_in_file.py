@@ -156,7 +156,7 @@ def test_rims_and_interface_can_be_left_out(tmp_path: Path) -> None:
         ("friction", "[0.05]", r"bearing\.friction\.1 is missing"),
         ("slider_height", "inf", r"\[bearing\] slider_height = inf"),
         ("friction_heating", '{ thicknes = "30 mm" }', r'thicknes is not known; is "thickness"'),
-        ("friction_heating", '{ initial_temperature = "20 m" }', r"no unit of temperature"),
+        ("friction_heating", '{ initial_temperature = "20 m" }', r"not a unit of temperature"),
         ("friction_heating", "{ initial_temperature = 20 }", r'write "20 C" if that is meant'),
         ("pressure_dependence", '{ rate = "0.007" }', r"rate = .0.007. has no unit"),
         ("contact_points", "true", r"contact_points = true must be a number"),

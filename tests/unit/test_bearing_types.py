@@ -138,18 +138,18 @@ def test_each_type_is_checked_at_its_own_loads(folder: Path) -> None:
     (folder / "types.toml").write_text(other)
     again_ = run(app, ["report", str(folder / "types.toml"), "--results", str(out)])
     assert again_.exit_code == 2
-    assert "are of another input (bearings" in " ".join(again_.output.split())
+    assert "belong to other input (bearings" in " ".join(again_.output.split())
 
 
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ('columns = ["1-0", "bearing-1-1"]\n', "", "must say under which columns it stands"),
+        ('columns = ["1-0", "bearing-1-1"]\n', "", "needs its columns"),
         ('"bearing-1-1"]', '"bearing-1-1"]\nabove = "1 kN"', "either columns"),
-        ('"1-0"', '"1-00"', 'columns: 1-00 is no column with a bearing; is "1-0" meant'),
-        ('columns = ["1-0", "bearing-1-1"]', 'above = "1 GN"', "stands under no column"),
+        ('"1-0"', '"1-00"', 'columns: 1-00 is not a column with a bearing; is "1-0" meant'),
+        ('columns = ["1-0", "bearing-1-1"]', 'above = "1 GN"', "no column uses"),
         ('columns = ["1-0", "bearing-1-1"]', "above = 100", "above = 100 has no unit"),
-        ("[bearings.middle]", "[bearings.standard]", "is the name of what"),
+        ("[bearings.middle]", "[bearings.standard]", "has the name of the type"),
         ("friction = 0.06", "frictoin = 0.06", r"bearings.middle.frictoin is not known; is"),
         ("interface_friction = 0.18", "interface_friction = 0.03", r"\[bearings.middle\]"),
         ("[bearings.middle]", "[bearings]\nmiddle = 3\n[bearings.more]", "bearings.middle"),

@@ -183,7 +183,7 @@ def test_the_weakest_counts() -> None:
     assert weakest([E031, FROM_MEMORY, read]) == FROM_MEMORY
     assert weakest([E031, UFC_BNBC, E031]).source == f"{E031.source}; {UFC_BNBC.source}"
     for none in ([], [E031, PROJECT]):
-        refused(CheckError, "one at least", weakest, none)
+        refused(CheckError, "at least one", weakest, none)
 
 
 def test_values_are_named() -> None:

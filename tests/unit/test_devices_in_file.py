@@ -178,7 +178,7 @@ def test_what_is_put_in_is_said_and_known(parts_of: Callable[[str], ProjectInput
         (MOAT.replace('"80 kN/mm"', '"80 kN"'), "moat.stiffness"),
         (MOAT.replace('"x+"', '"east"'), "moat.sides"),
         (DAMPERS.replace("exponent = 0.5", "exponent = 3"), "dampers.base.exponent"),
-        (DAMPERS.replace('columns = ["0-0", "2-1"]\n', ""), "must say where they stand"),
+        (DAMPERS.replace('columns = ["0-0", "2-1"]\n', ""), "needs its place"),
         (DAMPERS.replace('pattern = "down"', 'directions = ["x"]'), "directions is for dampers"),
     ],
 )
@@ -191,7 +191,7 @@ def test_wrong_values_are_refused(parts_of, more, words):
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ('"2-1"', '"9-9"', r"\[dampers.base\] 9-9 is no column with a bearing: there are 0-0,"),
+        ('"2-1"', '"9-9"', r"\[dampers.base\] 9-9 is not a column with a bearing: there are 0-0,"),
         ('"2-1"', '"bearing-0-0"', r"\[dampers.base\] .*base-0-0-y"),  # 0-0 once more
         ("storeys = [2, 2]", "storeys = [2, 5]", r"\[dampers.brace\] storeys"),
     ],

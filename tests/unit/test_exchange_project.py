@@ -58,8 +58,8 @@ def test_cases_are_in_full_and_combined_by_the_code(tmp_path: Path, kind: str, f
 @pytest.mark.parametrize(
     ("structure", "words"),
     [
-        ('kind = "sap2000"\nfile = "model.s3k"', r"file = model\.s3k is no file in"),
-        (f'{ETABS}\nbearings_at = ["CORE"]', r'\[structure\] "CORE" is no group'),
+        ('kind = "sap2000"\nfile = "model.s3k"', r"file = model\.s3k is not in"),
+        (f'{ETABS}\nbearings_at = ["CORE"]', r'\[structure\] "CORE" is not a group'),
         (f'{ETABS}\nmesh = "-1 m"', "mesh"),
     ],
 )
@@ -96,7 +96,7 @@ def test_remedies_speak_the_language_of_the_file_and_cure(tmp_path: Path) -> Non
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ModelWarning)  # words that were misspelled
             found = read(text, line)
-        assert "is no number" not in found if remedy.startswith("decimal") else not found
+        assert "is not a number" not in found if remedy.startswith("decimal") else not found
 
 
 def test_sections_of_a_catalogue_have_the_constants_of_the_file(tmp_path: Path) -> None:
@@ -126,7 +126,7 @@ def test_sections_of_a_catalogue_have_the_constants_of_the_file(tmp_path: Path) 
     words = r'no frame of model.e2k has a section "BEAN"'
     refused(ProjectError, words, project_of(parts, tmp_path, sections=other).frame)
     tables = f'kind = "sap2000"\nfile = "model.s2k"\n{own}'
-    refused(ProjectError, "those of SAP2000 have them", project, tmp_path, tables)
+    refused(ProjectError, "SAP2000 files have them", project, tmp_path, tables)
 
 
 def project_of(parts: ProjectInputs, folder: Path, **changes: object) -> ProjectInputs:
@@ -164,7 +164,7 @@ def test_types_of_bearings_by_groups_of_the_model(tmp_path: Path) -> None:
     assert [kind for kind in parts.types().values()][:3] == ["inner", "inner", "standard"]
     device = parts.frame().bearings[f"bearing-{joints[1]}"].bearing
     assert device.frictions[0].f_max == 0.07
-    refused(ProjectError, "no column with a bearing", lambda: typed("RIM").types())
+    refused(ProjectError, "not a column with a bearing", lambda: typed("RIM").types())
 
 
 def test_types_of_bearings_by_groups_of_links(tmp_path: Path) -> None:

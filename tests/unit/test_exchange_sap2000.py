@@ -46,13 +46,13 @@ def changed(old: str, new: str) -> str:
 HINGES = 'TABLE:  "FRAME HINGE ASSIGNS 02 - USER DEFINED PROPERTIES"\n   Frame=C5'
 JOINTS, ENDS = r'table "JOINT COORDINATES": ', "END TABLE"
 BAD = {
-    "truncated": (TEXT[len(TEXT) // 2 :], "", r"is cut off, export it again|is not of the form"),
+    "truncated": (TEXT[len(TEXT) // 2 :], "", r"may be cut off|must have the form"),
     "no end": ("END TABLE DATA", "", r"ends in table .* without the line END TABLE"),
     "not a table": (TEXT, "hello\n", r"holds no tables of SAP2000.*Export"),
     "decimal comma": ("XorR=6.0", "XorR=6,0", rf'line \d+, {JOINTS}XorR = "6,0" .*decimal=","'),
-    "no number": ("Y=5.0", "Y=five", rf'line \d+, {JOINTS}Y = "five" is no number'),
+    "no number": ("Y=5.0", "Y=five", rf'line \d+, {JOINTS}Y = "five" is not a number'),
     "infinite": ("Y=5.0", "Y=inf", r"must be a finite number"),
-    "joint twice": ("Joint=2   ", "Joint=1   ", r'Joint "1" stands in line \d+ already'),
+    "joint twice": ("Joint=2   ", "Joint=1   ", r'Joint "1" already occurs in line \d+'),
     "unknown section": ("AnalSect=COL", "AnalSect=COX", r'"COX" is not defined: there are COL, B'),
     "unknown joint": ("JointJ=5", "JointJ=99", r'"CONNECTIVITY - FRAME": JointJ "99" is not def'),
     "no material": (
@@ -68,7 +68,7 @@ BAD = {
     "not a pair": (
         "CoordSys=GLOBAL",
         "CoordSys GLOBAL",
-        r'"CoordSys GLOBAL.*" is not of the form K',
+        r'"CoordSys GLOBAL.*" must have the form K',
     ),
     "load off the frame": (
         "RelDistB=0.7",
@@ -107,7 +107,7 @@ def test_what_is_allowed_is_left_out_and_noted(tmp_path: Path) -> None:
     path = written(tmp_path, changed(*BAD["hinges"][:2]))
     frame = Frame.from_sap2000(path, allow=["hinges"])
     assert 'accepted by allow = "hinges"' in str(frame.imported)
-    words = 'allow names "cables", and nothing of that name'
+    words = 'allow has "cables", but'
     refused(ModelError, words, Frame.from_sap2000, path, allow=["hinges", "cables"])
 
 
@@ -344,7 +344,7 @@ def test_a_field_that_is_not_known_is_told(tmp_path: Path) -> None:
     tables = models.building()
     tables["AREA LOADS - UNIFORM"][0] |= {"DistType": "One way"}
     _, said = doubts(tmp_path, tables)
-    assert "AREA LOADS - UNIFORM: words that are not known here were not read: DistType =" in said
+    assert "AREA LOADS - UNIFORM: unknown words were not read: DistType =" in said
     tables["AREA LOADS - UNIFORM"][0] |= {"DistType": "Two way"}
     assert doubts(tmp_path, tables)[1] == ""
 
@@ -392,7 +392,7 @@ def test_rotations_that_supports_hold_beside_beams_are_doubted(tmp_path: Path) -
     tables = models.building()
     models._frame(tables, "B", 1, 2, "BEAM")
     _, said = doubts(tmp_path, tables)
-    assert "the supports hold the rotations of 6 joints on bearings" in said
+    assert "supports fix the rotations of 6 joints on bearings" in said
     assert 'base_rotations="free"' in said
     assert doubts(tmp_path, tables, base_rotations="free")[1] == ""
 
@@ -424,7 +424,7 @@ def test_bearings_stand_where_groups_say(tmp_path: Path) -> None:
     frame = Frame.from_sap2000(path, {"EDGE": BEARING, "REST": BEARING})
     assert list(frame.bearings) == ["bearing-1", "bearing-2", "bearing-3"]
     assert frame.fixed_dofs["4"] == {"ux", "uy", "uz", "rx", "ry", "rz"}
-    with pytest.raises(ModelError, match=r'"CORE" is no group, link property, link or joint'):
+    with pytest.raises(ModelError, match=r'"CORE" is not a group, link property, link or joint'):
         Frame.from_sap2000(path, BEARING, at=["CORE"])
 
 

@@ -79,7 +79,10 @@ def test_a_tube_has_its_depth_for_insertion_points(tmp_path: Path) -> None:
 BAD = {
     "cut": (FILE[:400], r"AISC14.xml, line \d+: .*; it must be whole, as XML"),
     "encoding": (FILE.replace("utf-8", "utf-88", 1), r"AISC14.xml: unknown encoding: utf-88; it"),
-    "other": ("<html></html>", r"is no property file of ETABS or SAP2000: it begins with PROPERTY"),
+    "other": (
+        "<html></html>",
+        r"is not a property file of ETABS or SAP2000, which begins with PROPERTY",
+    ),
     "units": (FILE.replace("UNITS>in", "UNITS>ell"), r"LENGTH_UNITS of MM, CM, M"),
     "number": (FILE.replace(">16.2<", ">many<"), r'line 7, table "STEEL_I_.*AREA = "many" is'),
     "unused": (FILE.replace("W24X55", "W24X56"), r'is a "w24x55" without Area'),
@@ -118,5 +121,5 @@ def test_a_project_names_its_library(tmp_path: Path) -> None:
     parts = project(tmp_path, own)
     files(tmp_path)
     assert_allclose(parts.frame().members["X1-Story1"].section.area, 16.2 * INCH**2)
-    with pytest.raises(ProjectError, match="those of SAP2000 have them"):
+    with pytest.raises(ProjectError, match="SAP2000 files have them"):
         project(tmp_path, own.replace("etabs", "sap2000"))

@@ -184,7 +184,7 @@ def on_a_bearing() -> Frame:
     return lumped_mass(bearing_for(400e3), mass=40e3)
 
 
-WITH_PARTS = r'has superelements \("part"\), which are not written for {}'
+WITH_PARTS = r'has superelements \("part"\), which cannot be written for {}'
 
 
 @pytest.mark.parametrize(
@@ -195,7 +195,7 @@ WITH_PARTS = r'has superelements \("part"\), which are not written for {}'
         ("sap2000", lambda: with_a_part(braced(), "mid"), {}, WITH_PARTS.format("SAP2000")),
         ("etabs", lambda: with_a_part(braced(), "mid"), {}, WITH_PARTS.format("ETABS")),
         ("sap2000", detailed, {"units": "stone"}, r'units = "stone"'),
-        ("etabs", lambda: with_a_twin(braced()), {}, r'"0@3" and "twin" stand at one place, which'),
+        ("etabs", lambda: with_a_twin(braced()), {}, r'"0@3" and "twin" coincide, and'),
     ],
 )
 def test_what_a_file_cannot_hold_is_refused(tmp_path, program, make, more, message):

@@ -105,7 +105,7 @@ def test_a_project_is_run_by_a_code_and_with_a_check_of_its_own(folder: Path) ->
 def test_the_keys_of_its_spectrum_are_checked(folder: Path) -> None:
     file = folder / "office.toml"
     file.write_text(PROJECT.replace('corner = "0.5 s"', 'corner = "0.5 m"'))
-    with pytest.raises(ProjectError, match=r'spectrum.corner = "0.5 m" is in "m", .* no unit of s'):
+    with pytest.raises(ProjectError, match=r'spectrum.corner = "0.5 m" is in "m", not a unit of s'):
         read_project(file)
     file.write_text(PROJECT.replace('corner = "0.5 s"', ""))
     refused(ProjectError, r"spectrum.corner is missing", read_project, file)
@@ -180,7 +180,7 @@ def test_what_a_check_returns_is_looked_at(folder: Path) -> None:
     ("source", "words"),
     [
         ("1 / 0", r"extensions = island.py, line 1: ZeroDivisionError"),
-        (None, r"extensions: .*island.py is no file"),
+        (None, r"extensions: .*island.py is not a file"),
     ],
 )
 def test_an_extension_that_fails_is_named(folder: Path, source: str | None, words: str) -> None:

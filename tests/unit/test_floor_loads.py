@@ -184,8 +184,8 @@ def test_the_mass_of_a_floor_is_at_the_ends_of_its_beams_and_weighs_once():
     ("change", "words"),
     [
         ({"nodes": ["c0", "c1"]}, "needs 3 or more"),
-        ({"nodes": ["c0", "c2", "c1", "c3"]}, "not those of a convex outline"),
-        ({"nodes": ["c0", "c1", "inside", "c2"]}, "not those of a convex outline"),
+        ({"nodes": ["c0", "c2", "c1", "c3"]}, "must form a convex outline"),
+        ({"nodes": ["c0", "c1", "inside", "c2"]}, "must form a convex outline"),
         ({"nodes": ["c0", "c1", "gc2", "c3"]}, "not horizontal"),
         ({"nodes": ["c0", "c1", "c2"]}, 'from "c2" to "c0" no member goes on'),
         ({"q": -2e3}, "must be positive"),

@@ -126,7 +126,7 @@ class TestAT2:
         [
             (at2_text(VALUES[:-1]), r"cut short: 6 values.*NPTS = 7"),
             (at2_text((*VALUES, 0.3)), r"more than.*8 values"),
-            (at2_text(sizes="nothing here"), r"line 4 of an AT2 file reads.*'nothing here'"),
+            (at2_text(sizes="nothing here"), r"line 4 of an AT2 file must read.*'nothing here'"),
             ("too\nshort", r"only 2 lines.*from_columns"),
             (at2_text().replace("2.0000000E-02", 13 * "*"), r"line 6: '\*+' is not a number"),
             (at2_text(sizes="NPTS= 7, DT= 5 MS"), "DT = 5 in 'MS': write it in seconds"),
@@ -234,7 +234,7 @@ class TestColumns:
 
     def test_unclear_column(self, write):
         given = {"x": write("station.bbp", BBP), "time": 0, "unit": "g"}
-        words = r"has 4 columns: say which one.*\(path, column\)"
+        words = r"has 4 columns: name the one.*\(path, column\)"
         refused(MotionError, words, GroundMotion.from_columns, **given)
         words = "y = 2 is a column of no file: give the file"
         refused(MotionError, words, GroundMotion.from_columns, y=2, dt=0.1, unit="g")

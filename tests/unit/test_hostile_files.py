@@ -158,7 +158,7 @@ def test_no_link_leads_out_of_the_results(done: Path, command: str, name: str) -
     linked(out, name, target)
     files = contents(done.parent)
     said = one_line(lir(command, done), 4)
-    assert f"{out / name if name else out} is a link that leads out of its folder" in said
+    assert f"{out / name if name else out} is a link out of its folder" in said
     assert contents(done.parent) == files
 
 
@@ -396,7 +396,7 @@ def test_sigterm_ends_a_run_as_ctrl_c_does(done: Path) -> None:
         started.terminate()
         said = started.communicate()[1]
     assert started.returncode == 130, said
-    assert "the same command goes on from there" in said
+    assert "the same command continues from there" in said
     assert "Process 0" not in said
     assert not list((done / "out").rglob(".*.part"))
 
@@ -429,7 +429,7 @@ def test_a_signal_leaves_the_file_of_before(done: Path) -> None:
         ("friction = 0.06", f'friction = "{"9" * 100_000} %"', "friction"),
         ("friction = 0.06", f"friction = {'[' * 3000}{']' * 3000}", "brackets are nested too deep"),
         ('"Two storeys"', '"nul \\u0000"', None),
-        ('folder = "motions"', 'folder = "nul \\u0000"', "is no file"),
+        ('folder = "motions"', 'folder = "nul \\u0000"', "is not a file"),
     ],
 )
 def test_what_is_far_too_long_is_refused(done: Path, old: str, new: str, words: str | None) -> None:

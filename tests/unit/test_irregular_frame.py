@@ -215,13 +215,13 @@ REFUSED_BEAMS = [
     ("C1,C2,0-2,B", "C1,C2,0-3,B", 'no column on line "C1"'),
 ]
 REFUSED_COLUMNS = [
-    (LAST, f"{LAST}\nD1,0,20,1,C,", "reaches its foot"),
+    (LAST, f"{LAST}\nD1,0,20,1,C,", "has no base beam"),
     ("C1,0,10,1-2", "C1,0,10,2-1", 'storeys = "2-1" must be a number or a range'),
     (LAST, "C1,0,10,1,C,\nC1,0,10,3,C,", "is missing in storey 2"),
     (LAST, f"{LAST}\nC1,0,10,2,C,", "two sections in storey 2"),
     (LAST, "C1,0,10,1,C,\nC1,0,11,2,C,", "a name has one place"),
-    ("C1,0,10,", "C1,6.01,10,", 'columns "C1" and "C2" stand at one place'),
-    ("C1,0,10,", "C1,left,10,", 'x = "left m" is no number with a unit'),
+    ("C1,0,10,", "C1,6.01,10,", 'columns "C1" and "C2" are both at'),
+    ("C1,0,10,", "C1,left,10,", 'x = "left m" is not a number with a unit'),
     ("C1,0,10,", "C1,,10,", "x is empty"),
     (LAST, f"{LAST}z", 'choose one of "x", "y"'),
     ("x [m]", "x", 'x = "0" has no unit'),

@@ -136,12 +136,12 @@ def test_eccentric_loads(tmp_path: Path) -> None:
 
 
 REFUSED = {
-    'floor_load = "500 kg/m2"\n[loads]\ndead = "3 kN/m2"': "both say what floors weigh",
+    'floor_load = "500 kg/m2"\n[loads]\ndead = "3 kN/m2"': "both give the weight",
     "": "floor_load is missing: give the mass of the floors",
     '[loads]\nlive = "3 kN/m2"': "loads.dead is missing",
-    '[loads]\ndead = "450 kg/m2"': 'is in "kg/m2", which is no unit of N/m2: as "4.5 kN/m2"',
+    '[loads]\ndead = "450 kg/m2"': 'is in "kg/m2", not a unit of N/m2: write it as "4.5 kN/m2"',
     '[loads]\ndead = "-3 kN/m2"': "must be at least 0",
-    '[loads]\ndead = "0 kN/m2"': "floors weigh something",
+    '[loads]\ndead = "0 kN/m2"': "floors weigh more",
     '[loads]\ndead = "3 kN/m2"\nmass = { live = 25 }': "loads.mass.live",
     '[loads]\ndead = "3 kN/m2"\nmass = { dead = 0.0 }': "dead must be greater than 0",
     '[loads]\ndead = "3 kN/m2"\nspan = "z"': "loads.span",

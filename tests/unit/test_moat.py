@@ -152,7 +152,7 @@ def test_two_distances_to_one_wall(tmp_path, wall, clear, sides, refused, doubte
     file.write_text(PROJECT.replace("[limits]\n", f'{walls}[limits]\nmoat_gap = "{clear}"\n'))
     if refused:
         with pytest.raises(
-            ProjectError, match=r"moat_gap = 600 mm is more than \[moat\] gap = 450"
+            ProjectError, match=r"moat_gap = 600 mm must not exceed \[moat\] gap = 450"
         ):
             read_project(file)
         return

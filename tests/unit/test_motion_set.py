@@ -143,7 +143,7 @@ def test_scaling_twice_counts_from_the_start() -> None:
 
 def test_what_is_doubtful_is_said() -> None:
     target = Spectrum.asce7(1.0, 0.6)
-    with pytest.warns(MotionWarning, match="factors out of 0.9 to 1.1"):
+    with pytest.warns(MotionWarning, match="factors outside 0.9 to 1.1"):
         SEVEN.scaled_to(target, periods=(0.5, 2.5), limits=(0.9, 1.1))
     few = SEVEN.only(["shaken 1", "shaken 2"])
     with pytest.warns(MotionWarning, match="2 motions: ASCE 7-22"):
@@ -176,7 +176,7 @@ def test_what_has_no_fault_is_not_turned() -> None:
     with pytest.warns(MotionWarning, match="shaken 1, shaken 2.*stay as recorded"):
         MotionSet(SEVEN, {"shaken 0": fault}).fault_normal()
     for facts in ({}, far):  # nothing would be turned
-        with pytest.raises(MotionError, match=r"no motion has a strike.*strike, azimuth_x and"):
+        with pytest.raises(MotionError, match=r"no motion is turned.*strike, azimuth_x and"):
             MotionSet(SEVEN, facts).fault_normal()
     with pytest.raises(MotionError, match="strike"):
         MotionSet({"a": shaken(1)}, {"a": {"near_fault": True}}).fault_normal()
@@ -298,7 +298,7 @@ TARGET = Spectrum.asce7(1.0, 0.6)
             ),
             "does not move",
         ),
-        (lambda: MotionSet.from_folder("nowhere"), "is no file"),
+        (lambda: MotionSet.from_folder("nowhere"), "is not a file"),
         (lambda: MotionSet.fema_p695("far"), "kind"),
         (lambda: pair_spectrum(GroundMotion(x=np.ones(9), dt=DT), PERIODS), "component y"),
         (lambda: pair_spectrum(shaken(1), [-1.0]), "periods hold -1"),
@@ -317,12 +317,12 @@ def test_a_motion_is_a_ground_motion() -> None:
     [
         ("x\na.txt\n", "needs name"),
         ("name,x\n,a.txt\n", "name"),
-        ("name,x\na,missing.txt\n", "is no file"),
+        ("name,x\na,missing.txt\n", "is not a file"),
         ("name,x\na,a.txt\n", "unit"),
-        ("name,x,unit,dt\na,a.txt,g,fast\n", "dt = fast is no number: give the time step in s"),
-        ("name,file,x,unit\na,a.txt,east,g\n", "x = east is no number: give a whole number"),
+        ("name,x,unit,dt\na,a.txt,g,fast\n", "dt = fast is not a number: give the time step in s"),
+        ("name,file,x,unit\na,a.txt,east,g\n", "x = east is not a number: give a whole number"),
         ("name,file,x,unit\na,$NONE/a.txt,1,g\n", r"\$NONE.a.txt is no file"),
-        ("name,x,unit,skip\na,a.txt,g,few\n", "skip = few is no number: give a whole number"),
+        ("name,x,unit,skip\na,a.txt,g,few\n", "skip = few is not a number: give a whole number"),
     ],
 )
 def test_tables_that_make_no_sense(tmp_path: Path, lines: str, words: str) -> None:

@@ -122,5 +122,5 @@ def test_what_cannot_be_is_refused() -> None:
         with_moved_masses(moved, (0.05, 0.0))
     held = stick()
     held.fix("floor-1", "rz")
-    with pytest.raises(ModelError, match=r'floor "floor-1" cannot turn about the vertical'):
+    with pytest.raises(ModelError, match=r'floor "floor-1" cannot rotate about the vertical'):
         with_moved_masses(held, (0.05, 0.0))

@@ -154,18 +154,18 @@ def test_units_are_si(text: object, unit: str, value: float) -> None:
     [
         (175, "m", 'write "175 mm"'),
         ("175", "m", "no unit"),
-        ("175 kN", "m", "no unit of m"),
+        ("175 kN", "m", "not a unit of m"),
         ("175 furz", "m", "unknown unit"),
-        ("mm", "m", "no number"),
-        (True, "", "no number"),
+        ("mm", "m", "not a number"),
+        (True, "", "not a number"),
         (math.inf, "", "not finite"),
         ("3 m", "", "a pure number"),
         ("1,5 m", "m", 'has a comma: write "1.5 m"'),
-        ("1 2 m", "m", 'has "2 m" where a unit belongs'),
-        ("3 )", "m", "where a unit belongs"),
-        ("3 m**", "m", "where a unit belongs"),
-        ("3 m/0", "m", "where a unit belongs"),
-        ("3 psf", "m", "no unit of m"),
+        ("1 2 m", "m", 'has "2 m" in place of a unit'),
+        ("3 )", "m", "in place of a unit"),
+        ("3 m**", "m", "in place of a unit"),
+        ("3 m/0", "m", "in place of a unit"),
+        ("3 psf", "m", "not a unit of m"),
     ],
 )
 def test_what_is_no_quantity_is_refused(text: object, unit: str, words: str) -> None:
@@ -201,7 +201,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
         ('"NCh2745"', '"NCh433"', "code = .NCh433. must be"),
         ('folder = "motions"', "", "motions: needs one source"),
         (
-            'folder = "motions"',
+            "scale = 0.8",
             'scale = "spectrum"\npulses = {periods = ["3 s"], velocities = ["1 m/s"]}',
             'motions: scale = "spectrum": pulses are of the velocities given',
         ),
@@ -209,7 +209,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
         (
             'friction = {f_max = 0.06, f_min = "3 %", rate = "100 s/m"}',
             'friction = "a lot"',
-            r"^[^\n]*bearing.friction = .a lot. is no number",
+            r"^[^\n]*bearing.friction = .a lot. is not a number",
         ),
         (
             'friction = {f_max = 0.06, f_min = "3 %", rate = "100 s/m"}',
@@ -237,7 +237,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
         (
             "[limits]",
             '[superstructure]\nR = "eight"\n[limits]',
-            r'R = "eight" is no number.*as "1.0"',
+            r'R = "eight" is not a number.*as "1.0"',
         ),
         ("scale = 0.8", "scale = 0", 'scale = 0 must be "spectrum", or a factor'),
         ("scale = 0.8", "scale = inf", 'must be "spectrum", or a factor'),
@@ -396,7 +396,7 @@ def test_what_cannot_be_viewed_says_what_to_run(done: Path) -> None:
     (out / "checks.csv").unlink()
     assert "checks.csv is missing: `lir report` writes it" in refused(out)
     small.write_text(small.read_text().replace('storey_height = "3 m"', 'storey_height = "4 m"'))
-    assert "are of another input (structure differ): `lir run` makes new ones" in refused(out)
+    assert "belong to other input (structure differ): run `lir run` again" in refused(out)
     assert not (out / "view.html").exists()
 
 
@@ -559,7 +559,7 @@ def test_candidates_of_which_none_keeps_what_is_asked_are_written(folder: Path) 
     assert "- the motions' share: the mean spectrum of the motions is" in found.output
     wrong = run(app, ["design", str(file), "--objective", "weight"])
     assert wrong.exit_code == 2
-    assert "is none of base-shear, displacement, plan, cost-like" in wrong.output
+    assert "must be one of base-shear, displacement, plan, cost-like" in wrong.output
 
 
 def test_a_run_goes_on_where_it_was_interrupted(done, monkeypatch):
@@ -574,12 +574,12 @@ def test_a_run_goes_on_where_it_was_interrupted(done, monkeypatch):
     monkeypatch.setattr(level_runs, "Analysis", stopped)
     found = ran(file, cut)
     assert found.exit_code == 130
-    assert "9 runs that were complete are kept in " in found.output
-    assert "unfinished: the same command goes on from there" in found.output
+    assert "9 complete runs are kept in " in found.output
+    assert "unfinished: the same command continues from there" in found.output
     assert "are of the run before" in found.output
     assert "attribute" not in found.output
     report = run(app, ["report", "--no-figures", str(file), "--results", str(cut)])
-    assert "unfinished is of a later run that was interrupted" in report.output
+    assert "a later run was interrupted" in report.output
     for path in cut.glob("*.*"):
         path.unlink()
     report = run(app, ["report", str(file), "--results", str(cut)])
@@ -614,7 +614,7 @@ def test_a_run_that_was_not_written_whole_is_none(done, monkeypatch):
     failed = run(app, ["run", "--no-figures", *words])
     assert failed.exit_code == 4
     assert "error: No space left on device" in failed.output
-    assert "runs that were complete are kept in" in failed.output
+    assert "complete runs are kept in" in failed.output
     found = run(app, ["report", *words])
     assert found.exit_code == 2
     assert "holds an interrupted run" in found.output
@@ -715,7 +715,7 @@ def test_limits_are_refused_before_anything_is_run(folder: Path) -> None:
     ("old", "new", "words"),
     [
         ("interface_friction = 0.18", "interface_friction = inf", "is a plain DCFP"),
-        ('capacity = "180 mm"', "capacity = inf", "give the displacement at which they are met"),
+        ('capacity = "180 mm"', "capacity = inf", "give the displacement at rim contact"),
     ],
 )
 def test_devices_that_no_check_judges_are_refused_before_anything_is_run(folder, old, new, words):

@@ -200,7 +200,7 @@ def test_every_format_of_the_table_is_tried() -> None:
     ("text", "words"),
     [
         (csmip(2).replace("in cm/sec2", "in counts"), "numbers are in 'counts'.*volume 1 or 2"),
-        (esm().replace("cm/s^2", "cm/s"), "numbers are in 'cm/s', which is no unit of acc"),
+        (esm().replace("cm/s^2", "cm/s"), "the unit 'cm/s' is not an acc"),
         (esm().replace("NDATA: 1000", "NDATA: 2000"), "names 2000 samples, and the file holds 10"),
         (esm().replace("NDATA: 1000", "NDATA: 500"), "names 500 samples, and the file holds 1000"),
         (esm().replace("NDATA: 1000", "x"), "names no number of samples or no time step"),
@@ -243,7 +243,9 @@ def test_padding_after_the_samples_is_left_out(tmp_path, text, count, spare):
 def test_a_peak_that_the_samples_miss_is_told(tmp_path: Path) -> None:
     path = tmp_path / "record.EW"
     path.write_text(knet(0, "E-W").replace("3920(gal)", "2000(gal)"))
-    with pytest.warns(MotionWarning, match=r"names a peak of 0.99\d* m/s2, the samples reach 0.5"):
+    with pytest.warns(
+        MotionWarning, match=r"states a peak of 0.99\d* m/s2, but the samples reach 0.5"
+    ):
         read_record(path)
 
 
@@ -310,7 +312,7 @@ def test_a_table_of_all_kinds(folder: Path, separator: str) -> None:
         ("a,CE1.V2,,,,", "holds 3 components.*column record, and directions", None),
         ("a,five.acc,m/s2,0,01,rows,1", "line 2 has 7 cells, its head 6.*semicolons", None),
         ("a,five.acc,,,,", "need their unit in the column unit", None),
-        ("a,five.acc,m/s2,soon,rows,1", "dt = soon is no number", None),
+        ("a,five.acc,m/s2,soon,rows,1", "dt = soon is not a number", None),
     ],
 )
 def test_rows_of_a_table_are_refused_by_their_cause(folder, row, words, cure):
@@ -409,7 +411,7 @@ def test_workbooks_that_cannot_be_read_say_why(tmp_path: Path, door: str, monkey
     with pytest.raises(ValueError, match=r"row \d+: 2026-01-03.* is a date: .*format of text"):
         read(path)
     path.write_bytes(b"none")
-    with pytest.raises(ValueError, match=r"workbook.xlsx:? is no workbook that can be read"):
+    with pytest.raises(ValueError, match=r"workbook.xlsx:? is not a readable workbook"):
         read(path)
     monkeypatch.setitem(sys.modules, "openpyxl", None)
     with pytest.raises(ImportError, match=r"workbooks need openpyxl: pip install"):

@@ -126,7 +126,7 @@ def test_lists_and_tables_are_the_same(tmp_path: Path) -> None:
         ('points = "comma.csv"\n', "EN 1998", "line 2: 0,0,1,5 must be.*need semicolons"),
         ('points = "quoted.csv"\n', "EN 1998", "line 2: 0,5 has a decimal comma, and commas sep"),
         ('points = "thousands.csv"\n', "EN 1998", "line 2: 1.000,5 has signs of thousands"),
-        ('points = "latin.csv"\n', "EN 1998", "latin.csv: is no text in UTF-8.*save it as UTF-8"),
+        ('points = "latin.csv"\n', "EN 1998", "latin.csv: is not text in UTF-8.*save it as UTF-8"),
         (LIST + 'soil = "II"\n', "NCh2745", "spectrum.soil is not known"),
         ("s_ms = 1.0\n", "ASCE 7-22", "spectrum.s_m1 is missing"),
     ],

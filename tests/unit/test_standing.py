@@ -50,7 +50,7 @@ def test_a_standing_that_says_nothing_is_refused(kind: str, source: str, said: s
 
 @pytest.mark.parametrize("text", ["confirmed", "", "agreeswith UFC", "memory"])
 def test_words_of_none_are_refused(text: str) -> None:
-    with pytest.raises(CheckError, match=r"begins with one of|has no source"):
+    with pytest.raises(CheckError, match=r"begin with one of|has no source"):
         standing_of(text)
 
 

@@ -68,7 +68,7 @@ def test_without_sections_it_is_the_ready_made_frame(tmp_path: Path) -> None:
     assert ours.levels == theirs.levels
     assert all((ours.masses[n] == mass).all() for n, mass in theirs.masses.items())
     (doubt,) = file_doubts(parts.file)
-    assert "columns and beams and base_beams: no section is given" in doubt
+    assert "columns and beams and base_beams: sections of an example" in doubt
 
 
 def test_sections_are_those_of_the_file(tmp_path: Path) -> None:

@@ -178,7 +178,7 @@ def test_what_makes_no_sense_is_refused() -> None:
         synthetic_near_fault(1, 6.5, 5.0, seed=1, source=source)
     refused(TypeError, "seed", synthetic_near_fault, 1, 6.5, 5.0, seed=None)  # type: ignore[arg-type]
     refused(MotionError, "count", synthetic_near_fault, 0, 6.5, 5.0, seed=1)
-    with pytest.raises(MotionError, match="take more samples"):
+    with pytest.raises(MotionError, match="use more samples"):
         stochastic_acceleration(source, 0.01, 100, np.random.default_rng(1))
     with pytest.raises(MotionError, match="must rise"):
         PointSource(magnitude=6.0, distance=1.0, amplification=((2.0, 1.0), (1.0, 1.0)))

@@ -154,7 +154,7 @@ def test_check_says_walls_and_braces(tmp_path: Path) -> None:
 REFUSED = {
     "unknown column of a wall": (WALL.replace('"0-1"', '"0-7"'), 'there is no column "0-7"'),
     "one column": (WALL.replace('"0-1"', '"0-0"'), "twice: name two columns"),
-    "wall above": (WALL + "storeys = [2, 3]", "a wall stands on the base"),
+    "wall above": (WALL + "storeys = [2, 3]", "a wall must start"),
     "thick": (WALL.replace("300 mm", "3000 mm"), "more than half of the length"),
     "storeys": (WALL + "storeys = [1, 4]", "within the 3 of the building"),
     "wall twice": (WALL + WALL.replace('"0-0", "0-1"', '"0-1", "0-0"'), "is there twice"),
@@ -191,7 +191,7 @@ def test_plans_whose_parts_do_not_meet() -> None:
     bearing = bearing_for(500e3)
     assert len(build(BuildingPlan(**sound), bearing).members) == 4  # type: ignore[arg-type]
     for change, said in (
-        ({"beams": ()}, "reaches its foot"),
+        ({"beams": ()}, "has no base beam"),
         ({"heights": (3.0, 3.0)}, "no column reaches level 2"),
         ({"columns": (*columns, ColumnPart("C", 1, section))}, 'no column line "C"'),
         ({"columns": (*columns, ColumnPart("A", 2, section))}, "storey 2 is none of the 1"),

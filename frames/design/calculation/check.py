@@ -106,7 +106,10 @@ class Check:
                 raise CheckError(msg)
             object.__setattr__(self, name, value)
         if math.isinf(self.demand) and math.isinf(self.limit):
-            msg = f"demand and limit of {self.title!r} ({self.clause}) are infinite: give one"
+            msg = (
+                f"demand and limit of {self.title!r} ({self.clause}) are both infinite: give a "
+                "finite one"
+            )
             raise CheckError(msg)
         require_choice("relation", self.relation, ("<=", ">="), error=CheckError)
         require_type("standing", self.standing, Standing, "a Standing")
@@ -328,7 +331,7 @@ class Checks(Sequence[Check]):
             If there is none.
         """
         if not self._checks:
-            msg = "there are no checks: none governs"
+            msg = "there are no checks, so none governs"
             raise CheckError(msg)
         return max(self._checks, key=lambda check: check.ratio)
 

@@ -84,7 +84,7 @@ def call(node: ast.expr) -> tuple[str, list[ast.expr]]:
     """Return function and arguments of a part of a formula that is a call."""
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         return node.func.id, node.args
-    msg = f"{ast.dump(node)} is no part of a formula"
+    msg = f"{ast.dump(node)} is not supported in a formula"
     raise CheckError(msg)
 
 

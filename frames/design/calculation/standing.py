@@ -98,5 +98,5 @@ def standing_of(text: str) -> Standing:
     for kind, words in _WORDS.items():
         if text == words or text.startswith(f"{words} "):
             return Standing(kind, text.removeprefix(words).strip())
-    msg = f"standing {text!r} is not known: it begins with one of {tuple(_WORDS.values())}"
+    msg = f"standing {text!r} must begin with one of {tuple(_WORDS.values())}"
     raise CheckError(msg)

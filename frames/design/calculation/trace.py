@@ -222,12 +222,12 @@ class Trace:
         try:
             found = evaluate(tree, {name: self[name].value for name in entered})
         except ValueError as cause:
-            msg = f"{symbol} = {formula} takes together what there are unlike numbers of: {cause}"
+            msg = f"{symbol} = {formula} combines lists of different lengths: {cause}"
             raise CheckError(msg) from cause
         numbers = found if isinstance(found, tuple) else (found,)
         if not all(map(math.isfinite, numbers)):
             where = ", ".join(f"{name} = {self[name].result}" for name in entered)
-            msg = f"{symbol} = {formula} has no finite value at {where}: see what was given"
+            msg = f"{symbol} = {formula} is not finite at {where}: check the values given"
             raise CheckError(msg)
         return self._add(
             symbol, found, unit, formula, entered, source=source, note=note, shown=shown

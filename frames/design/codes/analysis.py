@@ -189,7 +189,10 @@ def equivalent_linear(
     require_type("spectrum", spectrum, Spectrum, "a Spectrum")
     chosen = _of_spectrum(spectrum) if code is None else _method(code)
     if canonical(spectrum.code) != chosen.name:
-        msg = f"a spectrum of {spectrum.code!r} does not go with {chosen.name}: give one of its own"
+        msg = (
+            f"a spectrum of {spectrum.code!r} does not go with {chosen.name}: give a "
+            "spectrum of that code"
+        )
         raise CheckError(msg)
     if superstructure is not None and superstructure.weight > system.seismic_weight:
         msg = (
@@ -216,7 +219,7 @@ def _of_spectrum(spectrum: Spectrum) -> AnalysisMethod:
     names = known_names()
     if canonical(spectrum.code) not in names:
         msg = (
-            f"a spectrum of {spectrum.code!r} has no equivalent-linear analysis: give one of "
+            f"{spectrum.code!r} has no equivalent-linear analysis: give a spectrum of "
             f"{', '.join(names)}"
         )
         raise CheckError(msg)

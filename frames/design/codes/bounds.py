@@ -296,8 +296,8 @@ def factors_of_en1998(
         require_around_one(source, (low, high))
         if low < 1.0:
             msg = (
-                f"{source} = [{low:g}, {high:g}]: EN 1998-2 annex JJ has factors that raise "
-                f"friction, give [1, {high:g}]; what lowers it belongs into specification"
+                f"{source} = [{low:g}, {high:g}]: the factors of EN 1998-2 annex JJ only "
+                f"raise friction: give [1, {high:g}], and put reductions into specification"
             )
             raise CheckError(msg)
     return PropertyModificationFactors.en1998(
@@ -310,5 +310,5 @@ def factors_of_en1998(
 def _refuse_others(given: dict[str, Any], known: tuple[str, ...]) -> None:
     odd = [name for name in given if name not in known]
     if odd:
-        msg = f"{odd[0]} is no source of factors of this code: it has {', '.join(known)}"
+        msg = f"{odd[0]} is not a source of factors in this code: choose one of {', '.join(known)}"
         raise CheckError(msg)

@@ -345,7 +345,8 @@ def weakest(standings: Iterable[Standing]) -> Standing:
     found = tuple(dict.fromkeys(standings))
     if not found or any(one.kind == "own" for one in found):
         msg = (
-            f"standings {[str(one) for one in found]}: give those of values of a code, one at least"
+            f"standings {[str(one) for one in found]} is empty: give the standing of at "
+            "least one value"
         )
         raise CheckError(msg)
     kind = min((one.kind for one in found), key=_ORDER.index)
@@ -356,7 +357,7 @@ def standing_by(values: Mapping[str, CodeValue], *names: str, analysis: object =
     """Return the standing of a check that rests on values of a code."""
     missing = [name for name in names if name not in values]
     if missing:
-        msg = f"value {missing[0]!r} is none of the code's: it has {', '.join(values)}"
+        msg = f"{missing[0]!r} is not a value of the code: choose one of {', '.join(values)}"
         raise CheckError(msg)
     return weakest(
         FROM_MEMORY if _is_changed(values[name].field, analysis) else values[name].standing

@@ -192,7 +192,7 @@ class HistoryRules:
     def __post_init__(self) -> None:
         check_numbers(self, error=CheckError)
         if not self.levels:
-            msg = "levels is empty: give one level of the seismic action at least"
+            msg = "levels is empty: give at least one seismic level"
             raise CheckError(msg)
 
     def for_elements(self, kind: str) -> HistoryRules:
@@ -253,8 +253,8 @@ class HistoryRules:
                 for each in self.levels
             )
             msg = (
-                f"{self.cited} judges at {len(names)} levels, {factors}: say of which the runs "
-                f"are, action_level={names[0]!r}"
+                f"{self.cited} judges at {len(names)} levels, {factors}: name the level of "
+                f"the runs, action_level={names[0]!r}"
             )
             raise CheckError(msg)
         require_choice("action_level", name or names[0], tuple(names), error=CheckError)

@@ -93,7 +93,7 @@ class IsolationSystem:
         groups = {"loads": self.loads, "positions": self.positions, "names": names}
         for name, values in groups.items():
             if len(values) != count or count == 0:
-                msg = f"{len(values)} {name} for {count} bearings: give one for each, 1 at least"
+                msg = f"{len(values)} {name} for {count} bearings: give one for each"
                 raise CheckError(msg)
         combinations = {
             key: require_vector(f"loads of combination {key!r} [N]", v, count, error=CheckError)

@@ -121,6 +121,6 @@ class FrictionPendulum:
         if not displacement >= self.corner:
             msg = (
                 f"displacement = {displacement:g} m is below the corner of the loop, "
-                f"{self.corner:g} m: one surface alone slides; take that one alone"
+                f"{self.corner:g} m, where one surface slides alone: analyse that surface"
             )
             raise CheckError(msg)

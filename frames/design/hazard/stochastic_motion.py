@@ -298,8 +298,8 @@ def stochastic_acceleration(
     step = require_positive("dt", dt, "s", error=MotionError)
     if steps * step < 2.0 * source.duration:
         msg = (
-            f"{steps} samples of {step:g} s hold {steps * step:.3g} s of the motion, which goes on "
-            f"for {2.0 * source.duration:.3g} s: take more samples"
+            f"{steps} samples of {step:g} s last {steps * step:.3g} s, but the motion lasts "
+            f"{2.0 * source.duration:.3g} s: use more samples"
         )
         raise MotionError(msg)
     shape = envelope(step * np.arange(steps), source.duration)

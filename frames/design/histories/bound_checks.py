@@ -366,8 +366,8 @@ class BoundChecks:
         trace = self.equivalent.bounds[self.case.bound].trace
         if not self.case.rules.has_minima or symbol not in trace:
             msg = (
-                f"equivalent has no minima of time histories ({symbol}): give that of a code "
-                "that has them, as ASCE 7-22, with a superstructure, or leave it out"
+                f"equivalent has no minima for time histories ({symbol}): use a code that "
+                "has them, for example ASCE 7-22, with a superstructure, or leave it out"
             )
             raise CheckError(msg)
         return trace.value(symbol)

@@ -213,7 +213,7 @@ def cases_of(runs: Runs, rules: HistoryRules) -> list[Case]:
     found = []
     for (level, bound), own in runs.by(HAZARD, BOUND).items():
         if not len(own.centred):
-            msg = f"moved has the bound {bound!r}, of which there are no runs: give those as well"
+            msg = f"moved has the bound {bound!r}, but there are no runs of it: add them"
             raise CheckError(msg)
         case = Case(own, rules, level, cast("Bound", bound))
         _refuse_runs(case.data, bound)
@@ -330,12 +330,15 @@ def _refuse_runs(data: xr.Dataset, bound: str) -> None:
         raise CheckError(msg)
     models = sorted({str(name) for name in data["model"].to_numpy()})
     if len(models) != 1:
-        msg = f"{what}: there are {len(models)} structures, {', '.join(models)}: give one a bound"
+        msg = (
+            f"{what}: there are {len(models)} structures, {', '.join(models)}: give one for "
+            "each friction bound"
+        )
         raise CheckError(msg)
     motions = [str(name) for name in data["motion"].to_numpy()]
     twice = [name for name in motions if motions.count(name) > 1]
     if twice:
-        msg = f"{what}: the motion {twice[0]!r} is there twice: give each at one scale"
+        msg = f"{what}: the motion {twice[0]!r} occurs twice: give each motion at one scale"
         raise CheckError(msg)
 
 
@@ -350,5 +353,5 @@ def _refuse_unlike(data: xr.Dataset, moved: xr.Dataset, bound: str) -> None:
         msg = f"{what}: none could begin: {moved['message'].to_numpy()[0]}"
         raise CheckError(msg)
     if names_of(data, "displacement") != names_of(moved, "displacement"):
-        msg = f"{what}: its bearings are others than those of the runs: give runs of one structure"
+        msg = f"{what}: its bearings differ from those of the runs: give runs of one structure"
         raise CheckError(msg)

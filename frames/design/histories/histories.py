@@ -89,7 +89,7 @@ def bounded_histories(
     factors = scales if isinstance(scales, Mapping) else dict.fromkeys(suite, scales)
     lacking = [name for name in suite if name not in factors]
     if lacking:
-        msg = f"scales has no factor for the motion {lacking[0]!r}: give one for each"
+        msg = f"scales has no factor for the motion {lacking[0]!r}: give one for each motion"
         raise CheckError(msg)
     models: dict[str, Frame] = {name: with_property_bounds(frame, name, bounds) for name in at}
     cases = [(bound, name, factors[name]) for bound in models for name in suite]
@@ -268,7 +268,7 @@ def _cases(
             count = data.sizes["run"]
             rows += Runs(data.assign_coords({n: ("run", [v] * count) for n, v in own.items()}))
     if not len(rows):
-        msg = "runs is empty: give those of one bound at least"
+        msg = "runs is empty: give the runs of at least one bound"
         raise CheckError(msg)
     return cases_of(rows, rules)
 

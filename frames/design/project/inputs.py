@@ -78,7 +78,9 @@ class ProjectInputs:
         found = {STANDARD: self.bearing()}
         for name, given in self.file.bearings.items():
             if name == STANDARD:
-                msg = f"[bearings.{name}] is the name of what [bearing] describes: choose another"
+                msg = (
+                    f"[bearings.{name}] has the name of the type in [bearing]: choose another name"
+                )
                 raise ProjectError(msg)
             found[name] = bearing_of(given, f"bearings.{name}")
         return found
@@ -263,7 +265,7 @@ def _imported(given: ImportedModel, bearing: LIRBearing, name: str, folder: Path
 
     path = folder / given.file
     if not path.is_file():
-        msg = f"file = {given.file} is no file in {folder}: name the exported model"
+        msg = f"file = {given.file} is not in {folder}: name the exported model"
         raise ProjectError(msg)
     with contextlib.suppress(ImportError):  # which shells alone need
         opensees().wipe()
@@ -289,7 +291,7 @@ def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path
 
     script = folder / given.script
     if not script.is_file():
-        msg = f"script = {given.script} is no file in {folder}: name the model's script"
+        msg = f"script = {given.script} is not in {folder}: name the model's script"
         raise ProjectError(msg)
     opensees().wipe()
     with RunningScript(script, "script", folder):

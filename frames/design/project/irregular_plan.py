@@ -98,7 +98,7 @@ def csv_rows(path: Path, needed: Sequence[str], other: Sequence[str] = ()) -> li
         if cells:
             rows.append(CsvRow(path.name, "", number, cells))
     if not rows:
-        msg = f"{path} has no rows: give one for each member, with {', '.join(needed)}"
+        msg = f"{path} has no rows: write one for each member, with {', '.join(needed)}"
         raise ProjectError(msg)
     return rows
 
@@ -189,8 +189,8 @@ def _columns(
     for (one, here), (other, there) in combinations(lines.items(), 2):
         if math.dist(here, there) < _CLOSE:
             msg = (
-                f'{given.columns_table}: columns "{one}" and "{other}" stand at one place, '
-                f"({here[0]:g}, {here[1]:g}) m: give parts of one column one name"
+                f'{given.columns_table}: columns "{one}" and "{other}" are both at '
+                f"({here[0]:g}, {here[1]:g}) m: use one name for the parts of one column"
             )
             raise ProjectError(msg)
     for name, storey in parts:

@@ -98,9 +98,9 @@ def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
     )
     return (
         worded(
-            "a billionth of the ground motion changes peaks of the governing run ({peaks}): they "
-            "are chance within that range, which no smaller step narrows; judge several disturbed "
-            "motions (frames.step_sensitivity compares)",
+            "a change of 1e-9 in the motion changes peaks of the governing run ({peaks}): "
+            "use the envelope of several disturbed runs (frames.step_sensitivity), not a "
+            "smaller step",
             peaks=joined(*each, by=", "),
         ),
     )

@@ -51,8 +51,8 @@ def types_by_column(given: Mapping[str, BearingType], frame: Frame) -> dict[str,
     for name, kind in given.items():
         if bool(kind.columns) == (kind.above is not None):
             msg = (
-                f"[bearings.{name}] must say under which columns it stands: either columns = "
-                '["0-0", "0-1"], or above = "1500 kN", the average axial load from which on'
+                f'[bearings.{name}] needs its columns: either columns = ["0-0", "0-1"], or '
+                'above = "1500 kN", the least average axial load'
             )
             raise ProjectError(msg)
         if kind.above is not None:
@@ -69,16 +69,14 @@ def types_by_column(given: Mapping[str, BearingType], frame: Frame) -> dict[str,
             for bearing in _named(column, name, frame):
                 if bearing in taken:
                     msg = (
-                        f"[bearings.{name}] columns: {column} is of [bearings.{taken[bearing]}] "
-                        "already: name it once"
+                        f"[bearings.{name}] columns: {column} already belongs to "
+                        f"[bearings.{taken[bearing]}]: list it once"
                     )
                     raise ProjectError(msg)
                 taken[bearing] = found[bearing] = name
     idle = [name for name in given if name not in found.values()]
     if idle:
-        msg = (
-            f"[bearings.{idle[0]}] stands under no column: name its columns, or a lower load above"
-        )
+        msg = f"no column uses [bearings.{idle[0]}]: list its columns, or lower the load in `above`"
         raise ProjectError(msg)
     return found
 
@@ -123,7 +121,7 @@ def bearing_under(column: str, frame: Frame) -> str:
     names = [name.removeprefix("bearing-") for name in frame.bearings]
     near = difflib.get_close_matches(column.removeprefix("bearing-"), names, n=1)
     meant = f'; is "{near[0]}" meant?' if near else f": there are {listed(names, _NAMED)}"
-    msg = f"{column} is no column with a bearing{meant}"
+    msg = f"{column} is not a column with a bearing{meant}"
     raise ProjectError(msg)
 
 
@@ -226,8 +224,8 @@ def _on_line(frame: Frame, level: int, column: str) -> str:
         if abs(place.x - below.x) < SAME_PLACE and abs(place.y - below.y) < SAME_PLACE:
             return node
     msg = (
-        f'there is no node of level "{frame.levels[level].name}" over column "{column}": dampers '
-        "in storeys join nodes of levels that stand over bearings"
+        f'no node of level "{frame.levels[level].name}" is over column "{column}": dampers '
+        "in storeys need nodes above the bearings"
     )
     raise ProjectError(msg)
 

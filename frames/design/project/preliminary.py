@@ -104,15 +104,15 @@ def _refuse_other_devices(frame: Frame) -> None:
     for name, link in frame.bearings.items():
         if link.bearing.is_dcfp:
             msg = (
-                f"interface_friction = inf of {name} is a plain DCFP, and the checks and the "
-                "report are those of a LIR-DCFP: give the interface a friction, `lir design` "
-                "proposes one; `lir compare` runs the plain DCFP of the same plates beside it"
+                f"`lir run` supports LIR-DCFPs only, and interface_friction = inf of {name} "
+                "is a plain DCFP: set a value (`lir design` proposes one), or use `lir "
+                "compare`"
             )
             raise ProjectError(msg)
         if math.isinf(link.bearing.lateral_capacity):
             msg = (
-                f"capacity = inf of {name}: the checks and the report are those of a bearing with "
-                "restraining rims; give the displacement at which they are met"
+                f"`lir run` supports bearings with rims only, and {name} has capacity = "
+                "inf: give the displacement at rim contact"
             )
             raise ProjectError(msg)
 
@@ -145,8 +145,8 @@ def moved_frames(parts: ProjectInputs, frame: Frame) -> dict[str, Frame]:
         }
     except ModelError as cause:
         msg = worded(
-            "[analysis] accidental_eccentricity = {share:g}: {cause}; the time histories leave it "
-            'out, write accidental_eccentricity = "none" if that is meant',
+            "[analysis] accidental_eccentricity = {share:g} is left out of the time "
+            'histories: {cause}. Write accidental_eccentricity = "none" to confirm',
             share=share,
             cause=cause,
         )

@@ -100,7 +100,7 @@ def si(value: object, unit: str, example: str) -> float:
         raise ValueError(msg)
     found = _NUMBER.fullmatch(value) if isinstance(value, str) else None
     if found is None:
-        msg = f'is no number with a unit: write it as "{example}"'
+        msg = f'is not a number with a unit: write it as "{example}"'
         raise ValueError(msg)
     number, given = float(found[1]), _POWER.sub(r"^\1", found[2])
     if unit and not given:
@@ -118,10 +118,12 @@ def si(value: object, unit: str, example: str) -> float:
         msg = f'has an unknown unit "{found[2]}": write it as "{example}"'
         raise ValueError(msg) from cause
     except pint.DimensionalityError as cause:
-        msg = f'is in "{found[2]}", which is no unit of {unit or "a pure number"}: as "{example}"'
+        msg = (
+            f'is in "{found[2]}", not a unit of {unit or "a pure number"}: write it as "{example}"'
+        )
         raise ValueError(msg) from cause
     except _UNREADABLE as cause:
-        msg = f'has "{found[2]}" where a unit belongs: write it as "{example}"'
+        msg = f'has "{found[2]}" in place of a unit: write it as "{example}"'
         raise ValueError(msg) from cause
     return _finite(float(f"{number * factor.magnitude:.15g}"))
 
@@ -140,7 +142,7 @@ def _celsius(number: float, given: str, example: str) -> float:
     try:
         return float(_units().Quantity(number, scale).to("degC").magnitude)
     except (pint.UndefinedUnitError, pint.DimensionalityError, *_UNREADABLE) as cause:
-        msg = f'is in "{given}", which is no unit of temperature: write it as "{example}"'
+        msg = f'is in "{given}", not a unit of temperature: write it as "{example}"'
         raise ValueError(msg) from cause
 
 

@@ -61,7 +61,7 @@ def read_file(
         msg = f"{_short(file)}: {cause.strerror or cause}: give a file, {hint}"
         raise ProjectError(msg) from cause
     except UnicodeDecodeError as cause:
-        msg = f"{file} is no text in UTF-8 ({cause}): save it as UTF-8"
+        msg = f"{file} is not text in UTF-8 ({cause}): save it as UTF-8"
         raise ProjectError(msg) from cause
     except tomllib.TOMLDecodeError as cause:
         given = content.decode("utf-8")

@@ -68,7 +68,7 @@ def _said(row: _Row) -> str:
     bound, word = (row.low, "less") if value < row.low else (row.high, "more")
     given, limit = (f"{factor * v:.4g} {unit}".rstrip() for v in (value, bound))
     return worded(
-        "{key} = {value} is {word} than {bound}, {why}: look at its unit",
+        "{key} = {value} is {word} than {bound}, {why}: check its unit",
         key=row.key,
         value=given,
         word=word,
@@ -180,8 +180,8 @@ def _without_effect(file: ProjectFile, types: Mapping[str, str]) -> Iterator[str
     by_load = any(kind.above is not None for kind in file.bearings.values())
     if by_load and STANDARD not in types.values():
         yield (
-            "[bearing] stands under no column: every bearing carries more than the least `above` "
-            "of [bearings]; look at its unit, or raise it"
+            "no column uses [bearing]: every bearing carries more than the least `above` "
+            "of [bearings]. Check its unit, or raise it"
         )
 
 
@@ -226,9 +226,9 @@ def wind_doubts(
         return ()
     return (
         worded(
-            "[superstructure] wind_shear = {wind:.4g} kN is above {holds:.4g} kN, with which all "
-            "bearings slide at the lower bound of friction: the isolation slides in wind. Raise "
-            "the friction, add a wind restraint, or look at the unit of wind_shear",
+            "the isolation slides in wind: [superstructure] wind_shear = {wind:.4g} kN "
+            "exceeds the friction of all bearings at the lower bound, {holds:.4g} kN. "
+            "Raise the friction, add a wind restraint, or check the unit",
             wind=1e-3 * wind,
             holds=1e-3 * holds,
         ),
@@ -244,9 +244,9 @@ def _of_sections(file: ProjectFile) -> Iterator[str]:
     if not assumed:
         return
     yield worded(
-        "[structure] {keys}: no section is given, those of an example are assumed (`lir check` "
-        "shows them), whatever the building carries: give each its section, columns = {{ section = "
-        '"HEB 300" }}, beams = {{ rectangle = ["300 mm", "600 mm"], material = "C30/37" }}',
+        "[structure] {keys}: sections of an example are assumed (`lir check` shows them). "
+        'Give your own, columns = {{ section = "HEB 300" }}, beams = '
+        '{{ rectangle = ["300 mm", "600 mm"], material = "C30/37" }}',
         keys=anded(assumed),
     )
 
@@ -286,8 +286,8 @@ def _of_heights(file: ProjectFile) -> Iterator[str]:
     for k, height in enumerate(given.heights, start=1):
         if not low <= height <= high:
             yield worded(
-                "[structure] storey_height of storey {storey} is {height:.4g} m, storeys have "
-                "{low:g} to {high:g} m: look at its unit",
+                "[structure] storey_height of storey {storey} is {height:.4g} m, usual are "
+                "{low:g} to {high:g} m: check its unit",
                 storey=k,
                 height=height,
                 low=low,
@@ -322,8 +322,8 @@ def _of_bays(file: ProjectFile) -> Iterator[str]:
     if least >= side:
         return
     yield worded(
-        "[structure] bay_width = {width:.4g} m is less than the {side:.4g} m that a bearing takes "
-        "in plan (capacity and the diameter of the slider): look at its unit",
+        "[structure] bay_width = {width:.4g} m is less than the {side:.4g} m of a bearing "
+        "in plan (capacity and slider diameter): check its unit",
         width=least,
         side=side,
     )
@@ -345,8 +345,8 @@ def _of_storeys(file: ProjectFile) -> Iterator[str]:
             if period > most:
                 bound = worded("below {bound:.3g} s", bound=most)
             yield worded(
-                "{key} = {stiffness:.4g} kN/mm lets the {mass:.4g} t above it swing with "
-                "{period:.3g} s; storeys of buildings stay {bound}: look at its unit",
+                "{key} = {stiffness:.4g} kN/mm gives the {mass:.4g} t above a period of "
+                "{period:.3g} s; storeys of buildings stay {bound}: check its unit",
                 key=f"[structure] storey_stiffness[{k}]",
                 stiffness=1e-6 * stiffness,
                 mass=1e-3 * above,
@@ -382,9 +382,9 @@ def _of_moat(file: ProjectFile) -> Iterator[str]:
     if wall is None or clear is None or clear >= wall.gap or len(set(wall.sides)) < len(SIDES):
         return
     yield worded(
-        "[limits] moat_gap = {clear:.5g} mm, [moat] gap = {gap:.5g} mm: walls all around stand "
-        "farther off than the clear distance that is checked; give both the same if they are of "
-        "one wall",
+        "[limits] moat_gap = {clear:.5g} mm, the clear distance that is checked, is less "
+        "than [moat] gap = {gap:.5g} mm of walls all around: if both are one wall, give "
+        "both the same value",
         clear=1e3 * clear,
         gap=1e3 * wall.gap,
     )

@@ -50,8 +50,8 @@ class DamperTable(Table):
     def _stand_somewhere(self) -> Self:
         if bool(self.columns) == (self.between is not None):
             msg = (
-                'must say where they stand: either columns = ["0-0", "3-0"], from the ground to '
-                'the slab above the bearings, or between = ["0-0", "1-0"], in storeys'
+                'needs its place: either columns = ["0-0", "3-0"], from the ground to the '
+                'slab above the bearings, or between = ["0-0", "1-0"], in storeys'
             )
             raise ValueError(msg)
         mine = {"columns": {"directions"}, "between": {"storeys", "pattern"}}

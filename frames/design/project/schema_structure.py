@@ -137,8 +137,8 @@ class IrregularFrame(BuildingTable):
         one, other = self.columns_table, self.beams_table
         if one != other and one.name.lower() == other.name.lower():
             msg = (
-                f"columns_table and beams_table are both named {one.name}, and the results keep "
-                "them in one folder: give one of them another name"
+                f"columns_table and beams_table are both named {one.name}, but the results "
+                "keep them in one folder: rename one"
             )
             raise ValueError(msg)
         return self
@@ -206,7 +206,8 @@ class ImportedModel(Table):
         for word, given in (("sections", self.sections), ("library", self.library)):
             if given and self.kind != "etabs":
                 msg = (
-                    f"{word} gives constants that a file of ETABS lacks; those of SAP2000 have them"
+                    f"{word} is for ETABS files, which may lack constants of sections; SAP2000 "
+                    "files have them"
                 )
                 raise ValueError(msg)
         return self

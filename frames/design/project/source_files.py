@@ -103,7 +103,8 @@ def _extension(folder: Path, name: str, section: str) -> Path:
         raise ProjectError(msg) from cause
     if not there:
         msg = (
-            f"[{section}] extensions: {whole} is no file: name a Python file beside the {section}'s"
+            f"[{section}] extensions: {whole} is not a file: name a Python file beside the "
+            f"{section}'s"
         )
         raise ProjectError(msg)
     return whole
@@ -115,7 +116,9 @@ def _load(script: Path, section: str, folder: Path) -> None:
     name = f"lir_extension_{len(_LOADED)}_{script.stem}"
     found = importlib.util.spec_from_file_location(name, script)
     if found is None or found.loader is None:
-        msg = f"[{section}] extensions: {script.name} is no Python file: its name must end in .py"
+        msg = (
+            f"[{section}] extensions: {script.name} is not a Python file: its name must end in .py"
+        )
         raise ProjectError(msg)
     module = importlib.util.module_from_spec(found)
     content = script.read_bytes()
@@ -154,8 +157,8 @@ class SourceFiles:
         """Return the files that are on disk no longer what was read, as sentences."""
         return tuple(
             worded(
-                "{file} was changed or removed after it was read: the numbers, the input that is "
-                "shown and its SHA-256 are of the file before",
+                "{file} was changed or removed after it was read: the results, the input "
+                "shown and its SHA-256 belong to the earlier file",
                 file=path,
             )
             for path, digest in self._digests.items()

@@ -55,7 +55,10 @@ class LoadsTable(Table):
     @model_validator(mode="after")
     def _weighs(self) -> Self:
         if not self.dead and not self.roof.dead:
-            msg = 'dead = "0 kN/m2": floors weigh something besides the members: dead = "3.5 kN/m2"'
+            msg = (
+                "dead must be above 0, because floors weigh more than their members: dead = "
+                '"3.5 kN/m2"'
+            )
             raise ValueError(msg)
         if self.mass is not None and self.mass.dead <= 0.0:
             msg = "mass: dead must be greater than 0: 1.0 counts all of the dead load"
@@ -182,8 +185,8 @@ def _tilted(
     tilt = apart @ slope
     if tilt.min() < -1.0:
         msg = (
-            f"eccentricity = {list(eccentricity)} would leave columns at one edge without load: "
-            "give smaller ones (codes ask for 0.05)"
+            f"eccentricity = {list(eccentricity)} would leave columns at one edge without "
+            "load: reduce it (codes require 0.05)"
         )
         raise ModelError(msg)
     return dict(zip(own, (weights * tilt).tolist(), strict=True))

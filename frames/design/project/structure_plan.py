@@ -104,16 +104,16 @@ def _wall(plan: BuildingPlan, given: WallTable) -> WallPart:
     storeys = storeys_of(given.storeys, len(plan.heights))
     if storeys[0] != 1:
         msg = (
-            f"storeys = [{storeys[0]}, {storeys[-1]}]: a wall stands on the base, above its "
-            f"bearings: [1, {storeys[-1]}]; one on beams needs shells or a frame of your own"
+            f"a wall must start in storey 1 (storeys = [1, {storeys[-1]}]), not "
+            f"{storeys[0]}; for a wall on beams, import a model with shells"
         )
         raise ProjectError(msg)
     apart = math.dist(*(plan.lines[line] for line in given.between))
     length = apart if given.length is None else given.length
     if given.thickness > 0.5 * length:
         msg = (
-            f"thickness = {given.thickness:g} m is more than half of the length {length:g} m: "
-            "that is a column, or look at the unit"
+            f"thickness = {given.thickness:g} m is more than half of the length {length:g} "
+            "m: model it as a column, or check the unit"
         )
         raise ProjectError(msg)
     own = SectionTable.model_construct(
@@ -297,7 +297,10 @@ def _placed(name: str) -> tuple[str, int, str]:
 
 def _require_one_load(given: MomentFrame | IrregularFrame, loads: BuildingLoads | None) -> None:
     if given.floor_load is not None and loads is not None:
-        msg = "[structure] floor_load and [loads] both say what floors weigh: leave one of them out"
+        msg = (
+            "[structure] floor_load and [loads] both give the weight of the floors: remove "
+            "one of them"
+        )
         raise ProjectError(msg)
     if given.floor_load is None and loads is None:
         msg = (

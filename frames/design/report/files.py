@@ -102,8 +102,8 @@ def read_histories(folder: Path, inputs: Mapping[str, str]) -> tuple[Runs, xr.Da
     other = sorted(name for name in {*was, *inputs} if was.get(name) != inputs.get(name))
     if other:
         msg = (
-            f"the time histories in {folder} are of another input ({', '.join(other)} differ): "
-            "`lir run` makes new ones"
+            f"the time histories in {folder} belong to other input ({', '.join(other)} "
+            "differ): run `lir run` again"
         )
         raise ProjectError(msg)
     try:

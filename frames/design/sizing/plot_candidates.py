@@ -68,7 +68,7 @@ def design_candidates(
     chosen = found.chosen if isinstance(found, Design) else None
     candidates = found.candidates if isinstance(found, Design) else tuple(found)
     if not candidates:
-        msg = "there is no candidate: give a Design, or those that a NoCandidateError has"
+        msg = "there are no candidates: give a Design, or the candidates of a NoCandidateError"
         raise CheckError(msg)
     places = placed(candidates, chosen)
     looks = _looks(candidates)
@@ -112,7 +112,7 @@ def tried_candidates(tried: pd.DataFrame) -> Figure:
     In the how-to: "Bearings proposed: `lir design`" (docs/sizing.md).
     """
     if not len(tried):
-        msg = "there is no row: give those of front.csv"
+        msg = "there are no rows: give those of front.csv"
         raise CheckError(msg)
     over = {name: unit for name, unit in _AIMS.items() if name in tried}
     names = tried["limited by"].tolist()

@@ -67,7 +67,7 @@ class NoCandidateError(CheckError):
         self, candidates: tuple[Candidate, ...], impossible: tuple[Impossible, ...] = ()
     ) -> None:
         count = len(candidates) + len(impossible)
-        said = f"none of {count} pairs of radius and friction keeps what is asked"
+        said = f"none of {count} pairs of radius and friction meets the requirements"
         if candidates:
             near = min(candidates, key=lambda one: (len(one.lacks), one.governing.ratio))
             said += (

@@ -158,7 +158,7 @@ class DesignTarget:
         for name in ("radii", "frictions"):
             values = tuple(getattr(self, name))
             if not values:
-                msg = f"{name} is empty: give one to choose from, at least"
+                msg = f"{name} is empty: give at least one value"
                 raise CheckError(msg)
             object.__setattr__(self, name, values)
         check_numbers(self, error=CheckError)

@@ -138,7 +138,7 @@ def acceptance_checks(
     """
     rules = code_named(code)
     if not tests:
-        msg = "tests is empty: give one PrototypeTest at least"
+        msg = "tests is empty: give at least one PrototypeTest"
         raise CheckError(msg)
     chosen, found = limits or AcceptanceLimits(), []
     sets: dict[tuple[str, str], list[PrototypeTest]] = {}
@@ -157,8 +157,9 @@ def _require_alike(name: str, tests: Sequence[PrototypeTest]) -> None:
     ways = [cycle.travel for test in tests for cycle in test.cycles]
     if max(ways) > _ALIKE * min(ways):
         msg = (
-            f"test {name!r} has cycles from {500.0 * min(ways):.4g} to {500.0 * max(ways):.4g} mm: "
-            "give the cycles of each displacement as a test with a name of its own"
+            f"test {name!r} has cycles from {500.0 * min(ways):.4g} to "
+            f"{500.0 * max(ways):.4g} mm: give the cycles of each displacement as a "
+            "separate test"
         )
         raise CheckError(msg)
 

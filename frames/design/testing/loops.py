@@ -79,8 +79,8 @@ class PrototypeTest:
         )
         if moved.ndim != 1 or moved.shape != force.shape or not len(moved):
             msg = (
-                f"{where}: displacement {moved.shape} and force {force.shape}: give one number "
-                "each for every sample, (n,)"
+                f"{where}: displacement {moved.shape} and force {force.shape} must have one "
+                "number for every sample, (n,)"
             )
             raise CheckError(msg)
         load = np.asarray(self.load, dtype=np.float64)

@@ -209,7 +209,7 @@ def builtin_element(
     ops = opensees()
     for name, value in {"tag": tag, "i": i, "j": j}.items():
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
-            msg = f"{name} = {value!r} is no tag: give an integer"
+            msg = f"{name} = {value!r} must be an integer tag"
             raise TypeError(msg)
     tag, i, j = int(tag), int(i), int(j)  # OpenSees takes no integers of numpy
     apart = _check_nodes(ops, tag, i, j, bearing)
@@ -221,8 +221,8 @@ def builtin_element(
             getattr(ops, name)(*arguments)
         except ops.OpenSeesError as cause:
             msg = (
-                f"OpenSees refused {name}{tuple(arguments)}: the reason stands above in its own "
-                "output; where the tag is taken give another first_tag"
+                f"OpenSees refused {name}{tuple(arguments)}: its own output above has the "
+                "reason. If the tag exists, choose another first_tag"
             )
             raise ValueError(msg) from cause
     if tag not in ops.getEleTags():
@@ -242,8 +242,8 @@ def _check_nodes(ops: Any, tag: int, i: int, j: int, bearing: LIRBearing) -> boo
         if (size, freedoms) != (3, 6):
             msg = (
                 f"node {node} has {size} coordinates and {freedoms} degrees of freedom, the "
-                'bearing needs 3 and 6: ops.model("basic", "-ndm", 3, "-ndf", 6); in the plane '
-                "take bearing_element"
+                'bearing needs 3 and 6: ops.model("basic", "-ndm", 3, "-ndf", 6); for a '
+                "plane model use bearing_element"
             )
             raise ValueError(msg)
     if tag in (ops.getEleTags() or ()):
@@ -254,9 +254,9 @@ def _check_nodes(ops: Any, tag: int, i: int, j: int, bearing: LIRBearing) -> boo
     aside = math.hypot(above[0] - below[0], above[1] - below[1])
     if aside > SAME_PLACE or min(abs(rise), abs(rise - bearing.height)) > SAME_PLACE:
         msg = (
-            f"node {j} is {rise:g} m above node {i} and {aside:g} m beside it: it must stand on "
-            f"one vertical, 0 or the bearing's height {bearing.height:g} m above; the model must "
-            "be in m, N and s: in other units take bearing_element, with length_unit and force_unit"
+            f"node {j} is {rise:g} m above node {i} and {aside:g} m aside: it must be on the same "
+            f"vertical, 0 or the bearing's height {bearing.height:g} m above. For a model in other "
+            "units than m and N use bearing_element with length_unit and force_unit"
         )
         raise ValueError(msg)
     return bool(abs(rise) > SAME_PLACE)

@@ -159,8 +159,8 @@ def laws_of_opensees(bearing: LIRBearing) -> list[CoulombFriction | VelocityFric
         if not isinstance(law, known):
             msg = (
                 f"friction = {law!r}: the friction models of OpenSees follow Coulomb's law "
-                "(CoulombFriction) and the exponential one (VelocityFriction); give one of them, "
-                "or take bearing_element, which follows any law"
+                "(CoulombFriction) or the exponential one (VelocityFriction): give one of them, "
+                "or use bearing_element for any law"
             )
             raise ValueError(msg)
     return [law for law in bearing.frictions if isinstance(law, known)]
@@ -176,10 +176,10 @@ def _rate(bearing: LIRBearing) -> float:
     ]
     if rates and max(rates) - min(rates) > _SAME * max(rates):
         msg = (
-            f"radius = {radii} with friction rates {tuple(law.rate for law in laws)} s/m: the two "
-            f"surfaces reach their friction at unlike speeds of the bearing (rates {rates[0]:.4g} "
-            f"and {rates[1]:.4g} s/m over its velocity), which one law cannot follow; give rates "
-            "with rate * radius equal, or CoulombFriction"
+            f"radius = {radii} with friction rates {tuple(law.rate for law in laws)} s/m: one "
+            f"law cannot represent surfaces whose rates over the bearing's velocity differ "
+            f"({rates[0]:.4g} and {rates[1]:.4g} s/m): give rates with equal rate * radius, or "
+            "CoulombFriction"
         )
         raise ValueError(msg)
     return rates[0] if rates else 0.0

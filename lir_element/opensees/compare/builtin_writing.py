@@ -42,7 +42,7 @@ def refuse(kind: str, bearing: LIRBearing, values: BuiltinValues, *, lift: bool)
         )
         raise ValueError(msg)
     if lift and kind != "singleFPBearing":
-        msg = f'lift = True: {kind} has no such option; choose "singleFPBearing", or lift=False'
+        msg = f'lift = True: {kind} cannot lift: choose "singleFPBearing", or lift=False'
         raise ValueError(msg)
     if kind in _CONSTANT and varies:
         msg = (

@@ -359,7 +359,7 @@ class _Builder:
 def _check(bearing: LIRBearing, directions: object, restoring: str) -> None:
     """Refuse options and bearings that have no such macro-model."""
     if not isinstance(directions, int) or directions < _FEWEST or directions % _FEWEST:
-        msg = f"directions = {directions!r}: give 4, 8, 12, ...; the gaps stand crosswise"
+        msg = f"directions = {directions!r}: give a multiple of 4"
         raise ValueError(msg)
     require_choice("restoring", restoring, ("series", "across"))
     require_constant_friction(bearing, TO_OPENSEES)
@@ -380,7 +380,9 @@ def _check_nodes(ops: Any, node_i: int, node_j: int) -> None:
     there = set(ops.getNodeTags())
     for name, node in (("node_i", node_i), ("node_j", node_j)):
         if node not in there:
-            msg = f"{name} = {node} is no node of the model: make it before, with ndm 3 and ndf 6"
+            msg = (
+                f"{name} = {node} is not a node of the model: create it first, with ndm 3 and ndf 6"
+            )
             raise ValueError(msg)
         size = len(ops.nodeDisp(node))
         if size != 6:
@@ -389,8 +391,8 @@ def _check_nodes(ops: Any, node_i: int, node_j: int) -> None:
     low, high = ops.nodeCoord(node_i), ops.nodeCoord(node_j)
     if low[:2] != high[:2] or low[2] > high[2]:
         msg = (
-            f"node_i at {tuple(low)} and node_j at {tuple(high)}: node j stands above node i, or "
-            "in the same place; exchange or move them"
+            f"node_i at {tuple(low)} and node_j at {tuple(high)}: node j must be above node i, or "
+            "at the same place: exchange the nodes, or move one"
         )
         raise ValueError(msg)
 

@@ -74,8 +74,8 @@ class Guard:
         free = np.flatnonzero(self._block["channels"][0, :, 0] == -1)
         if not len(free):
             msg = (
-                f"the out-of-process coupling serves {MOST_CHANNELS} bearings at a time: "
-                'take fewer, or route="fast"'
+                f"the out-of-process coupling serves at most {MOST_CHANNELS} bearings: "
+                'use fewer, or route="fast"'
             )
             raise ValueError(msg)
         self._block["channels"][0, free[0]] = sock.fileno(), words

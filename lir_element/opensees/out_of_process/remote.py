@@ -176,9 +176,10 @@ class Remote:
         if _SAME_CLOCK * step < away < (1.0 - _SAME_CLOCK) * step:
             self._warned = True
             msg = (
-                f"bearing element {self.placed.tag}: the integrator tries states at {committed:g} "
-                f"s that it commits {away:g} s apart, and this build of OpenSees does not let the "
-                "bearing see that: rates of sliding are wrong. Take integrator Newmark or TRBDF2"
+                f"bearing element {self.placed.tag}: rates of sliding would be wrong, "
+                f"because the integrator tries states at {committed:g} s and commits them "
+                f"{away:g} s apart, and this build of OpenSees does not report it. Use the "
+                "integrator Newmark or TRBDF2"
             )
             warnings.warn(msg, RouteWarning, stacklevel=4)
 
