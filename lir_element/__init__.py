@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from lir_element.errors import AnalysisInterrupted as AnalysisInterrupted
     from lir_element.errors import AnalysisWarning as AnalysisWarning
     from lir_element.errors import RunStatus as RunStatus
+    from lir_element.library import write_bearing as write_bearing
+    from lir_element.library import write_library as write_library
     from lir_element.rig.cyclic_test import cyclic_test as cyclic_test
 
 if not TYPE_CHECKING:  # noqa: RUF067  # a checker of types would take any name for one of these
