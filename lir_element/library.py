@@ -283,8 +283,9 @@ def write_library(folder: str | Path) -> Path:
     if shutil.which(command[0]) is None:
         msg = f"no C compiler {command[0]!r} is found: install gcc, or set CC to yours"
         raise RuntimeError(msg)
-    if not WITH_PARTS:
-        msg = f"numba {numba.__version__} cannot write the library: pip install 'numba==0.68.*'"
+    if not WITH_PARTS or numba.config.DISABLE_JIT:
+        msg = f"numba {numba.__version__} compiles no library: pip install 'numba==0.68.*'"
+        msg += ", and unset NUMBA_DISABLE_JIT"
         raise RuntimeError(msg)
     place = Path(folder)
     place.mkdir(parents=True, exist_ok=True)
