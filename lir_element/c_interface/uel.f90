@@ -3,11 +3,12 @@
 !   *USER ELEMENT, TYPE=U1, NODES=2, COORDINATES=3, VARIABLES=@LIR_SIZE@, I PROPERTIES=1, PROPERTIES=0, UNSYMM
 !   1, 2, 3, 4, 5, 6
 !   *ELEMENT, TYPE=U1, ELSET=BEARINGS
+!   101, 1, 2
 !   *UEL PROPERTY, ELSET=BEARINGS
 !   7
 !
 ! The integer property n names the file bearing_n.lir in the job's folder. Node 1 is below, z points
-! upwards, units are SI. Use *DYNAMIC with NOHAF, and UNSYMM=YES on the step. Where a bearing has no
+! upwards, units are SI. Use *DYNAMIC with NOHAF, and UNSYMM=YES on the step. If a bearing has no
 ! state the increment is cut. The state lies in SVARS, which Abaqus resets for each iteration.
 ! Run `abaqus job=... user=uel.f90`, with the library in link_sl of abaqus_v6.env.
 

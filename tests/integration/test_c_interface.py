@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess  # compilers, and what they make  # noqa: S404
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -97,17 +98,38 @@ PROGRAMS = {
 @pytest.mark.parametrize("level", ["pendulum", "contact"])
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_a_program_has_the_numbers_of_python(folder: Path, name: str, level: str) -> None:
-    """The first step aside, whose tangent two programs replace: the bearing was never loaded."""
-    program = compiled(folder, PROGRAMS[name][0], name, *PROGRAMS[name][1:])
     motions, expected = path_of(level)
+    assert np.array_equal(outcome(folder, name, level, motions), expected)
+
+
+def outcome(folder: Path, name: str, level: str, motions: list[np.ndarray], *more: str) -> Any:
+    """Return what a program writes: forces and tangents (n, 156)."""
+    program = compiled(folder, PROGRAMS[name][0], name, *PROGRAMS[name][1:])
     write_bearing(BEARING, folder / "bearing_7.lir", level)
     given = "\n".join(" ".join(map(repr, m.tolist())) for m in motions)
-    words = [str(program), "bearing_7.lir"]
+    words = [str(program), "bearing_7.lir", *more]
     done = subprocess.run(  # noqa: S603
         words, input=given, cwd=folder, check=True, capture_output=True, text=True
     )
-    found = np.array([line.split() for line in done.stdout.splitlines()], dtype=np.float64)
-    assert np.array_equal(found, expected)
+    return np.array([line.split() for line in done.stdout.splitlines()], dtype=np.float64)
+
+
+@pytest.mark.parametrize("name", ["uel", "opensees"])
+def test_an_analysis_can_begin_at_an_unloaded_bearing(folder: Path, name: str) -> None:
+    found = outcome(folder, name, "pendulum", [np.zeros(25)])[0]
+    assert not found[:12].any()
+    assert np.array_equal(found[12:].reshape(12, 12), Element(BEARING).initial_stiffness())
+
+
+def test_abaqus_weighs_both_ends_of_a_step(folder: Path) -> None:
+    """Hilber, Hughes and Taylor: (1 + alpha) F - alpha F_old, and the derivative of that."""
+    motions, expected = path_of("pendulum")
+    alpha = -0.05
+    found = outcome(folder, "uel", "pendulum", motions[:200], str(alpha))
+    force, old = expected[1:200], expected[:199]
+    weighed = (1.0 + alpha) * force[:, :12] - alpha * old[:, :12]
+    assert found[1:, :12] == pytest.approx(weighed, rel=1e-12, abs=1e-6)
+    assert found[1:, 12:] == pytest.approx((1.0 + alpha) * force[:, 12:], rel=1e-12, abs=1e-6)
 
 
 def test_the_library_needs_no_python(folder: Path) -> None:

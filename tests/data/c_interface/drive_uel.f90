@@ -1,11 +1,15 @@
 ! Calls uel as Abaqus does: several iterations an increment, SVARS as at its start in each of them.
+! The second argument is alpha of the time integration.
 program drive_uel
   implicit none
   integer :: jprops(1) = 7, lflags(5) = [1, 1, 1, 0, 0], jdltyp(1, 1), step, trial, more
   real(8) :: rhs(12, 1), amatrx(12, 12), svars(@LIR_SIZE@), start(@LIR_SIZE@), energy(8), props(1)
   real(8) :: coords(3, 2), u(12), du(12, 1), v(12), a(12), time(2), dtime, params(3), other(1, 1)
   real(8) :: predef(2, 1, 2), pnewdt, motion(25), before
+  character(32) :: word
   svars = 0.0d0; energy = 0.0d0; params = 0.0d0; before = 0.0d0; step = 0
+  call get_command_argument(2, word)
+  if (word /= '') read (word, *) params(1)
   do
     read (*, *, iostat=more) motion
     if (more /= 0) exit
