@@ -11,6 +11,7 @@ import builtins
 import os
 import re
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +27,7 @@ DPI = 120
 CLAIMS = (
     "static_test",
     "newhall",
+    "multibody",
     "convergence",
     "shake_table",
     "double_pendulum",
@@ -58,6 +60,8 @@ class Claim:
     """Where it comes from."""
     record: str = ""
     """File of a recorded ground motion that it needs; empty if none."""
+    package: str = ""
+    """Package of an extra that it needs; empty if none."""
 
 
 @dataclass(frozen=True)
@@ -184,6 +188,9 @@ def run(claim: Claim, make: Callable[[Path | None], Page]) -> Page | None:
     folder = records(claim)
     if claim.record and folder is None:
         print(f"{claim.name}: skipped, for LIR_RECORDS names no folder that holds {claim.record}")
+        return None
+    if claim.package and find_spec(claim.package) is None:
+        print(f"{claim.name}: skipped, for {claim.package} is not installed")
         return None
     page = make(folder)
     write(page)

@@ -48,10 +48,11 @@ def functions_of(thing: Any) -> Iterator[tuple[Any, bool]]:
 
 @functools.cache
 def described() -> dict[tuple[str, str], tuple[Any, bool]]:
-    """Return the functions that users call: exported, or imported by the page on extensions."""
+    """Return the functions that users call: exported, or imported by a page on extensions."""
     packages = [importlib.import_module(name) for name in PACKAGES]
     things = [getattr(package, name) for package in packages for name in package.__all__]
-    page = (ROOT / "docs/extending.md").read_text(encoding="utf-8")
+    pages = (ROOT / f"docs/{name}.md" for name in ("extending", "frameworks"))
+    page = "\n".join(each.read_text(encoding="utf-8") for each in pages)
     for module, names in re.findall(r"from ((?:frames|lir_element)[\w.]*) import ([\w, ]+)", page):
         things += [getattr(importlib.import_module(module), name) for name in names.split(", ")]
     found = [each for thing in things for each in functions_of(thing)]
