@@ -240,7 +240,15 @@ class MotionSet(MotionCollection):
     def turned(self, angles: Sequence[float]) -> MotionSet:
         """Return each motion at angles about the vertical [degrees], from x towards y.
 
-        A motion keeps its name at 0, and has the angle behind it elsewhere: "a, 30 degrees".
+        Parameters
+        ----------
+        angles : sequence of float
+            Angles [degrees].
+
+        Returns
+        -------
+        MotionSet
+            A motion each and angle: its name at 0, elsewhere with the angle, "a, 30 degrees".
         """
 
         def at(name: str, angle: float) -> tuple[str, GroundMotion]:
@@ -253,7 +261,20 @@ class MotionSet(MotionCollection):
     def without_vertical(self, *, beside: bool = False) -> MotionSet:
         """Return the motions without their vertical components, named "a, horizontal".
 
-        With `beside` those with it stand in the set, too. A MotionError names one that has none.
+        Parameters
+        ----------
+        beside : bool
+            Whether the motions with it are in the set, too.
+
+        Returns
+        -------
+        MotionSet
+            The motions.
+
+        Raises
+        ------
+        MotionError
+            If a motion has no vertical component.
         """
         lacking = [name for name, motion in self.items() if motion.z is None]
         if lacking:

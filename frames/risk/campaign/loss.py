@@ -158,7 +158,7 @@ class ExpectedLoss:
 
     Examples
     --------
-    In docs/campaigns.md, under "Loss".
+    "Campaigns: very many time histories" (docs/campaigns.md), its section Loss.
     """
 
     curves: pd.DataFrame
@@ -214,6 +214,10 @@ def expected_loss(
     The loss falls straight to 0 below the lowest intensity, and stays as it is above the highest.
     Repair that costs more than a new building is a new building. Runs whose analysis failed are
     left out. Source: the method of FEMA P-58 (2018) with expected values in place of realizations.
+
+    Examples
+    --------
+    "Campaigns: very many time histories" (docs/campaigns.md), its section Loss.
     """
     cost = require_positive("replacement", replacement, error=FragilityError)
     tail = 0.5 * (1.0 - checked_confidence(confidence))
