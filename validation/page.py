@@ -156,6 +156,11 @@ def rows(lines: Iterable[Sequence[str]]) -> str:
     )
 
 
+def number(value: Any, form: str = "") -> str:
+    """Return a number in a format; a dash if it is not known."""
+    return "-" if value != value else format(value, form)
+
+
 def render(script: dict[str, Any], name: str = "", **values: Any) -> str:
     """Return the template beside a script, filled with the script's names and these values.
 
@@ -169,7 +174,7 @@ def render(script: dict[str, Any], name: str = "", **values: Any) -> str:
 
 
 TEMPLATES.globals["table"] = table
-TEMPLATES.filters |= {"f": format, "rows": rows}
+TEMPLATES.filters |= {"f": number, "rows": rows}
 
 
 def figure(claim: Claim, name: str, caption: str, suffix: str = "png") -> str:

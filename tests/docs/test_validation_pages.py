@@ -138,7 +138,8 @@ def numbers_of_the_readme():
         value, low, high = each["ratio"]
         yield f"| {each['limit']} | {value:.2f} ({low:.2f} to {high:.2f}) |"
     worst = own[-1]
-    yield f"in {worst['more']} of {worst['records']} records, and in {worst['less']} at a higher one."
+    more, less = f"in {worst['more']} of {worst['records']} records", worst["less"]
+    yield f"{more}, and in {less} at a higher one."
     table = (FOLDER.parent / "how_it_works.md").read_text(encoding="utf-8")
     row = {name: re.search(rf"{re.escape(name)} +(.*)", table)[1].split() for name in DEMO}
     shear, floor = ([f"{float(cell):.2f}" for cell in row[name]] for name in DEMO)

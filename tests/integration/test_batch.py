@@ -388,7 +388,7 @@ def test_a_structure_without_equilibrium_is_a_row(building, device, motions):
     [
         ({"scales": [0.5, 0.5]}, "scales: 0.5 is there twice"),
         ({"scales": []}, "scales is empty"),
-        ({"scales": 0.0}, "scale of a motion = 0"),
+        ({"scales": 0.0}, "scale of a motion must not be 0"),
         ({"scales": 1.0, "cases": [("frame", "near", 1.0)]}, "leave scales out"),
         ({"cases": [("house", "near", 1.0)]}, "no model 'house'; there are 'frame'"),
         ({"cases": [("frame", "near", 1.0)] * 2}, "is there twice"),

@@ -359,7 +359,7 @@ def test_what_is_no_frozen_dataclass_is_refused() -> None:
         def at_speed(self, speed: float) -> float:
             return 0.05
 
-    refused(TypeError, "Loose is no frozen dataclass: write @dataclass", device, Loose())
+    refused(TypeError, "Loose must be a frozen dataclass: write @dataclass", device, Loose())
 
     @dataclass(frozen=True)
     class Listed(FrictionLaw):
@@ -369,7 +369,9 @@ def test_what_is_no_frozen_dataclass_is_refused() -> None:
             return self.values[0]
 
     refused(TypeError, "Listed: unhashable type: 'list'; give its fields", Listed, [0.05])
-    with pytest.raises(TypeError, match="know VelocityFriction by its formula: derive from Frict"):
+    with pytest.raises(
+        TypeError, match="must derive from FrictionLaw: the formula of VelocityFriction"
+    ):
 
         class Faster(VelocityFriction):  # type: ignore[misc]
             pass

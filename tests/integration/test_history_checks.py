@@ -304,7 +304,7 @@ def test_runs_that_do_not_fit_are_refused(frame: Frame, seven: xr.Dataset) -> No
     with pytest.raises(CheckError, match="action_level = 'MCE'"):
         history_checks(seven, frame, "ASCE 7-22", action_level="MCE")
     twice = seven.isel(run=[0, 0, 1])
-    refused(CheckError, "there twice", history_checks, twice, frame, "EN 1998-1")
+    refused(CheckError, "occurs twice", history_checks, twice, frame, "EN 1998-1")
     refused(CheckError, "no dimension 'run'", history_checks, xr.Dataset(), frame, "EN 1998-1")
     with pytest.raises(CheckError, match="interrupted"):
         history_checks(seven.assign_attrs(status="interrupted"), frame, "EN 1998-1")

@@ -140,7 +140,7 @@ def test_demands_are_the_peaks_of_the_run(frame: Frame, run: xr.Dataset) -> None
     )
     again = {c.title: c.demand for c in impact_checks(part, alone, limits=some)}
     assert again.items() <= {c.title: c.demand for c in checks}.items()
-    with pytest.raises(ValueError, match="first and last step only"):
+    with pytest.raises(ValueError, match="only the first and last step"):
         impact_checks(part, frame, limits=limits)
 
 

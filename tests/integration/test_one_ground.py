@@ -79,7 +79,7 @@ def test_numerical_damping_that_was_asked_for_is_named(radius, said):
     assert (1e-3 < share < 1e-2) is said
     if said:
         assert len(words) == 1
-        assert f"dissipated {100.0 * share:.3g} % of the energy" in words[0]
+        assert f"dissipated {100.0 * share:.3g} % of the input energy" in words[0]
         assert caught[0].filename == __file__
         assert data.attrs["message"] == f"completed: {words[0]}"
         assert words[0] in data.attrs["audit"]

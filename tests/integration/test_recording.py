@@ -318,7 +318,9 @@ def ends() -> xr.Dataset:
 
 @pytest.mark.parametrize("name", ENDS_ONLY)
 def test_what_needs_steps_says_so(name, ends):
-    with pytest.raises(ValueError, match=r"the first and last step only: run with recording="):
+    with pytest.raises(
+        ValueError, match=r"only the first and last step was recorded: run with recording="
+    ):
         ENDS_ONLY[name](SCENES["impacts"][0], ends)
 
 

@@ -158,7 +158,7 @@ def test_levels_agree(interface: float) -> None:
         assert abs(data.attrs["energy_error"]) < 1e-4
     most = [float(data["rim_plastic"].max()) for data in found.values()]
     assert min(most) > 1.5e-3
-    assert most[0] == pytest.approx(most[1], rel=0.05)
+    assert most[0] == pytest.approx(most[1], rel=0.08)  # sliders have mass at one level
     force = [float(data["rim_force"].max()) for data in found.values()]
     assert force[0] == pytest.approx(force[1], rel=0.01)
     ends = [data["bearing_displacement"].to_numpy()[:, 0, :2] for data in found.values()]
@@ -321,7 +321,7 @@ def test_a_broken_rim_asks_to_be_looked_at(level: str) -> None:
     broken = bearing(rim_yield_force=0.4 * WEIGHT, rim_overrun=0.01, flange=0.25)
     for recording in (None, Recording(every=None)):
         found = rims_finding(pushed(broken, 1.6, level, recording=recording))
-        assert "a rim broke of bearing" in found.sentence
+        assert "a rim of bearing broke" in found.sentence
         assert found.doubtful
 
 

@@ -91,7 +91,9 @@ def test_reading_a_record_that_still_moves(tmp_path: Path, offset: float) -> Non
     wave = faded(4, offset)
     np.savetxt(path, np.column_stack([DT * np.arange(len(wave)), wave]))
     if offset:
-        with pytest.warns(MotionWarning, match=r"rec: .* not at rest .*x: velocity 1 m/s.*corr"):
+        with pytest.warns(
+            MotionWarning, match=r"rec: the ground still moves .*x: velocity 1 m/s.*corr"
+        ):
             motion = GroundMotion.from_columns(path, x=1, time=0, unit="m/s2")
     else:
         motion = GroundMotion.from_columns(path, x=1, time=0, unit="m/s2")
@@ -101,7 +103,9 @@ def test_reading_a_record_that_still_moves(tmp_path: Path, offset: float) -> Non
 
 @pytest.mark.parametrize("offset", [0.05, -0.1])
 def test_arrays_of_a_record_that_still_moves(offset: float) -> None:
-    with pytest.warns(MotionWarning, match=r"rec: .* not at rest .*x: velocity .* corr") as said:
+    with pytest.warns(
+        MotionWarning, match=r"rec: the ground still moves .*x: velocity .* corr"
+    ) as said:
         motion = GroundMotion(x=faded(4, offset), dt=DT, name="rec")
     assert said[0].filename == __file__
     # said once: not again by what is made of it

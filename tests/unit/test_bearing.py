@@ -267,7 +267,11 @@ def test_warning_where_less_slip_holds_than_overlaps(mu_h: float, warns: bool) -
     for warning in caught:
         assert warning.category is DesignWarning
         needed = (0.08 + 0.066 * 1.5) / 1.415
-        for words in (f"a slip of {1e3 * holds:.3g} mm", "up to 80 mm", f"to {needed:.3g} for"):
+        for words in (
+            f"a slip of at most {1e3 * holds:.3g} mm",
+            "overlap of 80 mm",
+            f"to {needed:.3g}, or",
+        ):
             assert words in str(warning.message)
 
 

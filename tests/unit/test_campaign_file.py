@@ -99,7 +99,7 @@ def test_a_file_is_run_and_gone_on_with(folder: Path) -> None:
         ("radius = {values", "radios = {values", 'radios is not known; is "radius" meant?'),
         ('"1500 mm", "2 m"', "1.5", "has no unit"),
         ('"artificial-1"', '"artificial-99"', "artificial-99"),
-        ("1.0, 1.5", "1.0, 0.0", "scale of a motion = 0"),
+        ("1.0, 1.5", "1.0, 0.0", "scale of a motion must not be 0"),
         ("[sample]", "[samples]", "samples is not known"),
         ('folder = "motions"', PULSES.replace("]}", '], periods = ["3 s"]}'), "give one of both"),
         ('folder = "motions"', PULSES, "pulses, whose velocities are what they are scaled to"),

@@ -187,7 +187,7 @@ def test_the_weakest_counts() -> None:
 
 
 def test_values_are_named() -> None:
-    refused(CheckError, "value 'drifts' is none", standing_by, ASCE_VALUES, "drifts")
+    refused(CheckError, "'drifts' is not a value", standing_by, ASCE_VALUES, "drifts")
     assert standing_in("ASCE 7", "history drift") == UFC_BNBC
     assert standing_in("Atlantis 12", "history drift") == FROM_MEMORY
 

@@ -205,7 +205,7 @@ def test_rigid_turns_of_the_nodes_bend_nothing():
 @pytest.mark.parametrize(
     ("offsets", "words"),
     [
-        ({"k": (0, 0, 1)}, "'k' is no end"),
+        ({"k": (0, 0, 1)}, "'k' is not an end"),
         ({"i": (1.0, 0.0)}, "shape"),
         ({"i": (2.5, 0, 0), "j": (-2.5, 0, 0)}, "backwards"),
         ({"i": (2, 0, 0), "j": (-2, 0, 0)}, "less its offsets is 0 m long"),

@@ -83,7 +83,7 @@ BAD = {
     "unknown section": ('SECTION "COL"', 'SECTION "COX"', r'"COX" of line "C1" is not def'),
     "unknown point": ('BEAM  "1"', 'BEAM  "77"', r'point "77" is not defined'),
     "point twice": ('POINT "2"', 'POINT "1"', r'point "1" is there already'),
-    "below the base": ('"1"  "1"  1', '"1"  "1"  3', r"stories below .* there is none"),
+    "below the base": ('"1"  "1"  1', '"1"  "1"  3', r"there are no 3 stories below"),
     "no mass source": ("  MASSSOURCE  ", "  MASSSAUCE  ", r"has no mass source"),
     "units": ('"KN"  "M"', '"stone"  "M"', r'UNITS = "stone, M" must be a force'),
     "bound": ("U 0.2", "U 0.7", rf'line {LINE_OF_U}, .*: U = 0.7 of material "C30"'),
@@ -350,7 +350,7 @@ def test_material_without_weight_is_doubted(tmp_path: Path) -> None:
     for each in told:
         words.say(each.message.text)
     assert untold(words) == set()
-    assert 'material "C30" has no weight, so .* under pattern "Dead"' in said
+    assert 'material "C30" has no weight, so 100 %' in said
     assert "of the mass has no weight" in said
 
 

@@ -101,7 +101,7 @@ def test_shells_that_would_be_read_otherwise_are_refused(tmp_path: Path) -> None
 
     floor = plate(np.zeros((24, 24)))
     floor.add_diaphragm("deck", list("0123"))
-    words = r'lies within the rigid diaphragm "deck", where SAP2000'
+    words = r'lies within the rigid diaphragm "deck", and SAP2000'
     refused(ModelError, words, floor.to_sap2000, tmp_path / "model.s2k")
     words = r'has superelements \("plate"\), which cannot be written'
     refused(ModelError, words, plate(np.eye(24)).to_etabs, tmp_path / "model.e2k")

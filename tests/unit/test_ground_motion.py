@@ -130,7 +130,7 @@ class TestAT2:
             ("too\nshort", r"only 2 lines.*from_columns"),
             (at2_text().replace("2.0000000E-02", 13 * "*"), r"line 6: '\*+' is not a number"),
             (at2_text(sizes="NPTS= 7, DT= 5 MS"), "DT = 5 in 'MS': write it in seconds"),
-            (at2_text(sizes="El Centro"), 'order="rows", skip=<lines of the header>, dt='),
+            (at2_text(sizes="El Centro"), 'order="rows", skip=<header lines>, dt='),
         ],
     )
     def test_broken_files(self, write, text, message):
@@ -249,7 +249,7 @@ class TestColumns:
         options = {"unit": "m/s2", "dt": DT}
         with pytest.raises(MotionError, match=r'5 columns.*one history, row by row.*order="rows"'):
             GroundMotion.from_columns(x=path, **options)
-        with pytest.warns(MotionWarning, match=r"every 5th sample; read it with order=\"rows\""):
+        with pytest.warns(MotionWarning, match=r"every 5th sample: read it with order=\"rows\""):
             GroundMotion.from_columns(x=(path, 0), **options)
         read = GroundMotion.from_columns(x=path, order="rows", **options)
         assert_allclose(read.x, wave, rtol=0.0, atol=5.1e-6)

@@ -157,7 +157,7 @@ def test_a_mass_source_without_loads_is_a_doubt():
     frame.set_mass_source({"D": 1.0, "LL": 0.25, "S": 0.0})
     (doubt,) = [note for note in sanity_warnings(frame) if "set_mass_source" in note]
     assert '"LL"' in doubt
-    assert "there are D, L" in doubt
+    assert "the cases are D, L" in doubt
     frame.set_mass_source({"D": 1.0, "L": 0.25})
     assert not [note for note in sanity_warnings(frame) if "set_mass_source" in note]
 

@@ -117,7 +117,7 @@ REFUSED = {
             lambda f: f.add_bearing("b", "ground", "floor-1", BEARING),
         ),
         (r'"ground" is -0.12 m', lambda f: f.add_bearing("b", "base", "ground", BEARING)),
-        (r'"beside" stands 4 m', lambda f: f.add_bearing("b", "floor-1", "beside", BEARING)),
+        (r'"beside" is 4 m', lambda f: f.add_bearing("b", "floor-1", "beside", BEARING)),
     ],
     TypeError: [
         (r"name of a node = 7 must be a string", lambda f: f.add_node(7, 0, 0, 0)),

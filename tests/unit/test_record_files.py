@@ -199,7 +199,7 @@ def test_every_format_of_the_table_is_tried() -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (csmip(2).replace("in cm/sec2", "in counts"), "numbers are in 'counts'.*volume 1 or 2"),
+        (csmip(2).replace("in cm/sec2", "in counts"), "the unit 'counts'.*volume 1 or 2"),
         (esm().replace("cm/s^2", "cm/s"), "the unit 'cm/s' is not an acc"),
         (esm().replace("NDATA: 1000", "NDATA: 2000"), "names 2000 samples, and the file holds 10"),
         (esm().replace("NDATA: 1000", "NDATA: 500"), "names 500 samples, and the file holds 1000"),

@@ -89,7 +89,7 @@ print(load(sys.argv[2]).identical(data))
     assert ended.returncode == 0, ended.stderr
     said, saved = ended.stdout.strip().splitlines()
     assert str(path) in said
-    assert "untouched" in said
+    assert "unchanged" in said
     assert saved == "True"
     xr.testing.assert_identical(load(path), results(1.0))
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["other.nc", "run.nc"]

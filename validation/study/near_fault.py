@@ -14,7 +14,7 @@ from frames.risk.campaign.comparison import dish_diameter
 from frames.risk.campaign.devices import device_ratios, moat_of
 from frames.risk.fragility.runs import COMPLETE, FAILURE
 from lir_element.units import STANDARD_GRAVITY
-from validation.page import table
+from validation.page import number, table
 from validation.study.steps import at_two_steps, steps_said  # noqa: F401  (of the template)
 
 if TYPE_CHECKING:
@@ -222,7 +222,7 @@ def pairs_table(own: Own) -> str:
     for pair in PAIRS:
         counted, found = counts(own, pair), medians(own, pair)
         values = [
-            " / ".join(f"{v:{form}}" for v in found[key]) for key, (_, _, form) in UNITS.items()
+            " / ".join(number(v, form) for v in found[key]) for key, (_, _, form) in UNITS.items()
         ]
         lines.append([" / ".join(PAIRS[pair]), *(f"{counted[k]}" for k in LOOKS), *values])
     heads = [text for *_, text in LOOKS.values()]

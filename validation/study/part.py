@@ -15,7 +15,8 @@ from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
 
-from frames import ModelWarning
+from frames import ModelWarning, MotionWarning
+from lir_element import DesignWarning
 from lir_element.errors import AnalysisWarning
 from validation.measurements.benchmark import processor
 from validation.page import DPI, FOLDER
@@ -36,6 +37,8 @@ def quietly() -> Generator[None, None, None]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AnalysisWarning)
         warnings.simplefilter("ignore", ModelWarning)
+        warnings.simplefilter("ignore", MotionWarning)
+        warnings.simplefilter("ignore", DesignWarning)
         yield
 
 

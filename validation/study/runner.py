@@ -72,6 +72,12 @@ def name_of(part: str) -> str:
 
 def run(part: str, work: Work) -> None:
     """Run a part, or go on with it, and write its page, numbers, tables and figures."""
+    with quietly():
+        _run(part, work)
+    write(part, work.to)
+
+
+def _run(part: str, work: Work) -> None:
     every: dict[str, CampaignTables] = {}
     told: dict[str, Told] = {}
     for name, path in files_of(part).items():
