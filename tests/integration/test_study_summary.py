@@ -1,52 +1,58 @@
-"""The study's page for readers is that of the numbers of its parts, and its table is theirs."""
+"""The study's pages are those of their numbers; its parts, which agree, in one paper."""
 
-import re
+import json
 
 import pytest
 
 from validation.page import FOLDER
 from validation.study import __main__ as whole
-from validation.study import device, runner
+from validation.study import runner
 from validation.study.records_runs import considered
-from validation.study.summary import NAME, ROWS, page, pair, parts_of
+from validation.study.summary import LIMITS, NAME, READ, comparisons, page, parts_of
+
+PAGES = {
+    "study_near_fault": lambda numbers: runner.page("near_fault", numbers),
+}
 
 
-@pytest.fixture(scope="module")
-def parts():
-    return parts_of()
+def text_of(name):
+    return (FOLDER / name).read_text(encoding="utf-8")
 
 
-def test_the_page_is_that_of_the_numbers_of_the_parts(parts):
-    text = (FOLDER / f"{NAME}.md").read_text(encoding="utf-8")
-    assert text == page(parts)
-    for target in re.findall(r"\]\(([^)#]+)", text):
-        assert (FOLDER / target).is_file(), target
-    assert len(text.split()) < 1500  # two pages and the tables
+def stored(name):
+    return json.loads(text_of(f"{name}.json"))
 
 
-def test_intensities_are_over_the_same_earthquake(parts):
-    told = runner.told_of(parts["device"])["contact"]
-    assert told["considered"] == pytest.approx(considered(), rel=1e-4)
-    assert parts["own"]["considered"] == pytest.approx(told["considered"], rel=1e-4)
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_is_that_of_its_numbers(name):
+    numbers = stored(name)
+    assert text_of(f"{name}.md") == PAGES[name](numbers)
+    assert numbers.get("considered", considered()) == pytest.approx(considered(), rel=1e-4)
 
 
-@pytest.mark.parametrize("row", ROWS)
-@pytest.mark.parametrize("limit", device.LIMITS)
-def test_a_cell_is_of_the_records_of_its_pair(parts, row, limit):
-    """Counts and interval belong together; margins of the tables give the ratio of collapse."""
-    one = pair(parts, row, limit)
-    assert one["less"] + one["more"] <= one["records"] == 22
-    if one["ratio"] is None:
-        return
-    value, low, high = one["ratio"]
-    assert low <= value <= high
-    if limit == device.COLLAPSE:
-        margins = runner.told_of(parts["device"])["contact"]["tables"]["margins"]
-        known = margins.set_index("device")["margin [-]"]
-        assert value == pytest.approx(known[one["own"]] / known[one["other"]], rel=1e-3)
+def test_the_page_is_that_of_the_numbers_of_the_parts():
+    assert text_of(f"{NAME}.md") == page(parts_of())
+    assert set(READ) | {"near_fault", "records", "summary"} == set(whole.PARTS)
 
 
-def test_all_parts_are_read_or_named_as_not_read(parts):
-    text = page(parts)
-    for part in set(whole.PARTS) - {"summary"}:
-        assert f"({runner.name_of(part)}.md)" in text
+def test_parts_agree_where_they_have_the_same_devices():
+    """The best LIR-DCFP and the DCFP of one plan, by campaigns of their own."""
+    parts = parts_of()
+    plan = parts["device"]["plans"][1]["devices"]
+    after, rims = parts["after"]["margins"], parts["rims"]["margins"]
+    same = (
+        (plan["LIR-DCFP"]["margin"], after["LIR-DCFP: ends"]),
+        (plan["rims of 1 W"]["margin"], after["DCFP, rims of 1 W: ends"]),
+        (plan["rims of 1 W"]["margin"], rims["DCFP, larger plan, rims of 1 W"]),
+        (plan["rims of 0.5 W"]["margin"], rims["DCFP, larger plan, rims of 0.5 W"]),
+    )
+    for one, other in same:  # other stripes, and a hair of friction
+        assert one[0] == pytest.approx(other[0], rel=0.03)
+
+
+def test_every_comparison_has_its_interval():
+    rows = comparisons(parts_of())
+    assert len({name for name, _ in rows}) == len(rows)
+    for _, ratios in rows:
+        assert set(ratios) <= set(LIMITS)
+        assert all(low <= value <= high for value, low, high in ratios.values())

@@ -1,8 +1,8 @@
-"""The study in two pages, from the numbers of its parts: writes docs/validation/study_summary.md.
+"""The study in one paper, from the numbers of its parts: writes docs/validation/study_summary.md.
 
-    python -m validation.study summary
+    python -m validation.study.summary
 
-The parts run the campaigns (`python -m validation.study`). This one runs two histories for its figure.
+It runs nothing: the parts do (`python -m validation.study`).
 """
 
 from __future__ import annotations
@@ -12,141 +12,308 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from frames import time_history
 from frames.plots import plot_style as ps
-from frames.risk.campaign.file import models_in, read_campaign
 from validation.page import FOLDER, render
-from validation.study import device, runner
-from validation.study import near_fault as near_fault  # of the template
-from validation.study.part import options_of, quietly, write_part
-from validation.study.rounded import rounded
+from validation.study.pairs import OURS as EQUAL
+from validation.study.part import write_part
+from validation.study.rounded import with_interval
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
-    import xarray as xr
+    Parts = Mapping[str, Mapping[str, Any]]
+    from collections.abc import Mapping
+
     from matplotlib.figure import Figure
 
-    Found = Mapping[str, Any]
+    Rows = list[tuple[str, dict[str, Sequence[float]]]]
 
 NAME = "study_summary"
-FILE = runner.HERE / "device-contact.toml"
-PLAIN = "rims of 1 W"
-OTHER = f"DCFP {device.REFERENCE}, {PLAIN}"
-ROWS = {
-    "equal plan, 689 mm": ("plan", OTHER),
-    "equal plan, 1009 mm": ("plan", f"DCFP 1009 mm, {PLAIN}"),
-    "equal moat, 517 mm": ("moat", f"DCFP of moat 517 mm, {PLAIN}"),
-    "equal cost": ("cost", f"DCFP of cost as 689 mm, {PLAIN}"),
-    "equal plan, 689 mm, rims of 0.5 W": ("plan", f"DCFP {device.REFERENCE}, rims of 0.5 W"),
-    "equal plan, 689 mm, unbreakable rims": ("plan", f"DCFP {device.REFERENCE}, unbreakable rims"),
-}
-"""Comparisons of the table: terms, and the DCFP."""
+FIGURE = f"{NAME}-ratios.png"
+READ = ("rims", "device", "buildings", "motions", "after", "loss", "uncertainty")
+DRIFT, FLOOR, COLLAPSE = "storey drift 2 %", "floor acceleration 1 g", "collapse"
+REFERENCE = 1
+"""Which of the plans of the device's part is the example."""
 
-SHOWN = {"LIR-DCFP": device.LIR, "DCFP, rims of 1 W": OTHER}
-RECORD = "Kocaeli, Turkey 1999, Duzce"
-BEFORE, AFTER = 0.3, 0.9
-"""Time around the largest rim force [s]."""
+PLANS = {0: "smaller", 1: "larger"}
+"""How the part on rims calls these plans."""
+
+RIMS = ("rims that never break", "rims of 2 W", "rims of 1 W", "rims of 0.5 W")
 
 
-def parts_of(folder: Path = FOLDER) -> dict[str, Any]:
-    """Return the numbers of the parts that the page reads, and of its own histories."""
-    names = {"near_fault": "study_near_fault", "device": "study_device", "own": NAME}
+def parts_of(folder: Path = FOLDER) -> dict[str, dict[str, Any]]:
+    """Return the numbers of the parts by name."""
     return {
-        part: json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
-        for part, name in names.items()
+        name: json.loads((folder / f"study_{name}.json").read_text(encoding="utf-8"))
+        for name in READ
     }
 
 
-def page(parts: Found) -> str:
+def page(parts: Parts) -> str:
     """Return the page in Markdown."""
-    return render(globals(), parts=parts, found=parts["device"], own=parts["device"]["own"])
+    return render(globals(), PLAIN=PLAIN, parts=parts, with_interval=with_interval)
 
 
-def pair(parts: Found, row: str, limit: str = device.COLLAPSE) -> dict[str, Any]:
-    """Return ratio, counts of records and verdict of a row of the table."""
-    terms, other = ROWS[row]
-    return device.of_pair(parts["device"]["own"], "contact", terms, other, limit)
+def _plan(parts: Parts, place: int = REFERENCE) -> Mapping[str, Any]:
+    return dict(parts["device"]["plans"][place])
 
 
-def cell(parts: Found, row: str, limit: str) -> str:
-    """Return a cell of the table: ratio, records that differ, verdict."""
-    one = pair(parts, row, limit)
-    ratio = "-" if one["ratio"] is None else "{:.2f} ({:.2f} to {:.2f})".format(*one["ratio"])
-    return f"{ratio}; {one['less']} : {one['more']}, {one['verdict']}"
+def _width(plan: Mapping[str, Any]) -> str:
+    return f"{1e3 * plan['plan']:.0f} mm"
 
 
-def traced() -> dict[str, Any]:
-    """Return loop and axial force of the bearing that is pressed most, for each device shown."""
-    frames = models_in(FILE)
-    campaign = read_campaign(FILE)
-    considered = parts_of_device()["campaigns"]["contact"]["considered"]
-    motion = campaign.motions[RECORD].scaled(considered)
-    found: dict[str, Any] = {"record": RECORD, "considered": considered, "devices": {}}
-    with quietly():
-        for name, key in SHOWN.items():
-            data = time_history(frames[key], motion, dt=0.01, level="contact")
-            found["devices"][name] = _trace(data)
-    return found
+def _abstract(parts: Parts) -> tuple[Any, ...]:
+    plan = _plan(parts)
+    ours, pair = plan["devices"]["LIR-DCFP"], plan["pairs"][PLAIN]["ratios"]
+    plains = [
+        f"{plan['devices'][rims]['margin'][0]:.2f} ({rims})"
+        for rims in RIMS
+        if rims in plan["devices"]
+    ]
+    verdicts = [
+        f"{limit} {with_interval(pair[limit])}" for limit in (DRIFT, "ductility 4", FLOOR, COLLAPSE)
+    ]
+    after = parts["after"]["ratios"]["storey drift 4 %"]
+    return after, ours, plains, plan, verdicts
 
 
-def parts_of_device(folder: Path = FOLDER) -> dict[str, Any]:
-    """Return the numbers of the part on devices."""
-    return dict(json.loads((folder / "study_device.json").read_text(encoding="utf-8")))
+def _carried(parts: Parts) -> str:
+    # Of the runs in which a stop carries on after a failed bearing: in how many a frame collapses.
+    words = []
+    for name, rows in parts["after"]["stripes"].items():
+        if "stop" in name:
+            failed, collapsed = (sum(row[key] for row in rows) for key in ("failed", "collapsed"))
+            words.append(f"{collapsed} of {failed} ({name.split(':', maxsplit=1)[0]})")
+    return " and ".join(words)
 
 
-def _trace(data: xr.Dataset) -> dict[str, Any]:
-    rim = data["rim_force"]
-    rim = rim.max([d for d in rim.dims if d not in ("time", "bearing")])
-    bearing = str(rim["bearing"].to_numpy()[int(rim.max("time").to_numpy().argmax())])
-    one = data.sel(bearing=bearing)
-    time, load = one["time"].to_numpy(), one["axial_force"].to_numpy()
-    at = float(time[int(rim.sel(bearing=bearing).to_numpy().argmax())])
-    u, force = (one[k].to_numpy()[:, :2] for k in ("bearing_displacement", "bearing_force"))
-    axis = u[np.hypot(*u.T).argmax()] / np.hypot(*u.T).max()
-    near = (time > at - BEFORE) & (time < at + AFTER)
-    return {
-        "bearing": bearing,  # of the largest rim force
-        "status": str(data.attrs["status"]),
-        "impact": at,
-        "displacement": (u @ axis).tolist(),
-        "force": (force @ axis / load[0]).tolist(),
-        "time": (time[near] - at).tolist(),
-        "load": (load[near] / load[0]).tolist(),
-        "peak": [float(np.hypot(*u.T).max()), float(np.abs(force @ axis / load[0]).max())],
-        "loads": [float(load.min() / load[0]), float(load.max() / load[0])],
-    }
-
-
-def loops_figure(own: Found) -> Figure:
-    """Return force over displacement, and axial force over time at the largest impact."""
-    figure = ps.new_figure(2.8)
-    ((loop, load),) = ps.grid_of(figure, 1, 2)
-    for k, (name, one) in enumerate(own["devices"].items()):
-        x = 1e3 * np.array(one["displacement"])
-        loop.plot(x, one["force"], label=name, **(ps.line_of(k) | {"linewidth": 0.8}))
-        load.plot(one["time"], one["load"], **ps.line_of(k))
-    ps.caption(loop, x="displacement [mm]", y="force over load at rest [-]")
-    ps.caption(
-        load, x="time after the largest rim force [s]", y="axial force over load at rest [-]"
+def equal_ratios(found: Mapping[str, Any], other: str) -> list[float]:
+    """Return margins of the LIR-DCFP over those of a DCFP of the same cost, at some costs."""
+    own, their = (
+        {
+            sum(kept["cost"].values()): kept["margin"][0]
+            for plan in found["plans"]
+            if "margin" in (kept := plan["devices"][kind])
+        }
+        for kind in ("LIR-DCFP", other)
     )
-    ps.add_legend(figure, loop.get_lines(), columns=2)
-    return figure
+    costs = sorted(their)
+    return [
+        margin / float(np.interp(cost, costs, [their[each] for each in costs]))
+        for cost, margin in sorted(own.items())
+        if costs and costs[0] <= cost <= costs[-1]
+    ]
 
 
-def write(parts: Found) -> None:
+def _equal_cost(parts: Parts) -> str:
+    words = []
+    for rims in (RIMS[0], RIMS[2], RIMS[3]):
+        found = equal_ratios(parts["device"], rims)
+        words.append(f"{rims} {min(found):.2f} to {max(found):.2f}")
+    return (
+        "At equal cost, by assumed prices, the collapse margin of the LIR-DCFP over that of a DCFP, of a "
+        f"larger plan then, is: {'; '.join(words)}."
+    )
+
+
+def _plans_words(parts: Parts) -> str:
+    words = []
+    for rims in (RIMS[0], RIMS[2], RIMS[3]):
+        ratios = {
+            _width(plan): plan["pairs"][rims]["ratios"][COLLAPSE]
+            for plan in parts["device"]["plans"]
+        }
+        ahead = [name for name, (_, low, *_rest) in ratios.items() if low > 1.0]
+        behind = [name for name, (_, _low, high, *_rest) in ratios.items() if high < 1.0]
+        found = [
+            f"{word} at {', '.join(names)}"
+            for word, names in (("ahead", ahead), ("behind", behind))
+            if names
+        ]
+        level = len(ratios) - len(ahead) - len(behind)
+        found += [f"level at {level} of {len(ratios)} plans"] if level else []
+        words.append(f"{rims} {', '.join(found)}")
+    return f"By collapse it is, over the plans, against {'; against '.join(words)}."
+
+
+def _runs(parts: Parts) -> str:
+    # Histories of all parts; those of the device's search are listed one by one.
+    total = sum(part["cost"]["runs"] for name, part in parts.items() if name != "device") + sum(
+        each["runs"] for each in parts["device"]["costs"]
+    )
+    return f"{round(total, -2):,}"
+
+
+def _method(parts: Parts) -> Any:
+    plans = ", ".join(_width(plan) for plan in parts["device"]["plans"])
+    return plans
+
+
+def _margins(parts: Parts) -> tuple[Any, ...]:
+    # Collapse margins by plan and rims; those of 2 W are of the part on rims, by plan.
+    rows = []
+    others = parts["rims"]["margins"]
+    for place, plan in enumerate(parts["device"]["plans"]):
+        cells = [with_interval(plan["devices"]["LIR-DCFP"]["margin"])]
+        for rims in RIMS:
+            name = f"DCFP, {PLANS.get(place, 'no such')} plan, {rims}"
+            own = plan["devices"].get(rims, {}).get("margin") or others.get(name)
+            cells.append(with_interval(own) if own else "-")
+        rows.append([_width(plan), *cells])
+    plan = _plan(parts)
+    return plan, rows
+
+
+def _robust(parts: Parts) -> str:
+    words = []
+    for limit in (DRIFT, "ductility 4", FLOOR, COLLAPSE):
+        ratios = [ratio for _, found in comparisons(parts) if (ratio := found.get(limit))]
+        better = sum(low > 1.0 for _, low, *_rest in ratios)
+        worse = sum(high < 1.0 for _, _low, high, *_rest in ratios)
+        words.append(
+            f"- **{limit}**: {min(r[0] for r in ratios):.2f} to {max(r[0] for r in ratios):.2f} in "
+            f"{len(ratios)} comparisons; better in {better}, worse in {worse}, not told apart in "
+            f"{len(ratios) - better - worse}"
+        )
+    rows = [row for each in parts["motions"]["seconds"].values() for row in each["LIR-DCFP"]]
+    plains = [
+        row for each in parts["motions"]["seconds"].values() for row in each[f"DCFP, {PLAIN}"]
+    ]
+    counts = [
+        f"{name} {sum(r['collapsed'] for r in own)} of {sum(r['known'] for r in own)}"
+        for name, own in (("LIR-DCFP", rows), ("DCFP", plains))
+    ]
+    return (
+        "\n".join(words)
+        + f"\n\n**A second shock** collapses, of the buildings that survived the first: "
+        f"{'; '.join(counts)} ([study_motions.md](study_motions.md)). **Properties**: the share of the record in "
+        "the variance of ductility, and the order of the properties, are not known from the samples. Rims "
+        "that break at one deformation lose the DCFP its margin where they are soft "
+        "([study_uncertainty.md](study_uncertainty.md))."
+    )
+
+
+def _loss(parts: Parts) -> tuple[Any, ...]:
+    found = parts["loss"]
+    rows = []
+    for site, devices in found["loss"]["annual"].items():
+        own = devices[EQUAL]
+        cells = [
+            with_interval(devices[name]["ratio"])
+            for name in (f"DCFP, {RIMS[0]}", f"DCFP, {PLAIN}", f"DCFP, {RIMS[3]}")
+        ]
+        rows.append([site, f"{100.0 * own['loss'][0]:.2f}", *cells])
+    return found, rows
+
+
+def _without(found: Mapping[str, Any]) -> str:
+    # Ranges of the same ratios without the connections of beams, by the DCFP's rims.
+    words = []
+    for rims in (RIMS[0], RIMS[2], RIMS[3]):
+        ratios = [each[f"DCFP, {rims}"]["ratio"][0] for each in found["without"].values()]
+        words.append(f"{min(ratios):.2f} to {max(ratios):.2f} ({rims})")
+    return ", ".join(words)
+
+
+def _cost(parts: Parts) -> Any:
+    rows = []
+    for plan in parts["device"]["plans"]:
+        costs = {
+            name: sum(each["cost"].values())
+            for name, each in plan["devices"].items()
+            if each["cost"]
+        }
+        own = costs["LIR-DCFP"]
+        rows.append(
+            [_width(plan), f"{own:,.0f}"]
+            + [f"{own / costs[rims]:.2f}" for rims in (RIMS[0], RIMS[2], RIMS[3])]
+        )
+    return rows
+
+
+def _repeat(parts: Parts) -> Any:
+    rows = []
+    for name, part in parts.items():
+        if name == "device":
+            runs = sum(each["runs"] for each in part["costs"])
+            seconds = sum(each["seconds"] for each in part["costs"])
+            digests = [each["digest"] for each in part["costs"]]
+        else:
+            cost = part["cost"]
+            runs, seconds = cost["runs"], part.get("loop", cost.get("loop", cost.get("cpu")))
+            own = cost.get("digests") or [cost["digest"]]
+            digests = list(own.values()) if isinstance(own, dict) else own
+        more = f" and {len(digests) - 1} more" if len(digests) > 1 else ""
+        rows.append([name, str(runs), f"{seconds:.0f}", f"`{digests[0][:16]}`{more}"])
+    return rows
+
+
+def write(parts: Parts) -> None:
     """Write the page and its figure."""
-    figures = {f"{NAME}-loops.png": loops_figure(parts["own"])}
-    write_part(NAME, page(parts), figures, parts["own"])
+    write_part(NAME, page(parts), {FIGURE: figure_of(parts)})
 
 
 def main(given: Sequence[str] | None = None) -> None:
-    """Run the two histories, unless they are kept, and write the page."""
-    if not options_of("summary", given).again:
-        text = json.dumps(rounded(traced())) + "\n"
-        (FOLDER / f"{NAME}.json").write_text(text, encoding="utf-8")
+    """Write the page from the numbers of the parts; options of the parts mean nothing here."""
+    del given
     write(parts_of())
+
+
+PLAIN = "rims of 1 W"
+LIMIT = 1.6
+"""Where the figure ends; intervals that go on have an arrow."""
+
+LIMITS = ("storey drift 2 %", "ductility 4", "floor acceleration 1 g", "collapse")
+
+
+def comparisons(parts: Parts) -> Rows:
+    """Return conditions, and of each the ratios of medians by limit state: value, low, high."""
+    rows: Rows = []
+    for plan in parts["device"]["plans"]:
+        ratios = plan["pairs"][PLAIN]["ratios"]
+        rows.append((f"plan {1e3 * plan['plan']:.0f} mm", _known(ratios)))
+    for name, each in parts["buildings"]["buildings"].items():
+        ratios = {limit: each["limits"][limit]["ratios"].get(f"DCFP, {PLAIN}") for limit in LIMITS}
+        rows.append((name, _known(ratios)))
+    for angle in ("30", "60"):
+        limits = parts["motions"]["angles"]["limits"]
+        ratios = {limit: limits[limit][angle]["ratio"] for limit in LIMITS}
+        rows.append((f"records turned by {angle} degrees", _known(ratios)))
+    after = parts["after"]["ratios"]
+    rows.append(("a stop after failure", _known({k: after[k][1] for k in LIMITS if k in after})))
+    shape = parts["loss"]["shape"]["ratios"][f"DCFP, {PLAIN}"]
+    rows.append(("spectral shape of a code", {"collapse": shape}))
+    return rows
+
+
+def _known(ratios: Mapping[str, Sequence[float] | None]) -> dict[str, Sequence[float]]:
+    return {limit: ratio[:3] for limit, ratio in ratios.items() if ratio}
+
+
+def figure_of(parts: Parts) -> Figure:
+    """Return ratios with their intervals, a panel a limit state, a row a condition."""
+    rows = comparisons(parts)
+    figure = ps.new_figure(0.6 + 0.26 * len(rows))
+    (panels,) = ps.grid_of(figure, 1, len(LIMITS), share_x=True, share_y=True)
+    for panel, limit in zip(panels, LIMITS, strict=True):
+        panel.axvline(1.0, color=ps.GREY, linewidth=0.8)
+        for k, (_, ratios) in enumerate(rows):
+            if limit not in ratios:
+                continue
+            value, low, high = ratios[limit]
+            sure = low > 1.0 or high < 1.0
+            shown = min(high, LIMIT)
+            panel.plot([low, shown], [k, k], color="black", linewidth=1.0)
+            if high > LIMIT:
+                panel.plot([LIMIT], [k], ">", color="black", markersize=4)
+            fill = "black" if sure else "white"
+            panel.plot([value], [k], "o", color="black", markerfacecolor=fill, markersize=4)
+        panel.set_xlim(0.75, LIMIT + 0.05)
+        ps.caption(panel, title=limit.replace("acceleration", "\nacceleration"), x="LIR over DCFP")
+    panels[0].set_yticks(range(len(rows)), [name for name, _ in rows])
+    panels[0].set_ylim(len(rows) - 0.5, -0.5)
+    return figure
 
 
 if __name__ == "__main__":
