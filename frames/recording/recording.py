@@ -316,8 +316,8 @@ def require_rows(needed: float, runs: int, asked: int) -> None:
     there = memory()
     if needed > there:
         msg = (
-            f"the results of {runs} of {asked} runs need about {1e-09 * needed:.3g} GB, the "
-            f"machine has {1e-09 * there:.3g} GB: call time_histories for fewer cases and "
+            f"the results of {runs} of {asked} runs need about {1e-9 * needed:.3g} GB, the "
+            f"machine has {1e-9 * there:.3g} GB: call time_histories for fewer cases and "
             "save each, or use record=None, which keeps peaks alone"
         )
         raise ValueError(msg)

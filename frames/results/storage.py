@@ -127,7 +127,7 @@ def write_whole(path: str | Path, content: bytes | memoryview | str) -> None:
         if not isinstance(cause, OSError):
             raise
         msg = (
-            f"{path} could not be written ({len(whole) / 1000000.0:.3g} MB): "
+            f"{path} could not be written ({len(whole) / 1e6:.3g} MB): "
             f"{cause.strerror}. The file that was there is unchanged: save to another "
             "place, or free some space"
         )

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from frames.design.project.inputs import bearing_of, sliding_period
+from frames.design.project.inputs import bearing_of
 from frames.plots import plot_style as ps
 from frames.risk.campaign.comparison import dish_diameter
 from frames.risk.campaign.devices import device_ratios, moat_of
@@ -111,7 +111,7 @@ def numbers(every: Mapping[str, Any]) -> dict[str, Any]:
         "ratios": sorted(tables.file.motions.pulses.period_ratios),
         "unknown": int((~runs["outcome"].isin([COMPLETE, FAILURE])).sum()),
         "devices": found,
-        "period": sliding_period(bearing_of(tables.file.bearing)),
+        "period": bearing_of(tables.file.bearing).period,
         "sizes": {
             name: sizes_of([link.bearing for link in frame.bearings.values()])
             for name, frame in frames.items()

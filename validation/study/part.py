@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import datetime
 import json
 import os
 import platform
 import resource
-import tempfile
 import warnings
 from contextlib import contextmanager
-from pathlib import Path
 from time import perf_counter, process_time
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +19,7 @@ from validation.measurements.benchmark import processor
 from validation.page import DPI, FOLDER
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Mapping, Sequence
+    from collections.abc import Generator, Mapping
 
     from matplotlib.figure import Figure
 
@@ -85,37 +82,6 @@ def client_of(workers: int | str) -> Generator[tuple[int | None, Any], None, Non
 def workers_of(text: str) -> int | str:
     """Return a number of workers, or the address of a Dask scheduler, of an option."""
     return int(text) if text.isdecimal() else text
-
-
-def options_of(name: str, given: Sequence[str] | None) -> argparse.Namespace:
-    """Return the options of a study's command: store, workers, again."""
-    parser = argparse.ArgumentParser(prog=f"python -m validation.study.{name}")
-    parser.add_argument("--store", type=Path, help="a folder for the runs, kept")
-    parser.add_argument(
-        "--workers",
-        type=workers_of,
-        default=1,
-        help="runs at a time, or the address of a Dask scheduler",
-    )
-    parser.add_argument(
-        "--again", action="store_true", help="run nothing: write the page from its JSON"
-    )
-    return parser.parse_args(given)
-
-
-def run_part(
-    part: str,
-    given: Sequence[str] | None,
-    found_of: Callable[[Path, int | str], Found],
-    write: Callable[[Found], None],
-) -> None:
-    """Run a part, or go on with it, and write its page; with ``--again`` from the numbers kept."""
-    options = options_of(part, given)
-    if options.again:
-        write(json.loads((FOLDER / f"study_{part}.json").read_text(encoding="utf-8")))
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        write(found_of(options.store or Path(folder, "runs"), options.workers))
 
 
 def write_part(

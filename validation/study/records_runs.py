@@ -14,8 +14,6 @@ import numpy as np
 
 from frames import MotionWarning
 from frames.demo import bearing_for
-from frames.design import MotionSet
-from frames.design.hazard.motion_folder import RECORD_SETS
 from frames.risk import (
     Campaign,
     FragilityError,
@@ -117,11 +115,6 @@ def normalised(motions: Mapping[str, GroundMotion]) -> dict[str, GroundMotion]:
             name: motion.scaled(1.0 / INTENSITY.of(motion)).with_tail(TAIL)
             for name, motion in motions.items()
         }
-
-
-def record_sets() -> dict[str, dict[str, GroundMotion]]:
-    """Return the record sets of FEMA P695, normalised."""
-    return {kind: normalised(MotionSet.fema_p695(kind)) for kind in RECORD_SETS}
 
 
 def campaign(

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pandas as pd
 
-from frames.design.project.inputs import bearing_of, motions_of, sliding_period
+from frames.design.project.inputs import bearing_of, motions_of
 from frames.risk.campaign.file import campaign_file, read_campaign, run_search
 from frames.risk.campaign.page import device_curves
 from frames.risk.campaign.plot_response import response_by_factor
@@ -166,7 +166,7 @@ def tried(file: CampaignFile, few: int) -> CampaignFile:
         return file.model_copy(update={"motions": given.model_copy(update={"pulses": pulses})})
     folder = (file.source_path or Path()).parent
     sets = [given.model_copy(update={"fema_p695": (name,)}) for name in given.fema_p695] or [given]
-    read = [motions_of(each, folder, lambda: sliding_period(bearing)) for each in sets]
+    read = [motions_of(each, folder, lambda: bearing.period) for each in sets]
     key = "intensities" if given.intensities else "scales"
     values = getattr(given, key)
     names = tuple(name for each in read for name in list(each)[:few])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import math
 import runpy
 from dataclasses import replace
 from functools import cached_property, partial
@@ -40,7 +39,6 @@ from frames.io import Frame
 from frames.library.shear_buildings import shear_building
 from lir_element import CoulombFriction, LIRBearing
 from lir_element.argument_checks import shown
-from lir_element.units import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -219,7 +217,7 @@ class ProjectInputs:
     def motions(self) -> MotionSet:
         """Return the motions as they are given, not scaled to the spectrum."""
         given = self.file.motions
-        return varied(given, motions_of(given, self.folder, lambda: sliding_period(self.bearing())))
+        return varied(given, motions_of(given, self.folder, lambda: self.bearing().period))
 
 
 def bearing_of(given: Bearing, section: str = "bearing") -> LIRBearing:
@@ -303,11 +301,6 @@ def _opensees(given: OpenSeesModel, bearing: LIRBearing, name: str, folder: Path
             **given.model_dump(exclude={"kind", "script", "base_nodes"}),
             name=name,
         )
-
-
-def sliding_period(bearing: LIRBearing) -> float:
-    """Return the period of a mass on a sliding bearing [s]."""
-    return 2.0 * math.pi * math.sqrt(bearing.effective_radius / STANDARD_GRAVITY)
 
 
 def motions_of(given: MotionSource, folder: Path, period: Callable[[], float]) -> MotionSet:

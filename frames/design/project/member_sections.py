@@ -58,7 +58,7 @@ def material_of(given: str | MaterialTable | None) -> Material:
         ratio = modulus / (2.0 * shear) - 1.0
         if not 0.0 <= ratio < 0.5:
             msg = (
-                f"material: E = {1e-09 * modulus:g} GPa and G = {1e-09 * shear:g} GPa give "
+                f"material: E = {1e-9 * modulus:g} GPa and G = {1e-9 * shear:g} GPa give "
                 f"a Poisson's ratio of {ratio:.3g}; it must be at least 0 and below 0.5: "
                 "check G"
             )

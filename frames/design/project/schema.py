@@ -321,8 +321,8 @@ class ProjectFile(WholeFile):
         clear, wall = self.limits.moat_gap, self.moat
         if wall is not None and clear is not None and clear > wall.gap:
             msg = (
-                f"[limits] moat_gap = {1000.0 * clear:.5g} mm must not exceed [moat] gap = "
-                f"{1000.0 * wall.gap:.5g} mm, or wall contacts in the runs would count as "
+                f"[limits] moat_gap = {1e3 * clear:.5g} mm must not exceed [moat] gap = "
+                f"{1e3 * wall.gap:.5g} mm, or wall contacts in the runs would count as "
                 "clear: reduce moat_gap, or leave it out"
             )
             raise ValueError(msg)

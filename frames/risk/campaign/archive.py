@@ -105,8 +105,10 @@ def archive_campaign(
     with tempfile.TemporaryDirectory() as place:
         root, parts, runs = Path(place), [], 0
         for name, store in found.items():
+            digest = store.digest()  # finds that it is whole
             table = _written(store, root / name)
-            parts.append(_part(name or target.stem, f"{name}/" if name else "", store, table))
+            told = name or target.stem, f"{name}/" if name else "", digest
+            parts.append(_part(*told, store, table))
             runs += len(table)
         program = str(next(iter(found.values())).plan()["program"])
         given = {
@@ -132,8 +134,7 @@ def archive_campaign(
 
 
 def _written(store: CampaignStore, folder: Path) -> pd.DataFrame:
-    # The data of a campaign in a folder; its digest has found that it is whole.
-    store.digest()
+    # The data of a campaign in a folder.
     folder.mkdir(parents=True, exist_ok=True)
     with warnings.catch_warnings():  # texts have no type of zarr 3 that all programs share
         warnings.simplefilter("ignore")
@@ -145,7 +146,7 @@ def _written(store: CampaignStore, folder: Path) -> pd.DataFrame:
     return table
 
 
-def _part(name: str, folder: str, store: CampaignStore, table: pd.DataFrame) -> str:
+def _part(name: str, folder: str, digest: str, store: CampaignStore, table: pd.DataFrame) -> str:
     units, parameters = table.attrs["units"], list(store.plan()["parameters"])
     rows = []
     for column in map(str, table.columns):
@@ -154,7 +155,7 @@ def _part(name: str, folder: str, store: CampaignStore, table: pd.DataFrame) -> 
             unit, text = UNITS.get(column, ""), "parameter"
         rows.append(f"| {column} | {unit or '-'} | {text} |")
     given = {"source": table.attrs.get("source", ""), "date": table.attrs.get("date_created", "")}
-    columns = {"folder": folder, "columns": "\n".join(rows), "digest": store.digest()}
+    columns = {"folder": folder, "columns": "\n".join(rows), "digest": digest}
     return _PART.format(name=name, runs=len(table), **given, **columns)
 
 

@@ -19,7 +19,6 @@ from frames.design.project.inputs import (
     frame_of,
     in_section,
     motions_of,
-    sliding_period,
     varied,
 )
 from frames.design.project.reading import read_file
@@ -308,7 +307,7 @@ def _motions(file: CampaignFile, folder: Path) -> tuple[MotionSet, Sequence[floa
         scales = given.pulses.velocities
         one = given.pulses.model_copy(update={"velocities": (1.0,)})
         given = given.model_copy(update={"pulses": one})
-    found = motions_of(given, folder, lambda: sliding_period(bearing_of(file.bearing)))
+    found = motions_of(given, folder, lambda: bearing_of(file.bearing).period)
     if given.tail is not None:
         longer = {name: each.with_tail(given.tail) for name, each in found.items()}
         found = MotionSet(longer, found.facts)

@@ -164,16 +164,16 @@ class MedianSearch:
             runs = runs_by_model(data, motions, self.intensity)
             runs = with_ductility(runs, data, lambda built=names: built, [self.limit])  # type: ignore[misc]
             for point in todo:
-                exceeded = runs[_named(point)].exceeded(self.limit)
-                scale = runs[_named(point)].table["scale"].to_numpy()
-                im = runs[_named(point)].table["im"].to_numpy()
+                name = _named(point)
+                exceeded = runs[name].exceeded(self.limit)
+                scale, im = runs[name].of("scale"), runs[name].of("im")
                 at = [im[scale == each].mean() for each in self.scales]
                 shares = [float(_mean(exceeded[scale == each])) for each in self.scales]
                 rows.append(
                     {
                         **point,
                         "stage": stage,
-                        "ratio of checks [-]": self._ratio(point),
+                        "ratio of checks [-]": self._checked(names[name]),
                         "unknown": int(np.isnan(exceeded).sum()),
                         f"median [{self.intensity.unit}]": median_of(shares, at, self.dispersion),
                     }
@@ -239,6 +239,9 @@ class MedianSearch:
             frame = self.build({name: point[name] for name in self.bounds})
         except ValueError:
             return math.inf
+        return self._checked(frame)
+
+    def _checked(self, frame: Frame) -> float:
         return 0.0 if self.constraint is None else float(self.constraint(frame))
 
 
