@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 CONFIDENCE = 0.9
 LEVELS = ("contact", "pendulum")
-PLANS = ("569 mm", "689 mm", "869 mm", "1009 mm")
+PLANS = ("569 mm", "689 mm", "1009 mm")
 REFERENCE = "689 mm"
 RIMS = ("rims of 1 W", "unbreakable rims", "rims of 0.5 W")
 LIR = f"LIR-DCFP {REFERENCE}"
