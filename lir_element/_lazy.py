@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def lazily(
     package: str, file: str
 ) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """Return what a package takes as its `__getattr__`, `__dir__` and `__all__`."""
+    """Return the `__getattr__`, `__dir__` and `__all__` of a package whose names load lazily."""
     homes = _homes(file)
     module = sys.modules[package]
 

@@ -1,4 +1,4 @@
-"""Checks at the door: every error names the value, the bound and the remedy.
+"""Input checks: every error names the value, the bound and the remedy.
 
 A value of the wrong kind is a `TypeError`; one out of its bounds a `ValueError`, or the kind of it
 that the caller passes as `error`.
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 Remedy = str | Callable[[float], str]
-"""What to do about a number that is refused, or what makes it of the number."""
+"""Remedy for a number that is refused, or a function of the number that returns it."""
 
 
 class How(TypedDict, total=False):
-    """What a check at the door says and raises besides."""
+    """Options of an input check: its remedy and the error that it raises."""
 
     remedy: Remedy
     optional: bool
@@ -36,7 +36,7 @@ _LONGEST = 120  # characters of a value in a message
 
 
 def shown(value: object) -> str:
-    """Return a value as a message shows it: what is long by its kind, and its shape if it has one.
+    """Return a value as a message shows it; a long one by its type and shape.
 
     Examples
     --------
@@ -92,7 +92,7 @@ def as_number(name: str, value: object, unit: str = "") -> float:
 
 
 class Interval(NamedTuple):
-    """Where a number can be, as mathematics writes it: "(0, 1)", "[0, inf)", "(0, 1) or inf"."""
+    """Interval of a number in mathematical notation: "(0, 1)", "[0, inf)", "(0, 1) or inf"."""
 
     low: float
     high: float

@@ -44,14 +44,14 @@ class Element:
         Level of fidelity: "pendulum" holds the sliders in full contact; "contact" has them as
         bodies whose faces press as discs, which rock, open and land (some ten times the cost).
     features : Features, optional
-        What is modelled; everything if None. Without vertical coupling the constant load is the
-        bearing's design load. Plate rotation and the second direction belong to the displacements
-        that are imposed: they cannot be left out here.
+        Modelled features; all if None. Without vertical coupling the constant load is the bearing's
+        design load. Plate rotation and the second direction belong to the displacements that are
+        imposed: they cannot be left out here.
 
     Raises
     ------
     ValueError
-        If the level is not known, or a feature is left out that cannot be.
+        If the level is unknown, or a feature is left out that an element needs.
 
     Examples
     --------
@@ -102,7 +102,7 @@ class Element:
         self.revert_to_last_commit()
 
     def __getstate__(self) -> dict[str, Any]:
-        # copies of all arrays, so that a copy of an element is independent of it at once
+        # copies of all arrays: a copy of an element is independent of it at once
         state = {name: value for name, value in vars(self).items() if name != "_words"}
         for name, value in state.items():
             if isinstance(value, np.ndarray):
@@ -112,7 +112,7 @@ class Element:
         return state
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        # what shares memory with the records is made anew: pickles and copies part the two
+        # views into the records are made anew: pickles and copies separate them
         vars(self).update(state)
         self._words = as_rows(self._committed), as_rows(self._trial)
         if self._contacts is not None:
@@ -129,17 +129,17 @@ class Element:
         Parameters
         ----------
         displacement, velocity : array_like, shape (12,)
-            Of node i, then of node j [m, rad; m/s, rad/s].
+            Displacements [m, rad] and velocities [m/s, rad/s] of node i, then of node j.
         time : float
-            Time of the trial [s]. Where it lies after the committed time, all rates inside (sliding
-            speeds, closing speeds of contacts) are differences over the step and the tangent holds
-            their part; otherwise the trial is static, and the sliding speeds are those of
-            `velocity` at the committed place.
+            Time of the trial [s]. If it is later than the committed time, all internal rates
+            (sliding speeds, closing speeds of contacts) are differences over the step and the
+            tangent contains them. Otherwise the trial is static, and the sliding speeds are those
+            of `velocity` at the committed place.
 
         Raises
         ------
         AnalysisError
-            If there is no such state (not finite, beyond the spheres, no equilibrium inside).
+            If there is no such state (not finite, beyond the spheres, no internal equilibrium).
         ValueError
             If an array has the wrong shape.
         """
@@ -192,7 +192,7 @@ class Element:
         ------
         AnalysisError
             If the state lies beyond a limit of the bearing (it is committed all the same, so that
-            it can be looked at).
+            you can inspect it).
 
         Notes
         -----
@@ -213,7 +213,7 @@ class Element:
             raise AnalysisError(status, time, "bearing element", detail)
 
     def revert_to_last_commit(self) -> None:
-        """Forget the trial state."""
+        """Return to the committed state."""
         committed = self._committed
         if self._contacts is None:
             u = np.array(committed["displacement"][0])
@@ -225,7 +225,7 @@ class Element:
         self._pending = False
 
     def revert_to_start(self) -> None:
-        """Forget everything: the undeformed, unloaded bearing at time zero."""
+        """Return to the undeformed, unloaded bearing at time zero."""
         self._committed[:] = self._start
         self._heat[:] = 0.0
         if self._contacts is not None:

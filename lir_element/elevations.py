@@ -1,4 +1,4 @@
-"""Which points are at one place, and which at one elevation."""
+"""Groups of points at one place, and of points at one elevation."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ class ExudynBearing:
     ImportError
         If exudyn is not installed.
     ValueError
-        If a node is no NodeRigidBodyRotVecLG, is turned in its reference state, or serves both
+        If a node is no NodeRigidBodyRotVecLG, is rotated in its reference state, or serves both
         ends.
 
     Notes
@@ -170,7 +170,7 @@ def after_step(bearings: Sequence[ExudynBearing]) -> Callable[[Any, float], bool
     Returns
     -------
     callable
-        Of the system and the time.
+        Function of the system and the time.
 
     Examples
     --------

@@ -29,8 +29,8 @@ def number(
 ) -> dict[str, Any]:
     """Return the metadata of a field that holds a number, or several of one kind.
 
-    `within` is the interval of its values; `usual` are values in the unit by which a message finds
-    the unit that was meant; `endless` says in words what an infinite one is.
+    `within` is the interval of its values; `usual` are values in the unit, by which a message finds
+    the unit that was meant; `endless` describes an infinite value in words.
     """
 
     def by_size(value: float) -> str:
@@ -64,9 +64,9 @@ def check_numbers(
     places: tuple[str, ...] = (),
     owner: str = "",
 ) -> None:
-    """Refuse numbers of a dataclass that are out of the bounds of their fields.
+    """Refuse numbers of a dataclass that are outside the bounds of their fields.
 
-    None is left alone where it is the default, or one of a pair; `places` name what pairs are of,
+    None is accepted if it is the default, or one of a pair; `places` names the members of pairs,
     and `owner` begins the names in messages.
     """
     for each in fields(made):

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 PIECE = 0.03
-"""Length of a piece that is aimed at [s]: calling costs some 0.1 ms of it."""
+"""Target length of a piece [s]: a call costs some 0.1 ms."""
 
 FIRST_WORK = 50
 """Work of the first piece; its unit is the loop's own, such as one trial step."""
 
 MARKS = 50
-"""How often progress is reported."""
+"""Number of progress reports."""
 
 
 def interruptible(
@@ -30,7 +30,7 @@ def interruptible(
     progress: Callable[[float], None] | None = None,
     room: Callable[[], int] | None = None,
 ) -> RunStatus:
-    """Take a compiled loop to its end in pieces of about `PIECE` seconds."""
+    """Run a compiled loop to its end in pieces of about `PIECE` seconds."""
     stride = total if progress is None else max(1, -(-total // MARKS))
     work = FIRST_WORK
     try:
@@ -52,9 +52,9 @@ def interruptible(
 
 
 def ready(kernel: Callable[..., Any], *arguments: Any) -> float:
-    """Have a kernel compiled without calling it, so that what is timed is the computation alone."""
+    """Compile a kernel without calling it, so that a timing contains the computation alone."""
     began = perf_counter()
-    compile_for = getattr(kernel, "compile", None)  # a plain function where nothing is compiled
+    compile_for = getattr(kernel, "compile", None)  # a plain function if nothing is compiled
     kinds = kernel, *(_kind(value) for value in arguments)
     if compile_for is not None and kinds not in _READY:
         compile_for(tuple(numba.typeof(value) for value in arguments))
@@ -68,8 +68,8 @@ _READY: set[tuple[Any, ...]] = set()  # kernels and kinds of arguments they are 
 
 
 def _kind(value: Any) -> Any:
-    # What decides about the type of an argument, found faster than the type: arrays alone and in
-    # bundles, numbers, None.
+    # Key of an argument's type, found faster than the type: arrays alone and in bundles, numbers,
+    # None.
     if isinstance(value, tuple):
         return type(value), *(_kind(part) for part in value)
     if isinstance(value, np.ndarray):

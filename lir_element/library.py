@@ -94,7 +94,7 @@ def write_bearing(
     path : str or Path
         The file.
     level, features
-        As of `Element`.
+        Modelled features, as for `Element`.
 
     Raises
     ------
@@ -227,7 +227,7 @@ def _object_code(memories: list[_Memory]) -> bytes:
 
 
 def _names(memories: list[_Memory]) -> dict[str, str]:
-    # What stands for names between @ in the header and the examples: all from its one definition.
+    # Texts for the names between @ in the header and the examples: all from one definition.
     computed = {RunStatus.OK, RunStatus.NOT_FINITE, RunStatus.NO_EQUILIBRIUM}
     outcomes = [s for s in RunStatus if s.is_bearing_failure or s in computed]
     sizes = {f"{m.element.level.upper()}_SIZE": m.size for m in memories}
@@ -256,18 +256,18 @@ def write_library(folder: str | Path) -> Path:
     Parameters
     ----------
     folder : str or Path
-        Where to; made if it is not there.
+        Folder for the files; made if it does not exist.
 
     Returns
     -------
     Path
-        The library. Beside it are ``lir_element.h``, ``example.c``, ``uel.f90`` (Abaqus) and
-        ``opensees_element.cpp``.
+        Path of the library. Beside it are ``lir_element.h``, ``example.c``, ``uel.f90`` (Abaqus)
+        and ``opensees_element.cpp``.
 
     Raises
     ------
     RuntimeError
-        If there is no C compiler, it fails, or numba is of a version whose inside is not known.
+        If there is no C compiler, if it fails, or if this version of numba is not supported.
 
     Notes
     -----

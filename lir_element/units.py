@@ -20,7 +20,7 @@ OTHER_UNITS: dict[str, tuple[tuple[str, float], ...]] = {
     "s/m": (("s/mm", 1e3), ("s/cm", 1e2)),
     "kg/m3": (("t/m3", 1e3), ("kg/mm3", 1e9)),
 }
-"""Units that numbers come in besides those of SI, and the size of each in that of SI."""
+"""Units of input numbers besides those of SI, and the size of each in the SI unit."""
 
 
 def meant(value: float, unit: str, low: float, high: float) -> str:
@@ -42,7 +42,7 @@ def meant(value: float, unit: str, low: float, high: float) -> str:
 
 
 def per_cent(value: object) -> str:
-    """Return what a coefficient of friction above one was probably meant to be."""
+    """Return the probable meaning of a coefficient of friction above one."""
     if isinstance(value, (int, float)) and 1.0 <= value < 100.0:
         return f"give a pure number ({value:g} per cent are {0.01 * value:g})"
     return "give a pure number, 0.06 for six per cent"

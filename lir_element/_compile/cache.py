@@ -1,15 +1,15 @@
 """Compiled kernels kept on disk: never a stale one, and no failure of the disk ends a run.
 
-numba's own cache does not notice an edit in a *callee* of another file, and where its folder cannot
-be written it takes another one, which the hash of the sources does not name. Here a kernel is kept
+numba's own cache does not notice an edit in a *callee* of another file. If its folder cannot be
+written it uses another one, and the hash of the sources does not name that. Here a kernel is kept
 under the hash of all sources that it may depend on (`_sources`), by its types with the names of
-their fields, behind a checksum. Whatever goes wrong (no folder, no space, a damaged file, sources
-edited since) means compiling in memory, with one warning. What is not kept there may have come with
-the wheel (`shipped`).
+their fields, behind a checksum. If anything fails (no folder, no space, a damaged file, sources
+edited since), the kernel is compiled in memory, with one warning. Kernels that are not kept there
+may have come with the wheel (`shipped`).
 
-Kernels are pickles, and a pickle runs what its writer wants. So a file is opened only if it and its
-folder are of this user or of root, and nobody else may write to them; new ones are of the user
-alone.
+Kernels are pickles, and loading a pickle runs code of its writer. A file is opened only if it and
+its folder belong to this user or to root, and nobody else may write to them; new ones belong to the
+user alone.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 VERSIONS = (sys.implementation.cache_tag, numba.__version__, llvmlite.__version__)
-"""What else the code depends on, beside the processor."""
+"""Versions that the code depends on, besides the processor."""
 
 _DIGEST = hashlib.sha256().digest_size
 _UNREADABLE = (
@@ -72,9 +72,9 @@ def cache_folder() -> Path | None:
 def fields_of(signature: Any) -> tuple[tuple[str, ...], ...]:
     """Return the names of the fields of all bundles in a signature, in the order of their places.
 
-    numba tells bundles apart by the name of their class and the types in it. A kernel has the
-    places of the fields in its code, and so is stale once two of one type change places. (Of a
-    record numba names fields and places itself.)
+    numba distinguishes bundles by the name of their class and the types in it. A kernel contains
+    the places of the fields, and so is stale once two of one type change places. (For a record
+    numba names fields and places itself.)
     """
     found: list[tuple[str, ...]] = []
     new = list(getattr(signature, "args", signature))[::-1]
@@ -124,13 +124,13 @@ class Sources:
         return self._same
 
     def folder(self) -> Path | None:
-        """Return the folder that holds what belongs to these sources; None without a home."""
+        """Return the folder of the files that belong to these sources; None without a home."""
         base = cache_folder()
         return None if base is None else base / self.hash
 
 
 def keep(path: Path | None, content: bytes) -> bool:
-    """Write a file of the cache: all of it or nothing."""
+    """Write a file of the cache completely, or not at all."""
     if path is None:
         _warn("cannot be kept: this user has no home folder", again=True)
         return False
@@ -179,8 +179,8 @@ _OTHERS = stat.S_IWGRP | stat.S_IWOTH
 
 
 def _doubt_of_folder(folder: Path) -> str:
-    # Why files of a folder are not to be opened; empty if they may be. Where the folder is a link,
-    # its owner chose what is opened.
+    # Reason not to open the files of a folder; empty if they may be opened. If the folder is a
+    # link, its owner chose the folder that is opened.
     found = _doubt(folder.lstat(), folder) or _doubt(folder.stat(), folder)
     base = folder.parent
     if not found and base in {cache_folder(), shipped.FOLDER}:
@@ -230,7 +230,7 @@ def _warn(what: str, again: bool) -> None:
 
 
 def _opened(key: tuple[Any, ...] | None, content: bytes) -> Any:
-    # What is kept, or None if the file is damaged or another kernel's (None: any kernel's).
+    # Content of the file, or None if it is damaged or another kernel's (`key` None: any kernel's).
     if hashlib.sha256(content[_DIGEST:]).digest() != content[:_DIGEST]:
         return None
     try:
@@ -243,8 +243,8 @@ def _opened(key: tuple[Any, ...] | None, content: bytes) -> Any:
 def _part_in(
     path: Path, context: Any, rebuilt: Any, key: tuple[Any, ...] | None = None, digest: Any = None
 ) -> Any:
-    # The part that a file holds, and all below; None if that is not there. The digest tells that
-    # it is what its caller was compiled with: names in the code differ from process to process.
+    # The part in a file, and all parts below it; None if there is none. The digest shows that its
+    # caller was compiled with it: names in the code differ between processes.
     part = _parts.get(path)
     if part is None:
         content = content_of(path)
@@ -267,16 +267,16 @@ def _part_in(
 
 
 class KernelCache(NullCache):  # type: ignore[misc]  # numba has no types
-    """Where one kernel is looked for before it is compiled, and kept afterwards.
+    """Cache of one kernel: searched before it is compiled, written afterwards.
 
     Parameters
     ----------
     function : callable
         The kernel as Python.
     sources : Sources
-        What it may depend on.
+        Sources that the kernel may depend on.
     rebuilt : callable, optional
-        Makes a part (`_parts`) of what was kept of it.
+        Function that makes a part (`_parts`) of the kept content.
     """
 
     def __init__(self, function: Any, sources: Sources, rebuilt: Any = None) -> None:

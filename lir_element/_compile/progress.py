@@ -1,7 +1,7 @@
 """A word while kernels compile: the first run takes ten seconds to a minute.
 
-Written to the standard error, once: a line that says what happens and, on a terminal, a bar.
-Nothing is written where the kernels come from the cache, nor with LIR_QUIET=1.
+Written once to the standard error: a line that names the work and, on a terminal, a bar. Nothing is
+written if the kernels come from the cache, or with LIR_QUIET=1.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def say(text: str) -> None:
 
 
 def _write(text: str) -> bool:
-    # Whether it was written: a program may have closed its standard error, or have none.
+    # True if it was written: a program may have closed its standard error, or have none.
     if quiet() or sys.stderr is None:
         return False
     try:
@@ -54,14 +54,14 @@ def on_terminal() -> bool:
 
 
 class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
-    """Follows the compiler, which compiles a kernel inside of the one that calls it.
+    """Listener to the compiler, which compiles a kernel inside its caller.
 
     Parameters
     ----------
     ours : callable
-        Whether a numba dispatcher belongs to this program.
+        True if a numba dispatcher belongs to this program.
     where : callable
-        In words, what becomes of the kernels.
+        Returns the destination of the kernels, in words.
     clock : callable
         Seconds, from any origin.
     """
@@ -84,7 +84,7 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
         self._drawn = False
 
     def on_start(self, event: Any) -> None:
-        """Take note of a kernel whose compilation begins."""
+        """Register a kernel whose compilation begins."""
         if not self._ours(event.data["dispatcher"]):
             return
         if not self._open:
@@ -94,7 +94,7 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
         self._show()
 
     def on_end(self, event: Any) -> None:
-        """Take note of a kernel that is compiled, or failed to."""
+        """Register a kernel that is compiled, or failed to compile."""
         if not self._ours(event.data["dispatcher"]):
             return
         self._open.pop()
@@ -103,11 +103,11 @@ class Progress(event.Listener):  # type: ignore[misc]  # numba has no types
             self._show()
             return
         self._spent += self._clock() - self._began
-        if self._drawn:  # what comes next shall find an empty line
+        if self._drawn:  # the next output starts on an empty line
             self._drawn = not _write(f"\r{'':{_WIDTH}}\r")
 
     def _below(self, top: Any) -> int:
-        # How many kernels there are in one, by the names in its code: it may need fewer.
+        # Number of kernels in one, by the names in its code: it may need fewer.
         found, left = {id(top): top}, [top]
         while left:
             function = left.pop().py_func

@@ -1,4 +1,4 @@
-"""Kernels that came with the wheel: compiled for what all usual processors have in common.
+"""Kernels that came with the wheel, compiled for the common features of all usual processors.
 
 A wheel may bring a folder of compiled kernels along (`hatch_build.py`), laid out as that of the
 cache. Those are taken that a start would otherwise compile: the same sources, the same Python,
@@ -10,7 +10,7 @@ from __future__ import annotations
 from pathlib import Path
 
 FOLDER = Path(__file__).parents[1] / "_kernels"
-"""Where a wheel has them; in a clone there is no such folder."""
+"""Folder of the kernels in a wheel; a clone has no such folder."""
 
 Processor = tuple[str, str, str]
 """Target triple, name and features, as numba hands them to LLVM."""
@@ -33,7 +33,7 @@ def baseline(machine: str) -> str | None:
 
 
 def shipped_for(own: Processor) -> Processor | None:
-    """Return what shipped kernels were compiled for, if this processor can run them."""
+    """Return the processor that shipped kernels were compiled for, if this one can run them."""
     triple, _, features = own
     name, needs = _BASELINES.get(triple.split("-", 1)[0], ("", "none"))
     has = set(features.split(","))

@@ -1,4 +1,4 @@
-"""Which sources kernels depend on: their own, and all that they take types and constants from.
+"""Sources that kernels depend on: their own, and all that define their types and constants.
 
 The list is read from the imports, those for annotations included, so that a new file is in it with
 the first kernel that names it. A text is searched rather than parsed: it is done at every start.
@@ -20,7 +20,7 @@ COMPILERS = (
     "_compile/linking.py",
     "_compile/lowering.py",
 )
-"""What makes kernels of functions, in a package."""
+"""Files that compile kernels, in a package."""
 
 _IMPORT = re.compile(
     r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]*(\([^)]*\)|[^\n]*)|import[ \t]+([\w., \t]+))",
@@ -34,10 +34,10 @@ _NAME = re.compile(r"(\w+)(?:\s+as\s+\w+)?")
 def compiled_sources(*folders: Path) -> list[tuple[Path, Path]]:
     """Return the sources that compiled code depends on, sorted.
 
-    These are the kernels (what is in a folder ``kernels``), each module that they import anything
-    from, if only for an annotation, and from there on each that constants and classes are imported
-    from at runtime. By the rules of names these begin with a capital; functions of Python that make
-    the arguments of kernels are left out.
+    These are the files in a folder ``kernels``, each module that they import from, if only for an
+    annotation, and each module from which those import constants and classes at runtime. Constants
+    and classes begin with a capital; Python functions that make the arguments of kernels are left
+    out.
     """
     kernels = {path for folder in folders for path in folder.glob("**/kernels/**/*.py")}
     found = kernels | {path for f in folders for name in COMPILERS for path in f.glob(name)}
@@ -71,7 +71,7 @@ def _imported(path: Path, kernels: bool, packages: dict[str, Path]) -> Iterator[
 
 
 def _place(module: str, path: Path, packages: dict[str, Path]) -> Path | None:
-    # Where a module is, without suffix; None if it is in none of the packages.
+    # Path of a module, without suffix; None if it is in none of the packages.
     top, *below = module.lstrip(".").split(".")
     if module.startswith("."):
         return path.parents[len(module) - len(module.lstrip(".")) - 1].joinpath(top, *below)

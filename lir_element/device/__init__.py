@@ -1,1 +1,1 @@
-"""What the engineer specifies: the bearing, its friction, what of it is modelled."""
+"""Input of the engineer: the bearing, its friction, and its modelled features."""

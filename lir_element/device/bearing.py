@@ -55,18 +55,18 @@ class LIRBearing(Specification):
         Lateral displacement at the first rim contact, plates parallel [m]; ``math.inf`` for a
         bearing without rims. Both rims are then met together.
     rims : float or (float, float), optional
-        Sliding displacement at which each rim is met, bottom and top [m]; instead of `capacity`
-        where they differ.
+        Sliding displacement at contact with each rim, bottom and top [m]; instead of `capacity` if
+        they differ.
     axial_stiffness, axial_damping : float, optional
-        Of the contact along the slider's axis [N/m, N s/m]. Default: a slider with liners of
-        20 GPa in all, and 5 % of critical damping under the design load.
+        Stiffness [N/m] and damping [N s/m] of the contact along the slider axis. Default: a slider
+        with liners of 20 GPa in all, and 5 % of critical damping under the design load.
     rim_stiffness, rim_damping : float, optional
-        Of a rim in radial direction [N/m, N s/m]. Default: a tenth of the axial stiffness, and
-        10 % of critical damping.
+        Radial stiffness [N/m] and damping [N s/m] of a rim. Default: a tenth of the axial
+        stiffness, and 10 % of critical damping.
     rim_yield_force : float
-        Radial force at which a rim yields [N], by tests or `ring_strength`; default: it never does.
-        What presses on it goes no further but for its hardening, and its plastic deformation stays
-        where it was pressed.
+        Radial force at which a rim yields [N], from tests or `ring_strength`; default: it never
+        yields. Beyond it the rim force rises only by hardening; the plastic deformation remains at
+        the point of contact.
     rim_hardening : float
         Stiffness of a rim that yields over its elastic stiffness [-], above 0 and below 1.
     rim_overrun : float, optional
@@ -79,19 +79,19 @@ class LIRBearing(Specification):
         Interface slip beyond which the sliders' overlap no longer carries [m]: the bearing fails.
         Default: the slider's radius (39 % of the area still overlaps).
     uplift_capacity : float
-        Opening of the contact beyond which slider and plates no longer hold together, such as the
-        height of the rims [m]: the bearing fails. Default: none.
+        Opening of the contact at which slider and plates separate and the bearing fails [m], for
+        example the height of the rims. Default: none.
     backup : BackupSupport, optional
-        What carries after the bearing's failure: an analysis goes on with it. Default: the analysis
-        ends there, as failure of the bearing.
+        Support that carries the load after the bearing's failure, so that the analysis continues.
+        Default: the analysis ends at the failure.
     design_load : float, optional
         Axial load the defaults refer to [N]. Default: 30 MPa on the slider's area.
     yield_displacement, interface_yield_displacement : float
         Elastic sliding before slip, on a concave surface and in the interface [m].
     interface_hold : float
-        Force that resists slip of the interface besides friction, whatever the axial force [N]:
-        that of a seal or ring that slides with it. It holds the halves of a slider that carries
-        nothing. Default: none.
+        Resistance of the interface to slip besides friction, independent of the axial force [N],
+        for example of a seal or ring that slides with it. It holds the halves of an unloaded
+        slider. Default: none.
     friction_law : {"elastic-plastic", "bouc-wen"}
         Regularisation of friction. Bouc-Wen models ratchet under small vibration about a biased
         force, the more the larger the yield displacement (docs/theory.md); it is there for
@@ -99,7 +99,7 @@ class LIRBearing(Specification):
     bouc_wen_exponent : float
         Exponent of that law [-], at least 1.
     torsional_friction : bool
-        Whether the contacts resist rotation about the vertical axis.
+        True if the contacts resist rotation about the vertical axis.
     plate_thickness : float or (float, float)
         Distance from each node to the vertex of its concave surface [m].
     slider_density : float
@@ -116,10 +116,10 @@ class LIRBearing(Specification):
     allow_weak_interface : bool
         Accept ``mu_h <= mu_d``, with which the device does not work as intended.
     pressure_dependence : PressureDependence, optional
-        How low friction falls with the pressure on the slider. Default: it does not.
+        Decrease of low friction with the pressure on the slider. Default: none.
     friction_heating : FrictionHeating, optional
-        How sliding heats the plates, and low friction falls with their temperature. Default: it
-        does not, and no temperature is computed.
+        Heating of the plates by sliding, and decrease of low friction with their temperature.
+        Default: none, and no temperature is computed.
 
     Raises
     ------
@@ -156,7 +156,7 @@ class LIRBearing(Specification):
         check_bearing(self)
 
     def __repr__(self) -> str:
-        """Return what was given; defaults are in `resolved`, `describe` lists all."""
+        """Return the values that were set; `resolved` has defaults, `describe` lists all."""
         plain = {f.name: f.default for f in fields(self)}
         given = [
             f"{name}={getattr(self, name)!r}"
@@ -167,7 +167,7 @@ class LIRBearing(Specification):
 
     @classmethod
     def of_period(cls, period: float, *, slider_height: float, **fields: Any) -> LIRBearing:
-        """Return a bearing with alike surfaces of the radius that gives a period.
+        """Return a bearing with equal surfaces of the radius that gives a period [s].
 
         ``R = (L + h) / 2`` with ``L = g T^2 / (4 pi^2)``, because ``L = R1 + R2 - h``.
 
@@ -202,7 +202,7 @@ class LIRBearing(Specification):
         return cls(radius=0.5 * (length + height), slider_height=slider_height, **fields)
 
     def describe(self) -> str:
-        """Return a table of what applies, defaults and derived values included, for people."""
+        """Return a printed table of all properties, defaults and derived values included."""
         return text_table(self._rows(), left=3)
 
     def _repr_html_(self) -> str:
@@ -245,8 +245,8 @@ class LIRBearing(Specification):
         Returns
         -------
         float
-            Lateral force [N]; infinite without rims, with the rigid slider, or where tilt
-            and friction angle reach 90 degrees together.
+            Lateral force [N]; infinite without rims, with the rigid slider, or if tilt and friction
+            angle reach 90 degrees together.
         """
         require_positive("axial_load", axial_load, "N")
         if self.is_dcfp or math.isinf(self.lateral_capacity):
@@ -269,7 +269,7 @@ class LIRBearing(Specification):
         return self._record.copy()
 
     def _backup(self, options: dict[str, float]) -> dict[str, object]:
-        # What carries after the bearing's failure.
+        # Support after the bearing's failure.
         stop = self.backup
         if stop is None:
             names = ("goes_on", "backup_friction", "backup_stiffness", "backup_damping")

@@ -1,4 +1,4 @@
-"""What makes a bearing impossible, or doubtful: checked once, where it is made."""
+"""Impossible and doubtful bearings: checked once, when they are made."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from lir_element.device.specification import Specification
 
 LARGEST_SINE = 0.95
-"""Of the slider's tilt at the rim; the kernels stop at 72 degrees."""
+"""Largest sine of the slider's tilt at the rim; the kernels stop at 72 degrees."""
 
 
 class DesignWarning(TextWarning):
@@ -55,7 +55,7 @@ class DesignWarning(TextWarning):
 
 
 def check_bearing(bearing: Specification) -> None:
-    """Refuse what the numbers of a bearing cannot make together, and warn of what is strange."""
+    """Refuse impossible combinations of a bearing's numbers, and warn of unusual ones."""
     _check_kinds(bearing)
     for part in (_of_geometry, _of_friction, _of_rims, _of_sliders, _of_forces):
         for msg in part(bearing):
@@ -93,7 +93,7 @@ def require_no_backup(bearing: Specification, words: tuple[str, str]) -> None:
 
 
 def _unknown(name: str, none: str, words: tuple[str, str]) -> str:
-    # Who does not know a property, what does, and the bearing without it.
+    # Program or law without the property, its alternative, and the bearing without the property.
     return (
         f"{words[0]} {name}: take {words[1]}, or a bearing without, "
         f"dataclasses.replace(bearing, {name}={none})"
@@ -110,7 +110,7 @@ def _check_kinds(bearing: Specification) -> None:
                 "(bottom, top) of them"
             )
             raise TypeError(msg)
-        law.kernel_values()  # which refuses what kernels cannot take
+        law.kernel_values()  # refuses values that kernels cannot use
     for name, kind, example in (
         ("pressure_dependence", PressureDependence, "PressureDependence()"),
         ("friction_heating", FrictionHeating, "FrictionHeating()"),
@@ -200,8 +200,9 @@ def _of_rims(bearing: Specification) -> Iterator[str]:
                 f"{reach:.4g} + slider_radius {bearing.slider_radius:g} m, which must be below "
                 f"the radius {r:g} m; reduce capacity or slider_radius"
             )
-    # Both surfaces reach out to where a slider at the rim ends; at rest, one above the other, they
-    # come closest at the edge of the smaller one. Displaced and raised, the gap only grows.
+    # Both surfaces extend to the edge of a slider at the rim. At rest, one above the other, they
+    # are closest at the edge of the smaller one. If they are displaced and raised, the gap only
+    # grows.
     edge = min(bearing.rim_displacement) + bearing.slider_radius
     if not math.isfinite(edge):
         return

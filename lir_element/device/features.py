@@ -1,4 +1,4 @@
-"""What a run models: features that can be left out, and what that does to the kernels' records."""
+"""Features of the model that a run can leave out, and their effect on the kernels' records."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ALL_LEVELS = (*LEVELS, "rigid_body")
 
 @dataclass(frozen=True, kw_only=True)
 class Features:
-    """What a run models; everything by default. True: modelled, False: left out.
+    """Modelled features of a run; all by default. True: modelled, False: left out.
 
     Parameters
     ----------
@@ -41,8 +41,8 @@ class Features:
         x or z, and the motion's y component is not applied.
     vertical_coupling : bool
         The axial force enters friction and restoring force, and a lateral displacement lifts the
-        plates. Left out: both use the force under permanent loads; what moves vertically has a
-        spring and a damper of its own, which also pull. Uplift is then left out, too.
+        plates. If it is left out, both use the force under permanent loads. Vertical motion then
+        has a spring and a damper of its own, which also pull, and uplift is left out, too.
     pressure_dependence : bool
         Low friction depends on pressure (`LIRBearing.pressure_dependence`). Left out: it is that
         at the reference pressure.
@@ -102,7 +102,7 @@ class Features:
         Parameters
         ----------
         *names : str
-            Of `Features.names()`.
+            Names from `Features.names()`.
 
         Returns
         -------
@@ -112,7 +112,7 @@ class Features:
         Raises
         ------
         ValueError
-            If a name is not known.
+            If a name is not in `Features.names()`.
         """
         return self._switched(names, on=False)
 
@@ -122,7 +122,7 @@ class Features:
         Parameters
         ----------
         *names : str
-            Of `Features.names()`.
+            Names from `Features.names()`.
 
         Returns
         -------
@@ -132,7 +132,7 @@ class Features:
         Raises
         ------
         ValueError
-            If a name is not known.
+            If a name is not in `Features.names()`.
         """
         if "uplift" in names:
             names = (*names, "vertical_coupling")

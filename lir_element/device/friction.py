@@ -1,4 +1,4 @@
-"""Friction of a concave surface, as an engineer specifies it: the laws, and what a law is."""
+"""Friction laws of a concave surface, as an engineer specifies them, and their base class."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ _COEFFICIENT = number("-", "[0, 1)", remedy=per_cent)
 _SAME = 1e-6  # of the coefficient, within which a law's own limits must be those of `at_speed`
 
 _KNOWN: dict[str, dict[tuple[str, str], type[FrictionLaw]]] = {}
-"""Laws by the name of their class, then by where it was written."""
+"""Laws by the name of their class, then by the place of its definition."""
 
 
 class _OfSpeed:
-    """A coefficient that a law has of `at_speed`, unless a field of that name gives it.
+    """Coefficient that a law derives from `at_speed`, unless a field of that name gives it.
 
-    Where a class is asked it hides: a dataclass would take it for the default of such a field.
+    The class itself does not show it: a dataclass would use it as the default of such a field.
     """
 
     def __init__(self, of: Callable[[Any], float]) -> None:
@@ -45,21 +45,21 @@ class _OfSpeed:
 
 
 class FrictionLaw(abc.ABC):
-    """A friction coefficient over the sliding speed: what every law of a concave surface has.
+    """A friction coefficient over the sliding speed: base class of the laws of a concave surface.
 
-    A law of your own is a frozen dataclass that derives from this class and gives `at_speed`
+    A user-defined law is a frozen dataclass that derives from this class and gives `at_speed`
     (docs/extending.md). Kernels then read it from a table, cubic between 129 knots, which is made
-    where the law is made and compared with it. Its fields are the parameters of campaigns and the
-    keys of a project's file; ``field(metadata={"unit": "s/m"})`` names the unit of one, SI.
+    with the law and compared with it. Its fields are the parameters of campaigns and the keys of a
+    project's file; ``field(metadata={"unit": "s/m"})`` names the SI unit of one.
 
     Raises
     ------
     TypeError
         If a law is no frozen dataclass, or a field cannot be hashed.
     ValueError
-        If the coefficient is not finite, outside of 0 to 1, falls with speed, has no limit at high
-        speed, or its table is off by more than 0.1 % of `f_max`; if a field `f_max` or `f_min` is
-        not what `at_speed` gives at high speed or at rest.
+        If the coefficient is not finite, is outside of 0 to 1, falls with speed, or has no limit at
+        high speed. If its table is off by more than 0.1 % of `f_max`. If a field `f_max` or `f_min`
+        differs from `at_speed` at high speed or at rest.
 
     Notes
     -----
@@ -128,7 +128,7 @@ class FrictionLaw(abc.ABC):
         return _Scaled(self, float(factor))
 
     def kernel_values(self) -> FrictionValues:
-        """Return what kernels know of the law: its limits, and the table that they read.
+        """Return the limits of the law and the table that kernels read.
 
         Returns
         -------
@@ -140,7 +140,7 @@ class FrictionLaw(abc.ABC):
         TypeError
             If the law is no frozen dataclass, or a field cannot be hashed.
         ValueError
-            As the class does.
+            As for the class.
         """
         name = type(self).__name__
         parameters: Any = getattr(self, "__dataclass_params__", None)
@@ -218,7 +218,7 @@ class CoulombFriction(FrictionLaw):
         return CoulombFriction(factor * self.coefficient)
 
     def kernel_values(self) -> FrictionValues:
-        """Return what kernels know of the law: one coefficient, no table."""
+        """Return the values for kernels: one coefficient, no table."""
         return FrictionValues(self.f_max, 0.0, 0.0)
 
 
@@ -268,7 +268,7 @@ class VelocityFriction(FrictionLaw):
         return VelocityFriction(factor * self.f_max, factor * self.f_min, self.rate)
 
     def kernel_values(self) -> FrictionValues:
-        """Return what kernels know of the law: the constants of Eq. (1), no table."""
+        """Return the values for kernels: the constants of Eq. (1), no table."""
         return FrictionValues(self.f_max, self.f_max - self.f_min, self.rate)
 
 
@@ -291,8 +291,8 @@ class MeasuredFriction(FrictionLaw):
     Notes
     -----
     Isotonic regression by least squares (`scipy.optimize.isotonic_regression`), monotone cubic
-    between the centres of its blocks, level below the first and beyond the last one; then the table
-    of kernels, which is the law: `misfit` counts all of it.
+    between the centres of its blocks, constant below the first and beyond the last one. Kernels
+    read its table, and this is the law: `misfit` counts all of it.
 
     Examples
     --------
@@ -334,7 +334,7 @@ class MeasuredFriction(FrictionLaw):
         return self.kernel_values().at_speed(abs(speed))
 
     def kernel_values(self) -> FrictionValues:
-        """Return what kernels know of the law: the table that is the law."""
+        """Return the values for kernels: the table that is the law."""
         return self._values
 
 
@@ -363,7 +363,7 @@ class _Scaled(FrictionLaw):
 
 @dataclass(frozen=True)
 class _Tabulated(FrictionLaw):
-    """A law known by its table alone, as another process has it where its class is unknown."""
+    """A law given by its table alone, for another process that lacks its class."""
 
     values: FrictionValues
 

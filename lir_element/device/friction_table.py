@@ -20,35 +20,36 @@ if TYPE_CHECKING:
     Law = Callable[[float], float]
 
 LARGEST_ERROR = 1e-3
-"""Of a table, over the friction coefficient at high speed; beyond it a law is refused."""
+"""Largest error of a table, over the friction coefficient at high speed; above it a law is refused.
+"""
 
 KNOTS = (FRICTION_TABLE - 1) // 2
 
 FASTEST = 1e12
 """Speed that counts as high without end [m/s]."""
 
-_NEARLY_FASTEST = 1e9  # m/s, where a law must be at its limit
+_NEARLY_FASTEST = 1e9  # m/s, speed at which a law must have reached its limit
 _AT_LIMIT = 1e-6  # of the coefficient
 _LEVEL = 1e-12  # of the coefficient: a fall in speed within round-off
 _NO_DROP = 1e-9  # of the coefficient: a law that does not depend on speed
 _SPEEDS = np.concatenate([[0.0], np.geomspace(1e-6, 1e6, 1201), np.linspace(1e-3, 2.0, 1000)])
 _BESIDE = 2e-3  # of a knot's distance to the next one: step of the differences that give slopes
-_BETWEEN = np.arange(1, 8) / 8.0  # of the way from knot to knot, where a table is compared
+_BETWEEN = np.arange(1, 8) / 8.0  # where between two knots a table is compared
 _SCALES = tuple(2.0**k for k in range(-3, 5))  # reference speeds tried, over that of half the drop
 _HALVINGS = 60
 
 
 class FrictionValues(NamedTuple):
-    """What kernels know of the friction of a surface.
+    """Values of a friction law for kernels.
 
     Attributes
     ----------
     most, drop : float
-        Friction coefficient at high speed [-], and what it is lower by at rest [-].
+        Friction coefficient at high speed [-], and its reduction at rest [-].
     rate : float
         Its steepest growth over the drop [s/m]; of Eq. (1) the rate parameter.
     table : tuple of float
-        Entries of `PROPS` "friction_table"; empty where Eq. (1) holds.
+        Entries of `PROPS` "friction_table"; empty for Eq. (1).
     error : float
         Largest difference between table and law [-].
     """

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from lir_element.layout import Floats
 
 _FALLS = {"half": (0.02, 0.40), "third": (0.029, 0.22), "two-thirds": (0.0085, 0.25)}
-"""Of 0.7^(rate T) + rest, by what is left at 200 C: rate [1/K] and rest."""
+"""Rate [1/K] and rest of 0.7^(rate T) + rest, by the share of friction left at 200 C."""
 
 _TEMPERATURE = number("C", "[-100, 400)", remedy="give it in C")
 
@@ -89,15 +89,15 @@ class FrictionHeating:
 
     .. math:: k_T = \frac{0.7^{r T} + c}{0.7^{r T_r} + c}
 
-    multiplies the friction coefficient of both concave surfaces, T being the temperature of the
-    plate at the middle of its surface [C]. What friction dissipates enters there while the slider
-    covers that place (docs/theory.md, section 11). The interface is heated, too, by its slip; its
-    temperature is recorded, its friction does not follow it.
+    multiplies the friction coefficient of both concave surfaces; T is the temperature of the plate
+    at the middle of its surface [C]. The dissipated heat enters there while the slider covers that
+    place (docs/theory.md, section 11). Slip heats the interface, too; its temperature is recorded,
+    but its friction does not depend on it.
 
     Parameters
     ----------
     variant : {"half", "third", "two-thirds"}
-        What is left of friction at 200 C: (r, c) = (0.02, 0.40), (0.029, 0.22), (0.0085, 0.25).
+        Share of friction left at 200 C: (r, c) = (0.02, 0.40), (0.029, 0.22), (0.0085, 0.25).
     conductivity : float
         Thermal conductivity of the plates [W/(m K)]. Default: stainless steel.
     diffusivity : float
@@ -107,8 +107,7 @@ class FrictionHeating:
     reference_temperature : float
         Temperature T_r at which the friction coefficients were measured [C].
     thickness : float, optional
-        Thickness of what takes up the heat [m], nothing passing through its back. Default: so
-        thick that heat does not reach it, a half-space.
+        Thickness of the heated plate [m], insulated at its back. Default: a half-space.
     share : float
         Share of the heat that enters the plate [-], above 0 and at most 1; the rest goes to the
         slider's liner. The usual assumption is 1.
@@ -164,7 +163,7 @@ class FrictionHeating:
         return 1.0 / (rest + math.exp(-rate * self.reference_temperature)), rate, rest
 
     def parts(self) -> tuple[Floats, Floats, float]:
-        """Return how the temperature answers heat, as a sum of parts that decay.
+        """Return the response of the temperature to heat, as a sum of parts that decay.
 
         Returns
         -------
@@ -173,7 +172,7 @@ class FrictionHeating:
         gain : ndarray, (HEAT_PARTS,)
             Rise of each part per heat that enters [K m2/J].
         skin : float
-            Rise at once per flux [K m2/W]: what decays faster.
+            Immediate rise per flux [K m2/W], of the parts that decay faster.
         """
         path = math.inf if self.thickness is None else self.thickness**2 / self.diffusivity
         rate, weight, skin = _exponentials(path)
@@ -196,8 +195,8 @@ def response(time: Floats, path: float) -> Floats:
 
 @cache
 def _exponentials(path: float) -> tuple[Floats, Floats, float]:
-    # Rates, weights and the integral of what is left before the shortest time: `response` as a sum
-    # of exponentials whose rates are in proportion, one of them constant. Least squares of the
+    # Rates, weights and the integral of the rest before the shortest time: `response` as a sum of
+    # exponentials whose rates are in proportion, one of them constant. Least squares of the
     # relative error, no weight below zero.
     from scipy.optimize import nnls  # as long to import as numba, for bearings that are heated
 

@@ -12,21 +12,21 @@ from lir_element.argument_checks import require_positive
 def ring_strength(
     *, thickness: float, height: float, arc: float, yield_stress: float, lever: float | None = None
 ) -> float:
-    """Return the radial force at which the foot of a restraining ring yields through.
+    """Return the radial force at which the foot of a restraining ring yields [N].
 
-    The part of the ring that the slider presses is a cantilever on the plate: a section of width
-    `arc` and depth `thickness` under the moment ``P lever`` and the shear force ``P``, with
-    ``M / M_p + (V / V_p)^4 = 1`` for both together. What the ring bears as a hoop is left out.
+    The loaded part of the ring is a cantilever on the plate. Its section of width `arc` and depth
+    `thickness` resists the moment ``P lever`` and the shear force ``P``, with ``M / M_p + (V /
+    V_p)^4 = 1``. The resistance of the ring as a hoop is left out.
 
     Parameters
     ----------
     thickness, height : float
-        Of the ring's wall in radial direction, and its height above the plate [m].
+        Radial thickness of the ring's wall, and its height above the plate [m].
     arc : float
-        Length of the ring along its circumference that bears the force [m]: where the slider
-        touches it, and what spreads to the sides down to its foot.
+        Length of the ring along its circumference that resists the force [m]: the contact length
+        plus its spread down to the foot.
     yield_stress : float
-        Of the steel, or of the weld at the foot if that is less [Pa].
+        Yield stress of the steel, or of the weld at the foot if that is lower [Pa].
     lever : float, optional
         Height of the force above the foot [m]. Default: half of the ring's height.
 

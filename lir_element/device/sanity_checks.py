@@ -1,7 +1,7 @@
-"""Whether the numbers of a bearing can be those of one: what is impossible, and what is strange.
+"""Plausibility of a bearing's numbers: impossible values, and unusual ones.
 
-The bounds are wide: from models at a twentieth of the scale to the bearings of the largest bridges
-nothing is refused, nor even named. What lies beyond was probably given in another unit.
+The bounds are wide: no model at a twentieth of the scale and no bearing of the largest bridges is
+refused, or named. Values beyond them are probably in another unit.
 """
 
 from __future__ import annotations
@@ -28,8 +28,9 @@ LONG_PENDULUM = 16.0
 """Effective radius that is strange [m]: a period of 8 s."""
 
 USUAL_PRESSURE = (0.2e6, 200e6)
-"""Pressure on the slider's area under permanent load that is not strange [Pa]: sliding materials
-carry 5 to 100 MPa, a model at a twentieth of the scale without added mass has 0.5 MPa."""
+"""Usual pressure on the slider's area under permanent load [Pa]: sliding materials carry 5 to 100
+MPa, a model at a twentieth of the scale without added mass has 0.5 MPa.
+"""
 
 LARGEST_PRESSURE = 3e9
 """Pressure that no material carries [Pa]."""
@@ -52,14 +53,14 @@ ones are meant to be none."""
 
 
 def pressure_remedy(pressure: float) -> str:
-    """Return what to look at where a slider's pressure is strange, for the end of a sentence."""
+    """Return the remedy for an unusual slider pressure, for the end of a sentence."""
     if pressure < USUAL_PRESSURE[0]:
         return "look at the units of load and mass (kN for N, t for kg) and at the slider's radius"
     return "look at the units of load and mass (N for kg) and at the slider's radius"
 
 
 def sanity_warnings(bearing: Specification) -> tuple[str, ...]:
-    """Return what is strange about a bearing, a sentence each; nothing for usual ones."""
+    """Return the unusual properties of a bearing, a sentence each; nothing for usual ones."""
     return (
         *_of_geometry(bearing),
         *_of_loads(bearing),

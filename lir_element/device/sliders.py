@@ -60,7 +60,7 @@ def gripping(plan: Floats, share: Floats, sphere: float) -> float:
     """Return the friction of a pressed cap over ``mu N``, if each of its points has mu.
 
     Pressures point to the sphere's centre, so that their sum exceeds the axial force; the lever of
-    friction about that centre is shorter beside the line of sliding. docs/theory.md, Eq. (7.7).
+    friction about that centre is shorter off the line of sliding. docs/theory.md, Eq. (7.7).
 
     Shapes: plan (n, 2), share (n,).
     """
@@ -74,8 +74,8 @@ def interface_height(
 ) -> Floats:
     """Return the height of the interface over the vertex of the bottom cap, on the axis.
 
-    The edges of both sliders are equally high, whatever their caps take: with the caps' heights
-    ``c = R - sqrt(R^2 - a^2)``, ``h_b - c_1 = (h - h_b) - c_2``, so ``h_b = (h + c_1 - c_2) / 2``.
+    The edges of both sliders are equally high: with the caps' heights ``c = R - sqrt(R^2 - a^2)``,
+    ``h_b - c_1 = (h - h_b) - c_2``, so ``h_b = (h + c_1 - c_2) / 2``.
 
     Shapes: radii (..., 2).
     """

@@ -1,4 +1,4 @@
-"""What is specified of a bearing, and what follows from it: geometry, friction, defaults."""
+"""Specified and derived properties of a bearing: geometry, friction, defaults."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _NO_RIMS = "no restraining rims"
 
 _STACK_MODULUS = 20e9  # Pa, slider with its liners: a tenth of steel's
 STACK_RANGE = 0.3, 3.0
-"""Of the default axial stiffness, in which sliders with liners lie (docs/choices_bearing.md)."""
+"""Range of the default axial stiffness for sliders with liners (docs/choices_bearing.md)."""
 
 _DESIGN_PRESSURE = 30e6  # Pa, on the slider's area
 _AXIAL_DAMPING_RATIO = 0.05
@@ -32,11 +32,12 @@ _RIM_DAMPING_RATIO = 0.10
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BackupSupport:
-    r"""A support beside a bearing that carries nothing until the bearing has failed.
+    r"""A support beside a bearing that carries no load until the bearing has failed.
 
-    A bearing with one does not end an analysis by its failure: from then on it carries nothing,
-    and the structure over it comes down by `drop`, on a flat stop that presses and rubs but does
-    not pull. Without a stop (``drop=math.inf``) the neighbours have to carry the load.
+    With a backup support the failure of the bearing does not end the analysis. The failed bearing
+    carries nothing, and the structure over it comes down by `drop`, on a flat stop that presses and
+    rubs but does not pull. Without a stop (``drop=math.inf``) the neighbours have to carry the
+    load.
 
     Parameters
     ----------
@@ -46,9 +47,9 @@ class BackupSupport:
     friction : float
         Friction coefficient of the stop [-], at least 0 and below 1.
     stiffness : float, optional
-        Of the stop, vertical [N/m]. Default: the axial stiffness of the bearing.
+        Vertical stiffness of the stop [N/m]. Default: the axial stiffness of the bearing.
     damping : float, optional
-        Of the stop, vertical [N s/m]. Default: the axial damping of the bearing.
+        Vertical damping of the stop [N s/m]. Default: the axial damping of the bearing.
 
     Raises
     ------
@@ -57,10 +58,10 @@ class BackupSupport:
 
     Notes
     -----
-    The stop is wide enough wherever the structure comes down. What presses on it acts under the top
-    node, whose rotation meets no resistance; the moment that this takes is the bottom node's. Its
-    friction is that of the surfaces (docs/theory.md, section 3): elastic sliding by the bearing's
-    `yield_displacement`, then slip.
+    The stop is assumed to be wide enough for every position of the structure. Its force acts under
+    the top node, whose rotation meets no resistance; the resulting moment acts on the bottom node.
+    Its friction is that of the surfaces (docs/theory.md, section 3): elastic sliding by the
+    bearing's `yield_displacement`, then slip.
 
     Examples
     --------
@@ -267,9 +268,9 @@ class Specification:
     def slip_stability(self) -> float:
         """Stable limit of interface slip without rims [m]: ``L mu_h - mu1 R1 - mu2 R2``.
 
-        Where the motion turns again in the direction of a larger slip, the interface slides before
-        the surfaces do, until the sliders' overlap ends (docs/theory.md, Eq. 2.7). Infinite with
-        the rigid slider.
+        If the motion turns again in the direction of a larger slip, the interface slides before the
+        surfaces do, until the sliders' overlap ends (docs/theory.md, Eq. 2.7). Infinite with the
+        rigid slider.
         """
         return self.effective_radius * (self.interface_friction - self.effective_friction)
 
@@ -285,7 +286,7 @@ class Specification:
 
     @property
     def is_dcfp(self) -> bool:
-        """Whether the slider is rigid, as in a plain DCFP."""
+        """True if the slider is rigid, as in a plain DCFP."""
         return math.isinf(self.interface_friction)
 
     def resolved(self) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""Nodes of an OpenSees model that get bearings: what is asked of them, and their release."""
+"""Base nodes of an OpenSees model that get bearings: their checks, and their release."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from lir_element.device.bearing import LIRBearing
 from lir_element.elevations import SAME_PLACE, by_elevation
 
 BASE_ROTATIONS = ("kept", "free", "fixed")
-"""What becomes of the rotations of base nodes about horizontal axes."""
+"""Treatment of the rotations of base nodes about horizontal axes."""
 
 _NO_MASS = 1e-6  # of all nodal masses, below which the base counts as without mass
 
@@ -42,7 +42,7 @@ def bearings_by_node(
 
 
 def check_base(ops: Any, bases: list[int], metre: float) -> None:
-    """Raise unless the base nodes are there, have six freedoms, and are where they were built."""
+    """Raise unless the base nodes exist, have six freedoms, and are where they were built."""
     present = set(ops.getNodeTags() or ())
     left = leftovers(ops)
     if left:
@@ -95,7 +95,7 @@ def not_alone(ops: Any, bases: list[int], up: int, metre: float) -> list[list[in
 
 
 def check_ties(ops: Any, bases: list[int], groups: list[list[int]]) -> None:
-    """Refuse followers: in a new diaphragm, and on a bearing where what they follow is fixed."""
+    """Refuse followers in a new diaphragm, and those on a bearing that follow a fixed node."""
     fixed = set(ops.getFixedNodes() or ()) - set(bases)
     for tag in set(ops.getConstrainedNodes() or ()).intersection(bases):
         leaders = [int(other) for other in ops.getRetainedNodes(tag)]
@@ -120,7 +120,7 @@ def check_ties(ops: Any, bases: list[int], groups: list[list[int]]) -> None:
 
 
 def doubts(ops: Any, bases: list[int], up: int) -> list[str]:
-    """Say what holds base nodes beside their bearings, and whether the base lacks mass."""
+    """Return supports of base nodes beside their bearings, and whether the base lacks mass."""
     notes = []
     along = {1, 2, 3} - {up + 1}  # nodes of a plane frame hold one of these
     held = {
@@ -164,7 +164,7 @@ def release(
 
 
 def leftovers(ops: Any) -> str:
-    """Look for constraints and elements whose nodes are gone.
+    """Return constraints and elements whose nodes are gone.
 
     ``ops.remove('node', tag)`` leaves the node's supports, constraints and elements in the model.
     The next analysis then ends the process, mostly without a word.

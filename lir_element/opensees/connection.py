@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _LOOPBACK = "127.0.0.1"
 _BACKLOG = 16
 _WAIT = 5.0
-"""How long a connection may take to show up [s]; it is there when the element was added."""
+"""Longest wait for a connection [s]; it exists as soon as the element is added."""
 
 
 def add_host_element(ops: Any, tag: int, placement: BearingTransform) -> socket.socket:
@@ -136,7 +136,7 @@ def calls_uninterrupted() -> Generator[None]:
 
 
 def restart_reads(*numbers: int, restart: bool | None = None) -> None:
-    """Let reads go on after signals that Python handles, where OpenSees cannot be kept from them.
+    """Restart reads after signals that Python handles, if OpenSees cannot be kept from them.
 
     `restart` switches that for all signals from now on; `numbers` were given a handler anew.
     """

@@ -1,4 +1,4 @@
-"""The memory of a bearing that stands in a foreign model, and what Python asks of it."""
+"""Memory of a bearing in a foreign model, and its queries from Python."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ class ElementMemory:
         self._commit(self.address)
 
     def restart(self) -> None:
-        """Bring the bearing back to its start: undeformed and unloaded."""
+        """Reset the bearing to its undeformed, unloaded start."""
         if self.block["commits"][0]:
             _restart()(self.address)
 
@@ -127,7 +127,7 @@ class ElementMemory:
         return np.asarray(matrix @ given)
 
     def told(self) -> str:
-        """Return what the last trial has to tell; empty if nothing."""
+        """Return the message of the last trial; empty if there is none."""
         return self.messages[int(self._telling[0])] if self._telling[0] else ""
 
     def outcome(self) -> tuple[int, bool, float]:
@@ -137,7 +137,7 @@ class ElementMemory:
         return refused, unfinished, self.committed_time
 
     def start_recording(self, every: int) -> None:
-        """Record every so many commits from now on, forgetting what was recorded; 0: none."""
+        """Record every `every`-th commit from now on, and drop earlier records; 0: none."""
         self.block["record_every"] = every
         self.block["record_left"] = 1
         self.block["record_count"] = 0

@@ -36,7 +36,7 @@ _AXES = {"y": 1, "z": 2}
 
 
 class IsolationWarning(UserWarning):
-    """What should be known of bearings that were put under a model.
+    """Warning: bearings under a model need attention.
 
     Examples
     --------
@@ -80,7 +80,7 @@ class Isolation:
     tangent : str
         Tangent of the bearings, "consistent" or "symmetric".
     notes : tuple of str
-        What should be known; each was a warning, too.
+        Warnings about the model.
 
     Examples
     --------
@@ -129,7 +129,7 @@ class Isolation:
         return "\n".join([*lines, *self.notes])
 
 
-@signals_held()  # Ctrl-C in between would leave half of it
+@signals_held()  # an interruption would leave half of it
 def isolate(
     base_nodes: Sequence[int],
     bearing: LIRBearing | Mapping[int, LIRBearing],
@@ -145,7 +145,7 @@ def isolate(
     force_unit: float = 1.0,
     tangent: Tangent = "consistent",
 ) -> Isolation:
-    """Put bearings under the current OpenSeesPy model, which stands on supports.
+    """Put bearings under the current OpenSeesPy model, at its supports.
 
     Each base node gets a fixed node `bearing.height` below it and a bearing between both. Its own
     supports are released: the translations and the rotation about the vertical.
@@ -153,41 +153,41 @@ def isolate(
     Parameters
     ----------
     base_nodes : sequence of int
-        Tags of the nodes that shall stand on bearings.
+        Tags of the nodes that get bearings.
     bearing : LIRBearing or mapping
         One bearing for all base nodes, or one by tag.
     level : {"pendulum", "contact"}
         Level of fidelity.
     route : {"auto", "fast", "portable"}
-        As for `bearing_element`.
+        Fidelity level, as for `bearing_element`.
     vertical : {"z", "y"}
         Axis of the model that points up.
     base_rotations : {"kept", "free", "fixed"}
-        Rotations of the base nodes about horizontal axes: held where the model holds them (as
-        stiff base beams would), free (of a model that has base beams), or held.
+        Rotations of the base nodes about horizontal axes: held if the model holds them (as stiff
+        base beams would), free (of a model that has base beams), or held.
     base_diaphragm : bool
-        Whether base nodes at one elevation move in plan as one rigid body, as on a base slab.
+        True if base nodes at one elevation move in plan as one rigid body, as on a base slab.
     tags, ground_tags : sequence of int, optional
         Tags of the new elements and of the fixed nodes, one for each base node; free ones above
         the largest are taken if None.
     length_unit, force_unit : float
         The model's units [m], [N]: 0.001 and 1000 for mm and kN. Time is in seconds.
     tangent : {"consistent", "symmetric"}
-        As for `bearing_element`: the second one lets `system` be one for symmetric matrices.
+        As for `bearing_element`: True allows a `system` for symmetric matrices.
 
     Returns
     -------
     Isolation
-        Tags, nodes, what was released; `print` it for a short description.
+        Tags, nodes and released supports; `print` it for a short description.
 
     Raises
     ------
     ValueError
-        If something is not what it must be; the model is as it was.
+        If an input or the model does not suit; the model is unchanged.
     TypeError
         If a bearing is not a LIRBearing, or a tag or unit no number.
     RuntimeError
-        If the route asked for is not possible; the model is as it was.
+        If the requested route is not possible; the model is unchanged.
 
     Warns
     -----
@@ -199,15 +199,15 @@ def isolate(
     For models of three dimensions with six degrees of freedom at each base node, linear or not.
     In the plane (ndm 2, ndf 3) put the bearings by `bearing_element`, one by one.
 
-    The superstructure must leave the base free to rise: a pendulum goes up as it moves, by
-    ``U**2 / (2 L)``. What resists that, an old vertical spring under a column, a tie to the
-    ground or a stiff wall on fixed supports beside the bearings, draws the load to itself or from
-    its neighbours. And something has to hold the rotations of the upper plates about horizontal
-    axes: supports (`base_rotations`), base beams or continuous columns. A bearing does not.
+    The superstructure must leave the base free to rise: a pendulum rises as it moves, by ``U**2 /
+    (2 L)``. A part that resists the rise (an old vertical spring under a column, a tie to the
+    ground, a stiff wall on fixed supports) changes the load of the bearing and of its neighbours.
+    Supports (`base_rotations`), base beams or continuous columns must hold the rotations of the
+    upper plates about horizontal axes. A bearing does not.
 
-    Call it where the base nodes are where they were built, before the gravity analysis or after
-    it; find equilibrium then (one static step at least), for now the bearings carry the loads.
-    ``rayleigh`` leaves the bearings alone, but its part by mass, and modal damping, also damp the
+    Call it while the base nodes are at their initial places, before the gravity analysis or after
+    it. Then find equilibrium (one static step at least), because the bearings now carry the loads.
+    ``rayleigh`` does not act on the bearings. Its part by mass, and modal damping, also damp the
     motion of the whole building on them.
 
     Examples
@@ -272,7 +272,7 @@ def isolate(
             ops.remove("node", node)
         raise
     released, held = {}, {}
-    ops.model("basic", "-ndm", 3, "-ndf", 6)  # what fix counts by
+    ops.model("basic", "-ndm", 3, "-ndf", 6)  # `fix` counts freedoms by these
     for tag in bases:
         ops.fix(grounds[tag], 1, 1, 1, 1, 1, 1)
         released[tag], held[tag] = release(ops, tag, up, base_rotations)

@@ -27,9 +27,8 @@ def opensees() -> Any:
 
     Notes
     -----
-    The build for Python 3.11 (3.7.1) does not find the BLAS library that it brings along unless
-    that is loaded before; this is done here, so that call this before a script's own
-    ``import openseespy.opensees``.
+    The build for Python 3.11 (3.7.1) does not find its own BLAS library unless that is loaded
+    before. This function loads it, so call it before your own ``import openseespy.opensees``.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Where a bearing stands in an OpenSees model: checks at the door, and the map to its own axes."""
+"""Place of a bearing in an OpenSees model: checks of the input, and the map to its own axes."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class PlacementWarning(UserWarning):
 
 
 class BearingTransform(NamedTuple):
-    """How the model's degrees of freedom lead to the bearing's own axes."""
+    """Map from the model's degrees of freedom to the bearing's own axes."""
 
     nodes: tuple[int, int]
     dofs: int
@@ -60,16 +60,16 @@ class BearingTransform(NamedTuple):
 
 
 class PlacedBearing(NamedTuple):
-    """A bearing in a model: what each coupling is made from."""
+    """A bearing in a model: input of each coupling."""
 
     tag: int
-    """Of its element."""
+    """Tag of its element."""
     device: LIRBearing
     level: str
     """Level of fidelity."""
     placement: BearingTransform
     symmetric: bool = False
-    """Whether its tangent is made symmetric."""
+    """True if its tangent is made symmetric."""
 
     def printed(self, route: str) -> dict[str, Any]:
         """Return the element's line in a printed model."""
@@ -87,7 +87,7 @@ def place(
     length_unit: float,
     force_unit: float,
 ) -> BearingTransform:
-    """Check where a bearing is to stand, and return its map."""
+    """Check the place of a bearing, and return its map."""
     metre = require_positive("length_unit", length_unit, "m")
     newton = require_positive("force_unit", force_unit, "N")
     i, j = _two_tags(i, j)
@@ -120,14 +120,14 @@ def place(
 
 
 def _hangs(ops: Any, i: int, j: int, ndm: int) -> bool:
-    # Whether supports hold all displacements of node j and none of node i.
+    # True if supports hold all displacements of node j and none of node i.
     moves = set(range(1, ndm + 1))
     lower, upper = (moves.intersection(ops.getFixedDOFs(tag) or ()) for tag in (i, j))
     return not lower and upper == moves
 
 
 def _stands_on_y(ops: Any, node: int) -> bool:
-    # Whether the supports, this node among them, share the model's lowest y, but not one z.
+    # True if the supports, this node among them, share the model's lowest y, but not one z.
     places = {tag: ops.nodeCoord(tag) for tag in ops.getNodeTags()}
     points = np.array([place for place in places.values() if len(place) == 3])
     ground = np.array([places[tag] for tag in {node, *ops.getFixedNodes()}])
@@ -165,7 +165,7 @@ def bearing_axes(orient: Sequence[float] | None, ndm: int) -> Floats:
 
 
 def _numbers(orient: Sequence[float]) -> Floats:
-    # Whatever is no list of numbers becomes an empty one, which the caller refuses.
+    # Anything but a list of numbers becomes an empty one, which the caller refuses.
     try:
         return np.asarray(orient, dtype=np.float64)
     except (TypeError, ValueError):
@@ -173,8 +173,8 @@ def _numbers(orient: Sequence[float]) -> Floats:
 
 
 def _any_side(up: Floats, ndm: int) -> Floats:
-    # Global x, or global z where the bearing's axis is nearly that: its x must be normal to it.
-    # In two dimensions there is one direction only.
+    # Global x, or global z if the bearing's axis is nearly x: its x must be normal to it. In two
+    # dimensions there is one direction only.
     if ndm == 2:
         return np.array([up[1], -up[0], 0.0])
     length = float(np.linalg.norm(up))

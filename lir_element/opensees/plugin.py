@@ -1,4 +1,4 @@
-"""Bearings in the current OpenSeesPy model: adding them, and asking what goes on inside."""
+"""Bearings in the current OpenSeesPy model: their elements and their responses."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class _Session:
 
     @signals_held()
     def sweep(self) -> None:
-        """Release what belongs to bearings that OpenSees has deleted."""
+        """Release the memory of bearings that OpenSees has deleted."""
         present = element_tags()
         for tag, bearing in list(self.bearings.items()):
             if tag not in present or not bearing.alive:
@@ -132,8 +132,8 @@ def bearing_element(
         of its x axis. By default the axis points along global Z (in two dimensions Y) and x
         along X.
     route : {"auto", "fast", "portable"}
-        "fast" determines states in this process, "portable" in another one that OpenSees talks to.
-        "auto" is "fast" where this build of OpenSees allows it.
+        "fast" determines states in this process, "portable" in another process that OpenSees calls.
+        "auto" is "fast" if this build of OpenSees allows it.
     length_unit, force_unit : float
         The model's units [m], [N]: 0.001 and 1000 for mm and kN. Time is in seconds.
     tangent : {"consistent", "symmetric"}
@@ -148,9 +148,9 @@ def bearing_element(
     Raises
     ------
     ValueError
-        If an option or a node is not what it must be; the model is as it was.
+        If an option or a node does not suit; the model is unchanged.
     RuntimeError
-        If the route asked for is not possible.
+        If the requested route is not possible.
 
     Notes
     -----
@@ -204,13 +204,13 @@ def bearing_response(tag: int, name: str) -> Any:
     Parameters
     ----------
     tag : int
-        Of the bearing's element.
+        Tag of the bearing's element.
     name : str
         One of `Element.responses()`, in bearing axes and SI units; or a name of OpenSees' own
-        bearings, in the model's units, as `eleResponse` and recorders hand it over: "globalForce"
-        in the model's axes, "localForce", "basicForce", "localDisplacement", "deformation" in
-        local axes (x along the bearing's axis, y its x axis, z its y axis); "basicForce" is that on
-        node j, "deformation" its motion relative to node i; or "route".
+        bearings, in the model's units, as for `eleResponse` and recorders. "globalForce" is in the
+        model's axes; "localForce", "basicForce", "localDisplacement" and "deformation" are in local
+        axes (x along the bearing's axis, y its x axis, z its y axis). "basicForce" is the force on
+        node j, "deformation" its motion relative to node i. Or "route".
 
     Returns
     -------
@@ -222,7 +222,7 @@ def bearing_response(tag: int, name: str) -> Any:
     ValueError
         If there is no such bearing in the model.
     KeyError
-        If the response is not known; the message lists all.
+        If there is no such response; the message lists all.
 
     Examples
     --------
@@ -275,7 +275,7 @@ def bearing_tags() -> tuple[int, ...]:
 
 
 def bearing_at(tag: int) -> InProcessElement | Remote:
-    """Return what stands behind a bearing's element."""
+    """Return the object behind a bearing's element."""
     found = _SESSION.bearings.get(tag)
     if found is None or tag not in element_tags() or not found.alive:
         msg = f"element {tag} is not a bearing of the current model: it has {bearing_tags()}"

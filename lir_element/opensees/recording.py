@@ -1,4 +1,4 @@
-"""Histories of bearings in an OpenSees model, as the Dataset that all analyses hand back."""
+"""Histories of bearings in an OpenSees model, as the Dataset that all analyses return."""
 
 from __future__ import annotations
 
@@ -52,18 +52,17 @@ class BearingRecording:
         raise TypeError(msg)
 
     def dataset(self) -> xr.Dataset:
-        """Return what was recorded so far.
+        """Return the recorded histories so far.
 
         Returns
         -------
         xarray.Dataset
-            Dimensions time (the model's), bearing (its tag), axis, surface, end, and body where
-            there are sliders with contact points; the variables of the bearings as
-            `frames.time_history` names them (docs/results.md), in each bearing's own axes and SI
-            units. `base_shear` is there if the axes of all bearings agree. The attributes hold
-            status, message, versions and options. The status is "ok" up to the last step that
-            ended: where `analyze` gave one up, it is "newton_failed" or why a bearing had no
-            state, until another one ends.
+            Dimensions: time (the model's), bearing (its tag), axis, surface, end, and body if there
+            are sliders with contact points. The variables have the names of `frames.time_history`
+            (docs/results.md), in each bearing's own axes and SI units. `base_shear` is included if
+            the axes of all bearings agree. The attributes hold status, message, versions and
+            options. The status is "ok" up to the last completed step. If `analyze` gave a step up,
+            it is "newton_failed" or the failure of a bearing, until another step is completed.
 
         Raises
         ------
@@ -137,7 +136,7 @@ class BearingRecording:
         }
 
     def _end(self) -> tuple[RunStatus, str]:
-        # How the analysis stands: whether a step was begun that never ended.
+        # State of the analysis: whether a step was begun that never ended.
         outcomes = [bearing.outcome() for bearing in self._bearings]
         for tag, (code, _, time_) in zip(self.tags, outcomes, strict=True):
             if code:
@@ -158,8 +157,8 @@ def record_bearings(*tags: int, every: int = 1) -> BearingRecording:
     Parameters
     ----------
     *tags : int
-        Of their elements; all bearings of the model if none is named. A recording that a bearing
-        was in before ends.
+        Tags of their elements; all bearings of the model if none is named. An earlier recording of
+        a bearing ends.
     every : int
         Record every so many committed steps.
 

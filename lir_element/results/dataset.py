@@ -47,7 +47,7 @@ DEVICE = (
     "friction_drop",
     "friction_rate",
 )
-"""Properties of the bearings that a Dataset keeps, whatever the run left out."""
+"""Properties of the bearings that every Dataset keeps."""
 
 TABLE = ("friction_table",)
 PRESSURE = ("pressure_rate", "pressure_load")
@@ -79,7 +79,7 @@ def bearing_variables(
     def of(form: Callable[[], Floats], *shape: int) -> Any:
         return deferred((*states.shape, *shape), form) if kept else form()
 
-    def entering(field: Floats) -> Any:  # into what is formed later: not to be written to
+    def entering(field: Floats) -> Any:  # into a deferred variable: read-only
         return of(field.copy, *field.shape[2:])
 
     u, f = states["displacement"], states["force"]
@@ -152,7 +152,7 @@ def bearing_variables(
 
 
 def _works(step: str, states: Records, own: Callable[[Floats], Floats]) -> dict[str, xr.Variable]:
-    # What friction, rims, contacts and sliders took up.
+    # Energy dissipated by friction, rims, contacts and sliders.
     each = (step, "bearing")
     surface = (*each, "surface")
     return {
@@ -227,7 +227,7 @@ def rims_give_way(props: Records) -> bool:
 
 
 def device_variables(records: Records) -> dict[str, xr.Variable]:
-    """Return what a Dataset keeps of the bearings' properties `records` (n_bearings,)."""
+    """Return the bearings' properties `records` (n_bearings,) that a Dataset keeps."""
     variables = {}
     names = [*DEVICE]
     names += TABLE if records["friction_table"].any() else ()
@@ -266,7 +266,7 @@ def report(
     """Write the outcome into the attributes; warn or raise on failure, warn of a given detail."""
     note_end(data, status, time, where, detail)
     data.attrs["lir_dcfp_version"] = package_version()
-    if status is RunStatus.INTERRUPTED:  # whatever `on_failure`: loops and scripts must stop
+    if status is RunStatus.INTERRUPTED:  # for any `on_failure`: loops and scripts must stop
         raise AnalysisInterrupted(time, data)
     if "failed_at" in data.attrs and on_failure == "raise":
         raise AnalysisError(status, time, where, detail, data)
@@ -278,7 +278,7 @@ def report(
 
 
 def note_end(data: xr.Dataset, status: RunStatus, time: float, where: str, detail: str) -> None:
-    """Write into the attributes how a run ended: status, message, and where it failed if it did."""
+    """Write the end of a run into the attributes: status, message, and the place of a failure."""
     message = "completed" + (f": {detail}" if detail else "")
     if status is RunStatus.INTERRUPTED:
         message = f"interrupted at t = {time:.6g} s"

@@ -1,13 +1,13 @@
-"""Variables of a Dataset that are formed when they are first looked at; arrays of other kinds.
+"""Variables of a Dataset that are formed on first use; arrays of other kinds.
 
-Most of what a time history could tell is never asked for: forming all of it would take as long as
-the analysis. A deferred variable is formed once, when its values are needed, and is an array like
-any other from then on: parts of it that were taken before are views of it where those of an array
-are, and what is written to them stays; copies and pickles hold the values.
+Most variables of a time history are never used, and forming all would take as long as the analysis.
+A deferred variable is formed once, when its values are needed. From then on it is an array like any
+other: earlier parts of it are views of it if those of an array are, and written values stay; copies
+and pickles hold the values.
 
-Kinds of arrays that xarray knows, dask's and pint's, stay unimported while nobody uses them. Before
-it says that an array is none of theirs, xarray imports both: a fifth of the time of a start. Where
-a package is not imported, there are no arrays of it, so the answer is known without.
+xarray imports dask and pint before it recognises an array of another kind: a fifth of the time of a
+start. If a package is not imported, there are no arrays of it, so the answer is clear without the
+import.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ def deferred(shape: tuple[int, ...], form: Callable[[], Floats]) -> Any:
 
 
 class _Deferred(indexing.ExplicitlyIndexedNDArrayMixin):  # type: ignore[misc]  # see `indexing`
-    # The array, or a part of one, as xarray asks for arrays that are elsewhere. A part is formed
-    # with the whole, by the indexing that numpy would do: a view of it, or a copy.
+    # The array, or a part of one, as xarray expects arrays that are elsewhere. A part is formed
+    # with the whole, by numpy's indexing: a view of it, or a copy.
 
     def __init__(self, shape: tuple[int, ...], form: Callable[[], Floats]) -> None:
         self._shape, self._form = shape, form
@@ -89,7 +89,7 @@ class _Deferred(indexing.ExplicitlyIndexedNDArrayMixin):  # type: ignore[misc]  
 
 
 PACKAGES = {"dask": "dask.array", "pint": "pint"}
-"""Those with an array, and the module without which there is none."""
+"""Packages with an array type, and the module without which there is none."""
 
 
 class _NotImported:
@@ -116,7 +116,7 @@ class _NotImported:
 
 
 def spare() -> None:
-    """Have xarray ask first whether a package is imported, where it keeps its record as known."""
+    """Make xarray check first if a package is imported, if its record is laid out as expected."""
     kinds: Any = getattr(pycompat, "_cached_duck_array_modules", None)
     if isinstance(kinds, dict) and hasattr(pycompat, "DuckArrayModule"):
         for package in PACKAGES:

@@ -1,4 +1,4 @@
-"""Variables of what only some bearings have: temperatures, rims that yield, backups."""
+"""Variables of some bearings only: temperatures, rims that yield, backups."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def optional_variables(step: str, states: Records, props: Records) -> dict[str, 
 
 
 def interface_eccentricity(props: Records, states: Records) -> Floats:
-    """Return how far the resultant in the plane of the interface lies off the sliders' axes.
+    """Return the distance of the interface's resultant from the sliders' axes [m].
 
     Moment equilibrium of the bottom slider about the centre of its sphere: the normal force of the
     plate passes through that centre, friction and rim act at the vertex, the interface at the
@@ -66,7 +66,7 @@ def interface_eccentricity(props: Records, states: Records) -> Floats:
 
         e_b = ((R_1 - h_b) F_h - R_1 F_1 + R_1 P_1) / N,      e_t = e_b - s.
 
-    Where sliders are bodies with discs as faces it is the centre of pressure between them.
+    If sliders are bodies with discs as faces, it is the centre of pressure between them.
 
     Shapes: props (n_bearings,), states (n_steps, n_bearings), result (n_steps, n_bearings).
     """

@@ -60,19 +60,19 @@ def cyclic_test(
     Parameters
     ----------
     bearing : LIRBearing
-        The device. The test ends by its failure: a backup stands beside it in a structure.
+        The device. The test ends by its failure: a backup belongs to a structure.
     displacement : array_like, shape (n,) or (n, 2)
-        Path of the top plate, x or (x, y) [m], from the centre to the first point and on; between
-        the points it is straight, in increments below a fifth of the yield displacement.
+        Path of the top plate, x or (x, y) [m], from the centre to the first point and on. It is
+        straight between the points, in increments below a fifth of the yield displacement.
     axial_load : float or array_like, shape (n,)
         Compression held by the vertical actuator [N], linear between the points.
     velocity : float
         Speed along the path [m/s].
     level : {"pendulum", "contact", "rigid_body"}
-        Level of fidelity; "rigid_body" drives the top plate, which weighs what it carries.
+        Level of fidelity; "rigid_body" drives the top plate, whose weight is the axial load.
     on_failure : {"warn", "raise"}
-        Whether a failure hands back what was computed with a warning, or raises AnalysisError
-        (whose `data` holds it).
+        "warn": a failure returns the results so far with a warning; "raise": it raises
+        AnalysisError (whose `data` holds them).
 
     Returns
     -------
@@ -84,12 +84,12 @@ def cyclic_test(
     ValueError
         If an input is out of bounds.
     lir_element.AnalysisInterrupted
-        After Ctrl-C, a KeyboardInterrupt whose `data` holds what was computed.
+        After Ctrl-C; the `data` of the exception holds the results so far.
 
     Warns
     -----
     DesignWarning
-        If the axial load is next to nothing beside the design load: kilonewtons, probably.
+        If the axial load is far below the design load: probably in kilonewtons.
 
     Examples
     --------
@@ -208,9 +208,9 @@ def drive_path(
     loads: Floats,
     velocity: float,
 ) -> tuple[Records, Records, int, RunStatus, float, Records]:
-    """Take one bearing in equilibrium through a path of its top plate, as rigid bodies.
+    """Drive one bearing in equilibrium along a path of its top plate, as rigid bodies.
 
-    The rig's plate weighs what it carries: axial load over standard gravity.
+    The mass of the rig's plate is the axial load over standard gravity.
 
     Shapes: path (n, 2), loads (n,).
     """

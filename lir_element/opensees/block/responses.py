@@ -1,4 +1,4 @@
-"""Responses of a bearing by the names that OpenSees' own bearings know, as maps of its DOFs.
+"""Responses of a bearing under the names of OpenSees' own bearings, as maps of its DOFs.
 
 Local axes are those of OpenSees' bearings: x along the bearing's axis from node i to node j (the
 bearing's z), y along the bearing's x, z along its y. Entries are in the model's units.
@@ -44,7 +44,7 @@ _NAMES = {
     ),
 }
 GLOBAL_NAMES = ("globalForce", "globalForces", "forces")
-"""The force in global axes; OpenSees knows it as "force", too."""
+"""Names of the force in global axes; OpenSees also calls it "force"."""
 
 
 class HostResponse(NamedTuple):

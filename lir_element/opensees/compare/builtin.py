@@ -1,7 +1,7 @@
 """The plain bearing as elements of OpenSees, for comparison and for reuse.
 
 `builtin_commands` returns the commands for one of them, `builtin_element` runs these in the model
-at hand; what all of them share is in `builtin_mapping`, and each one's own in `builtin_writing`.
+at hand; their common part is in `builtin_mapping`, the part of each in `builtin_writing`.
 
 Sources: the OpenSees documentation and the public sources of these elements; for the triple bearing
 as a series of three Fenz and Constantinou (2008), Earthq. Eng. Struct. Dyn. 37, 163, and Dao et al.
@@ -72,9 +72,9 @@ def builtin_commands(
         First of ten tags for the materials and friction models made; 1 000 000 + 10 times the
         element's tag if None.
     lift : bool
-        Whether a lateral displacement lifts what the bearing carries ("singleFPBearing" only).
+        True if a lateral displacement lifts the load ("singleFPBearing" only).
     apart : bool
-        Whether the nodes are apart along z; False: they coincide.
+        True if the nodes are apart along z; False if they coincide.
 
     Returns
     -------
@@ -99,26 +99,26 @@ def builtin_commands(
       temperature switched off. Its law for speed has ``f_min = f_max / 2`` built in, and takes the
       speed of the first iteration of a step.
     - ``"TripleFrictionPendulum"``: ``W (m + s)``. Three pendulums in series, here of one friction,
-      whose lengths add up to L, so that all slide at once and the inner slider is not seen: in
-      the element's numbering ``L2 + L3 = L``, ``L2 : L3 = R1 : R2``, ``L1 = 0.2 min(L2, L3)``.
-      Its friction contains the elastic part: it is given ``m + U_y / L``. Rims are met at the
-      bearing's capacity, their stiffness is its own, ``3 W mu / U_y``. Constant friction. Moments
-      N U half on each node; tilts do not enter. Give it displacements of 10 mm a step at most:
-      larger ones have been seen to end in a force thousands of times too large, without a message.
-      So has uplift of 2 g, in kilometres (validation/measurements/opensees_hard_cases.py).
-    - ``"TFP"``: both surfaces slide together, the inner slider is locked by its friction, so that
-      unlike surfaces keep their own, ``mu R / (R - h/2)``. Constant friction, no dashpot, no
-      moments. It adds up increments of force without iteration: the step must be far below that
-      of the others, and a change of the axial force alone changes nothing. Its rims end in NaN
-      (openseespy 3.7.1) and are not offered. After the load it reads its yield displacement and
-      then the stiffness K, whatever is printed elsewhere.
+      whose lengths add up to L, so that all slide at once and the inner slider has no effect: in
+      the element's numbering ``L2 + L3 = L``, ``L2 : L3 = R1 : R2``, ``L1 = 0.2 min(L2, L3)``. Its
+      friction contains the elastic part: ``m + U_y / L``. Rim contact is at the bearing's capacity,
+      with the element's own stiffness, ``3 W mu / U_y``. Constant friction. Moments N U half on
+      each node; tilts do not enter. Use displacements of 10 mm a step at most. Larger ones have
+      ended in a force thousands of times too large, without a message; so has uplift of 2 g, in
+      kilometres (validation/measurements/opensees_hard_cases.py).
+    - ``"TFP"``: both surfaces slide together. Friction locks the inner slider, so that different
+      surfaces keep their own ``mu R / (R - h/2)``. Constant friction, no dashpot, no moments. It
+      adds up increments of force without iteration. The step must be far below that of the others,
+      and a change of the axial force alone changes nothing. Its rims end in NaN (openseespy 3.7.1)
+      and are not offered. After the load it reads its yield displacement and then the stiffness K,
+      contrary to other descriptions.
 
     Before sliding all have the stiffness of `BuiltinValues.initial_stiffness` under `axial_load`,
-    whereas the bearing keeps its yield displacement whatever load and speed. Torsion is resisted
-    by the torque under `axial_load`, and by none in "TFP". Rayleigh damping leaves
-    "singleFPBearing" and "FPBearingPTV" alone. It acts on the other two, with their stiffness
-    before sliding: half the displacement in one case. It acts on elements that exist, so call
-    `rayleigh` before these are made, or give it to the members by a region. How far all agree:
+    whereas the bearing keeps its yield displacement at any load and speed. Torsion is resisted by
+    the torque under `axial_load`, and by none in "TFP". Rayleigh damping does not act on
+    "singleFPBearing" and "FPBearingPTV". It acts on the other two, with their stiffness before
+    sliding: half the displacement in one case. It acts on existing elements, so call `rayleigh`
+    before these are made, or apply it to the members by a region. Agreement of all:
     docs/validation/opensees_pendulum.md.
 
     Examples
@@ -164,12 +164,12 @@ def builtin_element(
     first_tag: int | None = None,
     lift: bool = False,
 ) -> tuple[Command, ...]:
-    """Put a plain bearing into the OpenSees model at hand, as an element of OpenSees.
+    """Add a plain bearing to the current OpenSees model, as an element of OpenSees.
 
     Parameters
     ----------
     kind : {"singleFPBearing", "FPBearingPTV", "TripleFrictionPendulum", "TFP"}
-        The element: `builtin_commands` says what each can do, and how the bearing is mapped.
+        `builtin_commands` describes the elements and the mapping of the bearing.
     tag : int
         Tag of the element.
     i, j : int
@@ -182,7 +182,7 @@ def builtin_element(
     first_tag : int, optional
         First of ten tags for materials and friction models.
     lift : bool
-        Whether a lateral displacement lifts what the bearing carries ("singleFPBearing" only).
+        True if a lateral displacement lifts the load ("singleFPBearing" only).
 
     Returns
     -------
@@ -232,7 +232,7 @@ def builtin_element(
 
 
 def _check_nodes(ops: Any, tag: int, i: int, j: int, bearing: LIRBearing) -> bool:
-    # Whether the nodes are apart; OpenSees itself would crash, or make an element without force.
+    # True if the nodes are apart; OpenSees itself would crash, or make an element without force.
     known = set(ops.getNodeTags() or ())
     for node in (i, j):
         if node not in known:

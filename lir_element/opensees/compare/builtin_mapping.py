@@ -1,4 +1,4 @@
-"""What a plain bearing amounts to over its whole height, for elements of one displacement.
+"""Equivalent properties of a plain bearing over its whole height, for elements of OpenSees.
 
 Source: moment equilibrium of the rigid slider (docs/theory.md, section 2).
 """
@@ -25,7 +25,7 @@ _SAME = 1e-9  # relative difference up to which two rates count as equal
 
 @dataclass(frozen=True, kw_only=True)
 class BuiltinValues:
-    """What a plain bearing amounts to over its whole height, for elements of one displacement.
+    """Equivalent properties of a plain bearing, for elements with one displacement.
 
     With ``L = R1 + R2 - h``, U the displacement over the bearing and W the axial load:
 
@@ -75,7 +75,7 @@ class BuiltinValues:
 
 
 def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
-    """Return what a plain bearing amounts to over its whole height.
+    """Return the equivalent properties of a plain bearing over its whole height.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def builtin_values(bearing: LIRBearing, axial_load: float) -> BuiltinValues:
     Raises
     ------
     ValueError
-        If the slider is in two pieces, or friction is of another law than those two, cannot be
+        If the slider is in two pieces. If friction follows a law other than these two, cannot be
         written as one law, or depends on pressure or temperature.
 
     Examples
@@ -167,7 +167,7 @@ def laws_of_opensees(bearing: LIRBearing) -> list[CoulombFriction | VelocityFric
 
 
 def _rate(bearing: LIRBearing) -> float:
-    # Of one law for both surfaces, over the velocity of the bearing; 0 where speed has no part.
+    # Rate of one law for both surfaces, over the velocity of the bearing; 0 if speed has no effect.
     laws, radii = laws_of_opensees(bearing), bearing.radii
     rates = [
         law.rate * r / bearing.effective_radius

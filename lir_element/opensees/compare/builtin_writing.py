@@ -1,4 +1,4 @@
-"""Each of OpenSees' elements as its command, from what a plain bearing amounts to."""
+"""Commands of OpenSees' elements, from the equivalent properties of a plain bearing."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ _ITERATIONS = 50  # of the shear force inside an element
 _FORCE_TOLERANCE = 1e-9  # of these, over the axial load
 _INNER_SHARE = 0.2  # of the smaller outer length: the inner slider of a triple bearing
 _LOCKED = 10.0  # friction coefficient that holds an inner slider
-_FAR = 2.0  # of the effective radius: where no rim is met
-_TENSION = 1e-6  # of the axial stiffness: what a lifted TripleFrictionPendulum keeps
-_LEAST_LOAD = 1e-3  # of the axial load: what it keeps for its lateral force
+_FAR = 2.0  # times the effective radius: no rim is reached
+_TENSION = 1e-6  # share of the axial stiffness that a lifted TripleFrictionPendulum keeps
+_LEAST_LOAD = 1e-3  # share of the axial load that it keeps for its lateral force
 _SAME_SUM = 1e-5  # of an increment: how far its three parts may miss it
 
 
 def refuse(kind: str, bearing: LIRBearing, values: BuiltinValues, *, lift: bool) -> None:
-    """Raise a ValueError where an element cannot represent a bearing."""
+    """Raise a ValueError if an element cannot represent a bearing."""
     capacity, varies = bearing.lateral_capacity, values.friction_max > values.friction_min
     if kind not in _WITH_RIMS and math.isfinite(capacity):
         msg = (
@@ -69,7 +69,7 @@ def refuse(kind: str, bearing: LIRBearing, values: BuiltinValues, *, lift: bool)
 
 
 def materials(values: BuiltinValues, start: int) -> tuple[Command, ...]:
-    """Return vertical, torsion, rocking; torsion yields where the contact would turn."""
+    """Return vertical, torsion and rocking; torsion yields at the torque of the sliding contact."""
     torsion: Command = ("uniaxialMaterial", "Elastic", start + 1, 0.0)
     if values.torque > 0.0:
         stiffness = values.torque / values.torsion_yield

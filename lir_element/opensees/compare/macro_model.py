@@ -42,12 +42,12 @@ _TOLERANCE = 1e-10  # of the shear force inside an element, in axial loads
 
 
 class MacroModel(NamedTuple):
-    """The tags of what `macro_model` made.
+    """The tags of the nodes and elements that `macro_model` made.
 
     Attributes
     ----------
     node : int or None
-        Node m between pendulum and interface; None where the slider is rigid.
+        Node m between pendulum and interface; None if the slider is rigid.
     pendulum : int
         The element that slides with low friction.
     rims : tuple of int
@@ -115,11 +115,11 @@ def macro_model(
         "series": a friction pendulum restores node m, before the interface. "across": a flat
         slider stands in its place, and springs of stiffness ``load / L`` join node i to node j.
     rise : bool
-        Whether the friction pendulum lifts node m as it moves sideways (``-inclVertdisp``). Its
-        tangent has no such term: Newton's method then takes many iterations, and often fails.
+        True if the friction pendulum lifts node m as it moves sideways (``-inclVertdisp``). Its
+        tangent has no such term: Newton's method then needs many iterations, and often fails.
     middle_mass : float, optional
-        Mass of node m [kg], at least 0. Default: 1 % of what the axial load weighs. The sliders'
-        own is a hundredth or two of that; with it Newton's method fails in most motions.
+        Mass of node m [kg], at least 0. Default: 1 % of the mass of the axial load. The sliders'
+        own mass is a hundredth or two of that, and with it Newton's method fails in most motions.
     first_tag : int, optional
         First of a range of tags that no node, element, material or friction model has. Default:
         beyond those of all nodes and elements, a million or more.
@@ -137,7 +137,7 @@ def macro_model(
 
     Notes
     -----
-    What the arrangement asks for:
+    Requirements of the arrangement:
 
     - A flat slider passes the whole lateral force, while in the bearing the interface leans with
       the slider and passes the friction's share only. With ``mu_h`` the slider would slip at
@@ -146,9 +146,9 @@ def macro_model(
     - Both rims act on one displacement: a rim of stiffness k at ``d`` on radius R is a gap at
       ``d L / R`` of stiffness ``k (R / L)**2``. Gaps are elastic; dampers of rims are left out.
     - The rate of velocity-dependent friction belongs to the displacement of the whole bearing.
-    - Node m turns with node i. Its mass holds it where the bearing has lifted off.
-    - The interface is as soft before slip as the surfaces, where its own yield displacement is
-      smaller: a small one makes Newton's method fail.
+    - Node m rotates with node i. Its mass holds it if the bearing has lifted off.
+    - The interface is as soft before slip as the surfaces if its own yield displacement is smaller:
+      a small one makes Newton's method fail.
 
     Examples
     --------
@@ -255,7 +255,7 @@ class _Builder:
         drops = [(law.f_max - law.f_min) * share for law, share in zip(laws, shares, strict=True)]
         if sum(drops) <= 0.0:
             return self.coulomb(fast)
-        # where the surfaces' rates differ: the slope at rest
+        # if the surfaces' rates differ: the slope at rest
         parts = zip(laws, shares, drops, strict=True)
         slope = sum(drop * law.rate * share for law, share, drop in parts)
         return self.friction("VelDependent", fast - sum(drops), fast, slope / sum(drops))
@@ -357,7 +357,7 @@ class _Builder:
 
 
 def _check(bearing: LIRBearing, directions: object, restoring: str) -> None:
-    """Refuse options and bearings that have no such macro-model."""
+    """Refuse options and bearings that have no macro-model of this kind."""
     if not isinstance(directions, int) or directions < _FEWEST or directions % _FEWEST:
         msg = f"directions = {directions!r}: give a multiple of 4"
         raise ValueError(msg)

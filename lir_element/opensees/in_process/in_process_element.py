@@ -23,8 +23,8 @@ _HOST_RESPONSES = {"force"}
 class InProcessElement:
     """A bearing in the place of a host element of the current model.
 
-    To the connection, `farewell`, the host element's destructor writes. A NotPossibleError says
-    that the element is not what it was in the self-test.
+    The host element's destructor writes to the connection `farewell`. A NotPossibleError: the
+    element differs from that of the self-test.
     """
 
     route = "fast"
@@ -41,17 +41,17 @@ class InProcessElement:
 
     @property
     def alive(self) -> bool:
-        """Whether OpenSees still has the element."""
+        """True if OpenSees still has the element."""
         return self._graft.alive
 
     def detach(self) -> None:
-        """Give the element its own functions back: ours end with Python, before OpenSees does."""
+        """Restore the element's own functions: ours end with Python, before OpenSees does."""
         if self.alive:
             self._graft.undo()
             self._farewell.detach()  # stays open: to a closed end the destructor writes for ever
 
     def release(self) -> None:
-        """Give up the connection, once the element is gone."""
+        """Close the connection, once the element is gone."""
         self._farewell.close()
 
     def _set_objects(self) -> None:
@@ -74,7 +74,7 @@ def _state_words() -> list[tuple[str, int, int, bool]]:
 
 @functools.cache
 def _callbacks(level: str) -> dict[str, int]:
-    # Addresses of what stands in for each function; compiled on first use.
+    # Addresses of the replacement of each function; compiled on first use.
     from lir_element.opensees.element_memory import entries_of
     from lir_element.opensees.kernels import callbacks
 

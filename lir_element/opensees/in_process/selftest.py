@@ -1,11 +1,11 @@
-"""Whether in-process coupling works with the OpenSees at hand: tried once in another process.
+"""Self-test of the in-process coupling with this build of OpenSees, in another process.
 
     python -m lir_element.opensees.in_process.selftest
 
-A mass on a bearing moves vertically under compression: a linear spring, whose answer the same
-build gives with an element of its own. Static and transient analysis, a wipe, all of it twice.
-A verdict by numbers is kept beside the compiled kernels under the hash of the library; one by a
-crash, by time or by memory is for the process alone.
+A mass on a bearing moves vertically under compression: a linear spring, whose answer the same build
+gives with an element of its own. Static and transient analysis, a wipe, all of it twice. A verdict
+by numbers is kept beside the compiled kernels under the hash of the library; a verdict by a crash,
+by time or by memory is valid for this process alone.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from lir_element.opensees.library import opensees
 from lir_element.opensees.placement import PlacedBearing, place
 
 _LONGEST = 900.0
-"""How long the self-test may take [s]; it compiles the kernels the first time."""
+"""Longest duration of the self-test [s]; it compiles the kernels the first time."""
 _STIFFNESS = 2.0e6
 _MASS = 1000.0
 _GRAVITY = 9.81
@@ -78,8 +78,8 @@ def _fingerprint(path: Path) -> str:
 
 
 def _run_child() -> tuple[str, bool]:
-    # The verdict of a self-test in a process of its own, which may crash, and whether it is by
-    # numbers: what no time or no memory decided may be otherwise tomorrow.
+    # Verdict of a self-test in a process of its own, which may crash, and whether it is by numbers:
+    # a verdict by time or by memory may differ tomorrow.
     try:
         done = subprocess.run(
             [sys.executable, "-P", "-m", "lir_element.opensees.in_process.selftest"],
@@ -122,7 +122,7 @@ def main() -> None:
 
 
 def _run(bearing: LIRBearing | None) -> np.ndarray[Any, Any]:
-    # Vertical displacements under gravity and a shaking of half of it, and the final force.
+    # Vertical displacements under gravity and half of it as a shaking, and the final force.
     ops = opensees()
     ops.wipe()
     ops.model("basic", "-ndm", 3, "-ndf", 6)

@@ -1,4 +1,4 @@
-"""Addresses of what the in-process coupling calls or replaces in the OpenSees library."""
+"""Addresses of the functions that the in-process coupling calls or replaces in OpenSees."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ REPLACED = {
 """Virtual functions of the host element."""
 
 OPTIONAL = {"class_type": "_ZNK13GenericClient12getClassTypeEv"}
-"""One that is replaced where the library exports it: the compiler may leave it out."""
+"""A function that is replaced if the library exports it: the compiler may leave it out."""
 
 REPLACED_AGAIN = {
     "class_type": "_ZThn16_NK13GenericClient12getClassTypeEv",
     "send_self": "_ZThn16_N13GenericClient8sendSelfEiR7Channel",
     "receive_self": "_ZThn16_N13GenericClient8recvSelfEiR7ChannelR16FEM_ObjectBroker",
 }
-"""Those that are also called through the element's second base class, in its table."""
+"""Functions that are also called through the element's second base class, in its table."""
 
 CALLED = {
     "get_domain": "_Z14ops_getdomain_v",
@@ -57,7 +57,7 @@ CALLED = {
     "stream_table": "_ZTV10FileStream",
     "write_text": "_ZN10FileStreamlsEPKc",
 }
-"""What is called or read."""
+"""Functions that are called, and data that are read."""
 
 
 class NotPossibleError(RuntimeError):

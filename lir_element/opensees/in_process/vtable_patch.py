@@ -37,10 +37,10 @@ if TYPE_CHECKING:
     from lir_element.opensees.placement import PlacedBearing
 
 _WORDS = 62
-"""Of the host's virtual tables together, after the first one's two words of head."""
+"""Words of all virtual tables of the host, after the first one's two words of head."""
 _STREAM_WORDS = 48
 _SECOND = 16
-"""Where the second base class begins in an element, in bytes."""
+"""Offset of the second base class in an element, in bytes."""
 _OBJECT_BYTES = 256
 """More than a Vector or a Matrix of OpenSees takes."""
 _TYPE = np.frombuffer(b"LIRBearing\0", dtype=np.uint8)
@@ -49,9 +49,9 @@ _TYPE = np.frombuffer(b"LIRBearing\0", dtype=np.uint8)
 class VTablePatch:
     """Callbacks in an element of the current model, and the block that they read.
 
-    `block` (1,) is that of the bearing (`layout.HOST`), `words` are those of its state that
-    recorders can have, too: name, place, size, whether integers. A NotPossibleError says that the
-    element is not what it was in the self-test.
+    `block` (1,) is the block of the bearing (`layout.HOST`). `words` are the entries of its state
+    that recorders can have, too: name, place, size, whether integers. A NotPossibleError: the
+    element differs from that of the self-test.
     """
 
     def __init__(
@@ -103,11 +103,11 @@ class VTablePatch:
 
     @property
     def alive(self) -> bool:
-        """Whether OpenSees still has the element."""
+        """True if OpenSees still has the element."""
         return bool(self.block["alive"][0])
 
     def replace(self, functions: dict[str, int]) -> None:
-        """Put functions in the place of the element's own: from here on it is a bearing."""
+        """Replace the element's own functions: from here on it is a bearing."""
         where = addresses()
         old = np.array((ctypes.c_int64 * (_WORDS + 2)).from_address(where["table"]))
         first, second = self._tables
@@ -119,7 +119,7 @@ class VTablePatch:
         ctypes.c_int64.from_address(self._element + _SECOND).value = lower
 
     def undo(self) -> None:
-        """Give a living element its own functions back."""
+        """Restore a living element's own functions."""
         if self.alive:
             for first, place in zip(self._tables, (0, _SECOND), strict=True):
                 own = addresses()["table"] + 8 * first
@@ -128,7 +128,7 @@ class VTablePatch:
     def _set_responses(
         self, given: dict[str, HostResponse], words: Sequence[tuple[str, int, int, bool]]
     ) -> None:
-        # What recorders can ask for.
+        # Responses for recorders.
         table = self.keep(np.zeros(len(given) + len(words), dtype=RESPONSE))
         rows: list[tuple[str, int, int, bool, Any]] = [
             (name, each.source, len(each.matrix), False, each.matrix)

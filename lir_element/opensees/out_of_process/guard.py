@@ -1,9 +1,9 @@
-"""What keeps a model from waiting for ever for a server that was killed.
+"""Guard that ends the wait of a model for a server that was killed.
 
-While OpenSees waits for an answer no Python code can run in its process, and it waits without end.
-A thread of compiled code therefore watches the server, from the same process: when the server is
-gone, it answers in its place, with numbers that no convergence test accepts (NaN), so that
-the analysis fails as any other.
+While OpenSees waits for an answer, no Python code can run in its process, and the wait has no
+limit. A thread of compiled code therefore watches the server, from the same process. If the server
+is gone, the thread answers in its place, with numbers that no convergence test accepts (NaN), so
+that the analysis fails as any other.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Guard:
         To the server; its end is the server's end. None: there is no server from the beginning,
         and every connection is added before `start`.
     message : str
-        What to tell the user when the server ends, or asks for what there is not.
+        Message to the user if the server ends, or requests an element that does not exist.
     """
 
     def __init__(self, pipe: Connection | None, message: str) -> None:

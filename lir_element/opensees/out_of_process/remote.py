@@ -86,18 +86,18 @@ class Remote:
         server.ask("prepare", self._key, sent)
 
     def connect(self, sock: socket.socket) -> None:
-        """Hand the host element's connection over, and guard it."""
+        """Take over the host element's connection, and guard it."""
         self.server.guard.add(sock, self._words)
         self._sock = sock
         self.server.ask("connect", self._key, sock=sock)
 
     def override(self, overrides: HostOverrides) -> None:
-        """Keep what the element does otherwise than its host."""
+        """Keep the element's functions that differ from its host's."""
         self._overrides = overrides
 
     @property
     def alive(self) -> bool:
-        """Whether OpenSees still has the element, as far as can be told."""
+        """True if OpenSees still has the element, as far as can be seen."""
         try:
             return bool(self.server.ask("is_open", self._key))
         except ServerError:
@@ -115,7 +115,7 @@ class Remote:
         self._recording = every > 0
 
     def recorded(self) -> tuple[Any, ...]:
-        """Return what `ElementMemory.recorded` does."""
+        """Return the records, as `ElementMemory.recorded`."""
         if self._records is not None:  # the element is gone, its records were kept
             return self._records
         answer = tuple(self.server.ask("recorded", self._key))
@@ -123,13 +123,13 @@ class Remote:
         return answer
 
     def outcome(self) -> tuple[int, bool, float]:
-        """Return what `ElementMemory.outcome` does."""
+        """Return the state of the last trial, as `ElementMemory.outcome`."""
         if self._records is None:
             self._outcome = self.server.ask("outcome", self._key)
         return self._outcome
 
     def release(self) -> None:
-        """Give up the connection, once the element is gone."""
+        """Close the connection, once the element is gone."""
         if self._sock is not None:
             self.server.guard.drop(self._sock)
             self._sock.close()
@@ -168,7 +168,7 @@ class Remote:
         return far
 
     def _compare_clocks(self) -> None:
-        # The element says what it commits (`HostOverrides`), or the last trial stands for it.
+        # The element names the committed motion (`HostOverrides`), or the last trial replaces it.
         if self._overrides is not None or self._warned:
             return
         committed, step = self.server.ask("clock", self._key)
@@ -225,7 +225,7 @@ class ForkedElements:
         self._guard.start()
 
     def close(self) -> None:
-        """End the guard; what it answered through stays open for the farewell of OpenSees' exit."""
+        """End the guard; its sockets stay open for the farewell of OpenSees' exit."""
         self._guard.stop()
         for sock in self._kept:
             if sock is not None:
@@ -252,7 +252,7 @@ class Server:
 
     @property
     def alive(self) -> bool:
-        """Whether the process is there."""
+        """True if the process exists."""
         with signals_held():  # `poll` keeps its lock for ever if Ctrl-C comes inside
             return self._process.poll() is None
 
@@ -293,11 +293,11 @@ class Server:
             self._process.wait()
 
     def leave(self) -> None:
-        """Let go of the parent's server in a forked process: its pipe ends with the parent."""
+        """Release the parent's server in a forked process: its pipe ends with the parent."""
         self._pipe.close()
 
     def end_message(self) -> str:
-        """Return what to tell the user of a server that is gone."""
+        """Return the message to the user about a server that is gone."""
         return (
             f"the server process {self.pid} of the bearings has ended: their states are lost, "
             "wipe the model and build it again"

@@ -1,8 +1,8 @@
-"""What an out-of-process element says of itself, where the build of OpenSees allows it.
+"""Responses of an out-of-process element, if the build of OpenSees allows them.
 
-Its states are determined in another process. What recorders ask for by the names of OpenSees'
-bearings, its line in a printed model, and that a database does not hold it, is done here. So is
-what keeps the other process in step: the motion that is committed, and signals held back.
+Its states are determined in another process. This module provides the responses under the names of
+OpenSees' bearings, the line in a printed model, and the refusal of a database. It also keeps the
+other process in step: the motion that is committed, and signals held back.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _OWN = {
 class HostOverrides:
     """Some functions of ours in an element of the out-of-process coupling.
 
-    A NotPossibleError says that the element is not what it was in the self-test.
+    A NotPossibleError: the element differs from that of the self-test.
     """
 
     def __init__(self, placed: PlacedBearing) -> None:
@@ -61,5 +61,5 @@ class HostOverrides:
         self._graft.replace(common_functions() | own)
 
     def undo(self) -> None:
-        """Give a living element its own functions back."""
+        """Restore a living element's own functions."""
         self._graft.undo()

@@ -33,12 +33,13 @@ if TYPE_CHECKING:
 
 _QUICK = getattr(socket, "TCP_QUICKACK", None)  # Linux: without it small messages wait some 40 ms
 _NO_FORCE = np.full(layout.MOST_DOFS * layout.MOST_DOFS, -1).view(np.float64)
-"""The protocol knows no failure; no test accepts this, from whichever byte on it is read."""
+"""Answer for a failure, which the protocol lacks; no test accepts it, from any byte on."""
 _GRACE = 1e-3
-"""How long a message may be on its way, in another stream than a request sent after it [s]."""
+"""Longest delay of a message in another stream after a request [s]."""
 _AWAKE = 2e-3
-"""How long to look for the next message without sleeping [s]: waking up costs more than answering,
-and an analysis asks again at once."""
+"""Time to look for the next message without sleeping [s]: waking up costs more than answering, and
+an analysis sends its next request at once.
+"""
 _PATIENCE = 2.0
 """Time between two looks at whether the parent is still there [s]."""
 
@@ -157,7 +158,7 @@ class Service:
                 elif not channel.serve():
                     self._selector.unregister(channel.sock)
                     channel.close()
-            # what the model sent before a request was made comes first, though it may arrive later
+            # messages of the model sent before a request come first, though they may arrive later
             if ready or not asked:
                 continue
             asked = False
