@@ -2,6 +2,7 @@
 
     python docs/build.py
 
+docs/accuracy.md has times of docs/validation/performance.md.
 docs/standings.md lists `DesignCode.values` of all codes, docs/provisions.md their provisions.
 docs/how_it_works.md gets the table of the demo, which needs its record (``pip install ".[demo]"``).
 Without it that page stays as it is, and the build says so and ends with 1.
@@ -12,6 +13,7 @@ attributes and terms of the energy are here; a name that is missing or left over
 
 from __future__ import annotations
 
+import re
 import sys
 import warnings
 from dataclasses import dataclass, replace
@@ -407,7 +409,37 @@ def of_results() -> dict[str, str]:
 
 def generated() -> dict[str, str]:
     """Return the generated parts of all pages but the demo's."""
-    return of_results() | {"standings.md": standings(), "provisions.md": provisions()}
+    others = {"standings.md": standings(), "provisions.md": provisions(), "accuracy.md": costs()}
+    return of_results() | others
+
+
+COSTS = {
+    r"pendulum \| LIR-DCFP, rim.*": (
+        "evaluation of a bearing on its rim, with tangent",
+        "3 µs",
+    ),
+    r"contact \| LIR-DCFP, rim.*": ('the same at level `"contact"`', "3 µs"),
+    r"one bearing, lumped mass \|.*\| 0.005.*": ("step of 5 ms, mass on one bearing", "3 µs"),
+    r"demo building: .*\| 0.005.*": ("step of 5 ms, 3 storeys on 9 bearings", "3 µs"),
+    r"8 storeys.*\| 0.005.*": ("step of 5 ms, 8 storeys on 16 bearings", "3 µs"),
+    r"demo building, 126.*\| 0.005.*": ("the same, 3 storeys with hinges that yield", "4 µs"),
+    r"100 .*reduced.*": ("a second of motion, 100 bearings, reduced method", "5 ms"),
+    r"256 .*reduced.*": ("the same, 256 bearings", "5 ms"),
+    r"3 storeys, 9 bearings: friction.*": ("10,000 runs of a campaign, 3 storeys", "4 minutes"),
+    r"time history .*": ("first time history of an installation, kernels compiled", "1 s"),
+}
+"""Rows of the page on performance, by a pattern: name here, column with unit."""
+
+
+def costs() -> str:
+    """Return typical times of computation, from the page on performance."""
+    text = (PAGES / "validation" / "performance.md").read_text(encoding="utf-8")
+    rows = []
+    for pattern, (name, value) in COSTS.items():
+        column, unit = value.split()
+        (found,) = re.findall(rf"^\| ({pattern}) \|$", text, re.MULTILINE)
+        rows.append([name, f"{found.split(' | ')[int(column)]} {unit}"])
+    return "\n".join(table(("task", "time"), rows))
 
 
 def demo_table() -> str:

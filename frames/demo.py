@@ -67,7 +67,7 @@ near the weight. The impact on the rims depends on their stiffness, here the def
 """
 NEXT = """Where to look next
   docs/guide.md          from a bearing to a building, step by step
-  docs/levels.md         which model fidelity a question needs
+  docs/accuracy.md       which level of fidelity a question needs, and its cost
   docs/validation/study_summary.md  when the LIR-DCFP helps, and when it does not
   lir new office && cd office && lir run   a design project: motions, checks, report"""
 RESOLUTION = 150  # dots per inch

@@ -40,16 +40,3 @@ def test_what_was_run_is_said_of_each_building(kept: dict[str, Any]) -> None:
         assert len(own["failed"]) == 0 or all(line.split(" (")[0] in page for line in own["failed"])
     for name in re.findall(r"\(figures/([^)]*)\)", page):
         assert (FIGURES / name).is_file(), name
-
-
-def test_the_cost_of_a_level_is_that_of_the_table() -> None:
-    rows = re.findall(
-        r"^\| (.*) \| (contact|pendulum) \|.*\| ([\d.]+) \| \d+ % \|", PAGE.read_text(), re.M
-    )
-    times = {(motion, level): float(seconds) for motion, level, seconds in rows}
-    ratios = [
-        times[key, "contact"] / times[key, "pendulum"] for key, level in times if level == "contact"
-    ]
-    assert len(ratios) == 3
-    levels = (PAGE.parent / "levels.md").read_text(encoding="utf-8")
-    assert f"{min(ratios):.1f} to {max(ratios):.1f} times in a [building" in levels

@@ -33,11 +33,12 @@ MEASUREMENTS = (
     "study_motions",
     "study_after",
     "level_doubts",
+    "performance",
+    "features",
     "worked_building",
     "yielding",
     "yielding_comparison",
 )
-DEMO = ("base shear over weight [-]", "floor acceleration in plan, mean [g]")
 PACKAGE = Path(str(validation.__file__)).parent
 FIGURE = re.compile(r"!\[[^\]]+\]\((figures/[^)]+)\)")
 claims = pytest.mark.parametrize("name", CLAIMS)
@@ -106,54 +107,6 @@ def test_pages_and_figures_belong_to_claims():
 def test_figures_are_small():
     for path in (FOLDER / "figures").iterdir():
         assert path.stat().st_size < (1_500_000 if path.suffix == ".gif" else 200_000), path.name
-
-
-@pytest.mark.parametrize(
-    ("page", "pattern"),
-    [
-        ("README.md", r"{} times as long as on `singleFPBearing`, out of process {} times"),
-        (
-            "docs/choices_opensees.md",
-            r"{} times in buildings \(\[measured\]\([^|]*\| {} times, most",
-        ),
-    ],
-)
-def test_prose_has_the_cost_of_the_couplings(page, pattern):
-    rows = re.findall(r"^\| LIR.*?, (in|out-of)-process .*? \|(.*)\|$", frames_by_krylov(), re.M)
-    numbers = {"in": [], "out-of": []}
-    for coupling, cells in rows:
-        numbers[coupling] += [float(cell) for cell in cells.split("|")[-3:]]
-    ends = [f"{min(each):.1f} to {max(each):.1f}" for each in numbers.values()]
-    text = (FOLDER.parents[1] / page).read_text(encoding="utf-8")
-    assert re.search(pattern.format(*map(re.escape, ends)), text), ends
-
-
-def numbers_of_the_readme():
-    """Yield numbers as their pages have them, and the words of the README about them."""
-    summary = text_of("study_summary")
-    for limit in ("storey drift 2 %", "ductility 4", "floor acceleration 1 g", "collapse"):
-        found = re.search(rf"{limit} ([\d.]+ \([\d.]+ to [\d.]+\))[;.]", summary)[1]
-        yield f"| {limit} | {found} |"
-    table = (FOLDER.parent / "how_it_works.md").read_text(encoding="utf-8")
-    row = {name: re.search(rf"{re.escape(name)} +(.*)", table)[1].split() for name in DEMO}
-    shear, floor = ([f"{float(cell):.2f}" for cell in row[name]] for name in DEMO)
-    yield f"base shear is {shear[0]} times the weight and the peak floor acceleration {floor[0]} g."
-    yield f"the same rims gives {shear[1]} and {floor[1]} g. A DCFP without rims"
-    yield f"gives {shear[2]} and {floor[2]} g."
-    pattern = r"largest force \(contact\).*\| ([\d.]+) kN \|"
-    force = float(re.search(pattern, text_of("static_test"))[1])
-    yield f"the LIR-DCFP {force / 150.0:.2f} times."
-
-
-def test_the_readme_has_the_numbers_of_its_pages():
-    text = " ".join((FOLDER.parents[1] / "README.md").read_text(encoding="utf-8").split())
-    wanted = list(numbers_of_the_readme())
-    assert len(wanted) == 8
-    assert [words for words in wanted if words not in text] == []
-
-
-def frames_by_krylov() -> str:
-    return text_of("opensees_cost").split("## Plain Newton")[0]
 
 
 def test_each_coupling_is_held_against_its_goal():

@@ -1,4 +1,4 @@
-"""What each feature costs, and what leaving it out changes: writes docs/features.md.
+"""What each feature costs, and what leaving it out changes: writes docs/validation/features.md.
 
     LIR_RECORDS=<folder of records> python -m validation.measurements.features
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from frames import Frame
 
-TARGET = FOLDER.parent / "features.md"
+TARGET = FOLDER / "features.md"
 REPEATS = 7
 CHEAPEST = Features().without(
     "rims", "interface", "plate_rotation", "velocity_dependence", "vertical_coupling"

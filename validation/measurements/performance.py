@@ -1,4 +1,4 @@
-"""Speed of the element and of time histories, measured: writes docs/performance.md.
+"""Speed of the element and of time histories, measured: writes docs/validation/performance.md.
 
     python -m validation.measurements.performance
 
@@ -57,7 +57,7 @@ from validation.scenes import example_bearing
 
 REPEATS, FEW_REPEATS = 7, 3
 STATES = ("linear", "elastic", "yielding")
-TARGET = FOLDER.parent / "performance.md"
+TARGET = FOLDER / "performance.md"
 
 MANY_STOREYS, MANY_STEP, MANY_SECONDS = 10, 0.01, 4.0  # -, s, s
 
