@@ -117,12 +117,12 @@ def equal():
     return models_in(runner.HERE / "device-contact.toml")
 
 
-def test_both_levels_have_the_same_devices():
+def test_the_level_pendulum_has_devices_of_the_level_contact():
     contact, pendulum = (
         campaign_file(runner.HERE / f"device-{level}.toml") for level in device.LEVELS
     )
     assert (contact.analysis.level, pendulum.analysis.level) == device.LEVELS
-    assert contact.devices == pendulum.devices
+    assert pendulum.devices.items() <= contact.devices.items()
     assert contact.motions == pendulum.motions
     for terms in device.TERMS:
         assert {name for pair in device.pairs_of(terms) for name in pair} <= {*contact.devices}
@@ -130,7 +130,7 @@ def test_both_levels_have_the_same_devices():
 
 def test_the_devices_are_those_that_other_parts_of_the_study_have(equal):
     """By the study's own functions: the same bearings under every column."""
-    for plan in (0.689, 0.869):
+    for plan in (0.569, 0.689):
         more = plan - plan_of(REFERENCE)
         for rims, strength in (("rims of 1 W", 1.0), ("unbreakable rims", None)):
             own = frame_of(Device(plan_of(REFERENCE) + more, True, strength=strength))

@@ -127,7 +127,7 @@ def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
     for level in LEVELS:
         tables = every[level]
         found[level] = {
-            "shares": {name: _shares(tables, name) for name in frames},
+            "shares": {name: _shares(tables, name) for name in tables.runs},
             "pairs": {terms: _pairs(tables, terms) for terms in TERMS},
         }
     margins = every[LEVELS[0]].margins.reindex(columns=["margin [-]"])["margin [-]"].to_dict()
@@ -164,7 +164,9 @@ def _shares(tables: CampaignTables, name: str) -> list[list[float]]:
 
 def _pairs(tables: CampaignTables, terms: str) -> list[dict[str, Any]]:
     # Of each limit state: ratio of medians with its interval, and the exact test of the records.
-    pairs = pairs_of(terms)
+    pairs = [pair for pair in pairs_of(terms) if {*pair} <= {*tables.runs}]
+    if not pairs:
+        return []
     tests = paired_tests(tables.runs, pairs, tables.limits).set_index(["measure", "own", "over"])
     rows = []
     for limit in tables.limits:
@@ -264,9 +266,9 @@ def _legend(figure: Figure, names: Sequence[str]) -> None:
 def terms_figure(own: Own, terms: str, considered: float) -> Figure:
     """Return shares of collapse over intensity, a panel a pair of devices on equal terms."""
     labels = TERMS[terms]
-    figure = ps.new_figure(2.9 if len(labels) == 1 else 4.6)
-    rows = ps.grid_of(figure, 1 if len(labels) == 1 else 2, min(2, len(labels)), share_y=True)
-    for panel, label in zip([p for row in rows for p in row], labels, strict=True):
+    figure = ps.new_figure(2.9)
+    (panels,) = ps.grid_of(figure, 1, len(labels), share_y=True)
+    for panel, label in zip(panels, labels, strict=True):
         first = f"LIR-DCFP {label}" if terms == "plan" else LIR
         for k, name in enumerate((first, *(f"DCFP {label}, {rims}" for rims in RIMS))):
             at, collapsed, failed, known = np.array(own[LEVELS[0]]["shares"][name]).T
