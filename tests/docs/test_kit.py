@@ -23,7 +23,10 @@ def text_of(name: str) -> str:
 def test_one_version(project: dict[str, Any]) -> None:
     version = project["project"]["version"]
     assert f"\nversion: {version}\n" in text_of("CITATION.cff")
-    assert re.search(rf"^## {re.escape(version)} ", text_of("CHANGELOG.md"), re.MULTILINE)
+    assert f"version = {{{version}}}" in text_of("README.md")
+    assert f'`git tag -a v{version} -m "{version}"`' in text_of("CONTRIBUTING.md")
+    date = re.search(r"date-released: (.*)", text_of("CITATION.cff"))[1]
+    assert f"\n## {version} - {date}\n" in text_of("CHANGELOG.md")
 
 
 def test_the_changelog_has_a_place_for_the_next_change() -> None:
