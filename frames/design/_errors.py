@@ -2,7 +2,7 @@
 
 
 class CheckError(ValueError):
-    """A design check, or a number of it, that cannot be used; the message names the culprit.
+    """Raised if a design check or one of its numbers is unusable; the message names the cause.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Figures of spectra and motions, and of what a proposal of bearings was chosen from."""
+"""Figures of spectra and motions, and of the candidates of a proposal of bearings."""
 
 from frames.design.hazard.plot_hazard import design_spectra as design_spectra
 from frames.design.hazard.plot_hazard import motion_spectra as motion_spectra

@@ -32,41 +32,40 @@ class Check:
     Parameters
     ----------
     clause : str
-        Standard and clause, or what else asks for it.
+        Standard and clause, or another source of the requirement.
     title : str
-        What is checked, in a few words.
+        Title of the check, in a few words.
     demand, limit : float
-        In `unit`; infinite where there is none, as the capacity of a bearing without rims.
+        Limit in `unit`; infinite if there is none, as the capacity of a bearing without rims.
     symbol : str
         Symbol of the demand in the calculation.
     unit : str
         SI unit, "-" for a pure number.
     relation : {"<=", ">="}
-        What the demand must be to the limit.
+        Relation of the demand to the limit.
     trace : Trace, optional
-        The calculation; what was entered later does not change the check.
+        The calculation; later entries do not change the check.
     standing : Standing
-        How well clause, formula and limit are known; from memory, with a star, unless it is said.
+        Source of clause, formula and limit; default: from memory, with a star.
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings it holds for.
     subject : str
         Bearing or storey that it concerns; empty for the whole.
     note : str
-        What else a reader should know.
+        Remark for the reader.
     shown : str
         Unit to show it in; kN for forces, otherwise `unit`.
     void : str
-        Why there is no valid demand, for example because runs failed. The check then does not
-        pass, whatever demand and limit are. The demand is the largest value before the failure.
+        Reason that there is no valid demand, for example failed runs. The check then does not pass
+        at any demand and limit. The demand is the largest value before the failure.
     scope : {"any", "demand", "procedure", "agreement", "minimum"}
-        What it holds for: any analysis; a demand that a time history finds anew; a limit of
-        the equivalent-linear procedure; a solution that the code has no rule for; or a least
-        value of a demand. A procedure whose limit is exceeded does not apply, a solution beyond
-        its limit needs the agreement that the note tells, a demand below its least value is raised
-        to it, by the ratio: none is a failure. Not in tables, which show the `verdict`.
+        Scope of the check: any analysis; a demand that a time history finds anew; a limit of the
+        equivalent-linear procedure; a solution without a rule in the code; or a least value of a
+        demand. If its limit is exceeded, a procedure does not apply, a solution needs the agreement
+        in the note, and a demand below its least value is raised to it, by the ratio: none is a
+        failure. Tables show the `verdict` instead.
     level : str
-        Level of the seismic action that it is made at, such as "MCE_R", "design" or "maximum";
-        empty where none enters.
+        Level of the seismic action, such as "MCE_R", "design" or "maximum"; empty if none enters.
 
     Raises
     ------
@@ -125,11 +124,10 @@ class Check:
 
     @property
     def ratio(self) -> float:
-        """Utilisation [-]: at most 1 where the check passes, whichever the relation.
+        """Utilisation [-]: at most 1 if the check passes, for each relation.
 
-        Of the two sides, the one that must be smaller over the other; 0 where a side that must
-        be at least 0 or less is beyond that, infinite where no factor would help, and of a check
-        that is `void`.
+        The side that must be smaller over the other one. 0 if a side that must be at least 0 or
+        less is beyond that; infinite if no factor would help, and for a `void` check.
         """
         return math.inf if self.void else self.compared
 
@@ -147,21 +145,21 @@ class Check:
 
     @property
     def passed(self) -> bool:
-        """Whether demand and limit are as they must be, round-off (1e-9) aside."""
+        """True if demand and limit satisfy the relation, round-off (1e-9) aside."""
         return self.ratio <= 1.0 + _ROUND_OFF
 
     @property
     def is_unlimited(self) -> bool:
-        """Whether demand or limit is infinite, so that nothing is compared with a number."""
+        """True if demand or limit is infinite, so that nothing is compared with a number."""
         return math.isinf(self.limit) or math.isinf(self.demand)
 
     @property
     def verdict(self) -> Verdict:
         """Outcome: "ok", "FAILS", "no value", or the meaning of an exceeded limit by the `scope`.
 
-        "no limit": demand or limit is infinite, so that there is nothing to compare; "does not
-        apply": a limit of a procedure; "needs agreement": the code has no rule; "raised": a
-        demand that counts with its least value; "no value": runs failed (`void`).
+        "no limit": demand or limit is infinite, so that there is no comparison; "does not apply": a
+        limit of a procedure; "needs agreement": the code has no rule; "raised": a demand that
+        counts with its least value; "no value": runs failed (`void`).
         """
         if self.passed:
             return "no limit" if self.is_unlimited else "ok"
@@ -180,12 +178,12 @@ class Check:
 
     @property
     def cited(self) -> str:
-        """The clause, with a star where it is from memory."""
+        """Clause, with a star if it is from memory."""
         return self.standing.cited(self.clause)
 
     @property
     def said(self) -> tuple[str, str, str]:
-        """Demand, limit and ratio as tables show them: "-" where there is no ratio."""
+        """Demand, limit and ratio as tables show them: "-" if there is no ratio."""
         demand = quantity(self.demand, self.unit, self.shown)
         limit = quantity(self.limit, self.unit, self.shown)
         if self.verdict == "no limit":
@@ -246,7 +244,7 @@ class Checks(Sequence[Check]):
     Parameters
     ----------
     checks : iterable of Check
-        What it is made of.
+        The checks.
 
     Examples
     --------
@@ -278,7 +276,7 @@ class Checks(Sequence[Check]):
 
     @property
     def passed(self) -> bool:
-        """Whether there are checks, and none fails or lacks a valid value."""
+        """True if there are checks, and none fails or lacks a valid value."""
         return bool(self._checks) and not self.failed
 
     @property
@@ -298,17 +296,17 @@ class Checks(Sequence[Check]):
 
     @property
     def to_agree(self) -> Checks:
-        """Those that need the agreement of the authority: the code has no rule for them."""
+        """Checks that need the agreement of the authority: the code has no rule for them."""
         return Checks(check for check in self if check.verdict == "needs agreement")
 
     @property
     def raised(self) -> Checks:
-        """Those of demands below their least value, to which they are raised."""
+        """Checks of demands below their least value, to which they are raised."""
         return Checks(check for check in self if check.verdict == "raised")
 
     @property
     def tally(self) -> str:
-        """How many there are; how many fail, exceed limits of a procedure, and so on."""
+        """Numbers of checks, of failures, of exceeded limits of a procedure, and so on."""
         beyond = len(self.inapplicable)
         more = f", {beyond} limits of the procedure exceeded: it does not apply" if beyond else ""
         agree = len(self.to_agree)

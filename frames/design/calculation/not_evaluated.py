@@ -1,4 +1,4 @@
-"""Checks whose demand a model cannot tell: never passed, and they say why."""
+"""Checks without a demand from the model: never passed, with the reason."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ NOT_EVALUATED = "not evaluated"
 
 
 def not_evaluated(checks: Iterable[Check], why: str, needs: Iterable[str] = ()) -> Checks:
-    """Return checks that do not pass, for what they need is not known."""
+    """Return checks that do not pass, because an input of them is missing."""
     symbols = tuple(needs)
     return Checks(
         _without_demand(check, why)

@@ -35,7 +35,7 @@ _ONE: dict[str, Callable[[FloatArray], FloatArray]] = {
 }
 _MANY: dict[str, np.ufunc] = {"min": np.minimum, "max": np.maximum}
 RESERVED = frozenset({"pi", *_ONE, *_MANY})
-"""Names that formulas know by themselves."""
+"""Names that formulas have by themselves."""
 
 
 @lru_cache(maxsize=1024)
@@ -117,9 +117,9 @@ def _value(node: ast.expr, values: Mapping[str, FloatArray]) -> FloatArray:
 
 
 class Style(NamedTuple):
-    """How a formula is written."""
+    """Style of a written formula."""
 
-    show: Callable[[str], str]  # what stands for a name: its symbol, or its number
+    show: Callable[[str], str]  # text for a name: its symbol, or its number
     dots: bool  # whether products have a dot, as between numbers
 
 
@@ -177,7 +177,7 @@ def usual_unit(unit: str) -> str:
 
 
 def scale(unit: str, shown: str) -> float:
-    """Return what one of the shown unit is in the unit kept; KeyError if there is no such pair."""
+    """Return the size of the shown unit in the kept unit; KeyError if there is no such pair."""
     return 1.0 if unit == shown else _SCALE[unit, shown]
 
 
@@ -209,7 +209,7 @@ def symbol_text(name: str) -> str:
 
 
 def symbol_mathml(name: str) -> str:
-    """Return a name as MathML, what follows the first underscore as subscript."""
+    """Return a name as MathML; the part after the first underscore is a subscript."""
     head, _, tail = symbol_text(name).partition("_")
     plain = f"<mi>{escape(head)}</mi>"
     return f"<msub>{plain}<mi>{escape(tail.replace('_', ','))}</mi></msub>" if tail else plain
@@ -221,7 +221,7 @@ def text(tree: ast.expr, style: Style) -> str:
 
 
 def _text(node: ast.expr, style: Style) -> tuple[str, int]:
-    # What stands for a part, and how strongly it holds together.
+    # Text of a part of a formula, and how strongly it binds.
     if isinstance(node, ast.Constant):
         return number(float(str(node.value))), _ATOM
     if isinstance(node, ast.Name):

@@ -1,4 +1,4 @@
-"""How well a value is known: read in the standard, agreeing with a public text, or from memory."""
+"""Source of a value: read in the standard, agreeing with a public text, or from memory."""
 
 from __future__ import annotations
 
@@ -22,23 +22,22 @@ STAR = "*"
 
 @dataclass(frozen=True)
 class Standing:
-    """How well a value, or the limit of a check, is known.
+    """Source of a value, or of the limit of a check.
 
     Parameters
     ----------
     kind : {"read", "agrees", "memory", "own"}
-        Read in the text of the standard; agrees with a public text that has the same value; from
-        memory, to be confirmed against the standard; or no value of a code: of mechanics, of this
-        package or of the project.
+        Kind of source: read in the text of the standard; agreement with a public text that has the
+        same value; from memory, to be confirmed against the standard; or no code (mechanics, this
+        package or the project).
     source : str
-        Edition and clause where it was read, or the public text, with article or section, that it
-        agrees with; empty of the other two.
+        Edition and clause of the standard, or the public text with article or section; empty for
+        the other two kinds.
 
     Raises
     ------
     CheckError, TypeError
-        If there is no such kind, or it has no source where it needs one, or has one that it must
-        not have.
+        If the kind is unknown, or its source is missing or not allowed.
 
     Examples
     --------
@@ -66,16 +65,16 @@ class Standing:
 
     @property
     def starred(self) -> bool:
-        """Whether clauses have a star: what is from memory alone."""
+        """True if clauses have a star: the value is from memory alone."""
         return self.kind == "memory"
 
     @property
     def words(self) -> str:
-        """What it says without its source."""
+        """Kind of source in words."""
         return _WORDS[self.kind]
 
     def cited(self, clause: str) -> str:
-        """Return a clause as tables show it: with a star where it is from memory."""
+        """Return a clause as tables show it: with a star if it is from memory."""
         return f"{clause} {STAR}" if self.starred else clause
 
     def __str__(self) -> str:
@@ -87,10 +86,10 @@ FROM_MEMORY = Standing("memory")
 """The weakest: of all that nobody said more of."""
 
 PROJECT = Standing("own")
-"""Of what no code has: mechanics, proposals of this package, limits of the project."""
+"""Source of values without a code: mechanics, proposals of this package, limits of the project."""
 
 LEGEND = f"clauses, formulas and factors with a star: {FROM_MEMORY}"
-"""What the star means, under tables."""
+"""Meaning of the star, under tables."""
 
 
 def standing_of(text: str) -> Standing:

@@ -28,7 +28,7 @@ from lir_element.texts import joined
 
 
 class Trace:
-    """A calculation in order, each line from what stands above it.
+    """A calculation in order: each line follows from the lines above it.
 
     Parameters
     ----------
@@ -69,9 +69,9 @@ class Trace:
         value : float
             The number, in `unit`.
         unit : str
-            SI unit, or what the clause has; "-" for a pure number.
+            SI unit, or the unit of the clause; "-" for a pure number.
         source, note : str
-            Where it comes from, and what a reader should know.
+            Source of the number, and a remark for the reader.
         shown : str
             Unit to show it in: forces in kN and stresses in MPa unless it says otherwise, "mm"
             for a length in mm, "%" for a ratio in per cent.
@@ -98,7 +98,7 @@ class Trace:
         note: str = "",
         shown: str = "",
     ) -> tuple[float, ...]:
-        """Enter a number for each of several (bearings, storeys), as `given`, and return them."""
+        """Enter a number for each of several bearings or storeys, as `given`, and return them."""
         found = tuple(map(float, values))
         return _several(self._add(symbol, found, unit, source=source, note=note, shown=shown))
 
@@ -113,14 +113,14 @@ class Trace:
         note: str = "",
         shown: str = "",
     ) -> float:
-        """Enter a number that a table or a spectrum has at values above, as `given`.
+        """Enter a number that a table or a spectrum has at earlier values, as `given`.
 
         Parameters
         ----------
         symbol, value, unit, source, note, shown
             As in `given`.
         at : sequence of str
-            Symbols of what it was looked up at.
+            Symbols of the values at which it was looked up.
 
         Returns
         -------
@@ -282,7 +282,7 @@ class Quantity(NamedTuple):
     """A value by its symbol."""
 
     symbol: str  # its name, as formulas have it
-    value: Value  # in `unit`; a tuple for what there are several of
+    value: Value  # in `unit`; a tuple if there are several
     unit: str  # unit it is kept in, "-" for a pure number
     shown: str  # unit it is shown in
 
@@ -293,13 +293,13 @@ class Quantity(NamedTuple):
 
 @dataclass(frozen=True)
 class Step:
-    """A line of a calculation: what was given, looked up, or follows by a formula."""
+    """A line of a calculation: given, looked up, or the result of a formula."""
 
-    result: Quantity  # what it gives
-    formula: str = ""  # the formula that was evaluated; empty for what was given or looked up
-    entered: tuple[Quantity, ...] = ()  # what entered it
+    result: Quantity  # its result
+    formula: str = ""  # the formula; empty for a value that was given or looked up
+    entered: tuple[Quantity, ...] = ()  # its inputs
     source: str = ""  # clause, equation or table
-    note: str = ""  # what else a reader should know
+    note: str = ""  # remark for the reader
 
     @property
     def symbol(self) -> str:

@@ -46,9 +46,9 @@ BUILT_IN = known_codes()
 def slip_threshold(system: IsolationSystem, bounds: PropertyBounds) -> Checks:
     """Return the check that the interface holds while the surfaces slide, for the worst bearing.
 
-    Away from the rims the interface carries ``mu1 R1 + mu2 R2`` over L times the load, whatever
-    the displacement and the load: it holds where its friction at the lower bound is at least that
-    of the surfaces at the upper one.
+    Away from the rims the interface carries ``mu1 R1 + mu2 R2`` over L times the load, at any
+    displacement and load. It holds if its friction at the lower bound is at least that of the
+    surfaces at the upper one.
     """
     pairs = zip(system.labels, system.bearings, strict=True)
     found = [(name, b) for name, b in pairs if isinstance(b, LIRBearing) and not b.is_dcfp]
@@ -74,7 +74,7 @@ def slip_threshold(system: IsolationSystem, bounds: PropertyBounds) -> Checks:
 
 
 NO_CLAUSE = "no code: serviceability"
-"""Clause where a code's own was not read."""
+"""Clause if a code's own was not read."""
 
 
 def service_checks(
@@ -108,7 +108,7 @@ def service_checks(
 
 
 def least_strength(system: IsolationSystem, bounds: PropertyBounds) -> Trace:
-    """Return what wind must stay below: the force that starts sliding, at the lower bound."""
+    """Return the force that starts sliding at the lower bound: the limit of the wind force [N]."""
     t = Trace()
     t.given_each(
         "P", system.loads, "N", note=worded("loads of the {n} bearings", n=len(system.loads))
@@ -138,20 +138,22 @@ def equivalent_linear(
 ) -> EquivalentLinear:
     """Analyse an isolation system with its effective stiffness and damping, and check it.
 
-    The displacement is where stiffness and damping give that same displacement, found at each
-    bound. Bearings are those below their rims: a check says whether the rims stay free.
+    The displacement agrees with the stiffness and damping at that displacement, found at each
+    bound. The bearings are modelled without rim contact: a check compares the displacement with the
+    rims.
 
     Parameters
     ----------
     system : IsolationSystem
         Bearings with nominal properties, their places and loads.
     spectrum : Spectrum
-        Of MCE_R for ASCE 7, of the design earthquake for the others; it has the damping factor.
+        Spectrum of MCE_R for ASCE 7, of the design earthquake for the others; it has the damping
+        factor.
     bounds : PropertyBounds or None
         Factors of lower and upper bound; None for nominal properties alone, as for comparisons.
     superstructure : Superstructure, optional
-        What stands on it; without it there are no forces above the isolation system, and no
-        checks of drifts and axial loads.
+        Structure above; without it there are no forces above the isolation system, and no checks of
+        drifts and axial loads.
     code : ASCE7, EN1998, NCh2745 or str, optional
         The standard with its factors, or its name: with all defaults. That of the spectrum if None.
 

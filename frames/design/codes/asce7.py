@@ -58,7 +58,7 @@ _STEPS = (0.25, 0.50, 0.67, 1.00)  # of D_M, in tests of increments
 
 @dataclass(frozen=True, kw_only=True)
 class ASCE7(LinearAnalysis):
-    """Factors of ASCE 7-22, chapter 17; `CODE.values` tells how well each is known.
+    """Factors of ASCE 7-22, chapter 17; `CODE.values` gives the source of each.
 
     Parameters
     ----------
@@ -69,8 +69,8 @@ class ASCE7(LinearAnalysis):
     restoring : float
         Force that the second half of D_M must add, over W (17.2.4.4).
     exponent : float
-        Of damping in (17.5-7): 3.5 where sliding sets in abruptly, as on the concave surfaces of
-        all bearings here; 2.5 where the transition is gradual.
+        Divisor of damping in (17.5-7): 3.5 if sliding sets in abruptly, as on the concave surfaces
+        of all bearings here; 2.5 if the transition is gradual.
     response_share, largest_reduction : float
         R_I = 3/8 R, between 1 and 2 (17.5.4.2).
     activation : float
@@ -81,12 +81,13 @@ class ASCE7(LinearAnalysis):
         Limits of the procedure (17.4.1): T_M [s], beta_M, T_M over T_fb, k(D_M) over k(0.2 D_M);
         storeys and height [m] count unless `no_tension`.
     history_share : float
-        Of V_s that time histories keep at least (17.6.4): 1 until the edition's wording is read,
-        which is on the safe side; ASCE 7-10 had 0.6, and 0.8 of irregular structures.
+        Least share of V_s in time histories (17.6.4): 1 until the edition's wording is read, on the
+        safe side; ASCE 7-10 had 0.6, and 0.8 for irregular structures.
     irregular : bool
-        Whether the structure is irregular: the procedure does not apply then (17.4.1).
+        True if the structure is irregular: the procedure does not apply then (17.4.1).
     no_tension : bool
-        Whether analysis shows that no bearing is pulled or lifts, so that height is free.
+        True if analysis shows that no bearing is pulled or lifts, so that the height is not
+        limited.
     orthogonal : float
         Share of the other direction's overturning that acts with it.
     pressure_limit : float, optional
@@ -237,7 +238,7 @@ class ASCE7(LinearAnalysis):
         self._dynamic_minima(t)
 
     def _response_coefficient(self, t: Trace, spectrum: Spectrum) -> None:
-        # C_s of the structure on a fixed base, with the least ones; S_1 where S_M1 is not above it.
+        # C_s of the structure on a fixed base, with its least values; S_1 if S_M1 is not above it.
         least, note = "0.044 * S_DS * I_e, 0.01", "fixed base, at T_M"
         s_1, said = spectrum.parameters.get("S_1"), "in g"
         if s_1 is None:
@@ -289,7 +290,7 @@ class ASCE7(LinearAnalysis):
 
 
 def _of_importance(factor: float) -> str:
-    # 17.2.1 has I_e = 1.0 for isolated structures, whatever their risk category.
+    # 17.2.1 has I_e = 1.0 for isolated structures in any risk category.
     if math.isclose(factor, 1.0):
         return "of isolated structures by 17.2.1"
     return "as given; 17.2.1 has 1.0 for isolated structures"

@@ -67,7 +67,7 @@ class PropertyModificationFactors:
         floor: float = 1.8,
         cap: float = 0.60,
     ) -> PropertyModificationFactors:
-        """Return the factors of ASCE 7-22, 17.2.8.4 (clause to be confirmed).
+        """Return the factors [-] of ASCE 7-22, 17.2.8.4 (clause to be confirmed).
 
         Parameters
         ----------
@@ -75,15 +75,15 @@ class PropertyModificationFactors:
             Lower and upper factor of ageing, and of environment (contamination, wear); their
             product is lambda_ae.
         test : tuple of two floats
-            Of heating, rate of loading and cycling, from prototype tests.
+            Factors of heating, rate of loading and cycling, from prototype tests.
         spec : tuple of two floats
-            Of what the specification allows the production to deviate.
+            Tolerance of production in the specification.
         full_scale_tests : bool
-            Whether dynamic tests of full-scale prototypes justify less than floor and cap.
+            True if dynamic tests of full-scale prototypes justify less than floor and cap.
         adjustment : float
             Share of lambda_ae that counts, all effects not being at their worst at once.
         floor, cap : float
-            Least upper, and largest lower factor without such tests.
+            Least upper, and largest lower factor without full-scale tests.
 
         Returns
         -------
@@ -165,15 +165,16 @@ class PropertyModificationFactors:
 
 @dataclass(frozen=True)
 class PropertyBounds:
-    """What bounds the friction of bearings.
+    """Bounds of the friction of bearings, as factors.
 
     Parameters
     ----------
     friction : PropertyModificationFactors
-        Of the low friction of both concave surfaces.
+        Factors of the low friction of both concave surfaces.
     interface : PropertyModificationFactors, optional
-        Of the friction mu_h of the interface between the sliders: its upper bound decides what
-        force a rim passes, its lower one when the interface slides. Default: those of `friction`.
+        Factors of the friction mu_h of the interface between the sliders. Its upper bound limits
+        the rim force; its lower bound decides when the interface slides. Default: those of
+        `friction`.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The values that a code gives: where each stands, and how well it is known."""
+"""Values of a code, with clause and source."""
 
 from __future__ import annotations
 
@@ -44,24 +44,24 @@ NEEDS: Mapping[str, str] = {
 
 
 class Provision(NamedTuple):
-    """A provision of a code, with the checks that are made of it.
+    """A provision of a code, with its checks.
 
     Attributes
     ----------
     clause : str
         Clause.
     what : str
-        What it asks, in a few words.
+        Requirement, in a few words.
     checks : tuple of str
-        How the titles of its checks begin: all of them must be made. None: it is not checked.
+        Beginnings of the titles of its checks: all of them must be made. None: it is not checked.
     needs : tuple of str
         Facts of `NEEDS` without which they are not made.
     why : str
         Why no check is made, or how the engineer shows it.
     yours : bool
-        Whether no program can check it, or this one leaves it to the engineer.
+        True if no program can check it, or this one leaves it to the engineer.
     only : str
-        Fact of the structures that it is for, such as "walls"; of all if empty.
+        Fact of the structures concerned, such as "walls"; all structures if empty.
 
     Examples
     --------
@@ -80,11 +80,11 @@ class Provision(NamedTuple):
 
 
 class ProvisionState(NamedTuple):
-    """Whether a provision is checked in a project."""
+    """State of a provision in a project: checked or not."""
 
-    clause: str  # clause, with a star where it is from memory
-    what: str  # what it asks
-    state: State  # whether a check of it was made
+    clause: str  # clause, with a star if it is from memory
+    what: str  # requirement
+    state: State  # outcome of the search for its checks
     how: str  # titles of its checks, why there is none, or how the engineer shows it
 
     @property
@@ -133,7 +133,7 @@ _CHECKED: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "displacement of time histories": (("isolator displacement",), ()),
     "uplift in time histories": (("uplift duration",), ()),
 }
-"""Provisions that several codes have alike, with checks and needs of each."""
+"""Provisions in common with other codes, with checks and needs of each."""
 
 _YOURS = {
     "overstrength of members and connections": (
@@ -155,7 +155,7 @@ _YOURS = {
 
 
 def common(clause: str, what: str) -> Provision:
-    """Return a provision that several codes have alike, with the clause of one of them."""
+    """Return a provision in common with other codes, with the clause of one of them."""
     if what in _YOURS:
         return yours(clause, what, _YOURS[what])
     return Provision(clause, what, *_CHECKED[what])
@@ -318,13 +318,13 @@ class CodeValue(NamedTuple):
     Attributes
     ----------
     clause : str
-        Where the code has it.
+        Clause of the code.
     what : str
-        What it is, with its number where it has one.
+        Name of the value, with its number if it has one.
     standing : Standing
-        How well it is known.
+        Source of the value.
     field : str
-        Factor of the code's analysis that it is, such as "drift" of `ASCE7`; empty for a formula.
+        Factor in the code's analysis, such as "drift" of `ASCE7`; empty for a formula.
 
     Examples
     --------
@@ -341,7 +341,7 @@ class CodeValue(NamedTuple):
 
 
 def weakest(standings: Iterable[Standing]) -> Standing:
-    """Return the standing of what rests on several values."""
+    """Return the weakest source of several values."""
     found = tuple(dict.fromkeys(standings))
     if not found or any(one.kind == "own" for one in found):
         msg = (

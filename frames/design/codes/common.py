@@ -1,4 +1,4 @@
-"""What the codes share: the order of an equivalent-linear analysis, and its common steps."""
+"""Equivalent-linear analysis, common part of all codes: the order of its steps."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ _SAME_CENTRE = 1e-3
 
 @dataclass(frozen=True, kw_only=True)
 class LinearAnalysis(abc.ABC):
-    """An equivalent-linear analysis: its steps in the order of all codes; a code gives formulas.
+    """An equivalent-linear analysis: steps in the order of all codes, formulas of each code.
 
-    A code's class gives what is abstract here; class variables name its symbols and clauses. Its
+    A code's class gives the abstract methods; class variables name its symbols and clauses. Its
     factors are fields of a frozen dataclass (docs/extending.md).
     """
 
@@ -72,11 +72,11 @@ class LinearAnalysis(abc.ABC):
         system : IsolationSystem
             With properties at that bound.
         spectrum : Spectrum
-            Of the level that the code's analysis is for.
+            Spectrum of the level of the code's analysis.
         bound : {"lower", "nominal", "upper"}
             The bound.
         superstructure : Superstructure, optional
-            What stands on it.
+            Structure above.
         extremes : Extremes
             The system with nominal and with upper properties.
 
@@ -88,7 +88,7 @@ class LinearAnalysis(abc.ABC):
         Raises
         ------
         CheckError
-            If the spectrum or the superstructure lacks what the code needs, or no displacement is
+            If the spectrum or the superstructure lacks an input of the code, or no displacement is
             found.
         """
         self.require(spectrum, superstructure)
@@ -204,7 +204,7 @@ def eccentricities(
 
 
 def _of_masses(system: IsolationSystem, k: int) -> str:
-    # Where the centre of mass is from, and why that of the loads is another.
+    # Source of the centre of mass, and reason that the centre of the loads differs.
     pairs = zip(system.loads, system.positions, strict=True)
     centre = sum(load * place[k] for load, place in pairs) / sum(system.loads)
     given = 0.0 if system.centre_of_mass is None else system.centre_of_mass[k]
@@ -234,9 +234,9 @@ def enter_restoring(t: Trace, displacement: str, share: float) -> None:
 def overturning(t: Trace, moment: str, share: str) -> None:
     """Enter N_E, axial loads of the bearings from an overturning moment in any direction.
 
-    The base is rigid: loads go by the distance from the bearings' centre; `share` of what the
-    other direction gives adds. A direction in which all bearings stand in one line has no lever
-    and is left out.
+    The base is rigid: loads are proportional to the distance from the bearings' centre; a `share`
+    of the other direction's loads adds. A direction in which all bearings are in one line has no
+    lever and is left out.
     """
     t.given("n_b", float(len(t.values("x"))), note="bearings")
     loads: list[str] = []
@@ -334,12 +334,12 @@ def capacity_check(
     clause, demand : str
         Clause, and symbol of the demand.
     words : str
-        What the code calls the demand, for the title.
+        Name of the demand in the code, for the title.
 
     Returns
     -------
     Check
-        Its note says where the rim is met.
+        The check; its note gives the place of rim contact.
     """
     t.given_each(
         "d_rim",

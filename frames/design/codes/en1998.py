@@ -48,7 +48,7 @@ _TORSION = "torsional radius of the isolation over the radius of gyration"
 
 @dataclass(frozen=True, kw_only=True)
 class EN1998(LinearAnalysis):
-    """Factors of EN 1998-1 and -2 and EN 15129; `CODE.values` tells how well each is known.
+    """Factors of EN 1998-1 and -2 and EN 15129; `CODE.values` gives the source of each.
 
     Parameters
     ----------
@@ -68,11 +68,11 @@ class EN1998(LinearAnalysis):
     stiffness_ratio, most_damping : float
         Least K_eff over that at 0.2 d_dc, and largest damping (EN 1998-1 10.9.2).
     property_variation : float, optional
-        How far properties vary with rate and load in the range of interest [-], from tests.
+        Variation of properties with rate and load in the range of interest [-], from tests.
     most_variation : float
         Its limit (EN 1998-1 10.9.2).
     simplified : bool
-        Whether the limits of the simplified linear analysis are checked (EN 1998-1 10.9.3).
+        True if the limits of the simplified linear analysis are checked (EN 1998-1 10.9.3).
     fault_distance : float, optional
         Distance of the nearest fault of magnitude 6.5 and more [m], for these limits.
     least_distance, largest_side, longest_period, period_ratio, vertical_period : float
@@ -242,7 +242,8 @@ class EN1998(LinearAnalysis):
         return Checks(found)
 
     def _accumulated(self, t: Trace, system: IsolationSystem, limit: CheckBuilder) -> Check:
-        # What earlier events may leave adds to the displacement: Italy's rule, which is public.
+        # The residual displacement of earlier events adds to the displacement: Italy's rule, which
+        # is public.
         t.given("a_0", self.accumulated, source="NTC 2018 7.10.6.2.2")
         t.each("d_acc", "a_0 * d_r", "m", shown="mm", note="left by earlier events")
         t.each("d_all", "d_Ed + d_acc", "m", source="NTC 2018 7.10.6.2.2", shown="mm")

@@ -1,4 +1,4 @@
-"""Rules of codes: how time histories count, and what of dead, live and snow load does."""
+"""Rules of codes for time histories, and for dead, live and snow load."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ NCH_MAXIMUM = 1.2
 
 @dataclass(frozen=True)
 class ActionLevel:
-    """A level of the seismic action, and what is judged at it.
+    """A level of the seismic action, and its checked parts.
 
     Parameters
     ----------
     name : str
-        As tables and checks show it.
+        Name in tables and checks.
     factor : float
         On motions that are scaled to the design spectrum [-], at least 1.
     judges : {"all", "superstructure", "isolation"}
-        What is judged at this level: what stands on the bearings (base shear, storey shears and
-        drifts, accelerations), the bearings (displacement, rims, slip, forces, uplift), or both.
+        Checked parts at this level: the structure above (base shear, storey shears and drifts,
+        accelerations), the bearings (displacement, rims, slip, forces, uplift), or both.
 
     Raises
     ------
@@ -61,12 +61,12 @@ class ActionLevel:
 
     @property
     def judges_bearings(self) -> bool:
-        """Whether the bearings are judged at this level."""
+        """True if the bearings are checked at this level."""
         return self.judges != "superstructure"
 
     @property
     def judges_structure(self) -> bool:
-        """Whether what stands on the bearings is judged at this level."""
+        """True if the structure above the bearings is checked at this level."""
         return self.judges != "isolation"
 
 
@@ -92,54 +92,53 @@ class HistoryRules:
         Number of motions from which on the mean of their largest values counts, below it the
         largest.
     drift : float, optional
-        Limit of the storey drift ratio [-]; None where the code has none for this level of motion.
+        Limit of the storey drift ratio [-]; None if the code has none for this level of motion.
     drift_factor : float
         On the drift that is held against it [-]: to a more frequent earthquake, nu of EN 1998.
     drift_classes : tuple of (str, float)
-        Kinds of non-structural elements with the limit of each [-], where a code has several; a
+        Kinds of non-structural elements with the limit of each [-], if a code has several; a
         project names one.
     second_order : float, optional
-        Storey drift ratio times R_I above which the effects of gravity on the displaced structure
-        (P-Delta) must be in the analysis [-]; None where the code has none.
+        Storey drift ratio times R_I above which the analysis must include the effects of gravity on
+        the displaced structure (P-Delta) [-]; None if the code has none.
     torsion : float, optional
         Largest drift of a line of nodes over the mean of its storey [-] up to which a structure is
-        regular in plan; None where the code has none.
+        regular in plan; None if the code has none.
     stability : tuple of float, optional
-        Largest coefficient of P-Delta theta = P d / (V h) of a storey [-], if the analysis is
-        without the effects of gravity on the displaced structure, and if it has them; None where
-        the code has none.
+        Largest coefficient of P-Delta theta = P d / (V h) of a storey [-], without and with the
+        effects of gravity on the displaced structure in the analysis; None if the code has none.
     displacement_factor : float
         On the isolators' displacement [-].
     uplift_allowed : bool
-        Whether bearings may lift off; where not, a run in which one does is unacceptable.
+        True if bearings may lift off; if not, a run in which one does is unacceptable.
     least_gap : float
-        Gap up to which a bearing counts as in contact all the same [m]. A proposal: what sliders
-        and liners under a common pressure spring back by, 60 MPa times 225 mm over 20 GPa
-        (docs/choices_bearing.md) is 0.7 mm, rounded up. Notes name each such run; 0 counts any gap.
+        Gap up to which a bearing still counts as in contact [m]. A proposal: sliders and liners
+        spring back from a common pressure by 60 MPa times 225 mm over 20 GPa
+        (docs/choices_bearing.md), 0.7 mm, rounded up. Notes name each such run; 0 counts any gap.
     unacceptable_allowed : int
-        How many runs may fail while the mean of the others stands for all: then the median of all
-        times `median_factor` is its lower bound.
+        Number of runs that may fail while the mean of the others is valid for all: the median of
+        all times `median_factor` is then its lower bound.
     median_factor : float
-        That factor [-].
+        Factor on the median for failed runs [-].
     engagement : float, optional
         Share of the displacement below which rims must not engage [-]; that of the code,
         `RIM_RULES`, if None.
     has_minima : bool
-        Whether the equivalent-linear analysis gives least values of what histories give, as
+        True if the equivalent-linear analysis gives least values of the histories' demands, as
         D_TM_dyn, V_b_dyn and V_s_dyn of its calculation.
     accidental_eccentricity : float
         Share of the plan's sides by which the masses of floors are moved each way [-]; 0: not at
         all.
     levels : tuple of ActionLevel
-        Levels of the seismic action at which histories are run, and what is judged at each.
+        Levels of the seismic action of the histories, and the checked parts of each.
     statistic_clause, displacement_clause, drift_clause, force_clause, uplift_clause : str
-        Clauses; `uplift_clause` that of what bearings must keep where they lift off.
+        Clauses; `uplift_clause` is that of the requirements on bearings that lift off.
     torsion_clause, stability_clause : str
         Clauses of `torsion` and `stability`.
     eccentricity_clause : str
         Clause of accidental eccentricity.
     standard : str
-        Standard, or part of it, as clauses begin; the code's name if empty.
+        Beginning of clauses: the standard, or a part of it; the code's name if empty.
 
     Examples
     --------
@@ -186,7 +185,7 @@ class HistoryRules:
 
     @property
     def cited(self) -> str:
-        """What clauses begin with."""
+        """Beginning of clauses."""
         return self.standard or self.code
 
     def __post_init__(self) -> None:
@@ -211,7 +210,7 @@ class HistoryRules:
         Raises
         ------
         CheckError
-            If the code has no such kind.
+            If the code does not have the kind.
         """
         limits = dict(self.drift_classes)
         if not limits:
@@ -234,12 +233,12 @@ class HistoryRules:
         Parameters
         ----------
         name : str
-            Of one of `levels`.
+            Name of one of `levels`.
 
         Returns
         -------
         ActionLevel
-            That one.
+            The level.
 
         Raises
         ------
@@ -269,24 +268,24 @@ CASES = ("D", "L", "S")
 
 
 class LoadRule(NamedTuple):
-    """How a code counts the loads of an isolated building.
+    """Load combinations of an isolated building in a code.
 
     Attributes
     ----------
     clause : str
-        Where the code says so.
+        Clause of the code.
     mass : mapping of str to float
         Share of each load case that is seismic mass [-], if a project does not say another.
     combinations : callable
-        Returns the vertical load combinations of the bearings without the horizontal earthquake,
-        "average" among them, which time histories carry; its argument is the acceleration that
-        the vertical earthquake goes by [g], or None without it.
+        Returns the vertical load combinations of the bearings without the horizontal earthquake.
+        "average" among them is that of time histories. Its argument is the acceleration of the
+        vertical earthquake [g], or None without it.
     standing : Standing
-        How well it is known.
+        Source of the rule.
     note : str
-        What it makes of the loads, in words.
+        Factors of the loads, in words.
     vertical : callable
-        Returns that acceleration of a spectrum: S_MS of ASCE 7, None where there is none.
+        Returns that acceleration of a spectrum [g]: S_MS of ASCE 7, None if there is none.
 
     Examples
     --------
@@ -309,7 +308,7 @@ class LoadRule(NamedTuple):
 
     @property
     def cited(self) -> str:
-        """Clause, with a star where it is from memory, and note."""
+        """Clause, with a star if it is from memory, and note."""
         said = self.standing.cited(self.clause)
         return worded("{clause}: {note}", clause=said, note=self.note) if self.note else said
 

@@ -1,4 +1,4 @@
-"""What an equivalent-linear analysis knows of a structure: its bearings, and what they carry."""
+"""Input of an equivalent-linear analysis: the bearings of a structure, and their loads."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ AVERAGE = "average"
 @final
 @dataclass(frozen=True, kw_only=True, repr=False)
 class IsolationSystem:
-    """The bearings of a structure and what rests on them.
+    """The bearings of a structure and their loads.
 
     Parameters
     ----------
     bearings : tuple of LIRBearing or FrictionPendulum, (n,)
         Each bearing of the structure; none may be left out.
     positions : tuple of (float, float), (n,)
-        Where they stand in plan, x and y [m].
+        Positions in plan, x and y [m].
     loads : tuple of float, (n,)
         Their axial loads, compression positive [N]: those of the average combination.
     plan : (float, float)
@@ -47,13 +47,13 @@ class IsolationSystem:
         Distance of the centre of mass from that of stiffness along x and y [m], without the
         accidental one; from `centre_of_mass` if None.
     centre_of_mass : (float, float), optional
-        Of all that rests on the bearings, x and y [m]; that of the loads if None.
+        Centre of mass above the bearings, x and y [m]; that of the loads if None.
     combinations : mapping of str to tuple of float
         Axial loads of the bearings in other combinations of vertical loads, without the
         horizontal earthquake [N].
     unknown_loads : str
-        Why the loads of single bearings are not known, although their sum is: checks and tests
-        that need them are then not evaluated. Empty where they are known.
+        Reason that the loads of single bearings are unknown, although their sum is known: checks
+        and tests that need them are then not evaluated. Empty if they are known.
     names : tuple of str, optional
         Names of the bearings; `labels` are "1" to "n" if left out.
     gravity : float
@@ -62,7 +62,7 @@ class IsolationSystem:
     Raises
     ------
     CheckError, ValueError, TypeError
-        If numbers are out of bounds or of unlike count.
+        If numbers are out of bounds, or their counts differ.
 
     Examples
     --------
@@ -129,8 +129,8 @@ class IsolationSystem:
     ) -> IsolationSystem:
         """Return the bearings of a frame, loaded as in its equilibrium under permanent loads.
 
-        The centre of mass is that of the frame's masses above the bearings. Whether their loads
-        are known is found from the model, by what they carry of an overturning moment.
+        The centre of mass is that of the frame's masses above the bearings. The model decides if
+        their loads are known, by their share of an overturning moment.
 
         Parameters
         ----------
@@ -146,7 +146,7 @@ class IsolationSystem:
         plan : (float, float), optional
             Sides of the structure's plan [m]; the extent of the frame's nodes if None.
         weight : float, optional
-            Seismic weight [N]; that which the bearings carry in the average combination if None.
+            Seismic weight [N]; that of the bearings in the average combination if None.
         eccentricity : (float, float), optional
             As in `IsolationSystem`.
 
@@ -199,7 +199,7 @@ class IsolationSystem:
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """Names of the bearings; "1" to "n" where none were given."""
+        """Names of the bearings; "1" to "n" if none were given."""
         return tuple(self.names) or tuple(str(k + 1) for k in range(len(self.bearings)))
 
     @property
@@ -209,7 +209,7 @@ class IsolationSystem:
 
     @cached_property
     def pendulums(self) -> tuple[FrictionPendulum, ...]:
-        """What the bearings are to design formulas, (n,)."""
+        """The bearings in design formulas, (n,)."""
         return tuple(map(FrictionPendulum.of, self.bearings))
 
     @property
@@ -260,13 +260,13 @@ def with_property_bounds(
     Parameters
     ----------
     what : LIRBearing, FrictionPendulum, Frame or IsolationSystem
-        What has nominal friction; of a frame or system all bearings are taken.
+        Object with nominal friction; all bearings of a frame or system are changed.
     bound : {"lower", "nominal", "upper"}
         The bound.
     bounds : PropertyBounds
         The factors.
     interface : {"lower", "nominal", "upper"}, optional
-        Bound of the interface friction, where another than that of the surfaces is wanted.
+        Bound of the interface friction, if it differs from that of the surfaces.
 
     Returns
     -------

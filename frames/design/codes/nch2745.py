@@ -59,7 +59,7 @@ _LONG = 4.0  # s, beyond all T_d
 
 @dataclass(frozen=True, kw_only=True)
 class NCh2745(LinearAnalysis):
-    """Factors of NCh2745; `CODE.values` tells how well each is known.
+    """Factors of NCh2745; `CODE.values` gives the source of each.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What an equivalent-linear analysis gives: at each bound, and over all bounds."""
+"""Results of an equivalent-linear analysis: at each bound, and over all bounds."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Symbols(NamedTuple):
-    """How a code calls what its equivalent-linear analysis finds."""
+    """Symbols of a code for the results of its equivalent-linear analysis."""
 
     displacement: str  # at the centre
     total: str  # the largest of a bearing, with torsion
@@ -27,7 +27,7 @@ class Symbols(NamedTuple):
     factor: str  # damping factor
     base_shear: str  # shear of the isolation system
     shear: str  # design shear above it
-    # displacement that bearings must allow, where that is more than the total one
+    # displacement capacity that bearings need, if it is more than the total one
     allowed: str = ""
 
 
@@ -127,7 +127,7 @@ _COLUMNS = (
 
 @dataclass(frozen=True, eq=False, repr=False)
 class EquivalentLinear:
-    """What an equivalent-linear analysis gives, at all bounds.
+    """Results of an equivalent-linear analysis at all bounds.
 
     Attributes
     ----------
@@ -200,7 +200,7 @@ class EquivalentLinear:
 
     @property
     def _columns(self) -> list[tuple[str, str, str]]:
-        # What bearings must allow stands beside the total displacement where it is more.
+        # The needed displacement capacity is beside the total displacement if it is more.
         more = any(each.symbols.allowed for each in self.bounds.values())
         return [column for column in _COLUMNS if more or column[0] != "allowed_displacement"]
 

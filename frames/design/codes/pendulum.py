@@ -18,8 +18,8 @@ class FrictionPendulum:
     """A friction pendulum by its effective radii and frictions, for design formulas.
 
     `FrictionPendulum.of` makes one of an `LIRBearing`, whose rigid slider slides on both surfaces
-    at once: one radius and one friction describe it. Two radii stand for a slider with a joint,
-    whose surfaces slide one after the other: of unlike friction the loop has a corner.
+    at once: one radius and one friction describe it. Two radii describe a slider with a joint,
+    whose surfaces slide one after the other: if their frictions differ, the loop has a corner.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ class FrictionPendulum:
 
     @property
     def corner_loss(self) -> float:
-        """What corners cut off a cycle's energy, over the load [m]: 4 R1 R2 (mu2 - mu1)^2 / L."""
+        """Loss of a cycle's energy at corners, over the load [m]: 4 R1 R2 (mu2 - mu1)^2 / L."""
         step = max(self.frictions) - min(self.frictions)
         return 4.0 * math.prod(self.radii) * step**2 / self.effective_radius
 
@@ -117,7 +117,7 @@ class FrictionPendulum:
         return load * (4.0 * self.effective_friction * displacement - self.corner_loss)
 
     def require_sliding(self, displacement: float) -> None:
-        """Raise a CheckError where not all surfaces slide at a displacement."""
+        """Raise a CheckError if not all surfaces slide at a displacement."""
         if not displacement >= self.corner:
             msg = (
                 f"displacement = {displacement:g} m is below the corner of the loop, "

@@ -1,4 +1,4 @@
-"""Tests of bearings as codes plan them: what a test is, what it is made of, and usual ones."""
+"""Prototype tests of bearings in codes: the kinds of tests, their input, and usual ones."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 
 
 class AcceptanceRule(NamedTuple):
-    """What a code accepts of measured loops, of which tests of its programme.
+    """Acceptance of measured loops in a code, for some tests of its programme.
 
     Attributes
     ----------
     tests : tuple of str
-        How the names of these tests begin.
+        Beginning of the names of these tests.
     value : CodeValue
-        What is accepted, its clause, and how well it is known.
+        Criterion, its clause, and its source.
 
     Examples
     --------
@@ -47,7 +47,7 @@ class AcceptanceRule(NamedTuple):
 
 
 def accepted_of(rules: Iterable[AcceptanceRule], test: str) -> str:
-    """Return what is accepted of a test, with clauses and stars, "; " between."""
+    """Return the acceptance criteria of a test, with clauses and stars, joined by "; "."""
     return "; ".join(
         f"{rule.value.what} ({rule.value.standing.cited(rule.value.clause)})"
         for rule in rules
@@ -65,7 +65,7 @@ def ordered_loads(loads: tuple[float, float]) -> tuple[float, float]:
 
 
 class PlannedTest(NamedTuple):
-    """A test of the programme; NaN where a number is not given or has no meaning."""
+    """A test of the programme; NaN for a number that is not given or has no meaning."""
 
     name: str
     displacement: float  # m
@@ -74,13 +74,13 @@ class PlannedTest(NamedTuple):
     speed: float  # m/s, the largest of a cycle
     shows: str
     clause: str
-    lateral: float = math.nan  # N, where the test goes to a force
+    lateral: float = math.nan  # N, if the test is force-controlled
     alone: bool = False  # the interface between the sliders, without the concave surfaces
 
 
 @dataclass(frozen=True, kw_only=True)
 class ProgrammeDemands:
-    """What a programme of tests asks for besides the equivalent-linear analysis.
+    """Demands of a programme of tests, besides the equivalent-linear analysis.
 
     Parameters
     ----------
@@ -92,11 +92,11 @@ class ProgrammeDemands:
     service : float, optional
         Displacement without an earthquake, of temperature for instance [m].
     slip : float, optional
-        Interface slip of time histories [m]. What the displacement that bearings must allow is
-        beyond the rims, and a quarter of the stable limit of interface slip, are tested at least.
+        Interface slip of time histories [m]. The test slip is at least the needed displacement
+        capacity beyond the rims, and a quarter of the stable limit of interface slip.
     impact_speed : float, optional
-        Speed at which a rim is met [m/s]. None: of a harmonic motion with the design's period and
-        the displacement that bearings must allow; its largest, where that does not reach a rim.
+        Speed at rim contact [m/s]. None: that of a harmonic motion with the design's period and the
+        needed displacement capacity; its largest speed if it does not reach a rim.
     slow_speed : float
         Peak speed of tests that are not dynamic [m/s]; EN 15129 has 50 mm/s.
 
@@ -138,7 +138,7 @@ class ProgrammeDemands:
 
 @dataclass(frozen=True)
 class DesignToTest:
-    """What the tests of one kind of bearing are made of."""
+    """Design values of one kind of bearing for its tests."""
 
     result: BoundResult  # equivalent-linear analysis at the bound of the largest displacement
     bearing: LIRBearing | FrictionPendulum  # the bearing, friction nominal
@@ -146,10 +146,10 @@ class DesignToTest:
     average: float  # axial load [N]
     least: float  # axial load [N]
     largest: float  # axial load [N]
-    demands: ProgrammeDemands  # what is asked for besides
+    demands: ProgrammeDemands  # further demands
 
     def speed_at(self, displacement: float, period: float | None = None) -> float:
-        """Peak speed of harmonic motion, with the effective period unless another is given."""
+        """Return the peak speed of harmonic motion [m/s], with the effective period by default."""
         return 2.0 * math.pi * displacement / (period or self.result.period)
 
 

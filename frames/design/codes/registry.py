@@ -1,4 +1,4 @@
-"""A design code as one value: all that the package asks of it, found by its name."""
+"""A design code as one value with all its rules, found by its name."""
 
 from __future__ import annotations
 
@@ -52,20 +52,20 @@ class AnalysisMethod(Protocol):
 
 
 class RimRule(NamedTuple):
-    """What a code asks of the displacement at which rims are met.
+    """Requirement of a code on the displacement at rim contact.
 
     Attributes
     ----------
     clause : str
         Clause.
     symbol : str
-        How the code calls the displacement that bearings must allow.
+        Name of the needed displacement capacity in the code.
     least : float
-        Share of it below which rims must not be met [-].
+        Share of it below which the rims must not be reached [-].
     note : str
-        What rims that are met below it mean under the code.
+        Meaning of rim contact below it under the code.
     standing : Standing
-        How well clause and share are known.
+        Source of clause and share.
 
     Examples
     --------
@@ -87,7 +87,7 @@ class SpectrumKey(NamedTuple):
     Attributes
     ----------
     kind : type
-        ``float`` for a number, or a Literal of what may be chosen.
+        ``float`` for a number, or a Literal of the choices.
     unit : str
         Unit that it must be given in, "m/s^2" or "s"; "" for a pure number.
     default : object
@@ -95,7 +95,7 @@ class SpectrumKey(NamedTuple):
     most : float, optional
         Largest number [SI].
     optional : bool
-        Whether it may be left out without a value in its place.
+        True if it may be left out without a value in its place.
 
     Examples
     --------
@@ -112,7 +112,7 @@ class SpectrumKey(NamedTuple):
 
 
 class ExampleProject(NamedTuple):
-    """What the example of ``lir new`` is under a code."""
+    """The example of ``lir new`` under a code."""
 
     spectrum: Mapping[str, object]  # keys of its spectrum [SI], which its motions follow
     sections: Mapping[str, str]  # sections of the file by name, in place of those of ASCE 7-22
@@ -136,29 +136,29 @@ def example_bearing(
 
 
 NO_LIMITS = "no code: the limits of ASCE 7-10"
-"""Clause of acceptance where a code's own limits were not read."""
+"""Clause of acceptance if a code's own limits were not read."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DesignCode(HazardRules):
-    """A design code; `register_code` makes it known, and all that goes by a code reads it here.
+    """A design code; `register_code` makes it available to all functions that use a code.
 
     Parameters
     ----------
     name, aliases, damping, scaling
         As in `frames.design.hazard.code_rules.HazardRules`.
     title : str
-        What it is.
+        Title of the code.
     edition : str
         Edition that its clauses, formulas and tables are of, as report and console name it.
     values : mapping of str to CodeValue
-        What it gives, value by value, and how well each is known; all else is from memory.
+        Values of the code with the source of each; all others are from memory.
     provisions : tuple of Provision
-        What it asks of a project, checked or not.
+        Requirements on a project, checked or not.
     analysis : callable
         Returns the equivalent-linear analysis with all defaults; a class such as `ASCE7`.
     histories : HistoryRules
-        How time histories count.
+        Rules for time histories.
     spectrum : callable
         Returns its design spectrum by the keys below, `Spectrum.asce7` for instance.
     spectrum_keys : mapping of str to SpectrumKey
@@ -169,19 +169,19 @@ class DesignCode(HazardRules):
     factors : callable
         Puts factors on friction together of their sources, `factors_by_source` if not given.
     points_keys : mapping of str to SpectrumKey
-        Keys of ``[spectrum]`` beside ``points``; none must be given.
+        Keys of ``[spectrum]`` besides ``points``; none is required.
     rims : RimRule
-        What it asks of the displacement at which rims are met.
+        Requirement on the displacement at rim contact.
     tests : callable
         Its tests of bearings, made of a `DesignToTest`.
     accepted : tuple of AcceptanceRule
-        What it accepts of its tests, as the programme states it.
+        Acceptance criteria of its tests, as the programme states them.
     acceptance : str
         Clause of the limits that `acceptance_checks` holds measured loops against.
     loads : LoadRule
-        What it makes of dead, live and snow load.
+        Combinations of dead, live and snow load.
     example : ExampleProject, optional
-        What ``lir new`` writes; without it there is no example.
+        Example of ``lir new``; without it there is none.
     unread : mapping of str to str
         Keys of ``[superstructure]`` that its formulas do not read, with their reason in words.
 
@@ -228,17 +228,17 @@ class DesignCode(HazardRules):
 
     @property
     def cited(self) -> str:
-        """Name and title, with the edition if it is told."""
+        """Name and title, with the edition if it is given."""
         return f"{self.name}: {self.title}{f' ({self.edition})' if self.edition else ''}"
 
     def standing(self, name: str) -> Standing:
-        """Return how well one of its `values` is known; from memory of what it does not list."""
+        """Return the source of one of its `values`; "from memory" if it is not listed."""
         return self.values[name].standing if name in self.values else FROM_MEMORY
 
     def by_points(
         self, periods: Sequence[float], accelerations: Sequence[float], **keys: float
     ) -> Spectrum:
-        """Return a design spectrum of the code through points, as a study of the site gives it.
+        """Return a design spectrum of the code through the points of a site study.
 
         Parameters
         ----------
@@ -247,7 +247,7 @@ class DesignCode(HazardRules):
         accelerations : sequence of float
             Pseudo-accelerations for 5 % damping at the level of the code's spectrum [m/s2].
         **keys : float
-            As `points_keys` names them.
+            Values of the keys in `points_keys`.
 
         Returns
         -------
@@ -267,14 +267,14 @@ class DesignCode(HazardRules):
 
 
 def register_code(code: DesignCode, *, replace: bool = False) -> DesignCode:
-    """Make a code known: spectra, projects and checks take its name from then on.
+    """Register a code: spectra, projects and checks accept its name from then on.
 
     Parameters
     ----------
     code : DesignCode
         The code.
     replace : bool
-        Whether it may take the place of one of the same name.
+        True to replace a code of the same name.
 
     Returns
     -------
@@ -318,7 +318,7 @@ def code_named(name: str, error: type[ValueError] = CheckError) -> DesignCode:
         "ASCE 7-22" (also "ASCE 7", "ASCE/SEI 7-22"), "EN 1998" ("EN 1998-1"), "NCh2745"
         ("NCh 2745"), or one that was registered.
     error : type
-        What is raised if it is not known.
+        Error for an unknown name.
 
     Returns
     -------
@@ -347,7 +347,7 @@ def standing_in(code: str, name: str) -> Standing:
 
 
 class _HistoryRulesByCode(Mapping[str, HistoryRules]):
-    """How each code counts time histories, by any spelling of its name."""
+    """Rules of each code for time histories, by any spelling of its name."""
 
     def __getitem__(self, name: str) -> HistoryRules:
         return code_named(name, KeyError).histories  # type: ignore[arg-type]  # as mappings do
@@ -360,4 +360,4 @@ class _HistoryRulesByCode(Mapping[str, HistoryRules]):
 
 
 HISTORY_RULES: Mapping[str, HistoryRules] = _HistoryRulesByCode()
-"""How each code counts time histories, by any spelling of its name."""
+"""Rules of each code for time histories, by any spelling of its name."""

@@ -1,4 +1,4 @@
-"""Equivalent-linear analysis: what the codes share."""
+"""Equivalent-linear analysis: the common steps of the codes."""
 
 from __future__ import annotations
 
@@ -54,11 +54,11 @@ def secant(t: Trace, displacement: str, symbols: Symbols, source: str, level: st
     displacement : str
         Symbol of the displacement.
     symbols : Symbols
-        How they are called.
+        Symbols of the code.
     source : str
         Clause.
     level : str
-        Ends the symbols F and E of force and energy, where there are several levels.
+        Suffix of the symbols F and E of force and energy, if there are several levels.
     """
     k, beta, d = symbols.stiffness, symbols.damping, displacement
     t.each(f"F{level}", f"P * ({d} / L + mu)", "N", note="force of each bearing")
@@ -81,8 +81,8 @@ def iterate_displacement(
 ) -> tuple[Trace, tuple[Iteration, ...]]:
     """Find the displacement at which stiffness and damping give that displacement, in rounds.
 
-    `step` is the calculation from an assumed displacement [m], `start` the first one; `held` says
-    peak acceleration and friction in words, for the message where nothing slides.
+    `step` is the calculation from an assumed displacement [m], `start` the first one; `held` gives
+    peak acceleration and friction in words, for the message if nothing slides.
     """
     rounds: list[Iteration] = []
     assumed = start
@@ -117,7 +117,7 @@ def _alike(one: Check, other: Check) -> bool:
 
 @dataclass(frozen=True)
 class CheckBuilder:
-    """Makes checks from what a calculation holds."""
+    """Builder of checks from the values of a calculation."""
 
     t: Trace  # the calculation
     bound: Bound  # properties of the bearings that it is for

@@ -1,4 +1,4 @@
-"""What an equivalent-linear analysis knows of the structure above the bearings."""
+"""Input of an equivalent-linear analysis: the structure above the bearings."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Superstructure:
-    """What stands on the isolation system, as design formulas need it.
+    """The structure above the isolation system, for design formulas.
 
     Parameters
     ----------
     fixed_base_period : float
         Period of the structure on a fixed base, T_fb [s].
     storey_weights : tuple of float, (n,)
-        Weight of each floor above the base level, lowest first [N]; the base level itself is what
-        the seismic weight has beyond their sum.
+        Weight of each floor above the base level, lowest first [N]; the weight of the base level is
+        the seismic weight minus their sum.
     storey_heights : tuple of float, (n,)
         Height of each storey [m].
     R : float
@@ -48,7 +48,7 @@ class Superstructure:
     Raises
     ------
     CheckError, ValueError, TypeError
-        If numbers are out of bounds or of unlike count.
+        If numbers are out of bounds, or their counts differ.
 
     Examples
     --------
@@ -93,7 +93,7 @@ class Superstructure:
         service_displacement: float = 0.0,
         vertical_period: float | None = None,
     ) -> Superstructure:
-        """Return what stands on the bearings of a frame: weights, heights and period.
+        """Return the structure above the bearings of a frame: weights, heights and period.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""What chapter 17 of ASCE 7-22 gives, value by value, and how well each is known."""
+"""Values of ASCE 7-22, chapter 17, with the source of each."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ VALUES = {
         "ASCE 7-22 17.8.5", "post-elastic stiffness and EDC within lambda_spec of the nominal ones"
     ),
 }
-"""By name; of what no text was compared it is from memory."""
+"""Values by name; a value without comparison with a text is from memory."""
 
 PROVISIONS = (
     common(f"{NAME} 17.2.4.5, 17.4.1", "rims are not met at D_TM"),
@@ -210,7 +210,7 @@ PROVISIONS = (
     common(f"{NAME} 17.7", "review of the design"),
     common(f"{NAME} 17.8", "tests of the bearings"),
 )
-"""Provisions of chapter 17, checked or not; `OF_BEARINGS` has those beside the code."""
+"""Provisions of chapter 17, checked or not; `OF_BEARINGS` has those of bearings."""
 
 
 def _by_points(periods: Sequence[float], accelerations: Sequence[float], **keys: Any) -> Spectrum:

@@ -1,4 +1,4 @@
-"""What EN 1998 and EN 15129 give for isolation, value by value, and how well each is known."""
+"""Values of EN 1998 and EN 15129 for isolation, with the source of each."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ VALUES = {
     ),
     "stable": CodeValue("EN 15129 8.3.4", "the bearing stays stable"),
 }
-"""By name; of what no text was compared it is from memory."""
+"""Values by name; a value without comparison with a text is from memory."""
 
 PROVISIONS = (
     Provision(
@@ -236,7 +236,7 @@ PROVISIONS = (
     common("EN 15129 8.3.4", "tests of the bearings"),
     yours("EN 15129 4.4, 10", "durability, fire, replacement", "state it in the specification"),
 )
-"""Provisions of EN 1998 and EN 15129, checked or not; `OF_BEARINGS` has those beside them."""
+"""Provisions of EN 1998 and EN 15129, checked or not; `OF_BEARINGS` has those of bearings."""
 
 
 _SMALLEST_ETA = 0.55

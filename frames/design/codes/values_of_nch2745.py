@@ -1,4 +1,4 @@
-"""What NCh2745 gives, value by value, and how well each is known."""
+"""Values of NCh2745, with the source of each."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ VALUES = {
     "stable": CodeValue("NCh2745 14.4", "the bearing stays stable"),
     "number of specimens": CodeValue("NCh2745 14", "two full-size specimens of each type and size"),
 }
-"""By name; of what no text was compared it is from memory."""
+"""Values by name; a value without comparison with a text is from memory."""
 
 PROVISIONS = (
     common("NCh2745 7.3", "rims are not met at D_TM"),
@@ -138,7 +138,7 @@ PROVISIONS = (
         "state it in the specification",
     ),
 )
-"""Provisions of NCh2745, checked or not; `OF_BEARINGS` has those beside the code."""
+"""Provisions of NCh2745, checked or not; `OF_BEARINGS` has those of bearings."""
 
 
 def _vertical(spectrum: Spectrum) -> float:

@@ -47,7 +47,7 @@ def overlap_area(radius: float, offset: float) -> float:
 
 
 def pressure(t: Trace, symbol: str, load: str, offset: str) -> float:
-    """Enter the mean pressure of a load on what two circles of radius `a` share."""
+    """Enter the mean pressure of a load on the overlap of two circles of radius `a` [Pa]."""
     area, s = f"A_{symbol}", t.value(offset)
     if math.isinf(s):
         return t.given(symbol, math.inf, "Pa", note=t[offset].note)
@@ -91,7 +91,7 @@ SURFACES = ("bottom", "top")
 
 
 def require_rims(bearing: LIRBearing) -> None:
-    """Raise a CheckError where a bearing has no rims."""
+    """Raise a CheckError if a bearing has no rims."""
     if not math.isfinite(bearing.lateral_capacity):
         msg = "the bearing has no rims: give it a capacity, or leave this check out"
         raise CheckError(msg)

@@ -1,4 +1,4 @@
-"""Capacity of the LIR-DCFP as the sum of its three parts, and where its rims are met."""
+"""Capacity of the LIR-DCFP as the sum of its three parts, and its rim displacements."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def engagement_checks(
     code: str = "ASCE 7-22",
     agreed: float | None = None,
 ) -> Checks:
-    """Check at which share of the displacement that bearings must allow each rim is met.
+    """Check the rim displacements as shares of the needed displacement capacity.
 
     Parameters
     ----------
@@ -116,21 +116,20 @@ def engagement_checks(
         Displacement that bearings must allow [m], one or one for each bound: D_TM of ASCE 7-22, and
         of NCh2745 at its maximum level; gamma_x d_bd of EN 1998.
     least : float, optional
-        Share of it below which a rim must not be met [-]; that of the code if None: 0.60 of
-        ASCE 7-22, whose wording has to be read, 1 of the others, which have no rule for rims that
-        are met by intent.
+        Share of it below which a rim must not be reached [-]; that of the code if None: 0.60 of
+        ASCE 7-22 (wording to be read), 1 of the others, which have no rule for intended rim
+        contact.
     code : str
         The code: "ASCE 7-22", "EN 1998", "NCh2745", or one that was registered.
     agreed : float, optional
-        Share that the authority agreed to, or that tests prove [-]: checked beside that of the
-        code.
+        Share agreed with the authority, or proved by tests [-]: checked beside that of the code.
 
     Returns
     -------
     Checks
-        A check for each rim and bound; of a code without a rule for rims met by intent that of the
-        rim and bound that are worst, whose verdict is "needs agreement" where rims are met
-        earlier. With an agreed share as many again.
+        A check for each rim and bound. If the code has no rule for intended rim contact, one check
+        for the worst rim and bound; its verdict is "needs agreement" if a rim is reached earlier.
+        An agreed share adds the same number of checks.
 
     Raises
     ------
@@ -183,7 +182,7 @@ def _met(
     least: float,
     said: str,
 ) -> Check:
-    # Where a rim is met, over the displacement that a bearing must allow.
+    # Displacement at rim contact, over the needed displacement capacity.
     t, symbol = enter_geometry(bearing), rule.symbol
     t.given("D_allowed", at[1], "m", shown="mm", note=symbol)
     t.given("eta_least", least)

@@ -36,7 +36,7 @@ def device_checks(
     bounds: PropertyBounds | None = None,
     limits: DesignLimits | None = None,
 ) -> Checks:
-    """Check a bearing by what its geometry and friction alone decide.
+    """Check a bearing by its geometry and friction alone.
 
     Parameters
     ----------
@@ -50,18 +50,18 @@ def device_checks(
     slip_left : float
         Interface slip that an earlier event left, in the worse direction [m].
     bounds : PropertyBounds, optional
-        Lower and upper bound friction properties; nominal friction if None. The low friction is
-        taken at its upper bound and that of the interface at its lower one where the interface must
-        hold, the other way round where it must slip.
+        Lower and upper bound friction properties; nominal friction if None. If the interface must
+        hold, low friction is at its upper bound and interface friction at its lower one; if it must
+        slip, the other way round.
     limits : DesignLimits, optional
-        What it may be asked for.
+        Limits of the project.
 
     Returns
     -------
     Checks
-        That the interface holds until a rim is met, at both loads; that its slip holds; that it
-        slips before a rim breaks; that the resultant stays on the slider; pressures and lateral
-        force where they have a limit.
+        The checks: the interface holds until rim contact, at both loads; its slip is stable; it
+        slips before a rim breaks; the resultant stays on the slider; pressures and lateral force,
+        if they have a limit.
 
     Raises
     ------
@@ -70,13 +70,13 @@ def device_checks(
 
     Notes
     -----
-    Source: docs/theory.md, sections 2 and 10: the moments of the slider about its spheres'
-    centres, in a plane, the plates parallel. Friction that depends on pressure counts at N_min in
-    its upper bound and at N_max in its lower one; what heat takes of it belongs into the lower
-    factor of `bounds`, for its temperature is not known here. Friction counts at high speed where
-    it loads the interface, and at low speed where it relieves a rim. With one rim pressed alone the
-    resultant is that of the first slip: as the interface slips on, the rim springs back, friction
-    on the surfaces fades with it, and the offset grows; runs tell by how much (`impact_checks`).
+    Source: docs/theory.md, sections 2 and 10: the moments of the slider about its spheres' centres,
+    in a plane, the plates parallel. Friction that depends on pressure counts at N_min in its upper
+    bound and at N_max in its lower one. Include the effect of heat in the lower factor of `bounds`,
+    because the temperature is not known here. Friction counts at high speed if it loads the
+    interface, and at low speed if it relieves a rim. With one rim pressed alone the resultant is
+    that of the first slip. As the interface slips on, the rim springs back, friction on the
+    surfaces fades with it, and the offset grows; `impact_checks` gives it for a run.
 
     Examples
     --------
@@ -171,8 +171,8 @@ def _rims(judge: CheckBuilder, bearing: LIRBearing, limits: DesignLimits) -> lis
 
 
 def _eccentricity(judge: CheckBuilder, limits: DesignLimits) -> Check:
-    # Of the resultant in the interface from both sliders' axes, (10.2): no restrainer contact, then
-    # each alone.
+    # Distance of the resultant in the interface from both sliders' axes, (10.2): without restrainer
+    # contact, then with each alone.
     t = judge.t
     t(
         "e_1",

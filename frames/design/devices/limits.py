@@ -1,4 +1,4 @@
-"""What a bearing, and what stands on it, may be asked for: limits that the engineer sets."""
+"""Limits of bearings and of the structure above, as the engineer sets them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PROPOSED_LIMIT = "no code: a proposal"
 
 
 LANDING_PRESSURE = 90e6
-"""Mean pressure on the sliders' overlap that is checked at a landing where none is given [Pa]."""
+"""Default limit of the mean pressure on the sliders' overlap at a landing [Pa]."""
 
 
 _FORCE = number("N", "[1, 1e10)")
@@ -25,34 +25,34 @@ _LENGTH = number("m", "[1e-4, 5)")
 
 @dataclass(frozen=True, kw_only=True)
 class DesignLimits:
-    """What a bearing and what stands on it may be asked for, by the engineer who designs them.
+    """Limits of bearings and of the structure above, as the engineer sets them.
 
     A limit is that of the project: checks against it cite no standard, and a standard's own limit
-    of the same quantity is checked beside it, whichever of both is stricter. Where a limit is None,
-    what it bounds is not checked, unless it says otherwise. `margin` and `rims_together` are of
+    of the same quantity is checked beside it, whichever is stricter. If a limit is None, its
+    quantity is not checked, unless its description differs. `margin` and `rims_together` are of
     `device_checks` alone.
 
     Parameters
     ----------
     margin : float
-        Least ratio of what the interface holds to what it carries before a rim is met [-], at
-        least 1. A proposal of this package: no code has one.
+        Least ratio of the interface's resistance to its force before rim contact [-], at least 1. A
+        proposal of this package: no code has one.
     rim_strength : float, optional
         Radial force that a rim, its bolts and the slider's edge resist [N].
     rims_together : bool
-        Whether rims that are met at the same displacement share their force. Less than 1 mm of
+        True if rims that are reached at the same displacement share their force. Less than 1 mm of
         tolerance lets one of them carry all.
     eccentricity : float
         Largest offset of the resultant between the sliders over their radius [-], at most 1. They
         are pressed all over up to 0.25 and tip at 1; the 0.8 is a proposal as well.
     interface_pressure, liner_pressure : float, optional
-        Mean pressure that the interface's and the concave surfaces' liners bear [Pa]. Where a
-        bearing lands after an uplift and no `axial_force` is given, 90 MPa on the sliders' overlap
-        are the limit, a proposal, unless `interface_pressure` is given.
+        Mean pressure limits of the liners of the interface and of the concave surfaces [Pa]. For a
+        landing after an uplift without `axial_force`, the limit is 90 MPa on the sliders' overlap,
+        a proposal, unless `interface_pressure` is given.
     lateral_force : float, optional
-        Lateral force of one bearing that what is above and below it resists [N].
+        Lateral force of one bearing that the structure above and below it resists [N].
     slip_left : float, optional
-        Interface slip that may stay after an event [m]; that which holds, s*, if None.
+        Allowed residual interface slip after an event [m]; the stable limit s* if None.
     uplift_gap : float, optional
         Gap that a bearing may open in any run [m].
     rim_height : float, optional
@@ -72,13 +72,13 @@ class DesignLimits:
         Share of the displacement that bearings must allow from which on rims may be met, as agreed
         with the authority or proven by tests [-], at most 1.
     moat_gap : float, optional
-        Clear distance from what stands on the bearings to the moat wall or a neighbour [m]. Of
+        Clear distance from the structure above the bearings to the moat wall or a neighbour [m]. Of
         projects alone.
 
     Raises
     ------
     CheckError
-        If a limit is not positive, or none that such a quantity can have.
+        If a limit is not positive, or impossible for its quantity.
 
     Examples
     --------
@@ -109,6 +109,6 @@ class DesignLimits:
         check_numbers(self, error=CheckError)
 
     def clause_of(self, name: str) -> str:
-        """Return what a check against a limit cites: the project, or a proposal of this package."""
+        """Return the clause of a limit in checks: the project, or a proposal of this package."""
         is_proposed = getattr(self, name) == self.__dataclass_fields__[name].default
         return PROPOSED_LIMIT if is_proposed else PROJECT_LIMIT

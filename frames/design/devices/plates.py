@@ -1,4 +1,4 @@
-"""Plates and rims of a bearing, which its model does not depend on, and what the bearing weighs."""
+"""Plates and rims of a bearing, which its model does not contain, and the bearing's weight."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
 
 YIELD_STRESS = 345e6
-"""Of the steel of plates and rims, by which rims are proportioned [Pa]."""
+"""Yield stress of the steel of plates and rims, for their default proportions [Pa]."""
 
 PLATE_SHARE = 0.04
-"""Thickness of a plate at its vertex over its diameter, where it is not given."""
+"""Default thickness of a plate at its vertex over its diameter."""
 
-_STEP = 0.005  # m, up to which what is proportioned is rounded
+_STEP = 0.005  # m, step to which proportioned lengths are rounded up
 _THICKEST = 2.0  # m
 
 
 class Make(NamedTuple):
-    """A bearing as it is made; what is not given is proportioned."""
+    """A bearing as it is made; missing dimensions are proportioned."""
 
     plates: Plates
     diameters: tuple[float, float]  # of the bottom and the top plate [m]
@@ -43,7 +43,7 @@ class Make(NamedTuple):
     sliders: float  # mass of both sliders [kg]
     mass: float  # of the bearing without anchors and masonry plates [kg]
     reach: float  # half the width of surfaces without rims [m]
-    proposed: tuple[str, ...]  # what is proportioned here, in words
+    proposed: tuple[str, ...]  # dimensions proportioned here, in words
 
 
 def made(

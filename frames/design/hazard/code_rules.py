@@ -1,4 +1,4 @@
-"""What codes say about spectra and motions, and the one table in which all codes are found."""
+"""Rules of codes for spectra and motions, and the one table of all codes."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def damping_factor(code: str, damping: float) -> float:
 
 
 LINEAR = "linear between the values, constant outside of them"
-"""How factors between those of a table are found."""
+"""Interpolation of factors between those of a table."""
 
 
 class DampingRule(NamedTuple):
@@ -38,15 +38,15 @@ class DampingRule(NamedTuple):
     Attributes
     ----------
     source : str
-        Where the code gives them.
+        Clause of the code.
     rule : str
         The formula, or how values between those of the table are found.
     standing : Standing
-        How well source and values are known.
+        Source of the rule and its values.
     table : tuple of (float, float)
-        Damping [-] and factor B [-]; empty where a formula gives them.
+        Damping [-] and factor B [-]; empty if a formula gives them.
     formula : callable, optional
-        B [-] of the damping [-], where there is no table.
+        B [-] of the damping [-], if there is no table.
 
     Examples
     --------
@@ -71,28 +71,28 @@ class DampingRule(NamedTuple):
 
 
 class ScalingRule(NamedTuple):
-    """What a code asks of the mean spectrum of a set of motions, and in which range of periods.
+    """Rule of a code for the mean spectrum of a set of motions, and its range of periods.
 
     Attributes
     ----------
     name : str
-        How `MotionSet.scaled_to` and `motion_checks` call it.
+        Name in `MotionSet.scaled_to` and `motion_checks`.
     measure : str
         Measure of a pair (`frames.design.hazard.motion_measures.MEASURES`).
     part : float
-        What the mean must reach at least, as a part of the target [-].
+        Least value of the mean, as a share of the target [-].
     at_zero : float
-        The same at the period zero [-]; 0 where nothing is asked.
+        The same at the period zero [-]; 0 if there is no such rule.
     least : int
         Number of pairs from which the mean response may be used.
     clause : str
-        Where the code says so.
+        Clause of the code.
     periods : (float, float)
         Range of periods over the shortest and the longest effective period of the bounds [-].
     fault_axes : bool
-        Whether near-fault pairs are to be turned to the axes of the fault.
+        True if near-fault pairs are to be turned to the axes of the fault.
     standing : Standing
-        How well clause, part and range are known.
+        Source of clause, share and range.
 
     Examples
     --------
@@ -115,7 +115,7 @@ class ScalingRule(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class HazardRules:
-    """What a code says about spectra and motions: the base of `frames.design.DesignCode`.
+    """Rules of a code for spectra and motions: the base of `frames.design.DesignCode`.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ class HazardRules:
     damping : DampingRule
         Factors by which a spectrum of 5 % damping is divided.
     scaling : tuple of ScalingRule
-        How motions are scaled: the code's own rule first, then others by their names.
+        Scaling of motions: the code's own rule first, then others by their names.
     """
 
     name: str
@@ -166,12 +166,12 @@ def add_rules(code: HazardRules, *, replace: bool = False) -> None:
 
 
 def remove_rules(name: str) -> None:
-    """Take a code out of the table, as tests do with theirs."""
+    """Remove a code from the table, for tests."""
     _KNOWN.pop(name, None)
 
 
 def canonical(name: str) -> str:
-    """Return the one spelling of a code; what is the name of none stays as it is."""
+    """Return the one spelling of a code; any other name is returned unchanged."""
     for code in _KNOWN.values():
         if name == code.name or name in code.aliases:
             return code.name

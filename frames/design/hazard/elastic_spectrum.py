@@ -1,4 +1,4 @@
-"""An elastic spectrum as a value: its parameters, and what can be read from it."""
+"""An elastic spectrum as a value: its parameters and its ordinates."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Values = TypeVar("Values", float, FloatArray)
 """One number, or an array (n,)."""
 
 TABLE_PERIODS = (0.0, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0)
-"""Periods of `Spectrum.table` where none are given [s]."""
+"""Default periods of `Spectrum.table` [s]."""
 
 
 LAST_OF_ASCE = 10.0
@@ -37,7 +37,7 @@ LAST_OF_ASCE = 10.0
 
 @dataclass(frozen=True, repr=False, slots=True)
 class ElasticSpectrum:
-    """What every spectrum holds and gives; parameters as in `Spectrum`."""
+    """Common part of all spectra; parameters as in `Spectrum`."""
 
     code: str
     name: str
@@ -65,12 +65,12 @@ class ElasticSpectrum:
 
     @property
     def source(self) -> str:
-        """Where the code has the formula."""
+        """Clause of the formula."""
         return sh.SHAPES[self.shape].source
 
     @property
     def standing(self) -> Standing:
-        """How well the formula and its values are known."""
+        """Source of the formula and its values."""
         return sh.SHAPES[self.shape].standing
 
     def damping_factor(self, damping: float) -> float:
@@ -108,8 +108,8 @@ class ElasticSpectrum:
     def acceleration(self, period: Values, damping: float = 0.05) -> Values:
         """Return pseudo-accelerations.
 
-        Those of the 5 % spectrum are divided by `damping_factor`; in EN 1998-1 the acceleration
-        at T = 0 is that of the ground, whatever the damping.
+        The 5 % spectrum is divided by `damping_factor`; in EN 1998-1 the acceleration at T = 0 is
+        that of the ground for any damping.
 
         Parameters
         ----------
@@ -158,7 +158,7 @@ class ElasticSpectrum:
         return cast("Values", found if periods.ndim else float(found))
 
     def beyond_points(self, period: float) -> str:
-        """Return a doubt if a period [s] lies beyond the points of a multi-period spectrum.
+        """Return a doubt if a period [s] is beyond the points of a multi-period spectrum.
 
         Parameters
         ----------
@@ -168,7 +168,8 @@ class ElasticSpectrum:
         Returns
         -------
         str
-            A sentence; empty if the points reach it, or 10 s, where those of ASCE/SEI 7-22 end.
+            A sentence; empty if the points reach it, or 10 s, the end of the points of ASCE/SEI
+            7-22.
         """
         last = self.points[-1][0] if self.points else np.inf
         if self.shape != "asce7_multi_period" or last >= min(period, LAST_OF_ASCE):
@@ -239,7 +240,7 @@ class ElasticSpectrum:
         return pd.DataFrame(columns, index=pd.Index(period, name="period [s]"))
 
     def _checked_periods(self, period: npt.ArrayLike) -> FloatArray:
-        """Return periods as an array, each where the spectrum is defined."""
+        """Return periods as an array; raise if the spectrum is not defined at one."""
         periods = np.asarray(period, dtype=np.float64)
         low, high = self.reach
         bad = periods[~(np.isfinite(periods) & (periods >= low) & (periods <= high))]

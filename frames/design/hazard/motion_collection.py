@@ -1,4 +1,4 @@
-"""Ground motions by name, with what is known and measured of them; `MotionSet` adds the verbs."""
+"""Ground motions by name, with their facts and measures; `MotionSet` adds the operations."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def twins(motions: Mapping[str, GroundMotion]) -> tuple[str, ...]:
 
 
 def _same(a: ComplexArray, b: ComplexArray, size: int) -> bool:
-    # Of spectra of components of norm 1: their correlation at any delay, first a bound on it.
+    # Correlation at any delay, of spectra of components of norm 1; first a bound on it.
     if 2.0 / size * float(np.abs(a) @ np.abs(b)) < SAME:
         return False
     return float(np.abs(irfft(a * np.conj(b), size)).max()) > SAME
@@ -157,7 +157,7 @@ class MotionCollection(Mapping[str, GroundMotion]):
         return self._by_name[name]
 
     def __iter__(self) -> Iterator[str]:
-        """Go through the names."""
+        """Iterate over the names."""
         return iter(self._by_name)
 
     def __len__(self) -> int:
@@ -212,7 +212,7 @@ class MotionCollection(Mapping[str, GroundMotion]):
         Raises
         ------
         MotionError
-            If a motion has no such component.
+            If a motion does not have the component.
         """
         require_choice("component", component, ("x", "y", "z"), error=MotionError)
         rows = []

@@ -291,5 +291,5 @@ def _is_vertical(path: Path) -> bool:
 
 
 def _azimuth(mark: str) -> float | None:
-    """Return the azimuth [degrees] that the end of a name tells, None where it is unclear."""
+    """Return the azimuth [degrees] at the end of a name, None if it is unclear."""
     return float(mark) if mark.isdigit() else _AZIMUTHS.get(mark)

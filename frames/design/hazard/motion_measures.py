@@ -166,9 +166,9 @@ def mean_period(acceleration: FloatArray, dt: float) -> float:
 def motion_measures(acceleration: FloatArray, dt: float) -> dict[str, float]:
     """Return all measures of one component, by name with unit.
 
-    The pulse period is that of the largest pseudo-velocity of the 5 % spectrum. It says how long
-    the pulse is where there is one (1.2 times its period for one sine of acceleration); it does not
-    tell whether there is one.
+    The pulse period is that of the largest pseudo-velocity of the 5 % spectrum. If there is a
+    pulse, it measures its length (1.2 times its period for one sine of acceleration); it does not
+    show if there is one.
 
     Parameters
     ----------

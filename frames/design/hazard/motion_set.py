@@ -48,18 +48,18 @@ def to_fault(name: str, motion: GroundMotion, known: Mapping[str, object]) -> Gr
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MotionSet(MotionCollection):
-    """Ground motions by name, with what is known of them; a mapping, for `time_histories`.
+    """Ground motions by name, with their facts; a mapping, for `time_histories`.
 
     Parameters
     ----------
     motions : mapping of str to GroundMotion, or sequence of GroundMotion
         The motions; those of a sequence go by their own names.
     facts : mapping of str to mapping, optional
-        What is known of each: "magnitude", "distance" [km], "near_fault", "pulse" (True or
-        False), "strike" of the fault, "azimuth_x" and "azimuth_y" of the components [degrees
-        clockwise from north], and whatever else.
+        Facts of each: "magnitude", "distance" [km], "near_fault", "pulse" (True or False), "strike"
+        of the fault, "azimuth_x" and "azimuth_y" of the components [degrees clockwise from north],
+        and others.
     scaling : Scaling, optional
-        How the set was scaled; `scaled_to` fills it in.
+        Scaling of the set; `scaled_to` sets it.
 
     Raises
     ------
@@ -84,18 +84,18 @@ class MotionSet(MotionCollection):
 
     @classmethod
     def from_folder(cls, path: PathLike, table: str = "motions.csv") -> MotionSet:
-        """Read the motions that a table of a folder names.
+        """Read the motions in a table of a folder.
 
         Parameters
         ----------
         path : str or path
             The folder.
         table : str
-            The table there, comma separated with a line of titles. Columns: "name"; "x", "y",
-            "z", file names (empty where there is none), PEER AT2 or columns of text; for the
-            latter "unit" (g, m/s2, cm/s2, gal) and "dt" [s] (empty: times are in the first column).
-            All others are facts: "magnitude", "distance", "strike", "azimuth_x", "azimuth_y",
-            "near_fault" and "pulse" (yes or no), and so on.
+            The table there, comma separated with a line of titles. Columns: "name"; "x", "y", "z",
+            file names (empty if there is none), PEER AT2 or columns of text; for the latter "unit"
+            (g, m/s2, cm/s2, gal) and "dt" [s] (empty: times are in the first column). All others
+            are facts: "magnitude", "distance", "strike", "azimuth_x", "azimuth_y", "near_fault" and
+            "pulse" (yes or no), and so on.
 
         Returns
         -------
@@ -111,11 +111,11 @@ class MotionSet(MotionCollection):
 
     @classmethod
     def from_at2_folder(cls, path: PathLike) -> MotionSet:
-        """Read all PEER AT2 files of a folder, paired by what their names have in common.
+        """Read all PEER AT2 files of a folder, paired by the common part of their names.
 
-        RSN1044_NORTHR_NWH090.AT2, ...NWH360.AT2 and ...NWH-UP.AT2 are one motion: what ends in
-        three digits (the azimuth), E, N or so is horizontal; UP, VER, V, DWN, DN or Z vertical,
-        the last but Z turned where it points down. x is the first in the order of names.
+        RSN1044_NORTHR_NWH090.AT2, ...NWH360.AT2 and ...NWH-UP.AT2 are one motion: names that end in
+        three digits (the azimuth), E, N or so are horizontal; UP, VER, V, DWN, DN or Z vertical,
+        and DWN and DN are turned upwards. x is the first in the order of names.
 
         Parameters
         ----------
@@ -166,7 +166,7 @@ class MotionSet(MotionCollection):
         Parameters
         ----------
         names : sequence of str
-            Which ones.
+            Names of the motions.
 
         Returns
         -------
@@ -185,8 +185,8 @@ class MotionSet(MotionCollection):
     def fault_normal(self) -> MotionSet:
         """Return the set with x normal and y parallel to the fault.
 
-        Needs the facts "strike", "azimuth_x" and "azimuth_y" [degrees clockwise from north] of
-        each motion; what has no strike and is not marked "near_fault" stays as it is, with a
+        Each motion needs the facts "strike", "azimuth_x" and "azimuth_y" [degrees clockwise from
+        north]. A motion without a strike that is not marked "near_fault" stays as it is, with a
         warning unless it is marked as no near-fault motion.
 
         Returns
@@ -219,7 +219,7 @@ class MotionSet(MotionCollection):
         return MotionSet(turned, facts)
 
     def _require_strikes(self) -> None:
-        """Refuse a set that has no strike at all, and say what of a set stays as recorded."""
+        """Refuse a set without any strike, and warn of motions that stay as recorded."""
         known = {n: "strike" in f or bool(f.get("near_fault")) for n, f in self.facts.items()}
         if not any(known.values()):
             msg = (
@@ -264,7 +264,7 @@ class MotionSet(MotionCollection):
         Parameters
         ----------
         beside : bool
-            Whether the motions with it are in the set, too.
+            True if the motions with it are in the set, too.
 
         Returns
         -------
@@ -297,7 +297,7 @@ class MotionSet(MotionCollection):
         factors : sequence of float
             On the second shock [-], >= 0; 0 leaves it out.
         following : {"same", "next"}
-            Which motion it is; behind the last is the first.
+            The second shock: "same", or "next" of the set; the first follows the last.
         gap : float
             Time at rest between both shocks [s].
 
@@ -326,7 +326,7 @@ class MotionSet(MotionCollection):
         return self._varied(made)
 
     def _varied(self, made: Sequence[tuple[str, str, GroundMotion]]) -> MotionSet:
-        # Of what each motion is made of, its name, and itself; facts go along.
+        # Source of each motion, its name, and the motion; facts are copied.
         facts = {name: self.facts[own] for own, name, _ in made}
         return MotionSet({name: motion for _, name, motion in made}, facts)
 
@@ -345,26 +345,26 @@ class MotionSet(MotionCollection):
     ) -> MotionSet:
         """Return the set scaled so that its mean spectrum satisfies a code.
 
-        One factor a motion, on all its components: first the one that brings its spectrum next to
-        the target (least squares of the logarithms within the range), then one for all, the least
-        with which the mean is nowhere below what the code asks.
+        One factor a motion, on all its components: the factor that fits its spectrum to the target
+        (least squares of the logarithms within the range), times one factor for all, the least with
+        which the mean is nowhere below the code's requirement.
 
         Parameters
         ----------
         spectrum : Spectrum
             The target.
         rule : str
-            Of a code, or another that it has: "ASCE 7-22" (mean of RotD100 at least the target),
-            "ASCE 7-16" (mean of SRSS), "EN 1998" (mean of all components at least 90 % of the
-            target, and the target at period 0), "EN 1998-2" (mean of SRSS at least 1.3 times the
-            target), "NCh2745" (1.17 times). All to be confirmed against the standards.
+            Rule of a code: "ASCE 7-22" (mean of RotD100 at least the target), "ASCE 7-16" (mean of
+            SRSS), "EN 1998" (mean of all components at least 90 % of the target, and the target at
+            period 0), "EN 1998-2" (mean of SRSS at least 1.3 times the target), "NCh2745" (1.17
+            times). All to be confirmed against the standards.
         periods : tuple of float
             Range of periods [s]: of isolated buildings by ASCE 7-22 from 0.75 T_M (upper bound)
             to 1.25 T_M (lower bound); by EN 1998 from 0.2 T to 2 T.
         how : {"amplitude", "common"}
             A factor for each motion, or the same for all.
         measure, part : str, float, optional
-            What to take instead of the rule's measure of a pair, and of its part of the target.
+            Replacements for the rule's measure of a pair, and for its share of the target.
         damping : float
             Damping of the spectra compared [-].
         limits : tuple of float
@@ -375,8 +375,8 @@ class MotionSet(MotionCollection):
         Returns
         -------
         MotionSet
-            The scaled motions; `scaling` tells factors, measure and target. Of a set that was
-            scaled before, the factors are those on its motions as they were before that.
+            The scaled motions; `scaling` has factors, measure and target. If the set was scaled
+            before, the factors refer to the unscaled motions.
 
         Raises
         ------

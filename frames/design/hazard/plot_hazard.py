@@ -132,7 +132,7 @@ def motion_spectra(
     Returns
     -------
     Figure
-        Pseudo-accelerations and displacements, and the mean over the target where there is one.
+        Pseudo-accelerations and displacements, and the mean over the target if there is one.
 
     Raises
     ------

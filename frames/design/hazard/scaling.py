@@ -1,4 +1,4 @@
-"""How a set of motions is scaled to a target: the rules of the codes, and the factors."""
+"""Scaling of a set of motions to a target: the rules of the codes, and the factors."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ POINTS = 60
 
 @dataclass(frozen=True, slots=True)
 class Scaling:
-    """How a set was scaled.
+    """Scaling of a set of motions.
 
     Attributes
     ----------
     target : Spectrum
-        What it was scaled to.
+        Target of the scaling.
     rule : str
         Name of the rule.
     measure : str
         Measure of a pair.
     part : float
-        What the mean must reach, as a part of the target [-].
+        Least value of the mean, as a share of the target [-].
     periods : tuple of float
         Range of periods [s].
     damping : float

@@ -35,7 +35,7 @@ EN1998_GROUND = {
 """S [-], T_B, T_C, T_D [s] by kind of spectrum and ground type: EN 1998-1:2004, tables 3.2, 3.3."""
 
 EN1998_TABLES = Standing("agrees", "EzGM, a public program, for EN 1998-1:2004, and others alike")
-"""How well these tables, the shape and eta are known."""
+"""Source of these tables, the shape and eta."""
 
 NCH2745_SOIL = {
     "I": (0.40, 0.03, 0.110, 0.29, 2.51, 10.85, 0.50, 0.20),
@@ -45,7 +45,7 @@ NCH2745_SOIL = {
 """A [g], T_a, T_b, T_c, T_d [s], alpha_A [m/s2], alpha_V [m/s], alpha_D [m] by soil: NCh2745."""
 
 NCH2745_TABLES = Standing("agrees", "a public program of seismic hazard, by its name that of 2003")
-"""How well this table, Z, the shape and B by the damping are known."""
+"""Source of this table, Z, the shape and B by the damping."""
 
 NCH2745_ZONE = {1: 0.75, 2: 1.0, 3: 1.25}
 """Factor Z [-] by seismic zone: NCh2745."""
@@ -68,13 +68,13 @@ NCH433_ZONE = {1: 0.20, 2: 0.30, 3: 0.40}
 
 
 class Shape(NamedTuple):
-    """How a family of spectra is computed."""
+    """Formula of a family of spectra."""
 
     # pseudo-accelerations [m/s2] of periods (n,) [s], a damping factor B, parameters, points
     curve: Callable[[FloatArray, float, Parameters, Points], FloatArray]
     amplitudes: tuple[str, ...]  # parameters that grow with the spectrum
-    corners: tuple[str, ...]  # parameters that are periods where the formula changes
-    source: str  # where the code has it
+    corners: tuple[str, ...]  # parameters that are periods at which the formula changes
+    source: str  # clause of the code
     standing: Standing = FROM_MEMORY  # how well it is known
 
 

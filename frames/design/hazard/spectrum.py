@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 LARGEST_IN_G = 10.0
-"""Spectral acceleration that no code asks for [g]: what is larger was given in another unit."""
+"""Largest spectral acceleration of a code [g]: a larger one is probably in another unit."""
 
 LARGEST_PARAMETER = 5.0
 """S_MS and S_M1 that no site has [g]."""
 
 LONGEST_CORNER = 1.3
-"""S_M1 / S_MS above what sites have, the softest included [s]."""
+"""Largest plausible S_M1 / S_MS, the softest sites included [s]."""
 
 
 @dataclass(frozen=True, repr=False, slots=True)
@@ -48,8 +48,8 @@ class Spectrum(ElasticSpectrum):
     points : tuple of (float, float)
         Periods [s] and pseudo-accelerations [m/s2], of spectra that are given so.
     site : tuple of (str, str or int)
-        Soil, zone and the like that the code's tables were read for; empty where it has none, and
-        once the spectrum is scaled.
+        Soil, zone and other inputs of the code's tables; empty without tables, and once the
+        spectrum is scaled.
 
     Examples
     --------
@@ -97,7 +97,7 @@ class Spectrum(ElasticSpectrum):
         Warns
         -----
         MotionWarning
-            If s_m1 / s_ms is above 1.3 s, as where they are exchanged.
+            If s_m1 / s_ms is above 1.3 s, for example because they are exchanged.
         """
         short, long = _in_g("s_ms", s_ms), _in_g("s_m1", s_m1)
         late = require_positive("t_l", t_l, "s", error=MotionError)
@@ -142,7 +142,7 @@ class Spectrum(ElasticSpectrum):
         """Return a multi-period or site-specific MCE_R spectrum of ASCE/SEI 7-22.
 
         Between the periods the acceleration is linear; after the last one it falls with 1/T up to
-        T_L, and with 1/T^2 after it. Analyses and scaling warn where that is used below 10 s.
+        T_L, and with 1/T^2 after it. Analyses and scaling warn if they use that part below 10 s.
 
         Parameters
         ----------
@@ -151,9 +151,9 @@ class Spectrum(ElasticSpectrum):
         accelerations_in_g : array_like, shape (n,)
             Spectral accelerations for 5 % damping [g].
         s_ms, s_m1 : float, optional
-            Parameters [g]. Left out: 90 % of the largest acceleration between 0.2 s and 5 s; 90 %
-            of the largest T x acceleration from 1 s to 2 s (to 5 s where `v_s30` is at most
-            442 m/s or unknown), at least the acceleration at 1 s (21.4, to be confirmed).
+            Parameters [g]. Default: 90 % of the largest acceleration between 0.2 s and 5 s; 90 % of
+            the largest T x acceleration from 1 s to 2 s (to 5 s if `v_s30` is at most 442 m/s or
+            unknown), at least the acceleration at 1 s (21.4, to be confirmed).
         s_1 : float, optional
             As for `asce7`.
         t_l : float
@@ -208,7 +208,7 @@ class Spectrum(ElasticSpectrum):
     ) -> Spectrum:
         """Return the horizontal elastic spectrum of EN 1998-1:2004, 3.2.2.2.
 
-        After T_D the displacement stays constant, also beyond 4 s, where annex A lets it fall to
+        After T_D the displacement stays constant, also beyond 4 s, although annex A lets it fall to
         that of the ground. The national annexes may change the tables.
 
         Parameters
@@ -218,7 +218,7 @@ class Spectrum(ElasticSpectrum):
         ground_type : {"A", "B", "C", "D", "E"}
             Ground type.
         kind : {1, 2}
-            Kind of the spectrum, 2 where no magnitude above 5.5 matters.
+            Kind of the spectrum, 2 if no magnitude above 5.5 matters.
         importance : float
             Importance factor gamma_I [-]: a_g = gamma_I a_gR.
         name : str
@@ -271,8 +271,8 @@ class Spectrum(ElasticSpectrum):
         Returns
         -------
         Spectrum
-            That of the design earthquake; for the maximum possible one, ``.scaled(1.2)`` (M_M, to
-            be confirmed).
+            The spectrum of the design earthquake; for the maximum possible one, ``.scaled(1.2)``
+            (M_M, to be confirmed).
 
         Raises
         ------
@@ -381,7 +381,7 @@ def _in_g(name: str, value: float) -> float:
 
 
 def _mapped(s_1: float | None) -> dict[str, float]:
-    """Return S_1 among the parameters, where it is given."""
+    """Return S_1 as a parameter if it is given."""
     return {} if s_1 is None else {"S_1": _in_g("s_1", s_1)}
 
 

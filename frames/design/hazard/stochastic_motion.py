@@ -60,7 +60,7 @@ class NearFaultPulse:
     velocity : float
         Amplitude A of the velocity's envelope [m/s].
     period : float
-        Period T_p = 1 / f_p of what oscillates [s].
+        Period T_p = 1 / f_p of the oscillation [s].
     gamma : float
         Length of the envelope over the period [-], above 1.
     phase : float
@@ -127,7 +127,8 @@ class NearFaultPulse:
         return self._integral(tau) - self._integral(np.float64(-0.5 * self.duration))
 
     def _within(self, times: npt.ArrayLike) -> FloatArray:
-        # Times from the middle of the envelope, held at its ends: nothing moves out of it.
+        # Times from the middle of the envelope, limited to its ends: the pulse is at rest beyond
+        # them.
         half = 0.5 * self.duration
         return np.clip(np.asarray(times, dtype=np.float64) - (self.time or 0.0), -half, half)
 
@@ -172,13 +173,13 @@ class PointSource:
     distance : float
         Closest distance to the rupture [km].
     stress_drop : float
-        Stress parameter [Pa]; 10 MPa (100 bar) is usual where plates meet.
+        Stress parameter [Pa]; 10 MPa (100 bar) is usual at plate boundaries.
     density, shear_velocity : float
-        Of the crust at the source [kg/m3, m/s].
+        Density [kg/m3] and shear wave velocity [m/s] of the crust at the source.
     kappa : float
         Decay of high frequencies at the site [s]; 0.04 rock of California, 0.005 hard rock.
     quality, quality_exponent : float
-        Of the path, ``Q = quality * f**quality_exponent``, f in Hz.
+        Attenuation along the path, ``Q = quality * f**quality_exponent``, f in Hz.
     amplification : sequence of (float, float)
         Frequencies [Hz] and factors [-] of the site, logarithmic between them; one pair for all.
         By default generic rock (Boore and Joyner 1997; to be confirmed).
@@ -268,7 +269,7 @@ class PointSource:
 
 
 PEAK, REST = 0.2, 0.05
-"""Of the envelope: time of its peak, and what is left of it, over and after twice the duration."""
+"""Time of the envelope's peak, and its value at the end, both over twice the duration."""
 
 
 def envelope(

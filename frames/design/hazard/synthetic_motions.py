@@ -1,9 +1,9 @@
 """Synthetic near-fault motions: a pulse normal to the fault, with a stochastic background.
 
 The pulse is that of Mavroeidis and Papageorgiou (2003), the background that of a point source
-(Boore 2003). They are put together as the former propose: of the background's Fourier amplitudes
-those of the pulse are taken off, its phases stay, and the pulse is added at the background's
-strongest time. Near the pulse's frequency the pulse rules, elsewhere the background.
+(Boore 2003). They are combined as the former propose: the pulse's Fourier amplitudes are subtracted
+from the background's, whose phases stay, and the pulse is added at the background's strongest time.
+The pulse governs near its frequency, the background elsewhere.
 """
 
 from __future__ import annotations
@@ -47,12 +47,12 @@ QUIET = 2.0
 
 @dataclass(frozen=True, kw_only=True)
 class PulseScatter:
-    """How the pulses of a set differ; defaults are assumptions but where a source is named.
+    """Scatter of the pulses of a set; defaults are assumptions unless a source is named.
 
     Parameters
     ----------
     velocity : float
-        Median amplitude A [m/s]; by Mavroeidis and Papageorgiou (2003) about 1 m/s whatever the
+        Median amplitude A [m/s]; by Mavroeidis and Papageorgiou (2003) about 1 m/s for any
         magnitude, within some 7 km of the rupture (to be confirmed against the paper).
     velocity_dispersion : float
         Standard deviation of its logarithm [-].
@@ -178,7 +178,7 @@ def pulse_motions(
 
 
 def with_pulse(background: FloatArray, pulse: FloatArray, dt: float) -> FloatArray:
-    """Put a pulse into a background, so that the pulse rules at its own frequencies.
+    """Add a pulse to a background, so that the pulse governs at its own frequencies.
 
     Shapes: background, pulse (n,), result (n,).
     """
@@ -211,15 +211,15 @@ def synthetic_near_fault(
     magnitude : float
         Moment magnitude, 5 to below 8.5.
     distance : float
-        Closest distance to the rupture [km], at most 20. The background depends on it, the pulse
-        does not: state `pulses` where you know better.
+        Closest distance to the rupture [km], at most 20. It changes the background, but not the
+        pulse: set `pulses` if you have better values.
     seed : int
         Same seed, same motions.
     source : PointSource, optional
         The background's source and site, in place of that of the magnitude and the distance with
         defaults; it must have the same two.
     pulses : PulseScatter, optional
-        How pulses differ from motion to motion.
+        Scatter of the pulses between motions.
     vertical_ratio : float
         Vertical over horizontal background [-]; 0 leaves the vertical component out. Codes take
         2/3; records near the fault have more at short periods.

@@ -1,4 +1,4 @@
-"""Checks of what runs asked of bearings: displacement, slip, rims, overlap, what they left."""
+"""Checks of bearings in runs: displacement, slip, rims, overlap, residual slip."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def devices_of(data: xr.Dataset, frame: Frame) -> dict[str, LIRBearing]:
 
 @dataclass(frozen=True)
 class BearingDemands:
-    """Makes checks of what runs asked for: of bearings, and of what is worst of anything."""
+    """Builder of checks of the bearings' demands in runs."""
 
     data: xr.Dataset  # the runs
     suite: RunSet  # how they are taken together
@@ -75,7 +75,7 @@ class BearingDemands:
     limits: DesignLimits  # of the project
     bound: Bound  # properties of the bearings
     note: str = ""  # goes with each check
-    # on the displacement [-]: where that is beyond the rims, the slip is at least the rest
+    # on the displacement [-]: if it is beyond the rims, the slip is at least the rest
     factor: float = 1.0
 
     def against(
@@ -143,7 +143,7 @@ class BearingDemands:
         note: str = "",
     ) -> list[Check]:
         """Return the check of the largest ratio; none of nothing."""
-        # where no value is finite none is the worst
+        # without a finite value none is the worst
         known = any(math.isfinite(c.trace.value(c.demand)) for c in each.values())
         words = joined(note, self.note)
         found = [
@@ -161,7 +161,7 @@ class BearingDemands:
         return [max(found, key=lambda check: check.compared)] if found else []
 
     def displacement(self, clause: str, standing: Standing, least: float = 0.0) -> list[Check]:
-        """Return the check of the displacement against what rims and overlap allow."""
+        """Return the check of the displacement against the limit of rims and overlap."""
         values = peaks_of_runs(self.data, "displacement")
 
         def fill(k: int) -> DemandOverLimit:
@@ -217,7 +217,7 @@ class BearingDemands:
         return self._doubted(found, "slip")
 
     def _enter_slip(self, t: Trace, k: int) -> None:
-        # The largest slip; with a factor on the displacement at least what that is beyond the rims.
+        # The largest slip; with a factor on the displacement at least the part beyond the rims.
         slip = peaks_of_runs(self.data, "slip")[:, k]
         if not self.factor > 1.0:
             self.suite.enter(t, "s", slip, "m", "mm", of="slip")
@@ -229,7 +229,7 @@ class BearingDemands:
         self.suite.form(t, "s", "max(s_run, gamma_x * D - U_cap)", "m", "mm", of="s_run")
 
     def forces(self) -> list[Check]:
-        """Return the checks of rim force, eccentricity and pressures, where they have limits."""
+        """Return the checks of rim force, eccentricity and pressures that have limits."""
         limits, impacts = self.limits, note_of_impacts(self.data, self.bearings)
         notes = {"force": impacts, "axial_force": impacts}
         notes["eccentricity_loaded"] = self._of_resultants
@@ -244,7 +244,7 @@ class BearingDemands:
         return found + self._pressure(title, limits.liner_pressure, self._on_liners)
 
     def _bent_rims(self) -> list[Check]:
-        # Of rims that yield: what stays, beside the elastic part under the force that they bear.
+        # Plastic deformation of rims that yield, without the elastic part under their yield force.
         places = [k for k in self._all if math.isfinite(self._at(k).rim_yield_force)]
         if not places:
             return []
@@ -262,7 +262,7 @@ class BearingDemands:
         return self._of(by_equation("3.11"), "plastic deformation of rims", fill, places)
 
     def _entered(self, k: int) -> Trace:
-        # A bearing's numbers; where friction goes by the pressure, at the forces that runs reached.
+        # Properties of a bearing; if friction depends on pressure, at the forces of the runs.
         bearing = self._at(k)
         if bearing.pressure_dependence is None:
             return enter_bearing(bearing, None)
@@ -302,7 +302,7 @@ class BearingDemands:
             t.given("p", math.inf, "Pa", note=t["p_1"].note or t["p_2"].note)
 
     def _doubted(self, checks: list[Check], quantity: str) -> list[Check]:
-        # Those whose margin is less than what the level of the runs may have wrong say so.
+        # Checks that pass by less than the possible error of the runs' level have a note.
         if quantity not in DOUBTED or "pendulum" not in str(self.data.attrs["level"]):
             return checks
         errors = level_errors(self.data, [self._at(k) for k in self._all], quantity)
@@ -310,7 +310,7 @@ class BearingDemands:
 
     @property
     def _of_resultants(self) -> str:
-        # What the offset of a resultant counts, and what its level can say of it.
+        # Definition of the offset of a resultant, and the limits of its level.
         counted = worded("counts while N > {share:g} of that at rest", share=LOADED)
         pressed, lighter = (
             np.nan_to_num(peaks_of_runs(self.data, name)).max(axis=0)
@@ -354,7 +354,7 @@ class BearingDemands:
 
     @property
     def _lir(self) -> list[int]:
-        # Those with an interface, and with rims.
+        # Bearings with an interface, and with rims.
         return [
             k
             for k in self._all

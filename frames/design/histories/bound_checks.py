@@ -56,9 +56,9 @@ class BoundChecks:
 
     case: Case  # the runs, and those with moved masses; of uplift the worst of all counts
     frame: Frame  # the structure at that bound
-    limits: DesignLimits  # what bearings and structure may be asked for
+    limits: DesignLimits  # limits of bearings and structure
     equivalent: EquivalentLinear | None  # analysis that has least values
-    level: ActionLevel  # of the seismic action, and what is judged at it
+    level: ActionLevel  # level of the seismic action, and its checked parts
 
     def checks(self) -> list[Check]:
         """Return all of them."""
@@ -132,7 +132,7 @@ class BoundChecks:
 
     @property
     def _eccentricity(self) -> str:
-        # How accidental eccentricity counts.
+        # Treatment of accidental eccentricity.
         if self.case.moved is not None:
             share = 100.0 * self.case.rules.accidental_eccentricity
             return worded(
@@ -182,7 +182,7 @@ class BoundChecks:
         # At the displacement that the runs ask bearings to allow, by the code's rule for rims.
         code, least = self.case.rules.code, self.case.rules.engagement
         if code not in HISTORY_RULES or not moved or moved[0].void:
-            return []  # the check of the displacement tells why
+            return []  # the check of the displacement has the reason
         bearing = self.frame.bearings[moved[0].subject].bearing
         found = engagement_checks(
             bearing,
@@ -209,7 +209,7 @@ class BoundChecks:
                 note=worded("longest of a bearing in a run, gap above {gap}", gap=gap),
             )
             t.given("t_allowed", 0.0, "s")
-            stopped = stopped_runs(every)  # also where the code lets the others stand
+            stopped = stopped_runs(every)  # also if the code accepts the others
             void = stopped and (self.case.suite.void or stopped)
             judge = CheckBuilder(
                 t, self.case.bound, self._known("uplift", "uplift_allowed"), void=void
@@ -260,7 +260,7 @@ class BoundChecks:
         return shear_checks(self.case, known, storey, self._note)
 
     def _drift(self) -> list[Check]:
-        # That of the code, and that of the project beside it.
+        # The check of the code, and that of the project beside it.
         if len(self.frame.levels) < 2:
             return []
         code, found = self.case.rules.drift, list[Check]()
@@ -272,7 +272,7 @@ class BoundChecks:
         return found
 
     def _gravity(self, check: Check) -> str:
-        # Whether the drift asks for P-Delta in the analysis, and whether it is there.
+        # Need of P-Delta in the analysis by the drift, and whether it is there.
         known = None if self.equivalent is None else self.equivalent.bounds.get(self.case.bound)
         if self.case.rules.second_order is None or known is None or "R_I" not in known.trace:
             return ""
@@ -289,7 +289,7 @@ class BoundChecks:
 
     @property
     def _elements(self) -> str:
-        # Which non-structural elements the code's limit is of, where it has several kinds.
+        # Class of non-structural elements of the code's limit, if it has several.
         limits = dict(self.case.rules.drift_classes)
         kinds = [kind for kind, limit in limits.items() if limit == self.case.rules.drift]
         if not kinds:
@@ -306,7 +306,7 @@ class BoundChecks:
         )
 
     def _beside(self) -> str:
-        # How the project's limit of drifts is to that of the code.
+        # Comparison of the project's limit of drifts with that of the code.
         own, code = self.limits.drift, self.case.rules.drift
         if own is None or code is None:
             return ""
@@ -360,7 +360,7 @@ class BoundChecks:
         return [*found, *stability_checks(self.case, makes, self.frame, clause, known)]
 
     def _least(self, symbol: str) -> float:
-        # A minimum of the equivalent-linear analysis at this bound, 0 where there is none.
+        # A minimum of the equivalent-linear analysis at this bound, 0 if there is none.
         if self.equivalent is None or self.case.bound not in self.equivalent.bounds:
             return 0.0
         trace = self.equivalent.bounds[self.case.bound].trace
@@ -373,7 +373,7 @@ class BoundChecks:
         return trace.value(symbol)
 
     def _known(self, value: str, field: str) -> Standing:
-        # How well a value of the code is known; of one that the project changed nothing is.
+        # Source of a value of the code; none if the project changed it.
         own = HISTORY_RULES.get(self.case.rules.code)
         same = own is not None and getattr(self.case.rules, field) == getattr(own, field)
         return standing_in(self.case.rules.code, value) if same else FROM_MEMORY

@@ -27,7 +27,7 @@ _BELOW = 0  # place of the side "below" a bearing, of two
 
 
 class Combination(NamedTuple):
-    """What the permanent loads of a combination change in those that time histories carry."""
+    """Change of the permanent loads from those of the time histories to a combination."""
 
     words: str  # the combination, "1.44 D + L + 0.15 S"
     members: FloatArray  # (n_sections, 6), in the order of the tables of time histories
@@ -35,7 +35,7 @@ class Combination(NamedTuple):
 
 
 def combinations_of(average: Frame, frames: Mapping[str, Frame]) -> list[Combination]:
-    """Return what combinations change; `average` carries what time histories do."""
+    """Return the changes of load of each combination; `average` has the loads of time histories."""
     if not frames:
         return []
     members, reactions = _at_rest(average)
@@ -62,10 +62,10 @@ def _at_rest(frame: Frame) -> list[FloatArray]:
 def member_combinations(
     table: pd.DataFrame, combinations: Sequence[Combination], reduction: float
 ) -> pd.DataFrame:
-    """Return the forces of members by combination, farthest out over the bounds.
+    """Return the extreme forces of members by combination, over the bounds [N, N m].
 
-    The earthquake's part is divided by `reduction`; where that is not 1, a further combination
-    has it whole, for what must stay elastic.
+    The earthquake's part is divided by `reduction`; if that is not 1, a further combination has it
+    whole, for parts that must stay elastic.
     """
     parts = [(one.words, one.members, 1.0) for one in combinations]
     if reduction > 1.0:
@@ -74,10 +74,10 @@ def member_combinations(
 
 
 def reaction_combinations(table: pd.DataFrame, combinations: Sequence[Combination]) -> pd.DataFrame:
-    """Return the reactions of bearings by combination, farthest out over the bounds.
+    """Return the extreme reactions of bearings by combination, over the bounds [N, N m].
 
-    Shears and moments grow with the load on the bearing, as sliding on a curved surface has it;
-    where the combination presses less than the run did, they stay.
+    Shears and moments grow with the load on the bearing, because it slides on a curved surface. If
+    the combination presses less than the run did, they stay.
     """
     return _combined(table, [(one.words, one.reactions, 1.0) for one in combinations], REACTIONS)
 
@@ -119,8 +119,8 @@ _KEYS = {"bearing", "side", "member", "station", "force", "extreme", "unit", "bo
 
 
 def _governing(table: pd.DataFrame) -> tuple[pd.DataFrame, FloatArray]:
-    # Of the bounds of a level, one after the other with the same rows, the row farthest out; and
-    # all six forces at rest of its section at that bound.
+    # The extreme row over the bounds of a level, whose tables have the same rows; and all six
+    # forces at rest of its section at that bound.
     bounds = table["bound"].nunique()
     rows = len(table) // bounds
     sign = np.where(table["extreme"] == EXTREMES[0], 1.0, -1.0)
@@ -132,8 +132,8 @@ def _governing(table: pd.DataFrame) -> tuple[pd.DataFrame, FloatArray]:
 
 
 def _earthquake(table: pd.DataFrame, rest: FloatArray, six: Sequence[str]) -> FloatArray:
-    # What the earthquake adds at the instant of each row: all six forces by the factor that makes
-    # of the single run's own force the value for design.
+    # Part of the earthquake at the instant of each row: all six forces times the ratio of the
+    # design value to the single run's own force.
     own = table["permanent"].to_numpy()
     single, value = table["single"].to_numpy() - own, table["value"].to_numpy() - own
     acts = np.abs(single) > 1e-9 * np.abs(value)
@@ -152,11 +152,11 @@ def least_loads(reactions: pd.DataFrame) -> pd.DataFrame:
 def uplift_table(
     reactions: pd.DataFrame, gaps: Mapping[str, float], linear: Mapping[str, float]
 ) -> pd.DataFrame:
-    """Return how far bearings lift off, and the tension that a restraint would have to hold.
+    """Return the uplift of bearings [m], and the tension of a restraint that would prevent it [N].
 
-    `gaps` has the largest gap of each bearing in all runs [m], `linear` what the overturning of the
-    equivalent-linear analysis pulls beyond the least permanent load [N], negative where it does
-    not.
+    `gaps` has the largest gap of each bearing in all runs [m], `linear` the overturning force of
+    the equivalent-linear analysis beyond the least permanent load [N], negative if the bearing
+    stays pressed.
     """
     least = least_loads(reactions)
     names = list(least.index)

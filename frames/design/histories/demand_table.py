@@ -1,4 +1,4 @@
-"""Tables of what time histories give for design: demands, single motions, links."""
+"""Tables of the design values of time histories: demands, single motions, links."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ COUNTED = {DEMANDS[name].demand for name in ("uplifts", "time_lifted", "gap")}
 
 
 def demand_table(cases: Sequence[Case]) -> pd.DataFrame:
-    """Return what time histories give for design at each bound: see `history_demands`."""
+    """Return the design values of time histories at each bound: see `history_demands`."""
     import pandas as pd
 
     rows, void = [], void_of(cases)
@@ -59,7 +59,7 @@ def void_of(cases: Sequence[Case]) -> str:
 
 
 def _numbers(cases: Sequence[Case], name: str, sign: float) -> dict[str, Any]:
-    # The cells of a row, of what is worst at each bound, over the bounds, and of single runs.
+    # The cells of a row: the worst at each bound, over the bounds, and of single runs.
     cells: dict[str, Any] = {}
     envelope, where, worst, run = -math.inf, "", -math.inf, ""
     for case in cases:
@@ -92,7 +92,7 @@ def largest_of_bounds(cases: Sequence[Case], name: str) -> FloatArray:
 
 
 def worst_place(each: FloatArray) -> int:
-    """Return the place of the largest value for design; what is not known is not worst."""
+    """Return the place of the largest design value; unknown values are left out."""
     return int(np.argmax(np.nan_to_num(each, nan=-math.inf)))
 
 
@@ -147,7 +147,7 @@ def demands_at_levels(cases: Sequence[Case]) -> pd.DataFrame:
 
 
 def _once(words: Mapping[str, str]) -> str:
-    # What is said of several, once where it is the same.
+    # Text for several, once if all are the same.
     each = (worded("{where}: {words}", where=name, words=text) for name, text in words.items())
     return next(iter(words.values())) if len({*words.values()}) == 1 else joined(*each)
 
@@ -187,7 +187,7 @@ def headed(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def envelope_said(table: pd.DataFrame) -> str:
-    """Return in words what the envelope of a table of demands is of."""
+    """Return the definition of the envelope of a table of demands, in words."""
     return _once(table.attrs["statistics"])
 
 
@@ -224,7 +224,7 @@ def largest_of_links(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def demands_by_motion(cases: Sequence[Case]) -> pd.DataFrame:
-    """Return what each motion gave of each quantity that means or largest values are taken of."""
+    """Return each motion's value of each quantity with a mean or largest value."""
     import pandas as pd
 
     parts = []
@@ -256,7 +256,7 @@ def demands_by_motion(cases: Sequence[Case]) -> pd.DataFrame:
 
 
 def _farthest(values: FloatArray) -> FloatArray:
-    # Of each run; NaN where nothing is known.
+    # Value of each run; NaN if nothing is known.
     known = np.where(np.isnan(values), -math.inf, values).max(axis=1)
     return np.where(np.isfinite(known), known, math.nan)
 

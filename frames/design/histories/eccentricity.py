@@ -55,8 +55,8 @@ _RAISED = sorted(
 
 
 class _Way(NamedTuple):
-    # A way in which masses are moved: rows of the runs of the same motions where the masses are,
-    # and with moved masses, among all runs of a case, and how the code counts both.
+    # A case of moved masses: rows of the runs of the same motions with the masses in place, and
+    # with moved masses, among all runs of a case, and the statistics of both.
     name: str
     own: list[int]
     rows: list[int]
@@ -64,7 +64,7 @@ class _Way(NamedTuple):
     there: RunSet
 
     def both(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        # Values for design with masses where they are and moved, of those of all runs.
+        # Design values with masses in place and moved, from the values of all runs.
         return self.here.values(values[self.own]), self.there.values(values[self.rows])
 
 
@@ -79,7 +79,7 @@ class Case:
 
     @cached_property
     def data(self) -> xr.Dataset:
-        """The runs with the masses where they are."""
+        """The runs with the masses in place."""
         return self.runs.centred.data
 
     @cached_property
@@ -112,14 +112,14 @@ class Case:
 
     @cached_property
     def each_way(self) -> tuple[dict[tuple[str, str], TorsionFactor], str]:
-        """By what each way raises each quantity, and which runs with moved masses failed."""
+        """Factors of each case on each quantity, and failed runs with moved masses."""
         found, failed = dict[tuple[str, str], TorsionFactor](), []
         raised = [name for name in _RAISED if all(PEAK + name in each for each in self.parts)]
         for way in self.ways:
             if any(way.there.failed):
                 why = way.there.reason
                 failed.append(worded("masses moved {way}: {why}", way=way.name, why=why))
-            elif way.here.void:  # what moved masses are compared with
+            elif way.here.void:  # reference of the moved masses
                 failed.append(worded("masses where they are: {why}", why=way.here.void))
             motions = worded(
                 "{statistic} of all {n} motions", statistic=way.there.statistic, n=len(way.rows)
@@ -134,7 +134,7 @@ class Case:
 
     @cached_property
     def suite(self) -> RunSet:
-        """How the runs are taken together, accidental eccentricity with them."""
+        """Statistics of the runs, with accidental eccentricity."""
         table, failed = self.each_way
         found: dict[str, TorsionFactor] = {}
         for (name, _), one in table.items():
@@ -151,7 +151,7 @@ class Case:
 
     @cached_property
     def every(self) -> xr.Dataset:
-        """The runs and those with moved masses one after the other: what single runs reached."""
+        """The runs followed by those with moved masses: values of single runs."""
         import xarray as xr
 
         if self.moved is None:
@@ -182,7 +182,7 @@ class Case:
         return self.suite.values(columns, name)
 
     def peaks(self, name: str) -> FloatArray:
-        """Return what runs reached of a quantity, those with moved masses last, (n_runs, ...)."""
+        """Return the peaks of a quantity in the runs, then with moved masses, (n_runs, ...)."""
         return np.concatenate([peaks_of_runs(one, name) for one in self.parts])
 
     def counted(self, values: FloatArray) -> tuple[FloatArray, IntArray]:
@@ -196,9 +196,9 @@ class Case:
         return suite.values(values[:own]), which
 
     def added(self, values: FloatArray) -> tuple[FloatArray, NDArray[np.object_]]:
-        """Return what moved masses add to values, of those of all runs, and the way that adds most.
+        """Return the increments by moved masses, and the direction of the largest one.
 
-        Nothing where runs failed: then values are what runs reached.
+        No increment if runs failed: the values are then those of the runs.
         """
         most, way_of = np.zeros(values.shape[1:]), np.full(values.shape[1:], "", dtype=object)
         for way in () if self.suite.void else self.ways:
@@ -232,7 +232,7 @@ def levels_of(cases: Sequence[Case]) -> dict[str, list[Case]]:
 
 
 def reached_by(data: xr.Dataset, name: str) -> FloatArray:
-    """Return what runs reached at each place of a quantity.
+    """Return the peaks of the runs at each place of a quantity.
 
     Shapes: result (n_runs, m).
     """
@@ -247,7 +247,7 @@ def _flat(values: FloatArray) -> FloatArray:
 
 
 def eccentricity_table(cases: Sequence[Case]) -> pd.DataFrame:
-    """Return what moving the masses each way does to each quantity."""
+    """Return the effect of moved masses in each direction on each quantity."""
     import pandas as pd
 
     rows: list[dict[str, Any]] = []
@@ -274,7 +274,7 @@ def eccentricity_table(cases: Sequence[Case]) -> pd.DataFrame:
 
 
 def _is_of_runs(data: xr.Dataset, name: Hashable) -> bool:
-    # Whether a variable is of each run alone, no history.
+    # True if a variable has one value a run, no history.
     dims = data.variables[name].dims if name in data.variables else ()
     return dims[:1] == ("run",) and not {"time", "step"} & {*dims}
 

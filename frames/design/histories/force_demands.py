@@ -39,7 +39,7 @@ class ShearFactor(NamedTuple):
     # above the isolation: the larger ratio of least shear to that of the runs, of the lowest
     # storey and at the base
     above: float = 1.0
-    isolation: float = 1.0  # of what bearings exert, and below: that at the base
+    isolation: float = 1.0  # for the forces of the bearings, and below: that at the base
 
 
 def shear_checks(case: Case, known: BoundResult, storey: str = "", note: str = "") -> list[Check]:
@@ -86,7 +86,7 @@ def shear_checks(case: Case, known: BoundResult, storey: str = "", note: str = "
 
 
 def raise_of(checks: list[Check]) -> ShearFactor:
-    """Return by what the least shears raise forces."""
+    """Return the factors of the least shears on forces."""
     factors = {BASE: 1.0, STOREY: 1.0}
     for check in checks:
         if not check.void and check.demand > 0.0:
@@ -95,7 +95,7 @@ def raise_of(checks: list[Check]) -> ShearFactor:
 
 
 def raises_by_case(checks: Iterable[Check]) -> dict[tuple[str, str], ShearFactor]:
-    """Return by what the least shears raise the forces of runs."""
+    """Return the factors of the least shears on the forces of runs."""
     cases: dict[tuple[str, str], list[Check]] = {}
     for check in checks:
         if check.scope == "minimum" and check.title in {BASE, STOREY}:
@@ -119,13 +119,13 @@ EXTREMES = ("max", "min")
 """Words of a table for the largest and the smallest value."""
 
 _SIGN = np.array([1.0, -1.0])
-_DIGITS = 3  # after the point, of forces: what is less than a millinewton is round-off
+_DIGITS = 3  # after the point, of forces: less than a millinewton is round-off
 
 
 def force_demands(
     cases: Sequence[Case], raises: Mapping[tuple[str, str], ShearFactor] | None = None
 ) -> dict[str, pd.DataFrame]:
-    """Return what time histories ask of members, storeys and what bearings stand on and carry."""
+    """Return the design forces of members, storeys and bearings from time histories."""
     import pandas as pd
 
     found: dict[str, pd.DataFrame] = {}
@@ -151,8 +151,8 @@ def force_demands(
 
 
 def _factors(data: xr.Dataset, name: str, kind: _Kind, more: ShearFactor) -> FloatArray:
-    # Of each section, which are in the order of the table: the foot of the lowest level is the
-    # first of the storeys.
+    # Height of each section, in the order of the table: the foot of the lowest level is the first
+    # of the storeys.
     shape = tuple(data.sizes[dim] for dim in kind.columns)
     factors = np.full(shape, more.isolation if name == "reactions" else more.above)
     if name == "storeys":
@@ -225,7 +225,7 @@ def _shown(values: FloatArray) -> FloatArray:
 
 
 def _void(suite: RunSet) -> str:
-    # Which runs and why is in the table of demands.
+    # The table of demands names the runs and the reason.
     if not suite.void:
         return ""
     count = worded("{count} of {n} runs failed", count=sum(suite.failed), n=len(suite.failed))
@@ -235,7 +235,7 @@ def _void(suite: RunSet) -> str:
 
 
 def _drifts(case: Case, factor: float) -> pd.DataFrame:
-    # Of the means of the storeys' lines.
+    # Forces of the means of the storeys' lines.
     import pandas as pd
 
     data, suite = case.data, case.suite
@@ -263,7 +263,7 @@ def _with_motions(table: pd.DataFrame, case: Case, which: IntArray) -> pd.DataFr
 
 
 def _with_governing(tables: list[pd.DataFrame], rows: list[str]) -> list[Any]:
-    # Of the tables of all bounds, with the same rows each.
+    # Envelope of the tables of all bounds, with the same rows each.
     if not tables:
         return []
     sign = np.where(tables[0]["extreme"] == EXTREMES[0], 1.0, -1.0)

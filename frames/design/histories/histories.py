@@ -60,7 +60,7 @@ def bounded_histories(
     at : sequence of str
         Bounds to run at.
     **options
-        Of `time_histories`: dt, level, record, workers and so on.
+        Options of `time_histories`: dt, level, record, workers and so on.
 
     Returns
     -------
@@ -108,12 +108,12 @@ def history_checks(
     action_level: str = "",
     moved: xr.Dataset | Mapping[Bound, xr.Dataset] | None = None,
 ) -> Checks:
-    """Check time history analyses as a code counts them, at each bound of properties.
+    """Check time histories by the statistics of a code, at each bound of properties.
 
     Parameters
     ----------
     runs : xarray.Dataset or mapping of str to xarray.Dataset
-        Of `time_histories`, or by bound as `bounded_histories` gives them.
+        Results of `time_histories`, or by bound as those of `bounded_histories`.
     frame : Frame
         The structure, friction nominal.
     code : str or HistoryRules
@@ -122,37 +122,35 @@ def history_checks(
         Factors that the runs at a bound were made with: the stable limit of interface slip goes by
         them.
     limits : DesignLimits, optional
-        What bearings and structure may be asked for; the code's own limits are checked beside.
+        Limits of bearings and structure; the code's own limits are checked beside.
     equivalent : EquivalentLinear, optional
-        Of a code that has minima (`HistoryRules.has_minima`: ASCE 7-22), with a superstructure: at
-        the bounds that it has, its minima are put under displacement and base shear, drifts grow
-        as the base shear does, and the shear of the storey over the lowest level is held against
-        its least value.
+        For a code with minima (`HistoryRules.has_minima`: ASCE 7-22), with a superstructure. At its
+        bounds its minima apply to displacement and base shear, drifts grow as the base shear does,
+        and the shear of the storey over the lowest level is compared with its least value.
     action_level : str
-        Which level of the seismic action the runs are of, where the code has several: NCh2745
-        judges what stands on the bearings at "design", the bearings at "maximum".
+        Level of the seismic action of the runs, if the code has several: NCh2745 checks the
+        structure above at "design", the bearings at "maximum".
     moved : xarray.Dataset or mapping of str to xarray.Dataset, optional
         Runs of motions among those of `runs` with the floors' masses moved, by bound as these: a
-        coordinate ``mass_shift`` along `run` says which way, "+x", "-x", "+y" or "-y". What the
-        worst way does to the largest of a quantity raises its demands: by the factor of the two,
-        of slip, rim force, eccentricity of the sliders' resultant and lost axial force by their
-        difference (docs/history_checks.md). None of them may fail.
+        coordinate ``mass_shift`` along `run` gives the direction, "+x", "-x", "+y" or "-y". The
+        worst direction raises the demands: by the ratio of the largest values, but slip, rim force,
+        eccentricity of the sliders' resultant and lost axial force by their difference
+        (docs/history_checks.md). None of them may fail.
 
     Returns
     -------
     Checks
-        At each bound, as far as the level is for it: number of motions, runs that failed,
-        displacement, slip, rims and forces of the worst bearing, drift of the worst storey, and
-        what `limits` asks for. Where more runs failed than the rules allow, no value is formed of
-        the others: each check that needs it fails (`Check.void`), its demand is what the runs
-        reached, and its note names those that failed. Notes also tell what the runs' assumption
-        checks mark.
+        At each bound, as far as the level covers it: number of motions, failed runs, displacement,
+        slip, rims and forces of the worst bearing, drift of the worst storey, and the quantities in
+        `limits`. If more runs failed than the rules allow, there are no values from the others:
+        each check that needs them fails (`Check.void`), its demand is the peak of the runs, and its
+        note names the failed runs. Notes also give the findings of the runs' assumption checks.
 
     Raises
     ------
     CheckError
-        If runs and frame do not belong together, runs are missing, a motion is there at two
-        scales, the code has no minima, or the level is not one of the code's.
+        If runs and frame do not belong together, runs are missing, a motion has two scales, the
+        code has no minima, or the level is not one of the code's.
 
     Examples
     --------
@@ -197,7 +195,7 @@ def history_demands(
     *,
     moved: xr.Dataset | Mapping[Bound, xr.Dataset] | None = None,
 ) -> pd.DataFrame:
-    """Return what time histories give for design: at each bound, and the envelope.
+    """Return the design values of time histories: at each bound, and the envelope.
 
     Parameters
     ----------
@@ -213,16 +211,16 @@ def history_demands(
     pandas.DataFrame
         A row a quantity with its unit (SI); the worst bearing, storey or level. Columns:
 
-        - each bound ("value" of runs at none): mean or largest of the runs, as the code counts
-          them; of the minimum axial force the mean or the smallest of the runs' smallest;
+        - each bound ("value" of runs at none): mean or largest of the runs, by the rules of the
+          code; of the minimum axial force the mean or the smallest of the runs' smallest;
           ``attrs["statistics"]`` says which, and of how many;
-        - envelope: the largest of these, and where it is;
+        - envelope: the largest of these, and its place;
         - worst: the largest of all single runs (of the minimum axial force the smallest), and its
-          run, with its status where it failed;
-        - note: what the row is of, and which gaps do not count;
-        - void: where more runs failed than the rules allow, which and why. The numbers of that
-          bound are then those that its runs reached, failed ones included, up to where they
-          stopped: no values for design. What was left of runs that stopped is NaN.
+          run, with its status if it failed;
+        - note: definition of the row, and gaps that do not count;
+        - void: the reason, if more runs failed than the rules allow. The numbers of that bound are
+          then the peaks of its runs, failed ones included, up to their end: no design values.
+          Quantities that stopped runs cannot give are NaN.
 
         Minima and factors of codes are not in it.
 

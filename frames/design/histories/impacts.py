@@ -1,4 +1,4 @@
-"""What impacts on rims and landings do, read off the histories of a time history."""
+"""Effects of impacts on rims and of landings, from the results of a time history."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ if TYPE_CHECKING:
 
 
 def rim_engagement(data: xr.Dataset) -> pd.DataFrame:
-    """Return when, and at which displacement, each rim is met for the first time.
+    """Return time and displacement of the first contact with each rim [s, m].
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history that recorded `rim_force` and `bearing_displacement`.
+        Result of a time history with `rim_force` and `bearing_displacement`.
 
     Returns
     -------
     pandas.DataFrame
-        A row for each rim that is met: bearing, surface, time [s], displacement in plan then [m],
-        speed in plan a recorded step before (NaN where it was not recorded) [m/s], largest rim
-        force [N].
+        A row for each rim with contact: bearing, surface, time [s], displacement in plan then [m],
+        speed in plan a recorded step before (NaN if it was not recorded) [m/s], largest rim force
+        [N].
 
     Raises
     ------
@@ -76,12 +76,12 @@ def rim_engagement(data: xr.Dataset) -> pd.DataFrame:
 
 
 def impact_demand(data: xr.Dataset, after: float = 0.3) -> pd.DataFrame:
-    """Compare what the structure feels at impacts on rims with what it felt before the first one.
+    """Compare the structure's demands at rim impacts with those before the first one.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history with the histories of rims, base shear and nodes.
+        Result of a time history with the histories of rims, base shear and nodes.
     after : float
         Time after each step of contact that counts as impact [s], at least 0.
 
@@ -90,12 +90,12 @@ def impact_demand(data: xr.Dataset, after: float = 0.3) -> pd.DataFrame:
     pandas.DataFrame
         A row for the base shear in plan, each level's mean acceleration in plan and each storey's
         mean drift: unit, largest value before the first contact, largest at impacts, its time [s],
-        and the ratio of both (infinite where there was nothing before). Empty without impacts.
+        and the ratio of both (infinite if the first is zero). Empty without impacts.
 
     Raises
     ------
     ValueError
-        If what it is made from was not recorded.
+        If an input was not recorded.
 
     Examples
     --------
@@ -123,26 +123,26 @@ def impact_demand(data: xr.Dataset, after: float = 0.3) -> pd.DataFrame:
 
 
 def uplift_events(data: xr.Dataset, after: float = 0.1) -> pd.DataFrame:
-    """Return each lift-off of a bearing: how long, how far, and how hard it lands.
+    """Return each lift-off of a bearing: duration [s], gap [m] and landing force [N].
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history with the histories of bearings and nodes.
+        Result of a time history with the histories of bearings and nodes.
     after : float
         Time after the landing in which the maximum axial force counts as its force [s].
 
     Returns
     -------
     pandas.DataFrame
-        A row for each: bearing, begin [s], duration [s], gap [m], landing_force [N] (NaN where
-        the run ends in the air), and whether a rim of the bearing was pressed at the lift-off or
-        in the time `after` before it.
+        A row for each: bearing, begin [s], duration [s], gap [m], landing_force [N] (NaN if the run
+        ends in the air), and if a rim of the bearing was pressed at the lift-off or in the time
+        `after` before it.
 
     Raises
     ------
     ValueError
-        If what it is made from was not recorded.
+        If an input was not recorded.
 
     Examples
     --------
@@ -182,12 +182,12 @@ def uplift_events(data: xr.Dataset, after: float = 0.1) -> pd.DataFrame:
 
 
 def slips_of_events(data: xr.Dataset, ends: tuple[float, ...]) -> pd.DataFrame:
-    """Return what slip and displacement each of several events reached, and left.
+    """Return largest and residual slip and displacement of each of several events [m].
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history of the events one after the other, such as under `repeated_motion`.
+        Result of a time history of the events in a row, for example under `repeated_motion`.
     ends : tuple of float
         Times at which the events end, pauses included [s], rising.
 
@@ -248,7 +248,7 @@ def repeated_motion(
     motion : GroundMotion
         The event.
     times : int
-        How often, at least 1.
+        Number of repetitions, at least 1.
     pause : float
         Time of rest after each [s], rounded up to whole steps; long enough for the structure to
         come to rest.
@@ -287,7 +287,7 @@ def repeated_motion(
 
 
 def near(met: BoolArray, time: FloatArray, after: float) -> BoolArray:
-    """Return where steps lie at a contact or less than some time after one.
+    """Return the steps at a contact or less than some time after one.
 
     Shapes: met (n,), time (n,), result (n,).
     """

@@ -38,7 +38,7 @@ def period_range(equivalent: EquivalentLinear, rule: str = "") -> tuple[float, f
         Its effective periods at all its bounds count; of NCh2745, which has two levels, the
         shortest is T_D and the longest T_M.
     rule : str
-        Of a code, or another that it has, "ASCE 7-16"; that of the analysis' code if empty.
+        Rule of a code, or "ASCE 7-16"; that of the analysis' code if empty.
 
     Returns
     -------
@@ -75,7 +75,7 @@ def period_range(equivalent: EquivalentLinear, rule: str = "") -> tuple[float, f
 def motion_checks(
     motions: MotionSet, spectrum: Spectrum, equivalent: EquivalentLinear, *, rule: str = ""
 ) -> Checks:
-    """Check a set of motions as it is run: number of pairs, mean spectrum, fault axes.
+    """Check a set of motions: number of pairs, mean spectrum, fault axes.
 
     Parameters
     ----------
@@ -86,16 +86,16 @@ def motion_checks(
     equivalent : EquivalentLinear
         Its effective periods make the range.
     rule : str
-        Of a code, or another that it has; that of the analysis' code if empty. "ASCE 7-16" asks
-        SRSS of ASCE 7-22's range. The number of pairs is asked by the analysis' code.
+        Rule of a code; that of the analysis' code if empty. "ASCE 7-16" needs SRSS in ASCE 7-22's
+        range. The number of pairs is that of the analysis' code.
 
     Returns
     -------
     Checks
-        Pairs of motions; mean spectrum over what the code asks of the target, at the period where
-        it is least; the same at the period 0 by EN 1998-1; by ASCE 7, where motions are marked
-        "near_fault", how many of them are not turned to the fault's axes, or do not say how they
-        lie to it.
+        Checks of the number of pairs; of the mean spectrum over the required share of the target,
+        at the worst period; of the same at the period 0 by EN 1998-1; by ASCE 7, if motions are
+        marked "near_fault", of the number of them that are not turned to the fault's axes, or lack
+        the orientation.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def _rule(equivalent: EquivalentLinear, rule: str) -> ScalingRule:
 
 
 def _pair(motion: GroundMotion) -> GroundMotion:
-    x, y, _ = motion.components.T  # zeros where one is missing
+    x, y, _ = motion.components.T  # zeros if one is missing
     return GroundMotion(x=x, y=y, dt=motion.dt, name=motion.name)
 
 
@@ -157,7 +157,7 @@ def _number(motions: MotionSet, least: int, clause: str, known: Standing) -> Che
 def _mean(
     motions: list[GroundMotion], spectrum: Spectrum, grid: FloatArray, asked: ScalingRule
 ) -> Check:
-    # At the period where the mean is the least part of the target.
+    # At the period of the smallest ratio of the mean to the target.
     target = np.asarray(spectrum.acceleration(grid, 0.05), dtype=np.float64)
     each = np.array([pair_spectrum(motion, grid, 0.05, asked.measure) for motion in motions])
     k = int(np.argmin(each.mean(axis=0) / target))
@@ -205,7 +205,7 @@ def _is_turned(name: str, motions: MotionSet) -> bool:
     known = motions.facts[name]
     try:
         strike, x, y = (angle_of(name, known, key) for key in ("strike", "azimuth_x", "azimuth_y"))
-    except MotionError:  # what is not known cannot be said to be turned
+    except MotionError:  # an unknown orientation is not turned
         return False
     off = (abs((azimuth - strike + 45.0) % 90.0 - 45.0) for azimuth in (x, y))  # either way round
     return max(off) <= _TURNED

@@ -1,4 +1,4 @@
-"""Checks of one time history: what impacts ask of bearings and structure; resultants."""
+"""Checks of one time history: impact demands of bearings and structure; resultants."""
 
 from __future__ import annotations
 
@@ -51,35 +51,35 @@ def impact_checks(
     least_engagement: float = 0.60,
     bound: Bound = "",
 ) -> Checks:
-    """Check what one time history asks of its LIR-DCFP bearings, and of what stands on them.
+    """Check the demands of one time history on its LIR-DCFP bearings and the structure above.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of `time_history`. Limits on the structure at an impact, on gaps and landings, and
-        `total_displacement`, need its histories; the rest what any recording keeps.
+        Result of `time_history`. Limits on the structure at an impact, on gaps and landings, and
+        `total_displacement`, need its histories; the others need only its peaks.
     frame : Frame
         The structure as it was analysed.
     limits : DesignLimits, optional
-        What bearings and structure may be asked for.
+        Limits of bearings and structure.
     total_displacement : float, optional
         D_TM of ASCE 7-22 [m], of which rims must not engage below a share; `engagement_checks` has
         the other codes.
     least_engagement : float
-        That share [-]; the wording of ASCE 7-22 17.2.4.5 has to be read.
+        The share of `total_displacement` [-]; the wording of ASCE 7-22 17.2.4.5 has to be read.
     bound : {"lower", "nominal", "upper", ""}
         Properties of the bearings in this run.
 
     Returns
     -------
     Checks
-        Each of the bearing, level or storey that is worst. A run that failed gives no values: all
-        checks fail (`Check.void` says why), their demands are what it reached until it stopped.
+        Checks of the worst bearing, level or storey. If the run failed, all checks fail
+        (`Check.void` has the reason), and their demands are its peaks until it stopped.
 
     Raises
     ------
     CheckError, ValueError
-        If run and frame do not belong together, or limits ask for what was not recorded.
+        If run and frame do not belong together, or a quantity with a limit was not recorded.
 
     Examples
     --------
@@ -119,12 +119,12 @@ def event_checks(
     limits: DesignLimits | None = None,
     bound: Bound = "",
 ) -> Checks:
-    """Check slip and what stays of it after each of several events, one after the other.
+    """Check largest and residual slip of each of several events in a row.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a `time_history` under `repeated_motion` motions, or other motions in a row.
+        Result of a `time_history` under `repeated_motion` motions, or other motions in a row.
     frame : Frame
         The structure as it was analysed.
     ends : tuple of float
@@ -137,8 +137,8 @@ def event_checks(
     Returns
     -------
     Checks
-        That the run is complete; for each event the worst bearing's slip over the smaller of
-        overlap and s*, and its residual slip. Of a run that failed all fail.
+        The check that the run is complete; for each event the worst bearing's slip over the smaller
+        of overlap and s*, and its residual slip. If the run failed, all fail.
 
     Raises
     ------
@@ -270,12 +270,12 @@ _NEEDED = (
 def resultant_offsets(
     data: xr.Dataset, *, least_load: float = PRESSED, limit: float = 0.8
 ) -> pd.DataFrame:
-    """Return when the resultant between the sliders was farthest off their axes, and why.
+    """Return time and cause of the largest offset of the resultant between the sliders.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history that recorded eccentricity, axial force, rims, sliding and slip.
+        Result of a time history with eccentricity, axial force, rims, sliding and slip.
     least_load : float
         Axial force over that at rest above which offsets count [-]. All runs keep those above 0.05
         (`peak_eccentricity`) and above 0.5 (`peak_eccentricity_loaded`, which checks take).
@@ -286,9 +286,9 @@ def resultant_offsets(
     -------
     pandas.DataFrame
         A row for each bearing: the largest offset over the slider's radius [-], its time [s], the
-        axial force then over that at rest [-], which rims pressed ("none", "bottom", "top",
-        "both"), interface slip [m], how far the other rim was [m] where one pressed alone (else
-        NaN), and the time above the limit [s].
+        axial force then over that at rest [-], pressed rims ("none", "bottom", "top", "both"),
+        interface slip [m], distance from the other rim [m] if one pressed alone (else NaN), and the
+        time above the limit [s].
 
     Raises
     ------
@@ -300,8 +300,8 @@ def resultant_offsets(
     Notes
     -----
     Source: docs/theory.md (10.2). At the level "pendulum" a rim may press alone while the other is
-    a millimetre away; real sliders turn against each other until both press, as they do at the
-    level "contact".
+    a millimetre away; real sliders rotate against each other until both press, as at the level
+    "contact".
 
     Examples
     --------

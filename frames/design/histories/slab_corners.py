@@ -1,4 +1,4 @@
-"""How far the base slab moves where it stands out past the bearings."""
+"""Displacement of the base slab's corners beyond the bearings."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ class SlabCorner(NamedTuple):
     """The node of the base that moves most."""
 
     factor: float  # its displacement over the largest of the bearings, 1 at least
-    note: str  # where it is, in words
+    note: str  # its place, in words
 
 
 _INSIDE = "the bearings enclose the nodes of the base: a rigid slab moves most at a bearing"
 
 
 def farthest_corner(frame: Frame, each: FloatArray) -> SlabCorner:
-    """Return what nodes of the base move at most if bearings move by `each`, (n_bearings,).
+    """Return the largest displacement of base nodes if bearings move by `each`, (n_bearings,).
 
-    A rigid slab moves by an affine map of the place: a node by the sum of shares of the bearings'
-    displacements, shares that put their places together to its own. Sizes alone are known of
-    these, so that the smallest sum of the shares' sizes times them is the bound. Inside of the
+    A rigid slab moves by an affine map: a node moves by the sum of shares of the bearings'
+    displacements, with shares that combine their places to its own. Only the sizes of these are
+    known, so that the smallest sum of the shares' sizes times them is the bound. Inside of the
     bearings' outline no share is negative, and no node moves more than the farthest bearing.
     """
     above = [link.j for link in frame.bearings.values()]

@@ -1,4 +1,4 @@
-"""Checks of a structure's storeys beside their drift: torsion, and gravity on displaced storeys."""
+"""Checks of storeys besides their drift: torsion, and gravity on displaced storeys."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a suite of runs gives for design: mean or largest, least shears; where runs failed."""
+"""Design values of a suite of runs: mean or largest, least shears; treatment of failed runs."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 
 
 class TorsionFactor(NamedTuple):
-    """What the way that is worst does to the largest of a quantity: accidental eccentricity."""
+    """Effect of the worst direction of moved masses on the largest of a quantity."""
 
     way: str  # which way the masses are moved, "+x"
-    # the largest over bearings, storeys or levels with the masses where they are, and moved
+    # the largest over bearings, storeys or levels with the masses in place, and moved
     centred: float
     moved: float
     factor: float  # moved over centred, 1 at least; 1 of a quantity that differences raise
@@ -35,7 +35,7 @@ class TorsionFactor(NamedTuple):
 
     @property
     def said(self) -> str:
-        """What it is of, in words."""
+        """Definition of the factor, in words."""
         return worded(
             "accidental eccentricity: masses moved {way}, {motions}",
             way=self.way,
@@ -45,7 +45,7 @@ class TorsionFactor(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class RunSet:
-    """How runs are taken together."""
+    """Statistics of a suite of runs."""
 
     # mean of the runs' largest values, the largest of them, or that of one run
     statistic: Literal["mean", "largest", "single"]
@@ -54,14 +54,14 @@ class RunSet:
     median_factor: float = 1.2  # then on the median, of all runs, below which the mean must not lie
     reason: str = ""  # which runs failed, in words
     source: str = ""  # clause of the statistic
-    # by what accidental eccentricity raises quantities, by their names
+    # factors of accidental eccentricity on quantities, by their names
     raised: Mapping[str, TorsionFactor] = field(default_factory=dict)
     # which runs with moved masses failed, in words: then nothing is a value for design
     moved_failed: str = ""
 
     @property
     def is_usable(self) -> bool:
-        """Whether there is a value for design."""
+        """True if there is a design value."""
         if self.moved_failed:
             return False
         failures = sum(self.failed)
@@ -71,7 +71,7 @@ class RunSet:
 
     @property
     def void(self) -> str:
-        """Why there is no value for design; empty where there is one."""
+        """Reason that there is no design value; empty if there is one."""
         said = joined(self.reason, self.moved_failed)
         return "" if self.is_usable else said or "a run failed"
 
@@ -83,7 +83,7 @@ class RunSet:
         return float(self.values(values, of))
 
     def values(self, values: FloatArray, of: str = "") -> FloatArray:
-        """Return the values for design of many places at once, each with what raises `of`.
+        """Return the design values of many places at once, each raised for the quantity `of`.
 
         Shapes: values (n_runs, ...).
         """
@@ -112,7 +112,7 @@ class RunSet:
         *,
         of: str = "",
     ) -> float:
-        """Enter the values of the runs and what follows for design.
+        """Enter the values of the runs and their design value.
 
         Shapes: values (n_runs,).
         """
@@ -130,7 +130,7 @@ class RunSet:
         more = self.raised.get(of)
         if more is None:
             return self._enter(t, symbol, values, unit, shown)
-        own = f"{symbol}_c"  # with the masses where they are
+        own = f"{symbol}_c"  # with the masses in place
         self._enter(t, own, values, unit, shown)
         if more.added > 0.0:
             t.given(f"Delta_{symbol}", more.added, unit, shown=shown, note=more.said)
@@ -166,7 +166,7 @@ class RunSet:
     def form(
         self, t: Trace, symbol: str, formula: str, unit: str, shown: str = "", *, of: str
     ) -> None:
-        """Enter what follows from the value `of`, of `enter`: infinite where that is."""
+        """Enter a result of the value `of`, of `enter`: infinite if that is infinite."""
         if math.isfinite(t.value(of)):
             t(symbol, formula, unit, shown=shown)
         else:
@@ -177,7 +177,7 @@ class RunSet:
 
 
 def peaks_of_runs(data: xr.Dataset, name: str) -> FloatArray:
-    """Return what runs reached of a quantity, (n_runs, ...)."""
+    """Return the peaks of a quantity in the runs, (n_runs, ...)."""
     if "run" in data.dims:
         if PEAK + name not in data.variables:
             msg = f"the runs keep no {name!r}, an earlier version made them: run them again"
@@ -187,7 +187,7 @@ def peaks_of_runs(data: xr.Dataset, name: str) -> FloatArray:
 
 
 def names_of(data: xr.Dataset, name: str) -> tuple[str, ...]:
-    """Return the names of what a quantity is reached by: bearings, levels, storeys, lines."""
+    """Return the names of a quantity's places: bearings, levels, storeys, lines."""
     return tuple(map(str, places_of(data, name)))
 
 
@@ -238,7 +238,7 @@ def suite_of_failures(failures: Sequence[Failure | None], rules: HistoryRules) -
 
 
 def stopped_in(data: xr.Dataset) -> BoolArray:
-    """Return which runs failed by their status, whatever the code makes of uplift, (n_runs,)."""
+    """Return the runs that failed by their status, uplift rules aside, (n_runs,)."""
     if "run" not in data.dims:
         return np.array([str(data.attrs["status"]) != "ok"])
     return np.array([str(word) != "ok" for word in data["status"].to_numpy()])
@@ -252,13 +252,13 @@ def run_named(data: xr.Dataset, k: int) -> str:
 
 
 def stopped_runs(data: xr.Dataset) -> str:
-    """Return which runs failed by their status and when, in words; empty where none did."""
+    """Return the runs that failed by their status and the times, in words; empty if none did."""
     stopped = stopped_in(data)
     return _said_of([_failure(data, k) if failed else None for k, failed in enumerate(stopped)])
 
 
 def _said_of(failures: Sequence[Failure | None]) -> str:
-    # How many of runs failed, and each of them.
+    # Number of failed runs, and each of them.
     stopped = [str(one) for one in failures if one is not None]
     count = worded("{count} of {n} runs failed", count=len(stopped), n=len(failures))
     return joined(count, *stopped) if stopped else ""
@@ -281,7 +281,7 @@ def parted(data: xr.Dataset, least: float) -> BoolArray:
 
 
 def motion_of(data: xr.Dataset, k: int) -> str:
-    """Return the motion of a run, with its scale where that is not 1."""
+    """Return the motion of a run, with its scale if that is not 1."""
     name, scale = str(data["motion"].to_numpy()[k]), float(data["scale"][k])
     same = abs(scale - 1.0) < 1e-12
     return name if same else worded("{motion} x {scale:.4g}", motion=name, scale=scale)

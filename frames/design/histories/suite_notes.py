@@ -1,4 +1,4 @@
-"""What notes of checks say of runs: small gaps, doubts, what was left out, margins of levels."""
+"""Notes of checks about runs: small gaps, doubts, omissions, margins of levels."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ ON_AXIAL_STIFFNESS = (
 
 
 def note_of_impacts(data: xr.Dataset, bearings: Mapping[str, LIRBearing]) -> str:
-    """Return what checks of forces say where bearings of default stiffness met rims with a slip."""
+    """Return the note of force checks for rim contact and slip of bearings of default stiffness."""
     if "run" in data.dims and f"{PEAK}closing" not in data.variables:
         return ""  # of an earlier version
     closing = np.nan_to_num(peaks_of_runs(data, "closing")).max(axis=0)
@@ -76,7 +76,7 @@ def contact_notes(data: xr.Dataset, least: float) -> str:
 
 
 def audit_notes(data: xr.Dataset) -> str:
-    """Return what the assumption checks of runs mark, by motion."""
+    """Return the findings of the runs' assumption checks, by motion."""
     marked = (joined(*found.doubts()) for found in findings_by_run(data))
     return joined(
         *(
@@ -102,7 +102,7 @@ def left_out_checks(data: xr.Dataset, bound: Bound, void: str = "") -> list[Chec
 
 
 def doubted(checks: list[Check], errors: Mapping[str, float], quantity: str) -> list[Check]:
-    r"""Return checks with a note at those that pass by less than what their level may have wrong.
+    r"""Return checks with a note at those that pass by less than the possible error of their level.
 
     Errors :math:`e` are over the right value, so that a demand :math:`x` may stand for
     :math:`x / (1 - e)`, and from :math:`e = 1` on for any value. A demand that a least value
@@ -125,7 +125,7 @@ def doubted(checks: list[Check], errors: Mapping[str, float], quantity: str) -> 
 
 
 def level_errors(data: xr.Dataset, bearings: Sequence[LIRBearing], quantity: str) -> FloatArray:
-    """Return what the level 'pendulum' may have wrong of each bearing, of all runs the most.
+    """Return the largest possible error of the level 'pendulum' over all runs, by bearing.
 
     Shapes: result (n_bearings,).
     """

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 def suite_of_uplift(data: xr.Dataset, reason: str = "") -> RunSet:
-    """Return how lift-offs count: the largest of runs, none where one failed or keeps no gap."""
+    """Return the statistics of lift-offs: the largest; no value if a run failed or keeps no gap."""
     stopped, lifted = stopped_in(data), _lifted_in(data)
     unknown = (np.isnan(peaks_of_runs(data, "gap")) & lifted).any(axis=1)
     if not stopped.any():
@@ -42,7 +42,7 @@ def suite_of_uplift(data: xr.Dataset, reason: str = "") -> RunSet:
 class Uplift(BearingDemands):
     """Makes the checks of bearings that lift off: the worst run counts, never a mean."""
 
-    clause: str = ""  # of the code that asks for stability after uplift; empty where it has none
+    clause: str = ""  # clause of the code on stability after uplift; empty if it has none
 
     def rims(self) -> list[Check]:
         """Return the check of the gap over the height of the rims; none without rims."""
@@ -62,7 +62,7 @@ class Uplift(BearingDemands):
         return self.worst(known, clause, "maximum uplift over the rim height", each, self._told)
 
     def gaps(self) -> list[Check]:
-        """Return the check of the gap over `uplift_gap`; none where it is not given."""
+        """Return the check of the gap over `uplift_gap`; none if it is not given."""
         each = {
             name: self.within(self._with_gap(Trace(), k), "g", "gap")
             for k, name in enumerate(self._names)
@@ -71,7 +71,7 @@ class Uplift(BearingDemands):
         return self.worst(PROJECT, PROJECT_LIMIT, "maximum uplift", each, self._told)
 
     def landings(self) -> list[Check]:
-        """Return the check of the landing's force or pressure; none where nothing lifted off."""
+        """Return the check of the landing's force or pressure; none if nothing lifted off."""
         limits, lifted = self.limits, self._lifted
         each = {}
         for k, name in enumerate(self._names):
@@ -86,7 +86,7 @@ class Uplift(BearingDemands):
         return self.worst(PROJECT, clause, title, each, self._told)
 
     def _landing(self, k: int, bearing: LIRBearing, runs: Sequence[int]) -> DemandOverLimit:
-        # Of the runs in which the bearing lifts off, the one that presses it most.
+        # The run with the largest pressure, of the runs in which the bearing lifts off.
         force, slip = (
             peaks_of_runs(self.data, "axial_force")[:, k],
             peaks_of_runs(self.data, "slip")[:, k],
@@ -108,7 +108,7 @@ class Uplift(BearingDemands):
         return DemandOverLimit(t, symbol, limit)
 
     def _enter_resistance(self, t: Trace) -> tuple[str, str]:
-        # What a landing is held against: symbols of demand and limit.
+        # Symbols of demand and limit of a landing.
         if self.limits.axial_force is not None:
             t.given("N_R", self.limits.axial_force, "N", note="as given")
             return "N_land", "N_R"
@@ -124,7 +124,7 @@ class Uplift(BearingDemands):
 
     @property
     def _told(self) -> str:
-        # How many runs lift off a bearing, how often, for how long, how far; then the force.
+        # Numbers, durations and gaps of lift-offs of a bearing in the runs; then the force.
         runs = np.flatnonzero(self._lifted.any(axis=1))
         if not len(runs):
             return "no bearing lifts off"

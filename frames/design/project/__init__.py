@@ -1,1 +1,1 @@
-"""A design project as a file: what it says, checked, and what it becomes."""
+"""A design project as a file: its contents, their checks, and the objects made of it."""

@@ -1,4 +1,4 @@
-"""What the checks of a project's runs ask of its bearings, and what no size of them mends."""
+"""Demands of a project's runs on its bearings, and failures that no size of them mends."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FARTHER = 1.1
 """Largest factor on the displacement of the rims from one round to the next [-]."""
 
 _LEAST, _MOST = 1.02, 1.3  # factors on a size from one round to the next
-_SLIPPED = 1.25  # factor on the slip that is asked where a run fails
+_SLIPPED = 1.25  # factor on the required slip if a run fails
 
 _SLIDERS = {  # checks that a wider slider mends, and the power of its radius that does
     "slip over the overlap": 1.0,
@@ -49,7 +49,7 @@ _FITTED = (  # checks of the bearing's own numbers: a size is fitted to their li
     "normalised eccentricity e/a at the rims",
 )
 TITLES = frozenset((*_SIZED, *_FITTED))
-"""How titles of checks begin that are acted on here."""
+"""Beginnings of titles of the checks that change a bearing's size."""
 
 
 class Obstacle(NamedTuple):
@@ -79,7 +79,7 @@ def counted(checks: Iterable[Check]) -> list[Check]:
 
 
 def obstacles(run: RunToCheck, *, agreed: bool) -> list[Obstacle]:
-    """Return what fails, the worst of each title, and what is to be `agreed` if it is not."""
+    """Return the failing checks, the worst of each title, and those to agree unless `agreed`."""
     failed = [*run.checks.failed, *(() if agreed else run.checks.to_agree)]
     worst: dict[str, Check] = {}
     for one in failed:
@@ -92,11 +92,11 @@ def obstacles(run: RunToCheck, *, agreed: bool) -> list[Obstacle]:
 def asked_by(
     run: RunToCheck, one: Candidate, before: Asked, margin: float, *, agreed: bool
 ) -> Asked:
-    """Return what a run asks of the bearings; `before` itself where it asks for no more.
+    """Return the demands of a run on the bearings; `before` itself if none is larger.
 
-    Each check of the histories that the size of a bearing has a part in must pass with the margin:
-    its ratio is at most the inverse. Checks of the bearing's own numbers must pass. If the project
-    says where rims are met (`agreed`), they are not moved for the share at which they engage.
+    Each check of the histories that depends on the size of a bearing must pass with the margin: its
+    ratio is at most the inverse. Checks of the bearing's own numbers must pass. If the project
+    gives the rim displacement (`agreed`), rims are not moved for the share at contact.
     """
     aim = 1.0 / margin
     over = {}

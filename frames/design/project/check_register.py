@@ -1,4 +1,4 @@
-"""Checks that a project's run makes: what they are made of, and how one more is added."""
+"""Register of checks of a project's run: their input, and how to add one."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 class BearingDemand(NamedTuple):
-    """What bearings are checked and tested for."""
+    """Demands for checks and tests of bearings."""
 
     # least axial load that presses, and the largest, of combinations and histories [N]
     loads: tuple[float, float]
@@ -47,31 +47,31 @@ class BearingDemand(NamedTuple):
 
 
 class TypeOfBearing(NamedTuple):
-    """A type of bearing of a project, and what its time histories ask of it."""
+    """A type of bearing of a project, with the demands of its time histories."""
 
     bearing: LIRBearing  # the device, friction nominal
     columns: tuple[str, ...]  # names of the frame's bearings that are of this type
-    asked: BearingDemand  # what the time histories ask of these
+    asked: BearingDemand  # demands of the time histories on these
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Preliminary:
-    """What is known of a project before its time histories."""
+    """Results for a project before its time histories."""
 
     frame: Frame  # on its bearings, friction nominal, under the average combination of loads
     system: IsolationSystem  # the bearings with their places, and their loads in all combinations
     spectrum: Spectrum  # the design spectrum
-    superstructure: Superstructure | None  # what stands on the bearings
+    superstructure: Superstructure | None  # structure above the bearings
     equivalent: EquivalentLinear  # equivalent-linear analysis at both bounds
     motions: MotionSet  # scaled as the file asks
-    # the structure with its floors' masses moved, by the way; none where accidental
-    # eccentricity is left out
+    # the structure with its floors' masses moved, by the direction; none without accidental
+    # eccentricity
     moved: Mapping[str, Frame] = field(default_factory=dict)
     kinds: Mapping[str, str] = field(default_factory=dict)  # type of each bearing of the frame
     # the structure under each combination of loads but the average one, by its factors in words;
     # with the vertical earthquake, unless motions have it
     combined: Mapping[str, Frame] = field(default_factory=dict)
-    # what was warned of on the way: of the file, the bearing and the motions
+    # warnings about the file, the bearing and the motions
     doubts: tuple[str, ...] = ()
     # those of the equivalent-linear analysis, and of the clear distance to walls by it
     checks: Checks = field(default_factory=Checks)
@@ -79,7 +79,7 @@ class Preliminary:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RunToCheck(Preliminary):
-    """All that is known of a project when its checks are made.
+    """All results of a project for its checks.
 
     Attributes
     ----------
@@ -92,11 +92,11 @@ class RunToCheck(Preliminary):
     system : IsolationSystem
         The bearings with their places, average loads and combinations.
     superstructure : Superstructure, optional
-        What stands on them, as formulas need it.
+        The structure above, for design formulas.
     spectrum : Spectrum
         The design spectrum.
     motions : MotionSet
-        As they were run, scaled.
+        The scaled motions of the runs.
     equivalent : EquivalentLinear
         Equivalent-linear analysis at both bounds.
     runs : frames.batch.runs.Runs
@@ -105,23 +105,23 @@ class RunToCheck(Preliminary):
     cases : list of Case
         The same by level and bound as the code counts them, accidental eccentricity with them.
     demands : pandas.DataFrame
-        What they give for design, with the level of each row.
+        Design values of the time histories, with the level of each row.
     bounds : PropertyBounds
         Bounds of friction.
     limits : DesignLimits
-        What the engineer allows.
+        Limits of the engineer.
     rules : HistoryRules
-        How time histories count.
+        Rules for time histories.
     asked : BearingDemand
-        What the time histories ask of the bearings.
+        Demands of the time histories on the bearings.
     types : mapping of str to TypeOfBearing
-        Types of bearings, with what the time histories ask of each.
+        Types of bearings, with the demands of the time histories on each.
     moved, kinds : mapping of str to Frame, of str to str
         The structure with its masses moved, by the way; the type of each of its bearings.
     combined : mapping of str to Frame
         The structure under each combination of loads, "1.44 D + L + 0.15 S".
     doubts, checks : tuple of str, Checks
-        What of the input was warned of; checks that need no time history.
+        Warnings about the input; checks without time histories.
 
     Examples
     --------
@@ -141,14 +141,14 @@ class RunToCheck(Preliminary):
 
 
 MakeChecks = Callable[[RunToCheck], Iterable[Check]]
-"""What makes checks of a run."""
+"""A function that makes checks of a run."""
 
 Made = TypeVar("Made", bound=MakeChecks)
 _REGISTERED: dict[str, MakeChecks] = {}
 
 
 def register_check(make: Made) -> Made:
-    """Have every project's run make more checks; also as a decorator.
+    """Add checks to every project's run; also as a decorator.
 
     Parameters
     ----------
@@ -180,12 +180,12 @@ def register_check(make: Made) -> Made:
 
 
 def unregister_check(make: MakeChecks) -> None:
-    """Have no project's run make these checks any more.
+    """Remove these checks from every project's run.
 
     Parameters
     ----------
     make : callable
-        As it was registered.
+        The registered function.
 
     Examples
     --------
@@ -231,7 +231,7 @@ def of_the_motions(run: RunToCheck) -> Checks:
 
 @register_check
 def of_the_histories(run: RunToCheck) -> list[Check]:
-    """Return those of the time histories at each level; minima where the code has them."""
+    """Return the checks of the time histories at each level, with the code's minima."""
     has_minima = run.rules.has_minima and run.superstructure is not None
     found: list[Check] = []
     equivalent = run.equivalent if has_minima else None

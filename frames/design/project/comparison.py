@@ -1,4 +1,4 @@
-"""A project's bearings beside the same ones with rigid sliders: time histories of both."""
+"""Comparison of a project's bearings with the same ones with rigid sliders: time histories."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ BY_MOTION = {
     f"{DEMANDS[name].demand} [{DEMANDS[name].pure_unit}]": name
     for name in ("displacement", "drift", "floor_plan", "rim_force")
 }
-"""What is compared motion by motion, with the name of its column."""
+"""Quantities of the comparison by motion, with the names of their columns."""
 
 
 class RunCounts(NamedTuple):
-    """What came of the runs of a device."""
+    """Numbers of runs of a device, by outcome."""
 
     runs: int  # all of them
     met: int  # those that met a rim, and that stopped before their end
@@ -61,7 +61,7 @@ class Comparison:
 
     known: Preliminary  # structure, spectrum and motions
     runs: Runs  # those of both devices, by the tag "device": "LIR-DCFP" and "DCFP"
-    # by device: what the runs give for design, raised by what moved masses do to that device
+    # by device: design values of the runs, raised by the effect of moved masses on it
     demands: Mapping[str, pd.DataFrame]
 
     def table(self) -> pd.DataFrame:
@@ -79,7 +79,7 @@ class Comparison:
         return list(dict.fromkeys(map(str, self.runs.of(HAZARD))))
 
     def by_motion(self) -> pd.DataFrame:
-        """Return what each motion reached with each device, the largest over the bounds."""
+        """Return the peaks of each motion with each device, the largest over the bounds."""
         own = self.runs.centred
         keys = {"level": HAZARD, "motion": "motion", "device": DEVICE}
         rows = pd.DataFrame({title: own.of(tag) for title, tag in keys.items()})
@@ -94,7 +94,7 @@ class Comparison:
         return found.reset_index()
 
     def counts(self, device: str, level: str) -> RunCounts:
-        """Return how many runs a device has at a level, and what came of them."""
+        """Return the numbers of runs of a device at a level, by outcome."""
         own = self.runs.centred.where(**{DEVICE: device, HAZARD: level})
         return RunCounts(
             runs=len(own),
@@ -105,7 +105,7 @@ class Comparison:
 
     @property
     def eccentricity(self) -> str:
-        """What of accidental eccentricity is in the demands, in words."""
+        """Accidental eccentricity in the demands, in words."""
         count = len(self.runs.moved)
         if not count:
             return "Accidental eccentricity is not in the demands."
@@ -116,7 +116,7 @@ class Comparison:
         )
 
     def void(self, device: str, level: str) -> str:
-        """Return why a device has no values for design at a level; empty where it has."""
+        """Return the reason that a device has no design values at a level; empty if it has."""
         table = self.demands[device]
         return void_said(table[table["level"] == level])
 
@@ -142,7 +142,7 @@ def compared_histories(
     """Return the histories of both devices in the run that displaces an LIR-DCFP most."""
     worst = most_displaced(found.runs.where(**{DEVICE: OURS}))
     given, data = parts.file.analysis, {}
-    with warnings.catch_warnings():  # as told of the same run among the others
+    with warnings.catch_warnings():  # the same warnings come from the run among the others
         warnings.simplefilter("ignore", AnalysisWarning)
         for device in (OURS, PLAIN):
             model, motion = model_and_motion(parts, _with(device, found.known), worst)
@@ -164,7 +164,7 @@ def _with(device: str, known: Preliminary) -> Preliminary:
 
 
 def _largest(runs: Runs, name: str) -> FloatArray:
-    # Of each run over all places, (n_runs,); NaN where the runs do not keep it.
+    # Peaks of each run over all places, (n_runs,); NaN if the runs do not keep it.
     found = []
     for part in runs.parts:
         count = part.sizes["run"]

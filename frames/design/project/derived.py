@@ -49,7 +49,7 @@ LAW = "law"
 """Key that names the class of a friction law."""
 
 _BY_KEYS = CoulombFriction, VelocityFriction
-"""Laws that are known by their keys alone, where none is named."""
+"""Laws that are recognised by their keys alone if none is named."""
 
 
 class _NoKeyError(TypeError):
@@ -57,7 +57,7 @@ class _NoKeyError(TypeError):
 
 
 class Table(BaseModel):
-    """A table of the file: no keys but those that it knows."""
+    """A table of the file, without unknown keys."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -79,7 +79,7 @@ class WholeFile(Table):
 
     @property
     def source_path(self) -> Path | None:
-        """Where it was read, None where it was made in Python."""
+        """Path of the file, None if it was made in Python."""
         return self._read[0]
 
     @property
@@ -88,7 +88,7 @@ class WholeFile(Table):
         return self._read[1]
 
     def read_from(self, path: Path, content: bytes) -> Self:
-        """Return the file, which keeps where it comes from."""
+        """Return the file with its path and content."""
         self._read = (path, content)
         return self
 
@@ -109,9 +109,9 @@ class DerivedTable(Table):
 def table_of(kind: type, *names: str) -> type[DerivedTable]:
     """Return the table of a dataclass: a key a field, numbers with the units of its fields.
 
-    Of some fields alone, by their names, the file checks the bounds: what is made of it has more. A
-    field whose default is made by a factory has no key. A friction law may be any that is known
-    now (`known_laws`): ``law = "..."`` names its class.
+    If only some fields are named, the file checks their bounds, because the object has further
+    fields. A field whose default is made by a factory has no key. All friction laws registered now
+    (`known_laws`) are accepted: ``law = "..."`` names the class.
     """
     return _table_of(kind, tuple(law for law in known_laws() if _fits_a_file(law)), names)
 
@@ -131,7 +131,7 @@ def key_of(kind: type, name: str) -> Any:
 
 
 def _fits_a_file(law: type[FrictionLaw]) -> bool:
-    # Whether all fields of a law can be written in a file.
+    # True if all fields of a law can be written in a file.
     try:
         _table_of(law, ())
     except (_NoKeyError, NameError):
@@ -211,7 +211,7 @@ def _tag(way: Any) -> str:
 
 
 def _likeness(keys: set[str], given: Iterable[Any]) -> int:
-    # How many keys are given, misspelt ones included.
+    # Number of given keys, misspelt ones included.
     return sum(bool(get_close_matches(str(key), keys, n=1)) for key in given)
 
 
@@ -237,7 +237,7 @@ def _discriminator(ways: list[Any], laws: tuple[type[FrictionLaw], ...]) -> Disc
 
 
 def _chosen(ways: list[Any]) -> Any:
-    # Which of several ways a value is given in: by its kind, of tables by their keys.
+    # Alternative in which a value is given: by its kind, or for tables by their keys.
     tables = {
         _tag(way): {f.name for f in fields(way)}
         for way in ways

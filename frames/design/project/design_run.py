@@ -60,7 +60,7 @@ def provisions_of(
 
 
 def facts_of(parts: ProjectInputs, known: Preliminary) -> frozenset[str]:
-    """Return what of `NEEDS` a project has, and what its structure is made of."""
+    """Return the facts of `NEEDS` that a project has, and the parts of its structure."""
     file, frame, above = parts.file, known.frame, known.superstructure
     limits, facts = parts.limits(), [one.get("near_fault") for one in known.motions.facts.values()]
     laws = [getattr(link.law, "yield_force", None) for link in frame.links.values()]
@@ -94,18 +94,18 @@ def from_memory(code: DesignCode) -> tuple[str, ...]:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ProjectRun(RunToCheck):
-    """What a project's run gives: all that its checks are made of, and what comes of it."""
+    """Results of a project's run: the input of its checks, and their outcome."""
 
     # its checks are all that were made, its doubts those of the governing run as well
     model: ModelCheck  # totals of the structure
     governing: xr.Dataset  # histories of the run that displaces a bearing most
-    # digests of what the time histories depend on, by section of the file
+    # digests of the input of the time histories, by section of the file
     inputs: Mapping[str, str]
     programme: pd.DataFrame  # tests that prove the bearings
     # ``[project]`` of the file: name, client, engineer, checker, revision, date
     about: ProjectTable
     rim_width: float  # least of a rim in plan [m]
-    structure: tuple[tuple[str, str], ...] = ()  # what the structure is, in words
+    structure: tuple[tuple[str, str], ...] = ()  # the structure in words
     # provisions of the code: checked, not checked and why, or the engineer's
     provisions: tuple[ProvisionState, ...] = ()
     # tables that the file names, which are kept with the results, as they were read
@@ -175,7 +175,7 @@ def evaluate_run(
 
 
 def checked_run(parts: ProjectInputs, known: Preliminary, runs: Runs) -> RunToCheck:
-    """Return what a project's checks are made of, with all checks that are made of it."""
+    """Return the input of a project's checks, with all checks made of it."""
     rules = parts.rules()
     cases = cases_of(runs, rules)
     types = _types(parts, known, levels_of(cases)[rules.bearing_level])
@@ -200,7 +200,7 @@ def _types(
     known: Preliminary,
     cases: Sequence[Case],
 ) -> dict[str, TypeOfBearing]:
-    # Of each type of bearing what combinations and histories ask, those at the level of bearings.
+    # Demands of combinations and histories on each type of bearing, at the level of bearings.
     found, rules, void = {}, parts.rules(), void_of(cases)
     values = {
         name: largest_of_bounds(cases, name)
@@ -224,7 +224,7 @@ def _types(
         slip = float(np.nanmax(values["slip"][places]))
         if void:  # runs failed: the most that it holds
             slip = bearing.resolved()["slip_capacity"]
-        elif rules.displacement_factor > 1.0:  # what is beyond the rims by the code
+        elif rules.displacement_factor > 1.0:  # the part beyond the rims by the code
             reached = rules.displacement_factor * float(np.nanmax(values["displacement"][places]))
             slip = max(slip, reached - bearing.lateral_capacity)
         range_ = float(pressed.min()), float(pressed.max())
@@ -233,7 +233,7 @@ def _types(
 
 
 def _of_all(types: Mapping[str, TypeOfBearing]) -> BearingDemand:
-    # Of all types the least and the largest load, and the largest slip.
+    # The least and the largest load of all types, and the largest slip.
     each = [kind.asked for kind in types.values()]
     loads = min(one.loads[0] for one in each), max(one.loads[1] for one in each)
     return BearingDemand(loads, max(one.slip for one in each), each[0].void)

@@ -71,8 +71,8 @@ def motion_files(target: Spectrum, *, vertical: bool = False) -> Mapping[str, st
 
 
 def _matched(values: FloatArray, target: Spectrum, faster: float = 1.0) -> FloatArray:
-    # Fourier amplitudes times the ratio of the spectra, some times over; what is slower than the
-    # longest period fades. `faster` is how much shorter the periods of the spectrum are.
+    # Fourier amplitudes times the ratio of the spectra, several times; periods above the longest
+    # one fade. `faster` is the factor by which the periods of the spectrum are shorter.
     periods = np.geomspace(_SHORTEST, _LONGEST, _PERIODS)
     wanted = np.asarray(target.acceleration(np.minimum(faster * periods, _LONGEST)))
     frequency = np.fft.rfftfreq(len(values), _STEP)
@@ -90,8 +90,8 @@ def _matched(values: FloatArray, target: Spectrum, faster: float = 1.0) -> Float
 
 
 def _noise(seed: int) -> FloatArray:
-    # Noise that a soil layer filters, under a bell, without what a record's processing takes out
-    # below 0.1 Hz; its largest value is one.
+    # Noise that a soil layer filters, under a bell, without the part below 0.1 Hz that the
+    # processing of records removes; its largest value is one.
     time = np.arange(0.0, _LENGTH, _STEP)
     white = np.random.default_rng(seed).standard_normal(len(time))
     soil = signal.lfilter(*_layer(), white)
@@ -130,7 +130,7 @@ BUILDINGS = {
     "imported": "four storeys of concrete from a file of SAP2000, one type of bearing; EN 1998",
     "near-fault": "eight braced storeys of steel, vertical motion, uplift; ASCE 7-22",
 }
-"""Whole buildings beside the plain example, and what each shows."""
+"""Whole buildings besides the plain example, and the subject of each."""
 
 _WITH_VERTICAL = frozenset({"near-fault"})  # buildings whose motions have a vertical component
 _PLAIN = "example.toml"
@@ -148,8 +148,8 @@ def write_example(
 ) -> list[Path]:
     """Write a project's file and artificial motions into a folder; of a model a copy, too.
 
-    The motions are filtered noise with a pulse of velocity in it, weaker across, whose amplitudes
-    are brought to the design spectrum: there to try the project with, not to design by.
+    The motions are filtered noise with a pulse of velocity in it, weaker across, with amplitudes
+    fitted to the design spectrum. They are for trying the project, not for design.
     """
     if model is not None and building is not None:
         msg = f"--example {building} beside --from {model}: leave one out"
@@ -188,7 +188,7 @@ def _of_model(text: str, model: Path) -> str:
 
 
 def _as_read(section: str, kind: str, model: Path) -> str:
-    # The section with what the model has, and the reasons against it: comments, and said.
+    # The section with the model's features, and the reasons against it as comments.
     building, reasons = None, ""
     with in_project_file():
         try:

@@ -1,4 +1,4 @@
-"""What a second program needs to confirm a project: models, links, spectra, and what to expect."""
+"""Files for a second program to confirm a project: models, links, spectra, expected results."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def _spectrum(known: Preliminary) -> pd.DataFrame:
 
 
 def _expected(known: Preliminary) -> pd.DataFrame:
-    # What the other program's modal analysis should give, by the equivalent-linear analysis.
+    # Expected results of the other program's modal analysis, by the equivalent-linear analysis.
     rows: list[dict[str, object]] = []
     for each in known.equivalent.bounds.values():
         shears = np.cumsum(each.storey_forces[::-1])[::-1]

@@ -1,4 +1,4 @@
-"""What a project's file becomes: structure, bearings, spectrum, bounds, motions, limits."""
+"""Objects of a project's file: structure, bearings, spectrum, bounds, motions, limits."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ T = TypeVar("T")
 
 
 class ProjectInputs:
-    """What a project's file becomes; an error of its methods names the section that cannot be."""
+    """Objects of a project's file; an error of its methods names the section at fault."""
 
     # other files are found from the folder
     def __init__(self, file: ProjectFile, folder: Path) -> None:
@@ -140,7 +140,7 @@ class ProjectInputs:
         return frame_of(self.file.structure, bearing, name, self.folder, loads)
 
     def superstructure(self, frame: Frame) -> Superstructure | None:
-        """Return what stands on the bearings; None without ``[superstructure]``."""
+        """Return the structure above the bearings; None without ``[superstructure]``."""
         above = self.file.superstructure
         if above is None:
             return None
@@ -184,7 +184,7 @@ class ProjectInputs:
         return PropertyModificationFactors(*given)
 
     def limits(self, **others: float) -> DesignLimits:
-        """Return what the engineer allows; others count where the file gives none."""
+        """Return the limits of the engineer; `others` apply if the file gives none."""
         made: Callable[[], DesignLimits] = partial(self.file.limits.made, **others)
         return in_section("limits", made)
 
@@ -209,7 +209,7 @@ class ProjectInputs:
         return cast("AnalysisMethod", replace(found, drift=self.rules().drift))
 
     def target(self) -> DesignTarget:
-        """Return what ``lir design`` chooses from."""
+        """Return the choices of ``lir design``."""
         limits = self.limits(interface_pressure=INTERFACE_PRESSURE)
         made: Callable[[], DesignTarget] = partial(self.file.design.made, limits=limits)
         return in_section("design", made)
@@ -324,7 +324,7 @@ def motions_of(given: MotionSource, folder: Path, period: Callable[[], float]) -
 
 
 def _record_sets(names: Sequence[str]) -> MotionSet:
-    # Of FEMA P695, several as one; the fact "set" is the name of a motion's own.
+    # Motions of FEMA P695, several sets as one; the fact "set" names a motion's own set.
     sets = {name: MotionSet.fema_p695(name) for name in names}
     facts = {
         motion: {**known, "set": name}
@@ -350,7 +350,7 @@ def varied(given: MotionSource, motions: MotionSet) -> MotionSet:
 
 
 def in_section(section: str, make: Callable[[], T]) -> T:
-    """Return what is made; an error of a wrong value names the section."""
+    """Call `make` and return its result; an error of a wrong value names the section."""
     try:
         return make()
     except ProjectError:

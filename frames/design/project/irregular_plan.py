@@ -29,7 +29,7 @@ _RANGE = re.compile(r"(\d+)(?:\s*(?:-|to)\s*(\d+))?")
 
 
 class CsvRow(Row):
-    """A row of a table: texts by column, with the unit of the head where it has one."""
+    """A row of a table: texts by column, with the unit of the head if it has one."""
 
     __slots__ = ()
 

@@ -1,4 +1,4 @@
-"""Time histories of a project at each level of the seismic action, and what they give."""
+"""Time histories of a project at each level of the seismic action, and their results."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def governing_run(parts: ProjectInputs, known: Preliminary, runs: Runs) -> xr.Da
             raise KeyboardInterrupt
 
     with blas_threads_for(model), warnings.catch_warnings(), ThreadPoolExecutor(1) as beside:
-        warnings.simplefilter("ignore", AnalysisWarning)  # as told of the same run among the others
+        warnings.simplefilter("ignore", AnalysisWarning)  # as in the same run among the others
         run = partial(Analysis(model, given.level).run, dt=given.dt)
         noisy, peaks = motion.scaled(1.0 + NOISE), Recording.peaks()
         other = beside.submit(run, noisy, recording=peaks, progress=go_on)
@@ -85,7 +85,7 @@ def model_and_motion(
 
 
 def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
-    """Return what noise says of the peaks of the governing run."""
+    """Return the warnings on the sensitivity of the governing run's peaks to noise."""
     found = {
         QUANTITIES[key].title: float(data.attrs.get(f"{_ATTRIBUTE}{key}", 0.0)) for key in _WATCHED
     }
@@ -107,7 +107,7 @@ def sensitivity_warnings(data: xr.Dataset) -> tuple[str, ...]:
 
 
 def most_displaced(runs: Runs) -> Runs:
-    """Return the run that displaces a bearing most, of those with the masses where they are."""
+    """Return the run with the largest bearing displacement, of those with the masses in place."""
     own = runs.centred
     reached = np.nan_to_num(own.of("peak_displacement"), nan=-np.inf).max(axis=1)
     return own.those(np.arange(len(own)) == reached.argmax())
@@ -123,7 +123,7 @@ def named_case(one: Runs) -> str:
 
 
 def _apart(data: xr.Dataset, other: xr.Dataset, quantity: str) -> float:
-    # Difference of the largest values over the larger: a rim that one run alone meets is all of it.
+    # Difference of the largest values over the larger: 1 if only one run reaches a rim.
     one, two = (float(largest(each, quantity).values.max()) for each in (data, other))
     return 0.0 if one == two else abs(two - one) / max(abs(one), abs(two))
 
@@ -166,8 +166,8 @@ def _of_all(
     progress: Callable[[BatchProgress], None] | bool | None,
     resume: Path | None,
 ) -> Runs:
-    # Rows of level, bound, way of the masses and motion, of a structure by each way: with what they
-    # reached, and their histories where the project asks for these.
+    # Rows of level, bound, direction of the masses and motion, of a structure by each direction:
+    # with their peaks, and their histories if the project keeps them.
     given, rules = parts.file.analysis, parts.rules()
     named = {(b, way): f"{b}, masses {way}" if way else b for b in given.bounds for way in frames}
     models = {

@@ -88,7 +88,7 @@ class NamedSection(NamedTuple):
     """A section of a member with its name for people."""
 
     section: Section  # the section; of columns its depth lies along x or y
-    # what fixes local axes of a column: None has its depth along global x
+    # vector that fixes local axes of a column: None has its depth along global x
     up: tuple[float, float, float] | None
     said: str  # shape, material and stiffness in words
 
@@ -129,10 +129,10 @@ def named_section(given: SectionTable, *, column: bool) -> NamedSection:
 
 
 def hinge_of(given: SectionTable, hinges: HingesTable, *, column: bool) -> PlasticHinge:
-    """Return the hinge that a table describes, on its section.
+    """Return the hinge of a table, on its section.
 
-    Of a yield stress it has the plastic moments of the shape without fillets; of columns the
-    squash load besides, while floors take the axial force of beams.
+    A yield stress gives the plastic moments of the shape without fillets, and for columns the
+    squash load. Floors resist the axial force of beams.
     """
     if hinges.yield_stress is None:
         return hinges.made()  # type: ignore[no-any-return]
@@ -169,7 +169,7 @@ def _plastic_moduli(given: SectionTable, *, column: bool) -> tuple[float, float]
 
 
 def cracked_said(section: Section, cracked: float | CrackedTable | None) -> tuple[Section, str]:
-    """Return a section with the stiffness of cracked concrete, and what is said of it."""
+    """Return a section with the stiffness of cracked concrete, and its statement."""
     if cracked is None:
         return section, ""
     bending, torsion, shear = (
@@ -180,7 +180,7 @@ def cracked_said(section: Section, cracked: float | CrackedTable | None) -> tupl
 
 
 def bending_said(bending: float) -> str:
-    """Return what is said of cracked concrete."""
+    """Return the statement on cracked concrete."""
     return worded("cracked: {share:g} of the bending stiffness", share=bending)
 
 

@@ -233,7 +233,7 @@ def _on_line(frame: Frame, level: int, column: str) -> str:
 def device_rows(
     moat: MoatTable | None, dampers: Mapping[str, DamperTable]
 ) -> Sequence[tuple[str, str]]:
-    """Return what walls and dampers are, a row for each, in words."""
+    """Return walls and dampers, a row for each, in words."""
     rows = []
     if moat is not None:
         made = joined(
@@ -326,7 +326,7 @@ def _of_histories(frame: Frame, case: Case, gap: float) -> list[Check]:
 
 
 class _Told(NamedTuple):
-    # What notes say of walls: how they are modelled, and that they hold back what meets them.
+    # Notes on the model of walls, and that they hold back the structure at contact.
     model: str
     holds: str
 

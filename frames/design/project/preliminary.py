@@ -1,4 +1,4 @@
-"""What is known of a project before its time histories, and what these depend on."""
+"""Results for a project before its time histories, and the input of the histories."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def _refuse_steps(parts: ProjectInputs, motions: MotionSet) -> None:
 
 
 def _refuse_other_devices(frame: Frame) -> None:
-    # What the checks of the bearings themselves cannot judge once all is run.
+    # Properties that the checks of the bearings themselves cannot cover after the runs.
     for name, link in frame.bearings.items():
         if link.bearing.is_dcfp:
             msg = (

@@ -42,7 +42,7 @@ EXAMPLES = {
     "N/m2": "4.5 kN/m2",
     "": "0.05",
 }
-"""How numbers of each unit may be written, for messages and the schema."""
+"""Notation of numbers of each unit, for messages and the schema."""
 
 
 _PER_AREA = {
@@ -69,7 +69,7 @@ _UNREADABLE = (
     ValueError,
     pint.PintError,
 )
-"""What pint raises over a text that is no unit."""
+"""Errors of pint for a text that is no unit."""
 
 _COMMA = re.compile(r"\s*([-+]?\d*),(\d+)\s*(.*?)\s*")
 

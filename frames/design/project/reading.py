@@ -33,7 +33,7 @@ _KINDS = {
     "etabs",
     "Friction",
 }
-"""Of unions, which the place of an error names besides its keys, and names of codes."""
+"""Unions in the place of an error, besides its keys, and names of codes."""
 
 
 def read_project(path: str | Path) -> ProjectFile:
@@ -82,7 +82,7 @@ def read_file(
 
 
 def _short(text: object) -> str:
-    # A path or a value in a message: its middle left out where it is long.
+    # A path or a value in a message: a long one without its middle.
     whole = str(text)
     return whole if len(whole) <= _LONGEST else f"{whole[:60]}...{whole[-60:]}"
 
@@ -91,8 +91,8 @@ _LONGEST = 300  # characters of a path or a value in a message
 
 
 def _told(errors: Sequence[Any]) -> list[Any]:
-    # Without those of a table where its keys are told: the other way of giving it was not meant.
-    # A list whose entries are told has no wrong number of them, an unknown code no spectrum.
+    # Errors without those of a table whose keys have errors: the other alternative was not meant. A
+    # list whose entries have errors has no wrong number of them, an unknown code no spectrum.
     inside = {tuple(_place(error)[:-1]) for error in errors if _place(error)}
     no_code = any(_place(error) == ["project", "code"] for error in errors)
 
@@ -106,7 +106,7 @@ def _told(errors: Sequence[Any]) -> list[Any]:
 
 
 def _mended(error: str, text: str) -> str:
-    # What is to be done about an error of syntax.
+    # Remedy for an error of syntax.
     line = re.search(r"at line (\d+)", error)
     written = text.splitlines()[int(line[1]) - 1 :][:1] if line else []
     if written and (comma := re.search(r"=\s*(\d+),(\d+)\s*(?:#|$)", written[0])):
@@ -122,7 +122,7 @@ def schema() -> str:
 
 
 def _place(error: Any) -> list[str]:
-    # Of a key that may be one or two, the way that was tried ends with a bracket.
+    # For a key with one value or two, the alternative that was tried ends with a bracket.
     ways = {*_KINDS, *known_names()}
     return [str(p) for p in error["loc"] if p not in ways and not str(p).endswith("]")]
 
@@ -175,7 +175,7 @@ _BOUNDS = {
 
 
 def _beyond(error: Any) -> str:
-    # Its bound, and what was probably meant.
+    # Bound of the value, and the probable meaning.
     bound, value = next(iter(error["ctx"].values())), error["input"]
     text = f"must be {_BOUNDS[error['type']]} {bound:g}"
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
@@ -185,7 +185,7 @@ def _beyond(error: Any) -> str:
 
 
 def _first_number(given: object) -> str:
-    # As it would be right; empty where there is none.
+    # The correct form; empty if there is none.
     found = re.match(r"\s*(-?\d+(?:\.\d+)?)", str(given))
     return f": write {found[1]}" if found else ""
 
@@ -197,13 +197,13 @@ def _sections_with(key: str, whole: type[Table]) -> list[str]:
 
 
 _LISTS = {"tuple_type", "list_type"}
-"""Kinds of errors where a list was expected."""
+"""Kinds of errors if a list was expected."""
 
 _LENGTHS = {"too_long", "too_short"}
-"""The same where it has more or fewer entries."""
+"""Kinds of errors for a list with more or fewer entries."""
 
 _TABLES = {"model_type", "model_attributes_type", "dict_type"}
-"""Kinds of errors where a section was expected."""
+"""Kinds of errors if a section was expected."""
 
 
 def _of_a_kind(name: str, key: str, error: Any) -> str:
@@ -221,7 +221,7 @@ def _of_a_kind(name: str, key: str, error: Any) -> str:
 
 
 def _lacking(data: dict[str, Any], place: Sequence[str], known: Sequence[str]) -> list[str]:
-    # Keys that a section knows and does not have yet.
+    # Keys that a section accepts and does not have yet.
     section: Any = data
     for part in place[:-1]:
         section = section.get(part, {}) if isinstance(section, dict) else {}

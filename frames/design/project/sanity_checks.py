@@ -1,4 +1,4 @@
-"""Whether the values of a project's file can be those of a building: doubts before it is run."""
+"""Plausibility of a project's file: doubts about its building before it is run."""
 
 from __future__ import annotations
 
@@ -186,8 +186,9 @@ def _without_effect(file: ProjectFile, types: Mapping[str, str]) -> Iterator[str
 
 
 SOFT = 0.5
-"""Period of what is on a storey over the number of storeys above its floor and one more [s], from
-which on it is strange: whole buildings have about 0.1 s a storey."""
+"""Period of a storey and those above it, over the number of storeys above its floor and one more
+[s], above which it is unusual: whole buildings have about 0.1 s a storey.
+"""
 
 STIFF = 0.005
 """The same over the number of storeys above its floor [s], up to which it is strange."""
@@ -203,7 +204,7 @@ HEAVY_FLOOR, HEAVY_FACADE = 25e3, 60e3
 
 
 def file_doubts(file: ProjectFile) -> tuple[str, ...]:
-    """Return what is strange about a project's file, a sentence for each thing."""
+    """Return the unusual values of a project's file, a sentence for each."""
     return (
         *_of_sections(file),
         *_of_masses(file),
@@ -316,7 +317,7 @@ def _of_bays(file: ProjectFile) -> Iterator[str]:
     if file.bearing is None or not isinstance(given, (MomentFrame, ShearBuilding)):
         return
     each = [bearing_of(one) for one in (file.bearing, *file.bearings.values())]
-    sides = [own.lateral_capacity + 2.0 * own.slider_radius for own in each]  # plates go half of it
+    sides = [own.lateral_capacity + 2.0 * own.slider_radius for own in each]  # half of it each
     side = max((side for side in sides if math.isfinite(side)), default=0.0)
     least = min(width for count, width in zip(given.bays, given.bay_width, strict=True) if count)
     if least >= side:
@@ -377,7 +378,7 @@ def _of_importance(file: ProjectFile) -> Iterator[str]:
 
 
 def _of_moat(file: ProjectFile) -> Iterator[str]:
-    # A neighbour may be nearer than a wall, but not where walls stand all around.
+    # A neighbour may be nearer than a wall, but not if walls are all around.
     clear, wall = file.limits.moat_gap, file.moat
     if wall is None or clear is None or clear >= wall.gap or len(set(wall.sides)) < len(SIDES):
         return

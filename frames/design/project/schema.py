@@ -1,4 +1,4 @@
-"""What a project's file holds: its sections, each of a module of its own (``schema_...``)."""
+"""Contents of a project's file: its sections, each of a module of its own (``schema_...``)."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def read_points(path: Path) -> Points:
 
 
 def _unit_of(path: Path, head: list[str]) -> float:
-    # Of accelerations, from the head of their column.
+    # Units of accelerations, from the head of their column.
     words = [re.fullmatch(r"\s*(.*?)\s*\[(.*)\]\s*", cell) for cell in head]
     names = [(word[1].lower(), word[2].strip()) if word else ("", "") for word in words]
     if len(names) != 2 or names[0] != ("period", "s") or names[1][0] != "acceleration":
@@ -123,7 +123,7 @@ def spectrum_table(code: DesignCode) -> type[SpectrumTable]:
 
 
 BY_POINTS = " [points]"
-"""Ends the tag of a spectrum that is given point by point; messages leave such parts out."""
+"""End of the tag of a spectrum given point by point; messages leave this part out."""
 
 
 class PointsTable(SpectrumTable):
@@ -274,11 +274,11 @@ class Analysis(Table):
 
 
 class Limits(table_of(DesignLimits)):  # type: ignore[misc]  # its keys are the fields
-    """``[limits]``: what the engineer allows; the fields of `frames.DesignLimits`."""
+    """``[limits]``: limits of the engineer; the fields of `frames.DesignLimits`."""
 
 
 class Target(table_of(DesignTarget)):  # type: ignore[misc]  # its keys are the fields
-    """``[design]``: what ``lir design`` chooses from; fields of `frames.DesignTarget`."""
+    """``[design]``: choices of ``lir design``; fields of `frames.DesignTarget`."""
 
     frictions: tuple[Ratio, ...] = ()  # as `lir design` writes them
 

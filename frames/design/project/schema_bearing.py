@@ -1,4 +1,4 @@
-"""What ``[bearing]`` and ``[bounds]`` of a project's file hold."""
+"""Contents of ``[bearing]`` and ``[bounds]`` of a project's file."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ TO_RIMS = ("capacity", "rims")
 
 
 def completed(data: dict[str, Any]) -> dict[str, Any]:
-    """Return a file's data with what types of bearings leave out, taken from ``[bearing]``."""
+    """Return a file's data; missing keys of types of bearings come from ``[bearing]``."""
     own, types = data.get("bearing"), data.get("bearings")
     if not isinstance(types, dict) or not isinstance(own, dict):
         return data

@@ -1,4 +1,4 @@
-"""What tables of members in a project's file hold: sections, materials, storeys."""
+"""Tables of members in a project's file: sections, materials, storeys."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SHAPES = ("section", "box", "rectangle", "circle", "i_shape", "properties")
 
 
 def one_or_more(kind: Any, name: str) -> Any:
-    """Return the type of one value or a list of them, told apart by tags of this name."""
+    """Return the type of one value or a list of them, distinguished by tags of this name."""
     one, more = f"[{name}]", f"[[{name}]]"
     ways = Annotated[kind, Tag(one)] | Annotated[tuple[kind, ...], Tag(more), Field(min_length=1)]
     told = Discriminator(lambda given: more if isinstance(given, (list, tuple)) else one)

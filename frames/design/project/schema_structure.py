@@ -1,4 +1,4 @@
-"""What ``[structure]`` and ``[superstructure]`` of a project's file hold."""
+"""Contents of ``[structure]`` and ``[superstructure]`` of a project's file."""
 
 from __future__ import annotations
 
@@ -46,14 +46,14 @@ view.html
 RESULT_FILES = frozenset(
     [*(f"{name}.csv" for name in _RESULT_TABLES.split()), *_RESULT_OTHERS.split()]
 )
-"""Files of fixed names; time histories are ``runs-<bound>.nc`` and ``moved-<bound>.nc`` besides."""
+"""Files of fixed names, besides the time histories ``runs-<bound>.nc`` and ``moved-<bound>.nc``."""
 
 
 _PRESSURE = re.compile(r"N\s*/\s*m|Pa|lbf|psf|kip")
 
 
 class BuildingTable(Table):
-    """What buildings of columns and beams have in common."""
+    """Common keys of buildings of columns and beams."""
 
     floor_load: Annotated[AreaMass, Positive] | None = None
     eccentricity: tuple[Eccentricity, Eccentricity] = (0.0, 0.0)
@@ -107,7 +107,7 @@ class MomentFrame(BuildingTable):
 class IrregularFrame(BuildingTable):
     """``[structure]`` of kind "irregular frame": columns and beams from tables.
 
-    The results keep both tables under their names, beside the files of a run.
+    The results include both tables under their names, beside the files of a run.
     """
 
     kind: Literal["irregular frame"]
@@ -223,6 +223,6 @@ _OF_FILE = ("importance", "wind_shear", "service_displacement")
 
 
 class SuperstructureTable(table_of(Superstructure, *_OF_FILE)):  # type: ignore[misc]  # its keys
-    """``[superstructure]``: what design formulas need of it besides the model."""
+    """``[superstructure]``: values for design formulas that the model does not have."""
 
     R: key_of(Superstructure, "R") | None = None  # type: ignore[valid-type]  # made

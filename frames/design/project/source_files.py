@@ -30,21 +30,21 @@ _LOADED: dict[Path, str] = {}
 """SHA-256 of the files that were run, as it was then: each is run once in a process."""
 
 ANYWHERE: ContextVar[bool] = ContextVar("ANYWHERE", default=False)
-"""Whether files outside of the project's folder may run."""
+"""True if files outside of the project's folder may run."""
 
 TOLD: ContextVar[Callable[[str], None] | None] = ContextVar("TOLD", default=None)
 """Called with a text before a file runs, and before a model that another program wrote is read."""
 
 
 def tell(text: str) -> None:
-    """Say what begins, where somebody listens."""
+    """Report the start of a step to the listener, if there is one."""
     listener = TOLD.get()
     if listener is not None:
         listener(text)
 
 
 class RunningScript:
-    """A script that runs in its own folder, where it may read files; its failure names the line.
+    """A script that runs in its own folder and may read files there; its failure names the line.
 
     `key` of the project's file names it. It must be in the project's folder, or `ANYWHERE` is set.
     """
@@ -123,13 +123,13 @@ def _load(script: Path, section: str, folder: Path) -> None:
     module = importlib.util.module_from_spec(found)
     content = script.read_bytes()
     with RunningScript(script, "extensions", folder):
-        sys.modules[name] = module  # as dataclasses of it need
+        sys.modules[name] = module  # for dataclasses in it
         exec(compile(content, str(script), "exec"), module.__dict__)  # noqa: S102  # was told
     _LOADED[script] = hashlib.sha256(content).hexdigest()
 
 
 class SourceFiles:
-    """Digests of the files of a project or a campaign, and what results keep of them."""
+    """Digests of the files of a project or a campaign, for their results."""
 
     def __init__(self, file: WholeFile, folder: Path) -> None:
         given: Any = file  # either has a structure and motions
@@ -154,7 +154,7 @@ class SourceFiles:
         return self._digests[path]
 
     def changed(self) -> tuple[str, ...]:
-        """Return the files that are on disk no longer what was read, as sentences."""
+        """Return the files that changed on disk since they were read, as sentences."""
         return tuple(
             worded(
                 "{file} was changed or removed after it was read: the results, the input "
@@ -173,7 +173,7 @@ class SourceFiles:
         return found
 
     def require_unchanged(self) -> None:
-        """Refuse to go on with files that are no longer what was read, by a ProjectError."""
+        """Raise a ProjectError if files have changed since they were read."""
         if found := self.changed():
             msg = f"{found[0].split(': ')[0]}, before anything was run: give the command again"
             raise ProjectError(msg)
@@ -202,13 +202,13 @@ def _records_in(folder: Path, table: str) -> Iterable[str]:
     # Names of records in a table of motions.
     try:
         rows = table_rows(folder, table)
-    except (MotionError, OSError):  # said where the motions are read
+    except (MotionError, OSError):  # the message comes from the reading of motions
         return ()
     return dict.fromkeys(name for row in rows for name in files_of(row))
 
 
 def _content_of(path: Path) -> bytes:
-    # Nothing of a file that cannot be read: what reads it says why.
+    # Nothing of an unreadable file: its reader gives the reason.
     try:
         return path.read_bytes()
     except (OSError, ValueError):

@@ -1,4 +1,4 @@
-"""How fast a model runs on this machine, and with which error, step by step."""
+"""Speed and error of a model on this machine, step by step."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ _COMPARED = ("bearing displacement", "base shear", "acceleration in plan, worst 
 
 
 class Way(NamedTuple):
-    """A way to run a model, and what came of it."""
+    """Options of a run, and its results."""
 
-    dt: float  # step [s]; NaN where the program controls its error
+    dt: float  # step [s]; NaN if the program controls its error
     level: str  # of the bearings
     steps: int  # taken, refinements included
     seconds: float  # in the loop, median of the repeats [s]
     share: float  # of that over the duration of the motion [-]
-    # differences of the peaks from those of the finest run [-]; NaN where it stopped early
+    # differences of the peaks from those of the finest run [-]; NaN if it stopped early
     displacement: float
     base_shear: float
     acceleration: float

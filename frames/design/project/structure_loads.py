@@ -41,7 +41,7 @@ class MassShares(Table):
 
 
 class LoadsTable(Table):
-    """``[loads]``: besides the members, which weigh by their density."""
+    """``[loads]``: loads besides the weight of members, which follows from their density."""
 
     dead: Downwards
     live: Downwards = 0.0
@@ -83,7 +83,7 @@ class BuildingLoads(NamedTuple):
 
 
 def loads_of(table: LoadsTable | None, rule: LoadRule) -> BuildingLoads | None:
-    """Return the loads of a project, its masses by the code where the file does not say them."""
+    """Return the loads of a project, with masses by the code unless the file gives them."""
     if table is None:
         return None
     given = table.mass
@@ -94,7 +94,7 @@ def loads_of(table: LoadsTable | None, rule: LoadRule) -> BuildingLoads | None:
 def apply_loads(
     frame: Frame, plan: BuildingPlan, loads: BuildingLoads, eccentricity: tuple[float, float]
 ) -> None:
-    """Put the loads of a project on its building, and make masses of them."""
+    """Add the loads of a project to its building, and masses from them."""
     frame.set_mass_source(loads.mass)
     edges = [plan.edges(level) for level in range(len(plan.heights) + 1)]
     load_floors(frame, edges, loads.table)
@@ -111,7 +111,7 @@ def load_floors(
     edges: Sequence[list[tuple[str, str]]],
     loads: LoadsTable,
 ) -> None:
-    """Put loads on the floors of a building: on each field that beams enclose."""
+    """Add loads to the floors of a building: to each field that beams enclose."""
     points = {name: (node.x, node.y) for name, node in frame.nodes.items()}
     levels = [fields_of(points, own, level_name(k)) for k, own in enumerate(edges)]
     members = {frozenset((m.i, m.j)): key for key, m in frame.members.items()}
@@ -139,7 +139,7 @@ def _outline(points: Mapping[str, tuple[float, float]], corners: Sequence[str]) 
 
 
 def _inside(place: FloatArray, outline: FloatArray) -> bool:
-    # Whether a place is inside of a convex outline that runs anticlockwise.
+    # True if a place is inside of a convex outline that runs anticlockwise.
     along, to = np.roll(outline, -1, axis=0) - outline, place - outline
     return bool((along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0] > 0.0).all())
 
@@ -147,7 +147,7 @@ def _inside(place: FloatArray, outline: FloatArray) -> bool:
 def move_loads(frame: Frame, eccentricity: tuple[float, float]) -> None:
     """Move the centre of the loads of each level, case by case, by forces on its nodes.
 
-    The loads of the nodes rise linearly towards where the centre goes; their sum stays.
+    The loads of the nodes increase linearly in the direction of the move; their sum stays.
     """
     if not any(eccentricity):
         return
@@ -165,7 +165,7 @@ def move_loads(frame: Frame, eccentricity: tuple[float, float]) -> None:
 
 
 def _node_loads(frame: Frame, case: str) -> dict[str, float]:
-    # What the loads of a case weigh at each node, by the rule of the lever [N].
+    # Weight of the loads of a case at each node, by the rule of the lever [N].
     alone = frame.copy()
     alone.set_mass_source({case: 1.0})
     masses = load_masses(alone, applied_loads(alone))
@@ -193,7 +193,7 @@ def _tilted(
 
 
 def add_base_inertia(frame: Frame, depth: float) -> None:
-    """Give the nodes above the bearings the rotary inertia of their mass over a depth."""
+    """Add the rotary inertia of their mass over a depth to the nodes above the bearings."""
     masses = load_masses(frame, applied_loads(frame))
     for link in frame.bearings.values():
         inertia = masses.get(link.j, 0.0) * depth**2 / 12.0

@@ -263,7 +263,7 @@ def _to_face(axis: str, table: ColumnsTable | None, side: float) -> Vector | Non
 
 
 def add_hinges(frame: Frame, given: MomentFrame) -> None:
-    """Give members the plastic hinges of their tables."""
+    """Add the plastic hinges of their tables to members."""
     special = sections_of(given).special
     columns = [one for one in _tables(given.columns) if not one.at]
     by_level = {"column": dict(enumerate(by_storey(columns, given.storeys), 1)) if columns else {}}

@@ -44,7 +44,7 @@ Rows = list[tuple[str, str]]
 
 
 def structure_rows(file: ProjectFile, frame: Frame, spectrum: Spectrum | None = None) -> Rows:
-    """Return what the structure is, a row for each thing."""
+    """Return the description of the structure, a row for each property."""
     given = file.structure
     levels = frame.levels
     rows = [
@@ -87,7 +87,7 @@ def structure_rows(file: ProjectFile, frame: Frame, spectrum: Spectrum | None = 
 
 
 def _import(account: ImportReport) -> Rows:
-    # What became of the file of another program, a row for each kind of object.
+    # Imported objects of the other program's file, a row for each kind.
     rows = [("import", worded("of {file}", file=account.file))]
     for fate, table, what, count, weight, stiffness in account.rows():
         shares = [

@@ -42,28 +42,28 @@ MARGIN = 1.1
 """Margin of the checks that a bearing's size has a part in, on the building's quick model [-]."""
 
 ROUNDS = 6
-"""How often a bearing is sized by the checks before it is given up."""
+"""Largest number of sizings of a bearing by the checks."""
 
 
 class Verified(NamedTuple):
     """A candidate after the time histories of its project."""
 
     candidate: Candidate  # as it was sized last
-    run: RunToCheck | None  # its runs, demands and checks; None where it could not be run
-    reason: str = ""  # why it could not be run; empty where it was
-    asked: Asked = Asked()  # what it was fitted to
+    run: RunToCheck | None  # its runs, demands and checks; None if it could not be run
+    reason: str = ""  # reason that it could not be run; empty if it was
+    asked: Asked = Asked()  # demands of its sizing
     agreed: bool = False  # whether rims that are met are meant by the project
-    lacks: tuple[str, ...] = ()  # what it would lack if it were as large as the checks ask for
+    lacks: tuple[str, ...] = ()  # failures of a larger size, as the checks need it
     rounds: int = 1  # of time histories
 
     @property
     def passed(self) -> bool:
-        """Whether it was run and no check fails."""
+        """True if it was run and no check fails."""
         return self.run is not None and self.run.checks.passed and not self.obstacles
 
     @property
     def obstacles(self) -> list[Obstacle]:
-        """What fails, or is to be agreed though the project does not mean it."""
+        """Failing checks, and solutions to agree that the project does not intend."""
         return [] if self.run is None else obstacles(self.run, agreed=self.agreed)
 
     @property
@@ -75,7 +75,7 @@ class Verified(NamedTuple):
         return max(own, key=lambda check: check.compared, default=None)
 
     def row(self) -> dict[str, object]:
-        """Return its main numbers and what fails."""
+        """Return its main numbers and its failing checks."""
         t = self.candidate.trace
         found: dict[str, Any] = {
             "radius [m]": self.candidate.radius,
@@ -206,17 +206,17 @@ def verified(
     progress: Callable[[BatchProgress], None] | bool | None = None,
     told: Callable[[Verified], None] = lambda _: None,
 ) -> Verified:
-    """Put a candidate to the time histories of a project, and size it until its checks pass.
+    """Run a candidate's time histories in a project, and size it until its checks pass.
 
-    After each round the demands of the checks that a size has a part in are what the bearing is
-    fitted to, `margin` below their limits. `told` is called after each.
+    After each round the bearing is fitted to the demands of the checks that depend on its size,
+    `margin` below their limits. `told` is called after each.
     """
     names, agreed = found.system.names, parts.file.design.rim_share is not None
     last = Verified(candidate, None, asked=asked or Asked(), agreed=agreed)
     for count in range(1, rounds + 1):
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # `lir run` tells them of the one that is chosen
+                warnings.simplefilter("ignore")  # `lir run` gives these warnings for the chosen one
                 own = on_bearings(parts, last.candidate, names)
                 known = preliminary(own)
                 run = checked_run(own, known, project_runs(own, known, progress))
@@ -231,7 +231,7 @@ def verified(
         if larger.lacks:
             return last._replace(lacks=larger.lacks)
         if larger.bearings == last.candidate.bearings and larger.places == last.candidate.places:
-            break  # what fails is not mended by the size
+            break  # the size does not mend it
         last = last._replace(candidate=larger, asked=more)
     return last
 

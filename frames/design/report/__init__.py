@@ -1,1 +1,1 @@
-"""What a run leaves: its files, and the report, one HTML page, which computes nothing."""
+"""Files of a run, and the report, one HTML page, which computes nothing."""

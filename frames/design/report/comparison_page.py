@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 ALIKE = 0.02
-"""Difference of two numbers over the larger up to which they are called alike [-]."""
+"""Difference of two numbers over the larger up to which they count as equal [-]."""
 
 PRICE = tuple(DEMANDS[name].demand for name in ("slip", "slip_left"))
 """Demands that a rigid slider cannot have: the price of the slider in two pieces."""
@@ -49,21 +49,21 @@ MAIN = [
 """Demands that decide which device is called better: tables have the others as well."""
 
 
-_LEAST_SLIP = 1e-4  # m: what an interface that holds gives way elastically is less
+_LEAST_SLIP = 1e-4  # m: the elastic displacement of an interface that holds is less
 
 
 class Verdict(NamedTuple):
-    """What the numbers of one level of the seismic action say."""
+    """Conclusion from the numbers of one level of the seismic action."""
 
     level: str  # level of the seismic action
     head: str  # the verdict in a sentence
-    # whether the LIR-DCFP is the better device; None where neither is, or none can be named
+    # True if the LIR-DCFP is the better device; None if neither is, or the numbers do not decide
     is_ours: bool | None
     details: tuple[str, ...]  # sentences with the numbers
 
 
 def verdicts(found: Comparison) -> list[Verdict]:
-    """Return what the numbers say at each level of the seismic action."""
+    """Return the conclusions at each level of the seismic action."""
     return [_verdict(found, level) for level in found.levels]
 
 
@@ -126,7 +126,7 @@ def _head_of_failures(counts: Mapping[str, RunCounts], void: Mapping[str, str]) 
 
 
 def _sorted(ours: pd.DataFrame, plain: pd.DataFrame) -> tuple[list[str], list[str], list[str]]:
-    # Names of the demands that are better with ours, worse, and alike.
+    # Names of the demands that are lower with the LIR-DCFP, higher, and equal.
     lower: list[str] = []
     higher: list[str] = []
     alike: list[str] = []
@@ -202,7 +202,7 @@ def write_comparison(
     source: str,
     histories: tuple[Mapping[str, xr.Dataset], str, str] | None,
 ) -> list[Path]:
-    """Write what a comparison of two devices gave."""
+    """Write the results of a comparison of two devices."""
     make_folder(folder)
     texts = {
         "compare.csv": csv_of(found.table()),
@@ -282,7 +282,7 @@ _ASIDE = (-0.12, 0.12)  # of the number of the motion
 
 
 def by_motion(table: pd.DataFrame) -> Figure:
-    """Draw what each motion reached with each device, the largest over the bounds."""
+    """Draw the peaks of each motion with each device, the largest over the bounds."""
     titles = [title for title in BY_MOTION if table[title].notna().any()]
     figure, panels = ps.panels_of(len(titles), 2, 2.1, share=False)
     for panel, title in zip(panels, titles, strict=True):

@@ -34,7 +34,7 @@ class Line(NamedTuple):
     """A line of a calculation as the report shows it."""
 
     formula: str  # as MathML
-    source: str  # clause, equation or table; what else a reader should know
+    source: str  # clause, equation or table; remark for the reader
     note: str
     # whether it has a value alone, no formula: on paper several such stand beside each other
     is_given: bool
@@ -93,11 +93,12 @@ def _lines(trace: Trace) -> list[Line]:
 
 
 MOST = 10
-"""How many checks are shown."""
+"""Largest number of checks shown."""
 
 COUNTS = {"n", "n_failed", "n_odd", "n_spoilt", "S_mean"}
 """Symbols of checks that count motions and runs, and of the mean spectrum, which scaling brings to
-its limit: they tell nothing of the structure while they pass."""
+its limit: while they pass, they do not describe the structure.
+"""
 
 _LARGEST_OF_RUNS = {"t_up", "g", "N_land"}
 _MEAN = re.compile(r"sum\((\w+_i)\) / n\b")
@@ -106,15 +107,15 @@ _SCALE = 1.25  # ratio at the end of the axis, at least
 
 
 class Bar(NamedTuple):
-    """A bar of what governs."""
+    """A bar in the chart of governing checks."""
 
     check: Check
     length: float  # of its bar, over that of the axis [-]
-    ratio: str  # its ratio, as words where there is none
+    ratio: str  # its ratio, or words if there is none
 
 
 class Governing(NamedTuple):
-    """What governs."""
+    """The governing checks."""
 
     bars: list[Bar]  # highest ratio first
     limit: float  # place of the ratio 1 on the axis [-]
@@ -164,10 +165,10 @@ _SHORT = 12  # letters of a digest in the foot of a page
 
 
 class Cover(NamedTuple):
-    """What stands on the cover and in the margins."""
+    """Contents of the cover and the margins."""
 
-    people: list[tuple[str, str]]  # client, engineer, checker; empty where they are to sign
-    issue: list[tuple[str, str]]  # revision and date; empty where they were left out
+    people: list[tuple[str, str]]  # client, engineer, checker; empty for a signature by hand
+    issue: list[tuple[str, str]]  # revision and date; empty if they were left out
     codes: list[tuple[str, str, str]]  # code and title
     # program and main libraries with their versions, Python, system
     programs: list[tuple[str, str]]
@@ -249,7 +250,7 @@ def _titles(checks: Iterable[Check]) -> list[str]:
 
 
 def _worst(checks: Iterable[Check]) -> list[tuple[Judged, str]]:
-    # Of each title and level the check of the largest ratio, and the bounds of the others.
+    # For each title and level the check of the largest ratio, and the bounds of the others.
     groups: dict[tuple[str, str], list[Check]] = {}
     for check in checks:
         groups.setdefault((check.title, check.level), []).append(check)

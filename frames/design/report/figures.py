@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from frames.design.report.page import Words
 
     Plan: TypeAlias = tuple[str, Callable[[], Figure | None]]
-    """Title of a figure, and what draws it; None where there is nothing to draw."""
+    """Title of a figure, and the function that draws it; None if there is nothing to draw."""
 
 
 _OF_BEARINGS = {
@@ -67,16 +67,16 @@ _OF_BEARINGS = {
 
 
 class Reached(NamedTuple):
-    """What the motions reached at one bound, at the place that governs there."""
+    """Peaks of the motions at one bound, at the governing place."""
 
     case: Case  # the runs of that bound, and how they count
     values: FloatArray  # (n_runs,) of each motion
-    design: float  # what the code makes of them: mean or largest
+    design: float  # their design value by the code: mean or largest
     where: str  # bearing or storey
 
 
 def reached(run: ProjectRun, name: str) -> list[Reached]:
-    """Return what all motions reached of a quantity at each bound."""
+    """Return the peaks of a quantity in all motions at each bound."""
     of_bearings = JUDGED[name].dims == ("bearing",)
     level = run.rules.bearing_level if of_bearings else _structure_level(run)
     found = []
@@ -100,7 +100,7 @@ def _placed(one: Reached) -> str:
 
 
 def motions_figure(run: ProjectRun) -> Figure:
-    """Draw displacement, slip and drift of every motion at every bound, and what counts of them."""
+    """Draw displacement, slip and drift of every motion at every bound, and their design values."""
     shown = [
         (JUDGED[name].demand, *JUDGED[name].in_figures, found)
         for name in ("displacement", "slip", "drift")
@@ -167,7 +167,7 @@ def _motions(panel: Axes, found: list[Reached], factor: float) -> None:
 
 
 def profiles_figure(run: ProjectRun) -> Figure | None:
-    """Draw the drift of every storey in every motion, and what counts of it."""
+    """Draw the drift of every storey in every motion, and its design value."""
     cases = [case for case in levels_of(run.cases)[_structure_level(run)] if case.keeps("drift")]
     if not cases or len(names_of(cases[0].data, "drift")) < 2:
         return None

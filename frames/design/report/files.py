@@ -40,7 +40,7 @@ _ENDS = 2  # steps of a run that keeps its first and its last one alone
 
 
 def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = True) -> list[Path]:
-    """Write what a run gave."""
+    """Write the results of a run."""
     make_folder(folder)
     old = (*folder.glob("runs-*.nc"), *folder.glob("moved-*.nc"))
     cut = folder.glob(".*.part")  # of a process that was killed
@@ -65,7 +65,7 @@ def write_run(run: ProjectRun, folder: Path, source: str, *, figures: bool = Tru
 def write_judgement(
     run: ProjectRun, folder: Path, source: str, *, figures: bool = True, language: str = ""
 ) -> list[Path]:
-    """Write what follows from a run's time histories, as `write_run` does; return the files."""
+    """Write the results derived from a run's time histories, as `write_run`; return the files."""
     for stale in ("view.html", "report.pdf"):  # with the checks of before
         (folder / stale).unlink(missing_ok=True)
     tables = run_tables(run)
@@ -190,7 +190,7 @@ def _facts(run: ProjectRun, folder: Path) -> dict[str, object]:
 
 
 def _told_of(run: ProjectRun, word: str) -> dict[str, dict[str, object]]:
-    # What run.json says of files of time histories, by the words that their names have.
+    # Entries of run.json on files of time histories, by the words in their names.
     return {
         label: {
             "level": case.level,
@@ -205,7 +205,7 @@ def _told_of(run: ProjectRun, word: str) -> dict[str, dict[str, object]]:
 
 
 def _fixed_base_period(run: ProjectRun) -> float | None:
-    # Of the structure whose base is held, too, as its formulas have it [s]; None without them.
+    # Periods of the structure on a fixed base, as its formulas have them [s]; None without them.
     for each in run.equivalent.bounds.values():
         for symbol in ("T_fb", "T_f"):
             if symbol in each.trace:
@@ -254,7 +254,7 @@ BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stab
 """Programs that print, as they are looked for on PATH."""
 
 PASSES = 4
-"""How often the report is printed at most until its contents name the pages that it has."""
+"""Largest number of prints of the report until its contents list the right pages."""
 
 _LONGEST = 300.0  # s that a print may take
 _PLACE = re.compile(r'(<span class="page" data-page="([^"]*)">)[^<]*(</span>)')
@@ -279,7 +279,7 @@ def print_report(page: Path, paper: Path) -> Path:
             _print(browser, filled, made)
             found = pages_of(PdfReader(made))
             if found == numbers:
-                writer = PdfWriter(made, incremental=True)  # what Chromium wrote stays
+                writer = PdfWriter(made, incremental=True)  # keeps the content that Chromium wrote
                 writer.add_metadata({"/Producer": f"lir-dcfp {package_version()}, Chromium"})
                 writer.write(paper)
                 return paper

@@ -1,4 +1,4 @@
-"""What all pages share: templates, the language and its decimal sign, tables, figures."""
+"""Common part of all pages: templates, the language and its decimal sign, tables, figures."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class Words:
         return Markup(mathml)  # noqa: S704  (of MathML that escapes what is in it)
 
     def cited(self, clause: str) -> str:
-        """Return a clause: that of a standard with its points, in words where no code has it."""
+        """Return a clause: that of a standard with its points, in words if no code has it."""
         if not clause.startswith("no code"):
             return self._texts.get(clause, clause)
         as_it_is = copy(self)
@@ -107,7 +107,7 @@ class Words:
         return Table([self._word(title) for title in table.head], rows, table.left)
 
     def figure(self, figure: Figure) -> Figure:
-        """Say the texts of a figure in the language, in place; return the figure."""
+        """Translate the texts of a figure into the language, in place; return the figure."""
         if self.language == "en" and self.decimal == ".":
             return figure
         from matplotlib.text import Text
@@ -177,7 +177,7 @@ _DOTS = 110  # per inch
 class Picture(NamedTuple):
     """A figure of a page."""
 
-    title: str  # what it shows
+    title: str  # its contents
     source: str  # a data URI of a PNG file
 
 

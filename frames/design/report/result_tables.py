@@ -1,4 +1,4 @@
-"""Tables of a run that a report shows and its folder keeps; what its model and bearings are."""
+"""Tables of a run in its report and its folder; description of its model and bearings."""
 
 from __future__ import annotations
 
@@ -49,13 +49,13 @@ _REACHED = {
     "largest load [N]": "axial_force",
     "least load [N]": "axial_tension",
 }
-"""What each bearing reached in all runs at all bounds."""
+"""Columns of each bearing's peaks in all runs at all bounds."""
 
 BY_MOTION = "demands-by-motion"
-"""Name of the table of what each motion gave."""
+"""Name of the table of peaks by motion."""
 
 ECCENTRICITY = "eccentricity"
-"""Name of the table of what moved masses raise."""
+"""Name of the table of the effect of moved masses."""
 
 _FRICTIONS = (
     "bottom surface",
@@ -81,7 +81,7 @@ TABLES_OF_FORCES = (
 
 
 def bearing_table(run: ProjectRun) -> pd.DataFrame:
-    """Return where each bearing stands, what it carries, and the largest that runs asked of it."""
+    """Return place, loads and largest demands of each bearing."""
     links = run.frame.bearings
     places = [run.frame.nodes[link.j] for link in links.values()]
     table = pd.DataFrame(
@@ -121,7 +121,7 @@ def friction_table(run: ProjectRun) -> pd.DataFrame:
 
 
 def devices_by_type(run: ProjectRun) -> dict[str, LIRBearing]:
-    """Return a bearing of each type, the type's name "" where there is one alone."""
+    """Return a bearing of each type; the type's name is "" if there is only one."""
     found: dict[str, LIRBearing] = {}
     for name, link in run.frame.bearings.items():
         found.setdefault(run.kinds.get(name, ""), link.bearing)
@@ -154,7 +154,7 @@ def run_tables(run: ProjectRun) -> dict[str, pd.DataFrame]:
 
 
 def combined_tables(run: ProjectRun, forces: Mapping[str, pd.DataFrame]) -> dict[str, pd.DataFrame]:
-    """Return the forces of members and bearings by combination of loads, and what uplift asks."""
+    """Return the forces of members and bearings by combination of loads, and the uplift demands."""
     combinations = combinations_of(run.frame, run.combined)
     if not combinations:
         return dict.fromkeys(COMBINED, pd.DataFrame())
@@ -252,7 +252,7 @@ _SHOWN = SHOWN | {
 
 
 def _applies(name: str, bearing: LIRBearing) -> bool:
-    # Whether a field says something of a bearing.
+    # True if a field describes a property of a bearing.
     if name == "bouc_wen_exponent":
         return bearing.friction_law == "bouc-wen"
     if name == "uplift_capacity":
@@ -261,7 +261,7 @@ def _applies(name: str, bearing: LIRBearing) -> bool:
 
 
 def device_table(bearing: LIRBearing) -> Table:
-    """Return what a bearing is: what was given, defaults, and what follows."""
+    """Return the properties of a bearing: given values, defaults, and derived values."""
     derived = [
         ("effective radius", bearing.effective_radius, "m"),
         ("pendulum period", bearing.period, "s"),
@@ -313,7 +313,7 @@ def model_table(model: ModelCheck) -> Table:
 
 
 def loads_table(model: ModelCheck) -> Table:
-    """Return what permanent loads make of each bearing."""
+    """Return the permanent loads and pressures of each bearing."""
     rows = [
         (
             load.name,
@@ -357,7 +357,7 @@ def _unit(value: object, unit: str) -> str:
 
 
 def _quantity(value: object, unit: str, endless: str) -> str:
-    # A value in the unit shown; pairs that are alike once.
+    # A value in the unit shown; equal pairs once.
     if isinstance(value, tuple):
         parts = [_quantity(each, unit, endless) for each in value]
         return parts[0] if len(set(parts)) == 1 else joined(*parts)

@@ -33,7 +33,7 @@ class Table(NamedTuple):
 
     @property
     def short(self) -> bool:
-        """Whether the first column has names alone, which are not broken into lines."""
+        """True if the first column has names alone, which are not broken into lines."""
         return all(len(row[0]) <= _NAME for row in self.rows)
 
 

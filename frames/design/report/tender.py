@@ -1,4 +1,4 @@
-"""What suppliers and testers get: schedule of the bearings by type, plan with axes, the rig."""
+"""Documents for suppliers and testers: schedule of bearings by type, plan with axes, the rig."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
 
 LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"
-"""Of axes; I and O are left out, which look like numbers."""
+"""Letters of axes; I and O are left out, because they look like numbers."""
 
 CLEARANCE = 0.005
 """By which a bearing is free when it is drawn out [m], a proposal."""
@@ -107,7 +107,7 @@ def _to_allow(run: ProjectRun, places: list[int]) -> float:
 
 
 def _reached(run: ProjectRun, name: str, places: list[int]) -> float:
-    # The largest of any run; NaN where a run did not keep it.
+    # The largest of any run; NaN if a run did not keep it.
     return float(np.max([peaks_of_runs(d, name)[:, places].max() for d in run.runs.parts]))
 
 
@@ -211,7 +211,7 @@ def _moved(run: ProjectRun, one: OfType) -> list[Row]:
 
 
 def _rotation(run: ProjectRun, places: list[int]) -> float:
-    # Of the run that displaces a bearing most; NaN where rotations of nodes were not kept.
+    # Values of the run with the largest bearing displacement; NaN if rotations were not kept.
     data = run.governing
     if "node_displacement" not in data:
         return math.nan
@@ -221,7 +221,7 @@ def _rotation(run: ProjectRun, places: list[int]) -> float:
 
 
 def _looped(run: ProjectRun, one: OfType) -> list[Row]:
-    # k_eff, energy and friction at the design displacement, and what is accepted of prototypes.
+    # k_eff, energy and friction at the design displacement, and the acceptance of prototypes.
     worst = max(run.equivalent.bounds.values(), key=lambda each: each.displacement)
     load = sum(run.loads[k] for k in one.places) / len(one.places)
     speed = 2.0 * math.pi * worst.displacement / worst.period
@@ -245,7 +245,7 @@ _RIG = {
 
 
 def rig(run: ProjectRun) -> pd.DataFrame:
-    """Return what a rig must reach for each kind of bearing, and how many are tested."""
+    """Return the required capacity of a rig for each kind of bearing, and the number of tests."""
     table = (
         run.programme.groupby("bearings", sort=False).agg(**_RIG).rename_axis("bearings to test")
     )
@@ -254,7 +254,7 @@ def rig(run: ProjectRun) -> pd.DataFrame:
 
 
 def replacement(run: ProjectRun) -> pd.DataFrame:
-    """Return what takes a bearing of each type out, and when it is to be centred again."""
+    """Return clearances and jacking loads of each bearing type, and the limit for recentring."""
     loads, stiffness = np.array(run.loads), np.array(list(lifting_stiffness(run.frame).values()))
     rows = {}
     for one in types_of(run):
@@ -272,7 +272,7 @@ def replacement(run: ProjectRun) -> pd.DataFrame:
 
 
 def _may_stay(run: ProjectRun, one: OfType) -> float:
-    # What leaves the next earthquake the slip that this design asks for.
+    # Residual displacement that leaves the design slip for the next earthquake.
     if one.bearing.is_dcfp or not math.isfinite(one.bearing.lateral_capacity):
         return math.nan
     holds = enter_bearing(one.bearing, run.bounds).value("s_lim")
@@ -281,7 +281,7 @@ def _may_stay(run: ProjectRun, one: OfType) -> float:
 
 
 def texts(run: ProjectRun) -> dict[str, str]:
-    """Return what the texts for supplier and owner name: lengths in mm, masses in kg, clauses."""
+    """Return the values in the texts for supplier and owner: lengths [mm], masses [kg], clauses."""
     kinds, gap = types_of(run), run.limits.moat_gap
     clearance = max(_to_allow(run, one.places) for one in kinds)
     shortest = min(one.bearing.effective_radius for one in kinds)

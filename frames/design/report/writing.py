@@ -1,4 +1,4 @@
-"""A run as one HTML file: what was asked, what came out, every check with its calculation."""
+"""A run as one HTML file: input, results, every check with its calculation."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def report_in(
     *,
     figures: bool = True,
 ) -> str:
-    """Return the page of `report_html` in a language; `words` then knows what it lacked."""
+    """Return the page of `report_html` in a language; `words` then lists missing texts."""
     device = next(iter(run.frame.bearings.values())).bearing
     attrs, drawn = run.governing.attrs, {}
     if figures:
@@ -181,7 +181,7 @@ def _words(run: ProjectRun, language: str) -> Words:
 
 
 def _levels(run: ProjectRun) -> str:
-    # What is judged at which level of the seismic action, where there are several.
+    # Checked parts by level of the seismic action, if there are several.
     words = {
         "all": "bearings and structure",
         "isolation": "the bearings",
@@ -226,7 +226,7 @@ def _friction(friction: pd.DataFrame) -> Table:
 
 
 def _links(links: pd.DataFrame) -> Table:
-    # Each link where its force is largest of all bounds.
+    # Each link at its largest force of all bounds.
     if links.empty:
         return page_table(links, "link")
     shown = largest_of_links(links).set_index("link").drop(columns="void")
@@ -239,7 +239,7 @@ def _unless_alike(table: pd.DataFrame, column: str) -> pd.DataFrame:
 
 
 def foundation_table(tables: Mapping[str, pd.DataFrame], level: str) -> Table:
-    """Return what each bearing exerts on what is below it by combination: three rows a bearing."""
+    """Return the forces of each bearing on its foundation by combination: three rows a bearing."""
     table = tables.get(COMBINED[1], pd.DataFrame())
     if table.empty:
         return page_table(table, "foundation below")
@@ -265,7 +265,7 @@ _FORCES = {"N": "N", "Vx": "N", "Vy": "N", "Mx": "N m", "My": "N m"}
 
 
 def _uplift(table: pd.DataFrame) -> Table:
-    # Of bearings that lift off in a run, or that a combination would pull.
+    # Uplift of bearings in a run, or under a combination.
     if table.empty:
         return page_table(table, "bearing that lifts")
     lifts = (table["tension if held [N]"] > 0.0) | (table["uplift in runs [m]"] > 0.0)
@@ -274,7 +274,7 @@ def _uplift(table: pd.DataFrame) -> Table:
 
 
 def _programme(tests: pd.DataFrame) -> pd.DataFrame:
-    # Clauses with a star where they are from memory; kinds of bearings where there are several.
+    # Clauses with a star if they are from memory; kinds of bearings if there are several.
     cited = [
         standing_of(said).cited(clause)
         for clause, said in zip(tests["clause"], tests["standing"], strict=True)
@@ -286,7 +286,7 @@ def _programme(tests: pd.DataFrame) -> pd.DataFrame:
 
 
 def _accepted(code: DesignCode, tests: pd.DataFrame) -> Table:
-    # What is accepted, rule by rule, and of which tests.
+    # Acceptance rules, each with its tests.
     rows = []
     for rule in (*code.accepted, *OWN_RULES):
         numbers = [str(k) for k, name in tests["what"].items() if rule.holds_for(name)]
@@ -297,7 +297,7 @@ def _accepted(code: DesignCode, tests: pd.DataFrame) -> Table:
 
 
 def _notes(tests: pd.DataFrame) -> list[tuple[str, str]]:
-    # What the notes of tests say, each once, with the numbers of its tests.
+    # Notes of tests, each once, with the numbers of its tests.
     noted = tests[tests["note"].fillna("") != ""]
     return [
         (", ".join(map(str, group.index)), str(note))
@@ -318,15 +318,15 @@ def raised_tables(table: pd.DataFrame) -> list[Table]:
     worst = table.loc[size.groupby([table["level"], table["bound"], table["quantity"]]).idxmax()]
     worst["quantity"] = worst["quantity"].replace(_TITLES)
     worst = worst.sort_index().set_index("quantity")
-    worst.loc[worst["void"] != "", ["factor", "added"]] = math.nan  # of what failed runs reached
-    # a pure number, whatever unit its row has
+    worst.loc[worst["void"] != "", ["factor", "added"]] = math.nan  # peaks of failed runs
+    # a pure number, for any unit of its row
     worst["factor"] = worst["factor"].map("{:.4g}".format).replace("nan", "-")
     order = ["level", "bound", "masses", "unit", "centred", "moved", "factor", "added", "motions"]
     return in_parts(page_table(_unless_alike(worst[order], "level"), "largest"))
 
 
 def eccentricity_said(run: ProjectRun) -> str:
-    """Return what of accidental eccentricity is in the demands, in words."""
+    """Return accidental eccentricity in the demands, in words."""
     asked = code_named(run.equivalent.code).histories
     clause = FROM_MEMORY.cited(f"{asked.cited} {asked.eccentricity_clause}".strip())
     asked_for = asked.accidental_eccentricity > 0.0

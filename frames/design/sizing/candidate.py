@@ -1,4 +1,4 @@
-"""One radius and friction with what fits them: its numbers, what limits it, what it lacks."""
+"""One radius and friction with a fitted bearing: its numbers, limits and deficits."""
 
 from __future__ import annotations
 
@@ -37,10 +37,10 @@ class Size(NamedTuple):
 def grouped(
     system: IsolationSystem, sizes: int, least: Sequence[float] = ()
 ) -> tuple[tuple[int, ...], tuple[Size, ...]]:
-    """Return which size each bearing has, smallest first, and the loads of each size.
+    """Return the size of each bearing, smallest first, and the loads of each size [N].
 
-    The largest loads are parted so that the sliders' areas, all together, are least; a bearing
-    counts with `least` [N] where its load is smaller.
+    The largest loads are divided so that the total area of the sliders is least; a bearing counts
+    with `least` [N] if its load is smaller.
 
     Shapes: least and result (n_bearings,).
     """
@@ -87,7 +87,7 @@ def _loads(columns: list[tuple[float, ...]]) -> Size:
 
 
 class Governing(NamedTuple):
-    """What limits a candidate most: of all that it is asked, the largest demand over its limit."""
+    """Governing limit of a candidate: the largest ratio of demand to limit."""
 
     what: str
     ratio: float
@@ -95,19 +95,19 @@ class Governing(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Candidate:
-    """A radius and a friction with what fits them."""
+    """A radius and a friction with a fitted bearing."""
 
     radius: float  # of both concave surfaces [m]
     friction: FrictionLaw  # nominal, of both surfaces
-    # A bearing for each size of slider; none where their plates would be too deep
+    # A bearing for each size of slider; none if their plates would be too deep
     bearings: tuple[LIRBearing, ...]
     analysis: EquivalentLinear  # of the same bearings without rims
     # of each size by its own numbers, at the slip that the rims leave to the interface
     checks: Checks
     trace: Trace  # the calculation of rims and interface
-    lacks: tuple[str, ...]  # what it does not keep; empty if it can be taken
+    lacks: tuple[str, ...]  # its unmet requirements; empty if there are none
     groups: tuple[Size, ...]  # loads and number of the bearings of each size
-    governing: Governing  # what limits it most, and its ratio: over 1 where it lacks something
+    governing: Governing  # governing limit and its ratio: above 1 if a requirement is unmet
     # pressure of the target below which liners rub more than they are meant to [Pa]
     least_pressure: float
     places: tuple[int, ...]  # which of the sizes stands at each place
@@ -145,7 +145,7 @@ class Candidate:
     def cost(self) -> float:
         """Cost of all bearings and of the gap around them, by the prices of the target.
 
-        NaN where there is no price or no bearing.
+        NaN if there is no price or no bearing.
         """
         if self.prices is None or not self.bearings:
             return math.nan
@@ -163,7 +163,7 @@ class Candidate:
 
     @property
     def pressures(self) -> tuple[tuple[float, float, float], ...]:
-        """Of each size of slider under the average combination [Pa]: lightest, typical, heaviest.
+        """Pressures of each slider size in the average combination [Pa]: least, typical, largest.
 
         That of the lightest bearing, the mean weighted by the loads, and the heaviest bearing's.
         """
@@ -175,7 +175,7 @@ class Candidate:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What no check holds against it and a liner's maker might: sliders under low pressure."""
+        """Warnings without a check, for the liner's maker: sliders under low pressure."""
         return tuple(
             f"sliders of {2e3 * bearing.slider_radius:.0f} mm diameter work at "
             f"{typical / 1e6:.3g} MPa ({least / 1e6:.3g} to {most / 1e6:.3g} MPa) under the "
@@ -187,14 +187,14 @@ class Candidate:
 
     @property
     def beyond_procedure(self) -> tuple[str, ...]:
-        """What the equivalent-linear procedure does not show, and a time history must."""
+        """Effects outside of the equivalent-linear procedure, for a time history."""
         return tuple(
             f"{check.title} ({check.bound})" for check in self.analysis.checks.inapplicable
         )
 
     @property
     def rims(self) -> str:
-        """Where its rims are, in words: beyond the displacement, or met, and what that asks for."""
+        """Place of its rims, in words: beyond the displacement, or reached, and the consequence."""
         rule, share = code_named(self.analysis.code).rims, self.trace.value("r")
         if share >= 1.0:
             return f"beyond {rule.symbol}"
@@ -203,7 +203,7 @@ class Candidate:
         return f"met below {rule.least:g} {rule.symbol}: needs agreement"
 
     def row(self) -> dict[str, object]:
-        """Return its main numbers in SI units, and what it lacks."""
+        """Return its main numbers in SI units, and its unmet requirements."""
         t = self.trace
         found: dict[str, object] = {
             "radius [m]": self.radius,

@@ -1,4 +1,4 @@
-"""Slider, rims and interface that fit one radius and friction, and what they lack."""
+"""Slider, rims and interface for one radius and friction, and their unmet requirements."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ _SHALLOW = 0.2
 """Radius of a slider over that of its concave surface, at most: beyond it is no shallow bowl."""
 
 MET_SHARE = 0.75
-"""Where rims are, over the displacement, under a code that has a rule for rims that are met."""
+"""Rim displacement over the displacement, under a code with a rule for rim contact."""
 
 _WHATEVER_SLIDER = frozenset({"P_1", "P_2", "H_slip"})
 """Demands that a larger slider does not lessen."""
 
 
 class Asked(NamedTuple):
-    """Demands of time histories, beside those of the formula."""
+    """Demands of time histories, besides those of the formula."""
 
     displacement: float = 0.0  # largest displacement that bearings without rims must allow [m]
     slip: float = 0.0  # slip that the interface must bear [m]
@@ -65,12 +65,12 @@ def fitted(
     analyse: Analyse,
     asked: Asked,
 ) -> Candidate:
-    """Return a radius and a friction with slider, rims and interface that fit them.
+    """Return a radius and a friction with fitted slider, rims and interface.
 
     There are `count` sizes of slider at most, parted by the loads, those asked for among them.
 
-    The sliders begin with the radius that the pressures ask for and grow until they also bear the
-    slip: by its overlap, and by the offset of the resultant, which the interface's friction causes.
+    The sliders begin with the radius for the pressures. They grow until they also allow the slip:
+    by its overlap, and by the offset of the resultant, which the interface's friction causes.
     """
     if asked.loads:
         more = {"time histories": asked.loads}
@@ -172,7 +172,8 @@ def _by_pressure(size: Size, target: DesignTarget) -> float:
 
 
 def _growth(checks: Checks) -> float:
-    # Of a slider's radius, from what it fails: less than it takes, so that none grows too far.
+    # Growth of a slider's radius, from its failing checks: less than needed, so that none grows too
+    # far.
     ratios = [c.ratio for c in checks.failed if c.symbol not in _WHATEVER_SLIDER]
     return min(math.sqrt(max(ratios, default=1.0)), 1.2)
 
@@ -233,7 +234,7 @@ def _measures(
 
 
 def _place_rims(t: Trace, analysis: EquivalentLinear, target: DesignTarget, asked: Asked) -> None:
-    # As told; else by intent where the code has a rule for it, beyond all its checks where not.
+    # The given share; else by intent if the code has a rule for it, beyond all its checks if not.
     rule, share, source = code_named(analysis.code).rims, target.rim_share, "docs/sizing.md"
     if share is None and rule.least < 1.0:
         share = max(MET_SHARE, rule.least)
@@ -319,7 +320,7 @@ def _governing(
 def _asked(
     t: Trace, wanted: Sequence[float], target: DesignTarget, radius: float
 ) -> tuple[tuple[str, float, float | None, str], ...]:
-    # What the target asks for, with its limits.
+    # Requirements of the target, with its limits.
     return (
         ("displacement", t.value("D"), target.max_displacement, "m"),
         ("base shear / weight", t.value("V_b") / t.value("W"), target.max_base_shear, "-"),

@@ -1,4 +1,4 @@
-"""Figure of what a proposal was chosen from: displacement over base shear and plan diameter."""
+"""Figure of a proposal's candidates: displacement over base shear and plate diameter."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _MARKERS = ("o", "s", "^", "D", "v", "P")
 _OTHERS = "something else"
 _SIZE = 34.0  # of a marker [pt2]
 _REACHED = "isolator displacement [m]"
-_AIMS = {  # columns of what is tried, their captions, and factors of these units
+_AIMS = {  # columns of the trials, their captions, and factors of these units
     "base shear / weight [-]": ("base shear / weight [%]", 100.0),
     "floor acceleration in plan [m/s2]": ("floor acceleration [m/s²]", 1.0),
     "cost": ("cost", 1.0),
@@ -36,18 +36,18 @@ _AIMS = {  # columns of what is tried, their captions, and factors of these unit
 def design_candidates(
     found: Design | Sequence[Candidate], *, target: DesignTarget | None = None
 ) -> Figure:
-    """Draw the candidates of a proposal by what limits each.
+    """Draw the candidates of a proposal by their governing limit.
 
     Displacement over base shear to the left, over the diameter of the plates to the right. Colour
-    and shape tell which limit is the nearest or the most exceeded; those that keep what is asked
-    are filled, those that fall out are open, and a cross marks sliders under low pressure. A ring
-    marks what none beats in the three at once, with its radius and friction, a second ring the one
-    that is proposed.
+    and shape show the limit that is nearest or exceeded most. Candidates that meet the target are
+    filled, others are open, and a cross marks sliders under low pressure. A ring marks
+    Pareto-optimal candidates in the three quantities, with radius and friction, a second ring the
+    proposed one.
 
     Parameters
     ----------
     found : Design, or sequence of Candidate
-        What was tried.
+        The proposal, or its candidates.
     target : DesignTarget, optional
         Its limits of displacement, base shear and plan diameter are drawn.
 
@@ -86,11 +86,11 @@ def design_candidates(
 
 
 def tried_candidates(tried: pd.DataFrame) -> Figure:
-    """Draw what candidates reach in time histories, aim by aim.
+    """Draw the results of candidates in time histories, aim by aim.
 
-    Displacement over base shear, floor acceleration and, where prices are given, cost. Colour and
-    shape tell which check is the nearest to its limit, or the farthest beyond; what passes every
-    check is filled.
+    Displacement over base shear, floor acceleration and, if prices are given, cost. Colour and
+    shape show the check that is nearest to its limit, or farthest beyond; candidates that pass
+    every check are filled.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""LIR-DCFP bearings proposed for a structure, beside plain ones that do the same."""
+"""LIR-DCFP bearings proposed for a structure, beside plain ones of equal performance."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Design:
     candidates : tuple of Candidate
         All that were tried.
     least : str
-        What was made least.
+        Minimised quantity.
     impossible : tuple of Impossible
         Pairs of radius and friction of which no bearing can be made, and why.
     fit : callable
@@ -95,17 +95,17 @@ class Design:
 
     @property
     def sizes(self) -> tuple[int, ...]:
-        """Which of the chosen bearings stands at each place, (n_bearings,)."""
+        """Index of the chosen bearing at each place, (n_bearings,)."""
         return self.chosen.places
 
     @property
     def pareto(self) -> tuple[Candidate, ...]:
-        """Those that none beats in displacement, base shear and plan diameter at once."""
+        """Pareto-optimal candidates in displacement, base shear and plate diameter."""
         return pareto(self.candidates)
 
     @property
     def ranked(self) -> tuple[Candidate, ...]:
-        """Those that keep what is asked, best first: without warnings, then by `least`."""
+        """Candidates that meet the target, best first: without warnings, then by `least`."""
         return ranked(self.candidates, self.least)
 
     def bearings(self, device: Device = "LIR-DCFP") -> tuple[LIRBearing, ...]:
@@ -149,7 +149,7 @@ class Design:
         frame : Frame
             The structure, whose bearings are in the order of the system.
         device : str
-            As in `bearings`.
+            One of `bearings`.
 
         Returns
         -------
@@ -174,9 +174,9 @@ class Design:
         Parameters
         ----------
         tried : Candidate
-            Of `candidates`.
+            One of `candidates`.
         sized : Candidate
-            What takes its place.
+            Its replacement.
 
         Returns
         -------
@@ -192,7 +192,7 @@ class Design:
         Returns
         -------
         pandas.DataFrame
-            A row for each; NaN where a device cannot be made: `bearings` says why.
+            A row for each; NaN if a device cannot be made: `bearings` has the reason.
         """
         import pandas as pd
 
@@ -211,7 +211,7 @@ class Design:
         return pd.DataFrame.from_dict(rows, orient="index")
 
     def _refused(self, device: Device) -> str:
-        # Why a device cannot be made; empty where it can.
+        # Reason that a device cannot be made; empty if it can.
         try:
             self.bearings(device)
         except CheckError as cause:
@@ -224,9 +224,9 @@ class Design:
         Returns
         -------
         pandas.DataFrame
-            Outcome ("proposed", "Pareto-optimal", "keeps what is asked" or "falls out"), whether
-            none beats it in displacement, base shear and plan diameter at once, its numbers, what
-            limits it most, what it lacks, and warnings.
+            Outcome ("proposed", "Pareto-optimal", "keeps what is asked" or "falls out"), Pareto
+            optimality in displacement, base shear and plate diameter, its numbers, the governing
+            limit, unmet requirements, and warnings.
         """
         return table_of(self.candidates, self.chosen, self.impossible)
 
@@ -275,12 +275,12 @@ def design(
 ) -> Design:
     """Propose LIR-DCFP bearings for a structure, by equivalent-linear analysis.
 
-    Each radius and friction of the target is tried. Without rims the bearings would go as far as
-    the lower bound of friction lets them, by EN 1998 times gamma_x; rims are put at a share of
-    that, or beyond it where the code has no rule for rims that are met, and the interface gets the
-    friction that holds until then and stays stable over what is left, or over a reserve. Of those
-    that keep what is asked, the one with the least base shear is taken, or as `least` says; those
-    whose liners work under usual pressures before others.
+    Each radius and friction of the target is tried. The displacement without rims is that of the
+    lower bound of friction, by EN 1998 times gamma_x. Rims are at a share of it, or beyond it if
+    the code has no rule for rim contact. The interface gets the friction that holds until then and
+    stays stable over the rest, or over a reserve. Of the candidates that meet the target, the
+    result is the one with the least base shear, or the least of `least`; those with usual liner
+    pressures come first.
 
     Parameters
     ----------
@@ -292,14 +292,14 @@ def design(
     bounds : PropertyBounds or None
         Lower and upper bound friction properties.
     target : DesignTarget, optional
-        What to choose from, and what is asked.
+        Choices and requirements.
     superstructure, code
         As in `equivalent_linear`; checks of the superstructure then count as well.
     sizes : int
-        Number of sliders of unlike radius, for bearings of unlike loads.
+        Number of sliders of different radius, for bearings of different loads.
     least : {"base shear", "displacement", "plan diameter", "bearing volume", "cost"}
-        What is made least: the largest base shear, the displacement that bearings must allow, the
-        diameter of the plates, the volume of all bearings, or their cost by `DesignTarget.prices`.
+        Minimised quantity: the largest base shear, the needed displacement capacity, the diameter
+        of the plates, the volume of all bearings, or their cost by `DesignTarget.prices`.
 
     Returns
     -------
@@ -309,8 +309,8 @@ def design(
     Raises
     ------
     NoCandidateError
-        If no candidate keeps what is asked: the message names the nearest and what it lacks, its
-        `candidates` are all that were tried. It is a CheckError.
+        If no candidate meets the target: the message names the nearest and its unmet requirements,
+        its `candidates` are all that were tried. It is a CheckError.
     CheckError
         If an argument is out of bounds.
 

@@ -1,4 +1,4 @@
-"""Which of the candidates are worth a look: by one objective, and those that none beats in all."""
+"""Selection of candidates: by one objective, and the Pareto-optimal ones."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from frames.design.sizing.candidate import Candidate
 
 Objective = Literal["base shear", "displacement", "plan diameter", "bearing volume", "cost"]
-"""What a proposal makes least."""
+"""Quantity that a proposal minimises."""
 
 OBJECTIVES: Mapping[str, Callable[[Candidate], float]] = {
     "base shear": lambda one: one.base_shear,
@@ -24,7 +24,7 @@ OBJECTIVES: Mapping[str, Callable[[Candidate], float]] = {
     "bearing volume": lambda one: one.bearing_volume,
     "cost": lambda one: one.cost,
 }
-"""The number that each makes least, of a candidate that keeps what is asked."""
+"""Number that each objective minimises, of a candidate that meets the target."""
 
 _WEIGHED = ("displacement", "base shear", "plan diameter")
 
@@ -38,7 +38,7 @@ class Impossible(NamedTuple):
 
 
 class NoCandidateError(CheckError):
-    """No candidate keeps what is asked; the message names the nearest and what it lacks.
+    """Raised if no candidate meets the target; the message names the nearest and its deficits.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ class NoCandidateError(CheckError):
 
 
 def _by_reason(lacks: Sequence[str]) -> str:
-    # What is lacking; what has one reason why it was not evaluated, together.
+    # Unmet requirements; those with one reason for no evaluation are together.
     found: dict[str, list[str]] = {}
     for lack in lacks:
         what, mark, why = lack.partition(f": {NOT_EVALUATED}")
@@ -104,14 +104,14 @@ class Place(NamedTuple):
     """A candidate among the others."""
 
     candidate: Candidate  # which
-    # "proposed", "Pareto-optimal" (no other that keeps what is asked has less displacement,
-    # base shear and plan diameter at once, or is as good in some and better in another),
-    # "keeps what is asked", or "falls out"
+    # "proposed", "Pareto-optimal" (no other that meets the target has less displacement, base shear
+    # and plate diameter at once, or is as good in some and better in another), "keeps what is
+    # asked", or "falls out"
     outcome: Literal["proposed", "Pareto-optimal", "keeps what is asked", "falls out"]
 
 
 def ranked(found: Sequence[Candidate], least: str) -> tuple[Candidate, ...]:
-    """Return the candidates that keep what is asked, best first."""
+    """Return the candidates that meet the target, best first."""
     good = [one for one in found if not one.lacks]
     return tuple(sorted(good, key=lambda one: (bool(one.warnings), OBJECTIVES[least](one))))
 

@@ -1,4 +1,4 @@
-"""What a proposal of bearings is chosen from, and what it has to keep."""
+"""Choices of a proposal of bearings, and its requirements."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from lir_element.device.friction import CoulombFriction, FrictionLaw
 from lir_element.fields import check_numbers, number
 
 INTERFACE_PRESSURE = LANDING_PRESSURE
-"""Mean pressure on the sliders' overlap that a proposal keeps unless told otherwise [Pa]."""
+"""Default mean pressure on the sliders' overlap in a proposal [Pa]."""
 
 
 LEAST_PRESSURE = 10e6
-"""Pressure below which a proposal warns of its liners, and takes others first [Pa].
+"""Pressure below which a proposal warns of its liners, and prefers others [Pa].
 
 Liners of the PTFE type usually work at 15 to 60 MPa under permanent load; their friction rises as
 the pressure falls, and tests cover 5 to 45 MPa (for instance Bondonet and Filiatrault 1997, J.
-Bridge Eng. 2(4)). Ten, of all bearings together, leaves the lightest ones about the lower end of
-the tests. A starting point of this package, to be confirmed by the liner's maker.
+Bridge Eng. 2(4)). With 10 MPa over all bearings together, the lightest ones are about at the lower
+end of the tests. A starting point of this package, to be confirmed by the liner's maker.
 """
 
 
@@ -36,7 +36,7 @@ class Prices:
     Parameters
     ----------
     bearing : float
-        Of each bearing, whatever its size: tests, transport, placing.
+        Price of each bearing at any size: tests, transport, placing.
     volume : float
         Per cubic metre of the bearings: area of the plates times height of the slider.
     liner : float
@@ -66,7 +66,7 @@ class Prices:
 
 @dataclass(frozen=True, kw_only=True)
 class DesignTarget:
-    """What bearings are chosen from, and what is asked of them.
+    """Choices and requirements of a proposal of bearings.
 
     Pressures and shares are starting points of this package, not of a standard: take those of the
     liner's maker and of the standard that you design by.
@@ -74,23 +74,23 @@ class DesignTarget:
     Parameters
     ----------
     radii : sequence of float
-        Radii of the concave surfaces to choose from, both alike [m].
+        Radii of the concave surfaces to choose from, equal for both [m].
     frictions : sequence of float or FrictionLaw
         Nominal frictions of the concave surfaces to choose from.
     rim_share : float, optional
-        Displacement at which the rims are met, over the largest that a bearing without rims must
-        allow [-], in (0, 2): D_TM, by EN 1998 gamma_x d_bd. What is left, the interface has to
-        slip. None: 0.75 where the code has a rule for rims that are met (ASCE 7-22); where it has
-        none (EN 1998, NCh2745) rims are `free_margin` beyond all that its checks hold against them.
+        Rim displacement over the largest displacement without rims [-], in (0, 2): D_TM, by EN 1998
+        gamma_x d_bd. The interface slips the rest. None: 0.75 if the code has a rule for rim
+        contact (ASCE 7-22); if it has none (EN 1998, NCh2745), rims are `free_margin` beyond all
+        displacements of its checks.
     free_margin : float
-        How far rims that are not to be met are beyond the largest displacement of those checks [-].
+        Margin of rims without contact beyond the largest displacement of those checks [-].
     slip_reserve : float
-        What the interface must be able to slip where rims are not met, over the displacement that
-        bearings must allow [-]: for an earthquake that is stronger.
+        Slip capacity of the interface without rim contact, over the needed displacement capacity
+        [-]: a reserve for a stronger earthquake.
     slip_margin : float
-        What the interface must be able to slip where rims are met, over what they leave to it [-],
-        at least 1: sliders and friction of the interface are for that slip, so that bearings are
-        farther from failing under motions beyond those of the design.
+        Slip capacity of the interface after rim contact, over the displacement beyond the rims [-],
+        at least 1: sliders and interface friction are sized for that slip, so that bearings are
+        farther from failure under motions beyond those of the design.
     pressure : float
         Mean pressure on a slider under the average combination [Pa].
     largest_pressure : float
@@ -105,7 +105,7 @@ class DesignTarget:
     clearance : float
         Between the edges of the two plates at rest [m].
     slider_step, friction_step : float
-        What radii of sliders [m] and the friction of the interface [-] are rounded up to.
+        Steps to which radii of sliders [m] and the friction of the interface [-] are rounded up.
     max_displacement : float, optional
         Largest that a bearing without rims must allow, as the gap around the building has it [m].
     max_base_shear : float, optional
@@ -113,10 +113,10 @@ class DesignTarget:
     max_plan_diameter : float, optional
         Largest diameter of a bearing's plates [m].
     prices : Prices, optional
-        What `Candidate.cost` is reckoned by; without them there is no cost.
+        Prices of `Candidate.cost`; without them there is no cost.
     limits : DesignLimits
-        Of `device_checks`, which the proposal keeps: margin of the interface, eccentricity,
-        strength of a rim, pressure on the overlap.
+        Limits of `device_checks` for the proposal: margin of the interface, eccentricity, strength
+        of a rim, pressure on the overlap.
 
     Raises
     ------

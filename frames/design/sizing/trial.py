@@ -34,20 +34,21 @@ if TYPE_CHECKING:
     from lir_element import LIRBearing
 
 MARGIN = 1.1
-"""Factor on the motions under which no run may fail [-]: a choice, for what one mass lacks."""
+"""Factor on the motions under which no run may fail [-]: a choice, because the model has one mass.
+"""
 
 FACTORS = (1.0, MARGIN)
 """Factors on the motions at which bearings with rims are run [-]."""
 
 GROWTH = 1.1
-"""Factor on the displacement that is asked where a run still fails [-]."""
+"""Factor on the required displacement if a run still fails [-]."""
 
 ROUNDS = 8
-"""How often a bearing is made larger before it is given up."""
+"""Largest number of times that a bearing is made larger."""
 
 
 class Place(NamedTuple):
-    """Where a suite of runs stands: level of the seismic action, factor on it, bound."""
+    """Place of a suite of runs: level of the seismic action, factor on it, bound."""
 
     level: str
     factor: float
@@ -55,7 +56,7 @@ class Place(NamedTuple):
 
 
 class OneMass(NamedTuple):
-    """How a candidate is tried: a rigid building, its motions and its bounds."""
+    """Trial of a candidate: a rigid building, its motions and its bounds."""
 
     # motions scaled for an equivalent-linear analysis, whose periods make the range
     motions: Callable[[EquivalentLinear], MotionSet]
@@ -90,9 +91,9 @@ class Trial(NamedTuple):
     free: float  # displacement without rims for design, torsion and the code's factor included [m]
     failed: dict[Place, int]  # number of runs that failed
     excess: Excess  # of the motions
-    # why it was made no larger, though a run fails or goes farther; empty where none does
+    # reason that it was made no larger, though a run fails or goes farther; empty if none does
     larger_lacks: tuple[str, ...]
-    asked: Asked  # what the sized one was fitted to
+    asked: Asked  # demands of the sized one
 
     def failures(self, factor: float) -> int:
         """Return how many runs fail under the motions times a factor of `FACTORS`."""
@@ -100,12 +101,12 @@ class Trial(NamedTuple):
 
     @property
     def passed(self) -> bool:
-        """Whether it is as large as the motions ask for, and no run fails, with the margin."""
+        """True if it is as large as the motions need, and no run fails, with the margin."""
         return not self.larger_lacks and not any(self.failed.values())
 
     @property
     def outcome(self) -> str:
-        """Whether it passes, in words."""
+        """Result of the trial, in words."""
         if self.failures(1.0):
             return "fails"
         return "passes" if self.passed else "passes without the margin"
@@ -137,7 +138,7 @@ class Trial(NamedTuple):
         ]
 
     def __str__(self) -> str:
-        """Return what came of it, in words."""
+        """Return the outcome in words."""
         said = (
             f"without rims it goes {1e3 * self.free:.0f} mm, torsion as by the formula, which "
             f"gives {1e3 * self.tried.displacement:.0f} mm; {self.excess}\n"
@@ -225,7 +226,7 @@ def _failed(runs: Runs, rules: HistoryRules) -> dict[Place, int]:
 
 
 def _for_design(runs: Runs, name: str, rules: HistoryRules) -> float:
-    # The largest of all levels and bounds of what the code makes of the motions, times 1.
+    # The largest design value of the motions over all levels and bounds, times 1.
     return max(
         suite_of(data, rules).value(peaks_of_runs(data, name).max(axis=1))
         for place, data in _by_place(runs)

@@ -1,4 +1,4 @@
-"""Whether measured loops prove the properties that a design counts on."""
+"""Acceptance of measured loops by the properties of a design."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ _ALIKE = 1.1  # displacements of cycles that are judged together, largest over l
 
 @dataclass(frozen=True, kw_only=True)
 class AcceptanceLimits:
-    """What measured loops may deviate; defaults of ASCE 7-10, 17.8.4, to be confirmed.
+    """Tolerances of measured loops; defaults of ASCE 7-10, 17.8.4, to be confirmed.
 
     Parameters
     ----------
     spread : float
-        Of post-elastic stiffness and energy dissipated per cycle (EDC) from the mean of the set's
-        cycles [-].
+        Deviation of post-elastic stiffness and energy dissipated per cycle (EDC) from the mean of
+        the set's cycles [-].
     drop : float
-        Of effective stiffness and damping over the cycles of a test of many cycles [-]; of the
-        interface alone of its energy, over the cycles of any test.
+        Drop of effective stiffness and damping over the cycles of a test of many cycles [-]; for
+        the interface alone of its energy, over the cycles of any test.
     many_cycles : int
         Cycles from which on a test is one of many, two at least; codes ask for ten or more.
     stiffness : (float, float)
@@ -81,7 +81,7 @@ def acceptance_checks(
     bounds: PropertyBounds,
     limits: AcceptanceLimits | None = None,
 ) -> Checks:
-    """Check measured loops against the properties that a design counted on.
+    """Check measured loops against the properties of a design.
 
     Parameters
     ----------
@@ -96,28 +96,27 @@ def acceptance_checks(
     bounds : PropertyBounds
         Factors of friction that the design was made with.
     limits : AcceptanceLimits, optional
-        What loops may deviate.
+        Tolerances of the loops.
 
     Returns
     -------
     Checks
-        Of each set: least slope of loading, spread of post-elastic stiffness and energy, second
-        stiffness and friction within their bounds, drops of effective stiffness and damping over
-        the cycles of a test of many cycles; what the code asks of specimens, or of each cycle
-        against the third. Displacements beyond the rims have no post-elastic
-        stiffness and no friction of the surfaces; of the interface alone friction, spread and drop
-        of the energy.
+        Checks of each set: least slope of loading, spread of post-elastic stiffness and energy,
+        second stiffness and friction within their bounds, drops of effective stiffness and damping
+        over the cycles of a test of many cycles; the code's requirements on specimens, or on each
+        cycle against the third. Displacements beyond the rims have no post-elastic stiffness and no
+        friction of the surfaces. For the interface alone: friction, spread and drop of the energy.
 
     Raises
     ------
     CheckError
-        If there is no test, cycles of a set differ in displacement by more than a tenth, the code
-        is not known, the interface was tested of a bearing that has none, or two surfaces of
-        unlike friction do not both slide.
+        If there is no test, displacements of a set's cycles differ by more than a tenth, the code
+        is unknown, the bearing has no interface to test, or two surfaces of different friction do
+        not both slide.
 
     Notes
     -----
-    Nominal friction is that of high speed, at the pressure of the test where it goes by that.
+    Nominal friction is that of high speed, at the pressure of the test if it depends on pressure.
 
     Examples
     --------

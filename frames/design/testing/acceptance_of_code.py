@@ -1,4 +1,4 @@
-"""What one code alone asks of measured loops: specimens alike, cycles like the third."""
+"""Requirements of single codes on measured loops: equal specimens, cycles like the third."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _THIRD = 2
 
 
 class _Compared(NamedTuple):
-    # A number of a cycle or a specimen, and what it is held against.
+    # A number of a cycle or a specimen, and its limit.
     label: str
     value: float
     against: float
@@ -33,7 +33,7 @@ class _Compared(NamedTuple):
 def checks_of_code(
     code: DesignCode, name: str, tests: Sequence[PrototypeTest], capacity: float
 ) -> list[Check]:
-    """Return what a code asks of the loops of one set beside the limits that all have."""
+    """Return a code's own requirements on the loops of one set, besides the common limits."""
     found, by_specimen = [], _by_specimen(tests)
     below = all(max(c.highest, -c.lowest) <= capacity for c in chain(*by_specimen.values()))
     specimens, cycles = code.values.get("specimens"), code.values.get("accepted cycles")
@@ -62,7 +62,7 @@ def _by_specimen(tests: Sequence[PrototypeTest]) -> dict[str, list[Cycle]]:
 
 
 def _means(by_specimen: dict[str, list[Cycle]]) -> list[_Compared]:
-    # Of as many cycles as all specimens have.
+    # As many cycles as all specimens have.
     count = min(map(len, by_specimen.values()))
     means = {
         name: sum(cycle.stiffness for cycle in each[:count]) / count
@@ -73,7 +73,7 @@ def _means(by_specimen: dict[str, list[Cycle]]) -> list[_Compared]:
 
 
 def _cycle_by_cycle(by_specimen: dict[str, list[Cycle]]) -> list[_Compared]:
-    # Of as many cycles as all specimens have.
+    # As many cycles as all specimens have.
     found = []
     for k, cycles in enumerate(zip(*by_specimen.values(), strict=False), start=1):
         slopes = [sum(cycle.slopes) / 2.0 for cycle in cycles]

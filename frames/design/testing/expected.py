@@ -1,4 +1,4 @@
-"""What a bearing is expected to give on a testing rig: forces, and the loop of a cycle."""
+"""Expected results of a bearing on a testing rig: forces, and the loop of a cycle."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
 class Loop(NamedTuple):
-    """A cycle of harmonic motion about the centre; NaN where a test has no displacement."""
+    """A cycle of harmonic motion about the centre; NaN if a test has no displacement."""
 
     stiffness: float  # effective: force at the end over the displacement [N/m]
     energy: float  # dissipated per cycle, EDC [J]
@@ -33,13 +33,13 @@ LOOPS = tuple(
     for name, unit in (("k_eff", "N/m"), ("EDC", "J"), ("friction", "-"))
     for which in ("lower", "nominal", "upper", "accepted from", "accepted to")
 )
-"""Columns of the loops to expect, and of what is accepted."""
+"""Columns of the expected loops, and of the acceptance."""
 
 NO_LOOP = Loop(math.nan, math.nan, math.nan)
 
 
 def pressure_factor(bearing: LIRBearing | FrictionPendulum, load: float) -> float:
-    """Return what the pressure under a load [N] makes of the surfaces' nominal friction [-]."""
+    """Return the factor of the pressure under a load [N] on the surfaces' nominal friction [-]."""
     if not isinstance(bearing, LIRBearing) or bearing.pressure_dependence is None:
         return 1.0
     area = math.pi * bearing.slider_radius**2
@@ -64,9 +64,9 @@ def lateral_force(test: PlannedTest, bearing: LIRBearing | FrictionPendulum) -> 
 def expected_loop(test: PlannedTest, bearing: LIRBearing | FrictionPendulum) -> Loop:
     """Return the loop of a test by the path's mean friction at its peak speed, without heating.
 
-    Elastic ways before sliding cut corners off. Beyond the rims the surfaces slide as far as the
-    rims, and the interface goes the rest, tilted as they left it: between its faces acts
-    ``N mu / (cos t - mu sin t)``, along a way longer by ``1 / cos t``.
+    Elastic displacements before sliding cut corners off. Beyond the rims the surfaces slide as far
+    as the rims, and the interface slides the rest, tilted as they left it. Between its faces acts
+    ``N mu / (cos t - mu sin t)``, along a path longer by ``1 / cos t``.
     """
     d, load = test.displacement, test.load
     if not (d > 0.0 and load > 0.0):
@@ -100,7 +100,7 @@ def expected_loop(test: PlannedTest, bearing: LIRBearing | FrictionPendulum) -> 
 
 
 def _loop(d: float, load: float, force: float, way: float) -> Loop:
-    # Of a quarter of a cycle: the way is friction times distance [m].
+    # Energy of a quarter of a cycle: the path is friction times distance [m].
     energy = 4.0 * load * way
     return Loop(force / d, energy, energy / (4.0 * load * d))
 
@@ -133,10 +133,10 @@ def loop_numbers(
     ends: Sequence[LIRBearing | FrictionPendulum],
     bounds: PropertyBounds | None,
 ) -> list[float]:
-    """Return the numbers of `LOOPS`: at lower, nominal and upper friction, and what is accepted.
+    """Return the numbers of `LOOPS`: at lower, nominal and upper friction, and their acceptance.
 
-    Beyond the rims, where surfaces and interface have factors of their own, and without bounds the
-    range accepted is NaN.
+    The accepted range is NaN beyond the rims, because surfaces and interface have separate factors,
+    and without bounds.
     """
     low, own, high = (expected_loop(test, each) for each in (ends[0], bearing, ends[1]))
     range_ = (math.nan, math.nan)

@@ -1,4 +1,4 @@
-"""Cycles of a measured force-displacement loop, and what each of them is."""
+"""Cycles of a measured force-displacement loop, and their properties."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ if TYPE_CHECKING:
     from frames._types import FloatArray, IntArray
 
 _TURN = 0.2  # of the amplitude: less is no half cycle
-_SLOPE = 0.1, 0.9  # of the half cycle's displacement: where its slope is taken
-_END = 0.8  # of it: from where on the force at its end is taken
+_SLOPE = 0.1, 0.9  # of the half cycle's displacement: range of the slope
+_END = 0.8  # of it: start of the range for the force at its end
 _FEWEST = 5  # samples in either
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PrototypeTest:
-    """A test of a bearing, as it was measured.
+    """A measured test of a bearing.
 
     Parameters
     ----------
     name : str
-        Which test of the programme; tests of one name are judged together.
+        Name in the programme; tests of one name are checked together.
     displacement : array_like, (n,)
         Lateral displacement about the centre [m]; of the interface alone its slip.
     force : array_like, (n,)
@@ -38,14 +38,14 @@ class PrototypeTest:
     load : float or array_like, (n,)
         Vertical load, compression positive [N].
     specimen : str
-        Which bearing.
+        Name of the bearing.
     kind : {"bearing", "interface"}
-        Whether the whole bearing moved, or the interface between the sliders alone.
+        The moved part: the whole bearing, or the interface between the sliders alone.
 
     Raises
     ------
     CheckError, ValueError
-        If the arrays are of unlike length or not finite, a load is not positive, or there is no
+        If the arrays differ in length or are not finite, a load is not positive, or there is no
         full cycle of enough samples.
 
     Examples
@@ -98,7 +98,7 @@ class PrototypeTest:
             raise CheckError(msg)
         for name, values in (("displacement", moved), ("force", force), ("load", load)):
             object.__setattr__(self, name, values)
-        _ = self.cycles  # what has none is refused here
+        _ = self.cycles  # raises if there is no full cycle
 
     @cached_property
     def cycles(self) -> tuple[Cycle, ...]:
@@ -140,7 +140,7 @@ class Cycle(NamedTuple):
 
 
 def loop_properties(test: PrototypeTest) -> pd.DataFrame:
-    """Return what each full cycle of a test is.
+    """Return the properties of each full cycle of a test.
 
     Parameters
     ----------
@@ -156,10 +156,10 @@ def loop_properties(test: PrototypeTest) -> pd.DataFrame:
 
     Notes
     -----
-    A half cycle goes beyond a fifth of the largest displacement. Slopes are those of least squares
-    over 0.1 to 0.9 of the half cycle's displacement from zero to its end, so that noise and the
-    standstill at the end do not decide; the force at an end is that of a line through the last
-    fifth on loading.
+    A half cycle extends over more than a fifth of the largest displacement. Slopes are fitted by
+    least squares over 0.1 to 0.9 of the half cycle's displacement from zero to its end, so that
+    noise and the standstill at the end do not decide. The force at an end is that of a line through
+    the last fifth on loading.
 
     Examples
     --------

@@ -69,7 +69,7 @@ OWN_RULES = (
         ),
     ),
 )
-"""What is proposed to be accepted of the tests that no code has."""
+"""Proposed acceptance of the tests that no code has."""
 
 _ALIKE = 1e-6  # of displacements at two bounds
 _LEAST_SLIP = 0.25  # of the stable limit of interface slip: tested though runs slip less
@@ -83,7 +83,7 @@ def prototype_tests(
     *,
     bounds: PropertyBounds | None = None,
 ) -> pd.DataFrame:
-    """Return the tests of a design's bearings: what is imposed, and the forces to expect.
+    """Return the tests of a design's bearings: imposed motion, and the expected forces.
 
     Parameters
     ----------
@@ -101,18 +101,17 @@ def prototype_tests(
     Returns
     -------
     pandas.DataFrame
-        A row a test, numbered from 1: kind of bearing, test, displacement [m], vertical load [N],
-        fully reversed cycles, period [s] and peak speed [m/s] of harmonic motion, least and
-        largest lateral force to expect with friction of high speed at its bounds [N], what the
-        test shows, clause, its standing, what is accepted of it with the clauses, a note; k_eff
-        [N/m], energy per cycle (EDC) [J] and friction [-] to expect at each bound by the path's
-        mean friction without heating, and the least and the most of them that is accepted: nominal
-        values times the factors of tests, of the production those of the specification, all
-        factors together where these are not given. NaN: not
-        given, or without meaning. Of an LIR-DCFP there are tests besides that no code has: the
-        interface alone, and impacts. Where the system's loads are not known
-        (`IsolationSystem.unknown_loads`), `demands` giving none, tests at the largest and the least
-        load have NaN for it, and a note that says why.
+        A row a test, numbered from 1. Kind of bearing, test, displacement [m], vertical load [N],
+        fully reversed cycles, period [s] and peak speed [m/s] of harmonic motion, least and largest
+        expected lateral force with friction of high speed at its bounds [N], purpose of the test,
+        clause, its source, acceptance with the clauses, a note. Expected k_eff [N/m], energy per
+        cycle (EDC) [J] and friction [-] at each bound by the path's mean friction without heating,
+        and their accepted least and largest values: nominal values times the factors of tests, of
+        the production those of the specification, all factors together if these are not given. NaN:
+        not given, or without meaning. An LIR-DCFP has further tests that no code has: the interface
+        alone, and impacts. If the system's loads are unknown (`IsolationSystem.unknown_loads`) and
+        `demands` gives none, tests at the largest and the least load have NaN for it, and a note
+        with the reason.
 
     Raises
     ------
@@ -156,15 +155,15 @@ def prototype_tests(
 
 
 def _governing(equivalent: EquivalentLinear) -> BoundResult:
-    # At the bound of the largest displacement; of alike ones, as where the spectrum asks for the
-    # same displacement whatever the period, the one of the shorter period: its tests are faster.
+    # Bound of the largest displacement; of equal ones, for example if the spectrum needs the same
+    # displacement at any period, the one of the shorter period: its tests are faster.
     least = (1.0 - _ALIKE) * equivalent.total_displacement
     found = [each for each in equivalent.bounds.values() if each.total_displacement >= least]
     return min(found, key=lambda each: each.period)
 
 
 def _without_loads(table: pd.DataFrame, why: str) -> pd.DataFrame:
-    # Tests at the largest or the least load have none where it is not known.
+    # The load is NaN in tests at the largest or the least load if it is unknown.
     if why:
         of_load = table["what"].str.contains("(?:largest|least) load", regex=True)
         of_it = ["vertical load [N]", "least force [N]", "largest force [N]", *LOOPS]
@@ -176,7 +175,7 @@ def _without_loads(table: pd.DataFrame, why: str) -> pd.DataFrame:
 def _kinds(
     system: IsolationSystem,
 ) -> list[tuple[str, LIRBearing | FrictionPendulum, list[int]]]:
-    # Equal bearings: title, the bearing, where they are.
+    # Equal bearings: title, the bearing, their places.
     unlike: list[LIRBearing | FrictionPendulum] = []
     for bearing in system.bearings:
         if bearing not in unlike:
@@ -213,7 +212,7 @@ def _loads(
 
 
 def _production(d: DesignToTest, planned: Iterable[PlannedTest]) -> Iterable[PlannedTest]:
-    # Of a code without a test of each bearing produced: that of ASCE 7-22.
+    # A code without a test of each bearing produced has that of ASCE 7-22.
     if not any(test.name.startswith("production") for test in planned):
         yield PlannedTest(
             "each bearing produced",
@@ -227,7 +226,7 @@ def _production(d: DesignToTest, planned: Iterable[PlannedTest]) -> Iterable[Pla
 
 
 def _of_interface(d: DesignToTest) -> Iterable[PlannedTest]:
-    # Of an LIR-DCFP: its interface alone, and impacts.
+    # Tests of an LIR-DCFP: its interface alone, and impacts.
     bearing = d.bearing
     if not isinstance(bearing, LIRBearing) or bearing.is_dcfp:
         return
