@@ -1,4 +1,4 @@
-"""Many results as one Dataset: what each run reached, side by side along the dimension `run`."""
+"""Many results as one Dataset: peaks of each run, side by side along the dimension `run`."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ NUMBERS = {
     "halvings": ("1", "steps halved by adaptive substepping"),
     "seconds_loop": ("s", "time of the compiled loop"),
 }
-"""Numbers of each run besides what it reached: unit and meaning."""
+"""Numbers of each run besides its peaks: unit and meaning."""
 
 _OF_END = "status", "message", "failed_at", "failed_where", "audit", "doubts", "findings"
 _OF_PEAKS = "peak", "peak_time", "peak_where"
@@ -38,7 +38,7 @@ _SAME_TIME = 1e-9  # s
 
 
 class Layout(NamedTuple):
-    """Where what the runs of one structure reached stands in a row of numbers."""
+    """Places of a structure's peaks in a row of numbers."""
 
     names: tuple[str, ...]
     dims: tuple[tuple[str, ...], ...]
@@ -49,7 +49,7 @@ class Layout(NamedTuple):
 
 
 class RunResult(NamedTuple):
-    """What one run gave."""
+    """Results of one run."""
 
     place: int  # among the cases
     status: str
@@ -66,7 +66,7 @@ class RunResult(NamedTuple):
 
 
 def layout_of(judged: xr.Dataset) -> Layout:
-    """Return the layout of what the assumption check reads of a run."""
+    """Return the layout of the assumption check's input from a run."""
     names = tuple(
         str(name)
         for name, variable in judged.variables.items()
@@ -85,7 +85,7 @@ def layout_of(judged: xr.Dataset) -> Layout:
 
 
 def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
-    """Return what a run reached as a row of numbers."""
+    """Return the peaks of a run as a row of numbers."""
     found = {name: judged.variables[name].values for name in layout.names} | of_exceeded(judged)
     return np.concatenate([np.ravel(found[name]) for name in layout.names])
 
@@ -93,7 +93,7 @@ def reached_row(judged: xr.Dataset, layout: Layout) -> FloatArray:
 def stack(
     rows: Sequence[RunResult], cases: Sequence[Case], digests: Mapping[str, str]
 ) -> xr.Dataset:
-    """Put rows together (docs/recording.md)."""
+    """Join rows to a Dataset (docs/recording.md)."""
     rows = sorted(rows, key=lambda row: row.place)
     of = [cases[row.place] for row in rows]
     variables = _of_runs(rows) | _of_peaks(rows) | _of_reached(rows)
@@ -121,7 +121,7 @@ def row_of(data: xr.Dataset, place: int) -> RunResult:
     columns = "quantity", "peak", "unit", "peak_time", "peak_where"
     table = [one[name].to_numpy().tolist() for name in columns]
     energy = one["energy"].to_numpy()
-    own = () if energy.ndim > 1 else ("energy",)  # it is a history where histories are kept
+    own = () if energy.ndim > 1 else ("energy",)  # a history if histories are kept
     known = {*layout.names, *_OF_END, *NUMBERS, *_OF_PEAKS, *own}
     histories = [name for name in one.data_vars if name not in known]
     return RunResult(
@@ -145,7 +145,7 @@ def _as_recorded(
     labels: Mapping[str, Sequence[str]],
     recorded: Mapping[str, Any],
 ) -> dict[str, xr.Variable]:
-    # What was reached, of the bearings, nodes and so on that are recorded, as in a single history.
+    # Peaks of the recorded bearings, nodes and so on, as in a single history.
     kept = {
         dim: [list(labels[dim]).index(str(name)) for name in recorded[dim]]
         for dim in labels
@@ -226,7 +226,7 @@ def _of_peaks(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
 
 
 def _of_reached(rows: Sequence[RunResult]) -> dict[str, xr.Variable]:
-    # What was reached of each bearing, node, level: NaN where a run's structure has none such.
+    # Peaks of each bearing, node, level: NaN if a run's structure has none.
     layouts = _unlike(rows)
     labels = _union(layout.labels for layout in layouts)
     found: dict[str, xr.Variable] = {}
@@ -274,7 +274,7 @@ def _labels(data: xr.Dataset, dim: str) -> tuple[str, ...]:
 
 
 def _of_histories(rows: Sequence[RunResult]) -> tuple[dict[str, xr.Variable], dict[str, Any]]:
-    # Recorded histories: over `time` where all runs share a grid, else over `step`.
+    # Recorded histories: over `time` if all runs share a grid, else over `step`.
     whole = [(n, row.histories) for n, row in enumerate(rows) if row.histories is not None]
     if not whole:
         return {}, {}

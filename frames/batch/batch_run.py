@@ -37,14 +37,14 @@ if TYPE_CHECKING:
 
 
 _ROW = 8e3
-"""Memory of a row besides what was reached: texts, peaks [bytes]."""
+"""Memory of a row besides the peaks: texts, numbers [bytes]."""
 
 _COPIES = 2.0
 """Rows, and the Dataset made of them."""
 
 
 class Structure(NamedTuple):
-    """An analysis that many runs share, and where its numbers stand in their rows."""
+    """An analysis that many runs share, and the places of its numbers in their rows."""
 
     analysis: PreparedFrame
     layout: Layout
@@ -54,7 +54,7 @@ class Structure(NamedTuple):
 class Runner:
     """The runs of `time_histories`, and the structures that they share.
 
-    `recording` says which histories are kept, besides what each run reached; None: none.
+    `recording` names the kept histories, besides the peaks of each run; None: none.
     """
 
     def __init__(
@@ -78,7 +78,7 @@ class Runner:
         self._bytes, self._rows = 0.0, 0
 
     def worker(self, is_stopped: Callable[[], bool]) -> Worker:
-        """Return what one thread runs with; `is_stopped` says whether to leave off."""
+        """Return the state of one thread; `is_stopped` returns True to stop."""
         return Worker(self, is_stopped)
 
     def structure(self, name: str) -> Structure | AnalysisError:
@@ -89,19 +89,19 @@ class Runner:
             return self._shared[name]
 
     def done(self, name: str) -> None:
-        """Let go of a structure when its last run is done."""
+        """Release a structure when its last run is complete."""
         with self._lock:
             self._left[name] -= 1
             if not self._left[name]:
                 self._shared.pop(name, None)
 
     def parts(self) -> tuple[Any, ...]:
-        """Return what another one is made of."""
+        """Return the arguments of another runner of this kind."""
         given = self.models, self.motions, self.options, self.cases
         return *given, self.features, self._level, self.recording
 
     def hold(self, name: str) -> None:
-        """Let go of all structures but this one."""
+        """Release all structures but this one."""
         self._shared = {key: found for key, found in self._shared.items() if key == name}
 
     def take(self, row: RunResult) -> None:
@@ -139,7 +139,7 @@ class Runner:
 
 
 def _layout_of(analysis: PreparedFrame, recording: Recording | None) -> Layout:
-    # Of what is reached by each run; refuses what a recording names and its results lack.
+    # Template of each run's peaks; refuses names of a recording that its results lack.
     template = analysis.template
     if recording is not None:
         require_known(recording, analysis.at_rest)
@@ -159,7 +159,7 @@ class Worker:
         self._own: tuple[Structure, GravityState, PeakRecorder | None] | None = None
 
     def row(self, place: int) -> RunResult | None:
-        """Run a case; None where it was stopped."""
+        """Run a case; None if it was stopped."""
         case = self._runner.cases[place]
         structure = self._runner.structure(case.model)
         if isinstance(structure, AnalysisError):
@@ -203,7 +203,7 @@ class Worker:
     def _arrays(
         self, structure: Structure, options: Options
     ) -> tuple[GravityState, PeakRecorder | Recorder]:
-        # The state of this thread, at rest, and where its run writes.
+        # The state of this thread, at rest, and the arrays of its run.
         analysis = structure.analysis
         if self._own is None or self._own[0] is not structure:
             state, peaks = analysis.fresh(), None

@@ -33,7 +33,7 @@ class Case(NamedTuple):
 
 
 class BatchProgress(NamedTuple):
-    """How far `time_histories` is.
+    """Progress of `time_histories`.
 
     Attributes
     ----------
@@ -42,11 +42,11 @@ class BatchProgress(NamedTuple):
     elapsed : float
         Time since the first began [s].
     failed : int
-        Of those done, runs that stopped before their end.
+        Of the runs done, those that stopped before their end.
     taken : int
-        Runs besides these that were complete before.
+        Further runs that were complete before.
     reused : int
-        Of those done, runs that a campaign took over in place of computing them.
+        Of the runs done, those that a campaign copied instead of computing them.
 
     Examples
     --------
@@ -202,7 +202,7 @@ def _own_name(value: object, otherwise: str) -> str:
 
 
 def tell(progress: object) -> Callable[[BatchProgress], None] | None:
-    """Return whom to tell how far the runs are: nobody, a function, or the standard error."""
+    """Return the listener to the progress: none, a function, or the standard error."""
     if progress is None or progress is False:
         return None
     if progress is True:

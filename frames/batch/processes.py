@@ -2,8 +2,8 @@
 
     python -m frames.batch.processes HANDLE PARENT
 
-is started by `Crew`. Set-up and judging of a run hold the interpreter, so that threads wait for
-each other where structures are many and their motions are short.
+is started by `Crew`. Set-up and checks of a run hold the interpreter, so that threads wait for each
+other if structures are many and their motions are short.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _NO_PICKLE = PicklingError, AttributeError, TypeError, ValueError, RecursionErro
 
 
 class Crew:
-    """Those that run: `workers` threads, and a process for each if that saves time.
+    """Workers of the runs: `workers` threads, and a process for each if that saves time.
 
     `runs` is their number in all calls. A process that cannot do a run ends, and its thread does
     that run and all later ones: if a class is one of a notebook, which no other process can import;
@@ -46,7 +46,7 @@ class Crew:
     """
 
     pays = False
-    """Whether processes save enough time, by the first runs."""
+    """True if processes save enough time, by the first runs."""
 
     def __init__(self, workers: int | None, runs: int) -> None:
         self.workers = _processors() if workers is None else whole_steps("workers", workers)
@@ -69,7 +69,7 @@ class Crew:
         return process.row(place, runner, is_stopped) if process.is_ready() else None
 
     def note(self, beside: float) -> None:
-        """Take up the time of a run in a thread beside its loop [s]; judge by the first runs."""
+        """Add the time of a run in a thread beside its loop [s]; decide by the first runs."""
         with self._lock:
             self._noted += 1
             self._beside += beside / TRIED
@@ -85,7 +85,7 @@ class Crew:
 
 @contextmanager
 def crew_of(workers: Crew | int | None, runs: int) -> Generator[Crew, None, None]:
-    """Hold a crew for so many runs; one that is given stays at work."""
+    """Hold a crew for a number of runs; a given crew stays at work."""
     if isinstance(workers, Crew):
         yield workers
         return
@@ -104,7 +104,7 @@ class CrewWorker:
         self._own, self._is_used = runner.worker(is_stopped), False
 
     def row(self, place: int) -> RunResult | None:
-        """Run a case; None where it was stopped."""
+        """Run a case; None if it was stopped."""
         row: RunResult | None = self._crew.row(self._k, place, self._runner, self._is_stopped)
         if row is not None or self._is_stopped():
             return row
@@ -113,12 +113,12 @@ class CrewWorker:
         if row is not None and self._is_used:
             loop = row.numbers.get("seconds_loop", 0.0) / (perf_counter() - began)
             self._crew.note((thread_time() - spent) * (1.0 - loop))
-        self._is_used = True  # its first run sets up what the others share
+        self._is_used = True  # its first run sets up the common data
         return row
 
 
 class ChildProcess:
-    """A process that runs what is sent, and the batch that it is at."""
+    """A process that runs cases, and its current batch."""
 
     def __init__(self, layouts: dict[str, Layout]) -> None:
         # silent: if it cannot do a run, its thread does, and says why
@@ -159,7 +159,7 @@ class ChildProcess:
         return done
 
     def _is_heard(self, wait: float) -> bool:
-        # Whether there is a message, or the process has ended, which is found when it is received.
+        # True if there is a message, or the process has ended, which shows on receipt.
         try:
             return self.pipe.poll(wait)
         except OSError:
@@ -173,7 +173,7 @@ class ChildProcess:
             return None
 
     def end(self) -> None:
-        """End it, whatever it does."""
+        """End it in any state."""
         self.serves = False
         self.pipe.close()
         self._process.kill()
@@ -181,14 +181,14 @@ class ChildProcess:
 
 
 def _processors() -> int:
-    # Those that this process may use.
+    # Processors that this process may use.
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def _serve(pipe: Connection) -> None:
-    # Run what is sent. A layout is sent when it changes, its digest with each row.
+    # Run the received cases. A layout is sent when it changes, its digest with each row.
     pipe.send("ready")
     layout, digest = None, ""
     with ExitStack() as threads:

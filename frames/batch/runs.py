@@ -1,4 +1,4 @@
-"""Runs as rows: tags say of what each row is, whatever asked for it."""
+"""Runs as rows: tags identify each row for all users of them."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ if TYPE_CHECKING:
     from frames._types import BoolArray
 
 TAGS = DEVICE, HAZARD, BOUND, MASS_SHIFT = "device", "hazard_level", "bound", "mass_shift"
-"""Tags of a run beside its model, motion and scale: bearings in a comparison, level of the seismic
-action, bound of the properties, way in which masses were moved. Each is a coordinate along `run`;
-one that is not there is "" of all runs."""
+"""Tags of a run besides its model, motion and scale: bearings in a comparison, level of the seismic
+action, bound of the properties, direction of moved masses. Each is a coordinate along `run`; a
+missing one is "" for all runs.
+"""
 
 
 class Rows(ABC):
@@ -47,8 +48,8 @@ class Runs(Rows):
     Parameters
     ----------
     *parts : xarray.Dataset
-        Of `time_histories`, with tags as coordinates along `run`. They stay as they are: batches of
-        other steps or nodes stand beside one another.
+        Results of `time_histories`, with tags as coordinates along `run`. They are not merged:
+        batches may differ in steps or nodes.
 
     Examples
     --------
@@ -95,7 +96,7 @@ class Runs(Rows):
 
     @property
     def centred(self) -> Runs:
-        """The rows with the masses where they are."""
+        """The rows with the masses in place."""
         return self.those(self.of(MASS_SHIFT) == "")
 
     @property

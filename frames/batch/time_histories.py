@@ -63,8 +63,8 @@ def time_histories(
 ) -> xr.Dataset:
     """Analyse structures under many ground motions and scales, on all processors.
 
-    Each run gives the numbers that `time_history` gives of it, whatever the number of workers. A
-    structure is assembled and brought into equilibrium once for all of its runs.
+    Each run gives the numbers of `time_history`, for any number of workers. A structure is
+    assembled and brought into equilibrium once for all of its runs.
 
     Parameters
     ----------
@@ -75,13 +75,13 @@ def time_histories(
     scales : float or sequence of float, optional
         Factors on the motions [-]; 1 if None.
     cases : sequence of (str, str, float), optional
-        Runs by name of model, name of motion, and scale, in place of all combinations of models,
-        motions and scales: such as motions that are scaled each by a factor of its own.
+        Runs by name of model, name of motion, and scale, instead of all combinations of models,
+        motions and scales: for example motions with a factor each.
     duration, dt, level, method, integrator, spectral_radius, tolerance, features
-        As for `time_history`, the same for all runs. `duration` None: each motion's own. The
-        levels "auto" and "rigid_body" are those of single runs.
+        As for `time_history`, the same for all runs. `duration` None: each motion's own. The levels
+        "auto" and "rigid_body" are those of single runs.
     record : {None, "peaks"} or Recording
-        Besides what every run reached, which is kept always: histories, as `Recording` says.
+        Histories to keep besides the peaks of every run, as a `Recording`.
     workers : int, optional
         Runs at a time, each in a thread: the compiled loops do not hold each other up. None: as
         many as the process has processors. If the first runs show that set-up and judging of the
@@ -89,18 +89,18 @@ def time_histories(
     progress : callable or bool, optional
         Called with a `BatchProgress` after each run; True writes it to the standard error.
     resume : str or path, optional
-        Folder that keeps each run as it completes, and from which runs are taken that were complete
-        before: those of the same model, motion, scale, options, version and sources. What comes out
-        is what an undisturbed batch gives. The folder stays; its files are of no other use.
+        Folder that keeps each run as it completes, and from which complete runs are read: those of
+        the same model, motion, scale, options, version and sources. The result is that of an
+        undisturbed batch. The folder stays; its files have no other use.
 
     Returns
     -------
     xarray.Dataset
         A row a run along `run`, in the order models, motions, scales (the last change first) or
         that of the cases; `model`, `motion` and `scale` are coordinates. See docs/recording.md. A
-        run that stopped early is a row like the others, with its `status` and `message`; what it
-        reached is until then. Two warnings at most tell how many runs stopped or are inaccurate,
-        and in how many the assumption check marks something.
+        run that stopped early is a row like the others, with its `status` and `message`, and its
+        peaks until then. Two warnings at most give the number of runs that stopped or are
+        inaccurate, and the number with findings of the assumption check.
 
     Raises
     ------
@@ -250,7 +250,7 @@ def _all(
         finally:
             stop.set()
     for future in futures:
-        future.result()  # raises what ended a worker
+        future.result()  # raises the error that ended a worker
     while not results.empty():
         late = results.get()
         if late is not None:
@@ -293,7 +293,7 @@ def _recording_of(record: object) -> Recording | None:
 def _warn_of_motions(
     models: Mapping[str, FrameData], motions: Mapping[str, GroundMotion], runs: Sequence[Case]
 ) -> None:
-    # What is strange about a motion under a structure, once for all of them.
+    # Warnings about a motion under a structure, once for all of them.
     found = [
         (case, doubt)
         for case in runs
@@ -306,7 +306,7 @@ def _warn_of_motions(
 
 
 def _warn_of_runs(rows: Sequence[RunResult]) -> None:
-    # How many runs did not end well, and how many are to be looked at.
+    # Number of runs that did not end well, and number that need attention.
     ill = sorted((row for row in rows if row.status != RunStatus.OK.name.lower()), key=_place)
     if ill:
         kinds = Counter(row.status for row in ill)

@@ -25,28 +25,29 @@ from lir_element.argument_checks import require_choice
 from lir_element.texts import worded
 
 Source: TypeAlias = int | PathLike | tuple[PathLike, int]
-"""Where a component is: a column of the common file, a file, or a column of a file."""
+"""Source of a component: a column of the common file, a file, or a column of a file."""
 
 TIME_TOLERANCE = 0.02
-"""How far a printed time may lie off the even grid, as a part of the step [-]: times are rounded,
-while a sample that is missing puts every later one off by a whole step."""
+"""Tolerance of a printed time from the even grid, over the step [-]: times are rounded, while a
+missing sample shifts every later one by a whole step.
+"""
 
 UNITS = ("g", "m/s2", "cm/s2", "gal", "mm/s2", "g/10")
 """Units of the accelerations in a file."""
 
 ORDERS = ("columns", "rows", "pairs")
-"""How the numbers of a file follow one another."""
+"""Order of the numbers in a file."""
 
 
 class ColumnLayout(NamedTuple):
-    """How a text file of numbers is written."""
+    """Layout of a text file of numbers."""
 
     unit: str  # unit of the accelerations, one of `UNITS`
     time: int | None = None  # column of the times [s], counted from 0; they must be evenly spaced
     dt: float | None = None  # time step [s] of a file without times
     skip: int = 0  # number of header lines that no comment sign marks
     comments: str = "#"
-    delimiter: str | None = None  # what separates the numbers; None for white space, or semicolons
+    delimiter: str | None = None  # separator of the numbers; None for white space, or semicolons
     # a history down each column, one history row by row, or times and values in turn
     order: str = "columns"
     decimal: str = "."  # the decimal sign
@@ -116,7 +117,7 @@ def _one_history(
 
 
 def source_file(axis: str, source: Source, common: PathLike | None) -> tuple[PathLike, int | None]:
-    """Return file and column of one component; the column is None where only a file is named."""
+    """Return file and column of one component; the column is None if only a file is named."""
     if isinstance(source, tuple):
         return source
     if not isinstance(source, int):
@@ -142,7 +143,7 @@ def column_traces(
 
 
 def _writing(layout: ColumnLayout, lines: Lines) -> Writing:
-    """Return how numbers are written: where semicolons separate them, commas may be decimal."""
+    """Return the notation of numbers: commas may be decimal if semicolons separate them."""
     comma = layout.delimiter == ";" or (layout.delimiter is None and ";" in lines[0][1])
     return Writing(layout.delimiter, "," if comma else layout.decimal, layout.width)
 

@@ -1,4 +1,4 @@
-"""The formats of networks as a table: how a file is recognised, and where its header has what."""
+"""The formats of networks as a table: how to recognise a file, and the items of its header."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Format(NamedTuple):
     peak_unit: str = ""
     # "rows", "pairs" (of time and value), "columns", or "rows or pairs" by their number
     order: str = "rows"
-    # characters of a number where numbers touch; 0 if the header says so or they do not touch
+    # characters of a number if numbers touch; 0 if the header has it or they do not touch
     width: int = 0
     mean: bool = False  # whether the mean is taken off: raw counts about an offset
     whole: bool = True  # whether the numbers run to the end of the file, or of the part
@@ -161,4 +161,4 @@ FORMATS = (
         width=10,
     ),
 )
-"""Formats that are read by name, beside PEER AT2."""
+"""Formats that are read by name, besides PEER AT2."""

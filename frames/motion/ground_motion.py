@@ -51,8 +51,8 @@ class GroundMotion(RecordedMotion):
     -----
     MotionWarning
         If the ground still moves at the end of a component of 8 s or more that has faded by then:
-        its velocity is above 15 % of its peak. What ends at full strength, as a sine that was cut,
-        is taken to be meant; of files every record is looked at.
+        its velocity is above 15 % of its peak. A motion that ends at full strength, as a sine that
+        was cut, counts as intended; of files every record is checked.
 
     Examples
     --------
@@ -124,10 +124,10 @@ class GroundMotion(RecordedMotion):
     def resampled(self, dt: float) -> GroundMotion:
         """Return the motion at another time step, by linear interpolation.
 
-        The time integration, too, takes the acceleration as linear between samples: a step that
-        divides the old one changes nothing but the number of samples. A longer step loses peaks
-        and folds high frequencies down, as no filter is applied. What is left of the last step,
-        if the duration is not a multiple of `dt`, is cut off.
+        The time integration, too, assumes a linear acceleration between samples: a step that
+        divides the old one changes nothing but the number of samples. A longer step loses peaks and
+        aliases high frequencies, because no filter is applied. The rest of the last step, if the
+        duration is not a multiple of `dt`, is cut off.
 
         Parameters
         ----------
@@ -201,13 +201,13 @@ class GroundMotion(RecordedMotion):
     def corrected(self, *, displacement: bool = True) -> GroundMotion:
         """Return the motion with its baseline corrected: the ground is at rest at its end.
 
-        The smallest acceleration that does so, a straight line in time, is taken off each
-        component (`frames.motion.transforms`). The name tells by how much the peaks changed.
+        The smallest sufficient acceleration, a straight line in time, is subtracted from each
+        component (`frames.motion.transforms`). The name has the change of the peaks.
 
         Parameters
         ----------
         displacement : bool
-            Whether the displacement at the end shall vanish, too. False keeps it free, for records
+            True if the displacement at the end must vanish, too. False keeps it free, for records
             with a permanent displacement of the ground.
 
         Returns

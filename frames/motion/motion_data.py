@@ -1,4 +1,4 @@
-"""What a ground motion holds, checked and read-only; `GroundMotion` adds the verbs."""
+"""Data of a ground motion, checked and read-only; `GroundMotion` adds the operations."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class MotionData:
     def _with(
         self, arrays: Mapping[str, FloatArray], dt: float | None = None, name: str | None = None
     ) -> Self:
-        """Return a motion with other components, and the same step and name where none is given."""
+        """Return a motion with other components, by default with the same step and name."""
         x, y, z = (arrays.get(axis) for axis in AXES)
         step = self.dt if dt is None else dt
         return self._made(x, y, z, step, self.name if name is None else name)
@@ -110,25 +110,25 @@ class MotionData:
 
     @property
     def components(self) -> FloatArray:
-        """Accelerations along x, y, z [m/s2], shape (n_steps, 3), contiguous; zeros where none."""
+        """Accelerations along x, y, z [m/s2], shape (n_steps, 3), contiguous; zeros if missing."""
         columns = np.zeros((self.n_steps, 3))
         for axis, values in self._given().items():
             columns[:, AXES.index(axis)] = values
         return columns
 
     def summary(self) -> str:
-        """Return a few lines about the motion, for people.
+        """Return a printed summary of the motion.
 
         Returns
         -------
         str
-            Name, samples, peaks of each component, and what is left at its end.
+            Name, samples, peaks of each component, and residual velocity and displacement.
         """
         lines = [self.name or "ground motion"]
         return "\n".join(lines + [f"  {what}: {value}" for what, value in self.facts().items()])
 
     def facts(self) -> dict[str, str]:
-        """Return size, peaks and what is left at the end, in words by name."""
+        """Return size, peaks and residual motion at the end, in words by name."""
         return facts_of(self._given(), self.dt)
 
     def _repr_html_(self) -> str:

@@ -1,7 +1,7 @@
 """Numbers in text as files of records have them: in columns, row by row, in pairs, in widths.
 
-What cannot be read is refused by its cause: numbers that touch, a line of text, decimal commas, a
-short row, a binary file. Each message ends in the option that reads the file, or in the repair.
+A text without numbers is refused by its cause: numbers that touch, a line of text, decimal commas,
+a short row, a binary file. Each message ends in the option that reads the file, or in the repair.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ Lines = Sequence[tuple[int, str]]
 
 
 class Writing(NamedTuple):
-    """How numbers are written in a line."""
+    """Notation of the numbers in a line."""
 
-    # what separates them; None for white space, or semicolons where there are some
+    # their separator; None for white space, or semicolons if there are some
     delimiter: str | None = None
     decimal: str = "."  # the decimal sign, "." or ","
     # characters of each number, of files without separators; None if they are separated
@@ -52,7 +52,7 @@ class Writing(NamedTuple):
 
 
 def acceleration_unit(text: str) -> float | None:
-    """Return what one of a unit of acceleration is in m/s2, None if it is not known."""
+    """Return the size of a unit of acceleration [m/s2], None if it is unknown."""
     plain = re.sub(r"[\s()\[\]{}*^'\"]|\.$", "", text.lower().replace("\u00b2", "2"))
     plain = plain.replace("sec", "s").replace("/s/s", "/s2")
     return _UNITS.get(plain)
@@ -131,7 +131,7 @@ def table_of(name: str, lines: Lines, writing: Writing) -> FloatArray:
 
 
 def _cause(name: str, lines: Lines, at: int, where: int, writing: Writing) -> str:
-    """Say why a line is not numbers, and what reads the file."""
+    """Return the reason that a line is not numbers, and the option that reads the file."""
     line = lines[at][1]
     texts = fields(line, writing)
     bad = next((text for text in texts if not _is_number(text, writing)), line.strip())
@@ -189,11 +189,11 @@ def _fitting_width(lines: Sequence[str]) -> int | None:
 
 
 def likely_order(table: FloatArray) -> str:
-    """Return whether a table seems to be columns, or one history written row by row.
+    """Return the likely order of a table: columns, or one history written row by row.
 
-    Along a history neighbours are alike. If the numbers of a row follow one another, and the next
-    row continues its end, steps along rows are small beside those down a column; of components in
-    columns it is the other way.
+    Along a history neighbours are close. If the numbers of a row follow one another, and the next
+    row continues its end, steps along rows are small beside those down a column; for components in
+    columns it is the opposite.
 
     Shapes: table (rows, columns).
     """

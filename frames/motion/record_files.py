@@ -32,12 +32,12 @@ _LOOKED_AT = 60
 
 _LENGTH_TOLERANCE = 0.05  # of a duration, which headers round
 _PEAK_TOLERANCE = 0.02
-"""How far the samples may miss the peak that the header names [-]."""
+"""Tolerance of the samples to the peak in the header [-]."""
 
 _KIK_NET = {"1": "NS1", "2": "EW1", "3": "UD1", "4": "NS", "5": "EW", "6": "UD"}
 _TEXT = re.compile(r"[A-CF-Za-cf-z/]")
 _NOTHING = 1e38
-"""What SMC writes where it has no number is larger."""
+"""SMC writes a larger value for a missing number."""
 
 
 def format_of(lines: Sequence[str]) -> Format | None:
@@ -141,7 +141,7 @@ def _header(form: Format, head: list[str]) -> dict[str, float]:
 
 
 def _smc(head: list[str]) -> dict[str, float]:
-    """Return what the numbers of a header of SMC say: 48 whole ones, and 50 others."""
+    """Return the numbers of a header of SMC by name: 48 whole ones, and 50 others."""
     whole = [int(line[k : k + 10]) for line in head[11:17] for k in range(0, 80, 10)]
     reals = [float(line[k : k + 15]) for line in head[17:27] for k in range(0, 75, 15)]
     pairs = reals[1] > _NOTHING  # digitised from film: no samples a second
@@ -160,7 +160,7 @@ def _directions(form: Format, text: str) -> list[str]:
 
 
 def _factor(name: str, form: Format, text: str) -> float:
-    """Return what one of the unit of the numbers is in m/s2."""
+    """Return the size of the numbers' unit [m/s2]."""
     match = _found(form.unit, text.splitlines()[-1]) or _found(form.unit, text)
     if match is None and not form.fixed_unit:
         msg = f"{name}: the header of {form.name} names no unit: fetch the file again"
@@ -334,7 +334,7 @@ class Component(NamedTuple):
 
     @property
     def vertical(self) -> bool:
-        """Whether it is vertical."""
+        """True if it is vertical."""
         return _VERTICAL.fullmatch(plain_direction(self.direction)) is not None
 
     @property

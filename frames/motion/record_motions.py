@@ -64,7 +64,7 @@ class RecordedMotion(MotionData):
         MotionWarning
             If the ground still moves at the end of a component, its time step gives it
             displacements that no ground has, it was cut in its strong phase, it is stronger than
-            all that was recorded, or x and y are one history.
+            all recorded motions, or x and y are one history.
         """
         traces, label = at2_traces(x, y, z)
         return cls.from_traces(traces, label if name is None else name, scale)
@@ -89,8 +89,8 @@ class RecordedMotion(MotionData):
         *paths : str or path
             The files of one record: one with all components, or one for each.
         x, y, z : str, optional
-            Directions as the files name them, such as "90 Deg" or "N-S". Without any, x and y are
-            the horizontal components in the order of the files; z is the vertical one, turned up.
+            Names of directions in the files, such as "90 Deg" or "N-S". By default x and y are the
+            horizontal components in the order of the files; z is the vertical one, turned up.
         scale : float or sequence of three
             Factor on all components, or one for each [-].
         name : str, optional
@@ -110,7 +110,7 @@ class RecordedMotion(MotionData):
         Warns
         -----
         MotionWarning
-            As for `from_at2`; and if the samples miss the peak that a header names.
+            As for `from_at2`; and if the samples miss the peak in the header.
 
         Examples
         --------
@@ -150,7 +150,7 @@ class RecordedMotion(MotionData):
         path : str or path, optional
             The file that column numbers refer to.
         x, y, z : int, str, path or (path, int), optional
-            Where each component is: a column of `path`, counted from 0; a file of its own, with
+            Source of each component: a column of `path`, counted from 0; a file of its own, with
             one column besides the times; or a file and its column.
         unit : {"g", "m/s2", "cm/s2", "gal", "mm/s2", "g/10"}
             Unit of the accelerations in the files.
@@ -163,18 +163,18 @@ class RecordedMotion(MotionData):
         skip : int
             Number of header lines that no comment sign marks.
         comments : str
-            What starts a comment.
+            Character at the start of a comment.
         delimiter : str, optional
-            What separates the numbers; white space, or semicolons where there are some, if left
-            out. Beside semicolons a comma is the decimal sign.
+            Separator of the numbers; white space, or semicolons if there are some, if left out.
+            With semicolons a comma is the decimal sign.
         order : {"columns", "rows", "pairs"}
-            How the numbers follow one another: a history down each column; one history row by row,
-            several values a line; or times and values in turn, several pairs a line. A file of
-            the last two is one component, and the latter needs neither `time` nor `dt`.
+            Order of the numbers: a history down each column; one history row by row, several values
+            a line; or times and values in turn, several pairs a line. A file of the last two is one
+            component, and the latter needs neither `time` nor `dt`.
         decimal : {".", ","}
             The decimal sign.
         width : int, optional
-            Characters of each number where they may touch, as in "-9.643590-13.350390" (10).
+            Characters of each number if they may touch, as in "-9.643590-13.350390" (10).
         name : str, optional
             Name of the motion; the first file's name if left out.
 
@@ -191,7 +191,7 @@ class RecordedMotion(MotionData):
         Warns
         -----
         MotionWarning
-            As for `from_at2`; and if the numbers seem to follow one another in another order.
+            As for `from_at2`; and if the numbers seem to be in another order.
 
         Examples
         --------
@@ -215,7 +215,7 @@ class RecordedMotion(MotionData):
         name: str = "",
         scale: float | Sequence[float] = 1.0,
     ) -> Self:
-        """Join components that were read from files, and look at them as records.
+        """Join components read from files, and check them as records.
 
         Parameters
         ----------
@@ -272,7 +272,7 @@ LAST_PART, LARGEST_END = 0.05, 0.02
 
 
 def record_doubts(given: Mapping[str, FloatArray], dt: float) -> tuple[str, ...]:
-    """Return what is strange about a record, a sentence for each thing; nothing for usual ones."""
+    """Return the unusual properties of a record, a sentence for each; nothing for usual ones."""
     length = (max(len(values) for values in given.values()) - 1) * dt
     flat = {axis: values for axis, values in given.items() if axis != "z" and values.any()}
     found = _of_peak(given)
@@ -310,7 +310,7 @@ def _of_components(flat: Mapping[str, FloatArray]) -> list[str]:
 def _of_step(flat: Mapping[str, FloatArray], dt: float) -> list[str]:
     for axis, values in flat.items():
         peak = float(np.abs(values).max())
-        left = drift_of(corrected(values, dt, displacement=True), dt)  # its baseline is told of
+        left = drift_of(corrected(values, dt, displacement=True), dt)  # its baseline has a warning
         ratio = left.peak_velocity / peak
         displaced = left.peak_displacement > LARGEST_DISPLACEMENT
         if USUAL_RATIO[0] <= ratio <= USUAL_RATIO[1] and not displaced:

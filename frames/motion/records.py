@@ -1,6 +1,6 @@
 """Records as components: samples with their step, PEER AT2 files, steps that components share.
 
-Readers return an `AccelerationTrace` in m/s2 and refuse what does not add up (a truncated file, an
+Readers return an `AccelerationTrace` in m/s2 and refuse inconsistent files (a truncated file, an
 unknown unit) with a message that names the file, the value and the remedy.
 """
 
@@ -55,10 +55,10 @@ class AccelerationTrace(NamedTuple):
 def read_at2(path: PathLike) -> AccelerationTrace:
     """Read one component from a PEER AT2 file.
 
-    Four header lines, then the values. Line 4 holds the number of points and the time step, as
-    ``NPTS=  4000, DT=   .0050 SEC`` or as ``4000  0.005  NPTS, DT``. The unit is the one that
-    line 3 names (g, cm/s2, gal, m/s2 or mm/s2), and g, the unit of the format, where it names none.
-    Zeros that fill the last line up are left out.
+    Four header lines, then the values. Line 4 has the number of points and the time step, as
+    ``NPTS=  4000, DT=   .0050 SEC`` or as ``4000  0.005  NPTS, DT``. The unit is the one in line 3
+    (g, cm/s2, gal, m/s2 or mm/s2), or g, the unit of the format, if it names none. Zeros that fill
+    the last line up are left out.
     """
     name = Path(path).name
     lines = text_lines(Path(path))
@@ -107,7 +107,7 @@ def at2_traces(
 
 
 def _at2_unit(name: str, line: str) -> float:
-    """Return the factor to m/s2 of the unit that header line 3 names (g where it names none)."""
+    """Return the factor to m/s2 of the unit in header line 3 (g if it names none)."""
     words = [word.strip(".'\"") for word in _PARTS.split(re.sub(r"\s*/\s*", "/", line)) if word]
     titles = [k for k, word in enumerate(words) if re.fullmatch(r"UNITS?", word, re.IGNORECASE)]
     if titles:
@@ -128,7 +128,7 @@ def _at2_unit(name: str, line: str) -> float:
 
 
 def _numbers(name: str, lines: list[str], first: int, points: int) -> FloatArray:
-    """Return all numbers from line `first` on, in reading order; `points` tells if they touch."""
+    """Return all numbers from line `first` on, in reading order; `points` shows if they touch."""
     try:
         return np.array(" ".join(lines[first:]).split(), dtype=np.float64)
     except ValueError:

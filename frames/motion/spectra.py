@@ -9,14 +9,14 @@ closed-form, the recursion of Nigam and Jennings (1969), Bull. Seism. Soc. Am. 5
 .. math:: q_{n+1} = e^{z} q_n + h\,(\varphi_1 - \varphi_2)\,a_n + h\,\varphi_2\,a_{n+1},
           \quad z = p h,\ \varphi_1 = (e^z - 1)/z,\ \varphi_2 = (\varphi_1 - 1)/z,
 
-which is what `scipy.signal.lfilter` runs. The peak is searched at `POINTS_PER_PERIOD` points or
-more of each period, and in the free vibration after the motion's end.
+as in `scipy.signal.lfilter`. The peak is searched at `POINTS_PER_PERIOD` points or more of each
+period, and in the free vibration after the motion's end.
 
-Why not a library: of those on the package index, eqsig 1.2 (exact recursion too) hands back the
-peak ground acceleration for every period below 6 dt (at T = 0.1 s of a record with dt = 0.02 s
-that is 28 % too low) and searches the peak at the samples only; pyrotd 0.6 works in the frequency
-domain, where the record's end runs into its beginning (17 % off at T = 8 s of a 40 s record), and
-does not import with a current setuptools.
+Why not a library: of those on the package index, eqsig 1.2 (exact recursion too) returns the peak
+ground acceleration for every period below 6 dt (at T = 0.1 s of a record with dt = 0.02 s that is
+28 % too low) and searches the peak at the samples only; pyrotd 0.6 works in the frequency domain,
+in which the record's end runs into its beginning (17 % off at T = 8 s of a 40 s record), and does
+not import with a current setuptools.
 """
 
 from __future__ import annotations

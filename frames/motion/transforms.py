@@ -1,4 +1,4 @@
-"""What changes a ground motion: from components by axis [m/s2] to new ones."""
+"""Operations on a ground motion: from components by axis [m/s2] to new ones."""
 
 from __future__ import annotations
 
@@ -121,21 +121,22 @@ LEAST_RECORD = 8.0
 """Duration from which a motion is a record, not a pulse, and its end is looked at [s]."""
 
 LAST_PART, QUIET, STEADY = 0.2, 0.3, 0.1
-"""Samples at the end that tell whether a motion has faded [-], and what their mean and their
-scatter are below then, over the peak acceleration [-]. One that ends at full strength was cut, or
-made so: where its velocity stands just then says nothing of a baseline."""
+"""Share of the samples at the end that decide if a motion has faded [-], and the limits of their
+mean and their scatter, over the peak acceleration [-]. A motion that ends at full strength was cut,
+or made so: its velocity at that point says nothing of a baseline.
+"""
 
 LARGEST_CHANGE = 0.05
 """Change of a peak acceleration by a correction above which it is refused [-]."""
 
 
 class Drift(NamedTuple):
-    """What is left of one component at its end.
+    """Residual motion of one component at its end.
 
     Attributes
     ----------
     velocity, displacement : float
-        Of the ground at the last sample [m/s], [m].
+        Velocity [m/s] and displacement [m] of the ground at the last sample.
     peak_velocity, peak_displacement : float
         Largest ones [m/s], [m].
     """
@@ -163,7 +164,7 @@ def integrated(acceleration: FloatArray, dt: float) -> tuple[FloatArray, FloatAr
 
 
 def drift_of(acceleration: FloatArray, dt: float) -> Drift:
-    """Return what is left of one component (n,) [m/s2] at its end."""
+    """Return the residual motion of one component (n,) [m/s2] at its end."""
     velocity, displacement = integrated(acceleration, dt)
     return Drift(
         velocity=float(velocity[-1]),
@@ -181,7 +182,7 @@ def has_faded(acceleration: FloatArray) -> bool:
 
 
 def left_at_end(given: Mapping[str, FloatArray], dt: float, *, recorded: bool) -> str:
-    """Say which components of a motion still move at its end, and how."""
+    """Return the components of a motion that still move at its end, and their motion, in words."""
     found = []
     for axis, values in given.items():
         if (len(values) - 1) * dt < LEAST_RECORD or not (recorded or has_faded(values)):

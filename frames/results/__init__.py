@@ -1,1 +1,1 @@
-"""What is read off a Dataset."""
+"""Derived results of a Dataset."""

@@ -1,6 +1,6 @@
-"""The check of modelling assumptions: whether what a run left out mattered, what it had was needed.
+"""The check of modelling assumptions: effects that a run left out, and those it needed.
 
-It reads the Dataset alone: what a run left out is judged by what the run itself reached.
+It reads the Dataset alone: the run's own peaks decide on an effect that it left out.
 """
 
 from __future__ import annotations
@@ -47,14 +47,15 @@ SMALL = {
     "pressure_dependence": 0.02,  # of friction
     "friction_heating": 0.02,  # of friction
 }
-"""What must not be exceeded by an effect that is left out."""
+"""Limits of an effect that is left out."""
 
 LOOSE_SLIP = 0.1
-"""Slip that loose sliders gained beyond what rims made them, over the largest slip, from which a
-run says so."""
+"""Slip of loose sliders beyond that imposed by rims, over the largest slip, above which it is
+reported.
+"""
 
 BARE = 0.02
-"""The same over the sliders' radius, below which nothing is said of it."""
+"""The same over the sliders' radius, below which it is not reported."""
 
 LOOSE_ERROR = 0.3
 """Share of that slip by which steps of 1 ms and 0.125 ms differ (docs/choices_time_step.md)."""
@@ -66,21 +67,21 @@ _ASKING = frozenset({"full_contact", "slip_stability"})
 
 
 def audit(data: xr.Dataset) -> Findings:
-    """Judge what a time history left out, and what of the rest it needed.
+    """Check the modelling assumptions of a time history.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history, also one that was saved and loaded.
+        Result of a time history, also one that was saved and loaded.
 
     Returns
     -------
     tuple of Finding
         One for each feature, in the order of `Features.names()`, one on full contact, one on the
-        stable limit of interface slip, where it applies one on rims that were met with a slip and
-        one on the yield displacement; of a structure with hinges one on how far they turned; one
-        on the sum of all forces, and where it applies one on nodes accelerated by more than 50 g
-        and one on the error of a step that was given.
+        stable limit of interface slip, if it applies one on rim contact with a slip and one on the
+        yield displacement; for a structure with hinges one on their rotation; one on the sum of all
+        forces, and if it applies one on nodes accelerated by more than 50 g and one on the error of
+        a given step.
 
     Raises
     ------
@@ -89,9 +90,9 @@ def audit(data: xr.Dataset) -> Findings:
 
     Notes
     -----
-    A recording that leaves steps or variables out (`Recording`) keeps what was reached at all
-    steps, so that nothing is missed; with ``level="rigid_body"`` and `record_every` alone only the
-    recorded steps are seen.
+    A recording that leaves steps or variables out (`Recording`) keeps the peaks of all steps, so
+    that nothing is missed; with ``level="rigid_body"`` and `record_every` alone only the recorded
+    steps are seen.
 
     Examples
     --------
@@ -126,13 +127,13 @@ def audit_report(data: xr.Dataset) -> str:
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history.
+        Result of a time history.
 
     Returns
     -------
     str
-        Lines that begin with "!" tell of something left out that mattered, or of a slip that the
-        interface may not hold.
+        Lines that begin with "!" report an omitted effect that mattered, or a slip beyond the
+        stable limit.
 
     Examples
     --------
@@ -214,9 +215,9 @@ def _interface(data: xr.Dataset, out: bool) -> Finding:
 
 
 def _loose_slip(data: xr.Dataset) -> str:
-    # What sliders slipped while next to nothing pressed them, beyond what the rims made them slip:
-    # that is given by the displacement, on whatever the sliders did. Without mass, at the level
-    # "pendulum", they slip no further.
+    # Slip of sliders under almost no load, beyond the slip that the rims impose. The displacement
+    # gives the latter for any motion of the sliders. Without mass, at the level "pendulum", they
+    # slip no further.
     bodies = np.array(levels_of_bearings(data)) != "pendulum"
     if not bodies.any():
         return ""

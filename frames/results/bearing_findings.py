@@ -1,4 +1,4 @@
-"""What the assumption check finds on bearings: full contact, slip that holds, impacts, friction."""
+"""Findings of the assumption check on bearings: full contact, stable slip, impacts, friction."""
 
 from __future__ import annotations
 
@@ -35,7 +35,9 @@ EDGE = 0.5
 """Eccentricity over slider radius beyond which one edge carries nearly all."""
 
 IMPACT = 0.2
-"""Rise of the axial force over that at rest, where a rim is met with a slip, that is told."""
+"""Rise of the axial force over that at rest, at rim contact with a slip, above which it is
+reported.
+"""
 
 COMPLETE = ("ok", "bearing_lost")
 """Ends of runs that went on to the end of their motion."""
@@ -48,11 +50,11 @@ SLID = 20.0
 """Largest displacement over the yield displacement from which on a bearing has slid."""
 
 LEFT_OVER = 0.1
-"""Displacement at the end over the one that friction holds, L Q/W, from which it is told."""
+"""Displacement at the end over the one that friction holds, L Q/W, above which it is reported."""
 
 
 def full_contact(data: xr.Dataset) -> Finding:
-    """Judge what the level 'pendulum' takes for granted: full contact, sliders that do not spin."""
+    """Check the assumptions of the level 'pendulum': full contact, sliders that do not spin."""
     offsets = largest(data, "eccentricity").values
     names = names_of(data, "bearing")
     share = float(offsets.max())
@@ -145,8 +147,8 @@ def slip_stability(data: xr.Dataset) -> Finding:
 
 def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
     """Judge whether rims were met with a slip."""
-    # docs/theory.md (2.9): what the axial stiffness makes of the closing speed; of the first
-    # contact, whose slip is none, and of files from before there is nothing to say.
+    # docs/theory.md (2.9): force from the axial stiffness and the closing speed. The first contact
+    # is without slip, and old files lack the stiffness: no finding.
     if "axial_stiffness" not in data.variables:
         return ()
     closing = largest(data, "closing")
@@ -183,8 +185,8 @@ def met_with_slip(data: xr.Dataset) -> tuple[Finding, ...]:
 
 def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
     """Judge whether elastic sliding before slip counts."""
-    # Up to L Q/W friction holds a bearing wherever it stops: what is reached there goes by all
-    # that the motion did before (docs/limits.md).
+    # Up to L Q/W friction holds a bearing at any place: a displacement in that range depends on the
+    # whole earlier motion (docs/limits.md).
     if "yield_displacement" not in data.variables:
         return ()
     rubbed = [data.variables[name].transpose("bearing", ...) for name in ("friction_max", "radius")]
@@ -227,8 +229,9 @@ def held_by_friction(data: xr.Dataset) -> tuple[Finding, ...]:
 
 BALANCED = 2e-3
 """Sum of all forces over the weight, of moments over weight times half the structure's extent, up
-to which a run is in equilibrium: ordinary runs keep 1e-6 of forces, and 1e-4 of moments: damping
-by modes does not know what axial forces turn (docs/theory.md, 5)."""
+to which a run is in equilibrium. Ordinary runs keep 1e-6 of forces and 1e-4 of moments: modal
+damping does not include the rotations by axial forces (docs/theory.md, 5).
+"""
 
 ROUGH = 0.05
 """Estimated error of a given step over the displacement reached from which on a run says so."""

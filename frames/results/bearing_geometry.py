@@ -1,4 +1,4 @@
-"""Where the bodies of a bearing are: numbers for drawing its vertical section to scale.
+"""Positions of a bearing's bodies: numbers for drawing its vertical section to scale.
 
 Everything lies in one vertical plane through the bottom plate's axis; a point is (horizontal,
 vertical), in m, from the vertex of the bottom concave surface. Displacements across that plane
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 _ARC_POINTS = 121
 RIM_SHARE = 0.5
-"""Height of the rims over the one that is free for them, where none is given: a proposal."""
+"""Default height of the rims over the free height: a proposal."""
 BODIES = ("bottom plate", "bottom slider", "top slider", "top plate")
 
 
@@ -48,7 +48,7 @@ class Geometry(Protocol):
 
     @property
     def is_dcfp(self) -> bool:
-        """Whether the slider is rigid."""
+        """True if the slider is rigid."""
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ def rim_gap(bearing: Geometry, now: Posture, surface: int) -> float:
 def rim_height(bearing: Geometry) -> float:
     """Return a height of the rims over the plates' edges that leaves all bodies free [m].
 
-    The model does not know it: this one is a proposal.
+    The model does not contain it: this one is a proposal.
     """
     faces = [rim_face(bearing, k) for k in (0, 1)]
     if not all(math.isfinite(face) for face in faces):
@@ -166,7 +166,7 @@ class Plates(NamedTuple):
 
 
 def pictured(bearing: Geometry) -> Plates:
-    """Return plates for a picture, where nobody has proportioned them."""
+    """Return plates for a picture, with default proportions."""
     height = bearing.slider_height
     return Plates((0.35 * height, 0.35 * height), 0.3 * height, rim_height(bearing))
 
@@ -194,7 +194,7 @@ def outlines(
 
 
 def surface_reach(data: xr.Dataset, bearing: Geometry) -> float:
-    """Return half the width of the concave surfaces as drawn [m], also where there are no rims."""
+    """Return half the width of the concave surfaces as drawn [m], also without rims."""
     face = max(rim_face(bearing, 0), rim_face(bearing, 1))
     if math.isfinite(face):
         return face
@@ -286,8 +286,8 @@ class Movement(NamedTuple):
     axis: FloatArray  # (n_steps, 3) unit vectors of the slider n and of the top plate e_j, upwards
     plate_axis: FloatArray  # (n_steps, 3)
     slip: FloatArray  # (n_steps, 3) interface slip of the top slider on the bottom one [m]
-    # (n_steps, 3) where the top plate of a bearing that has lifted is, against its place on the
-    # slider [m]; 0 where the contact is closed
+    # (n_steps, 3) place of the top plate of a bearing that has lifted, relative to its place on the
+    # slider [m]; 0 if the contact is closed
     opening: FloatArray
 
     @property
@@ -309,13 +309,12 @@ def slider_axis(data: xr.Dataset, bearing: Geometry, name: str) -> FloatArray:
 
 
 def movement(data: xr.Dataset, bearing: Geometry, name: str) -> Movement:
-    """Return how the bodies of a bearing move.
+    """Return the motion of a bearing's bodies.
 
     In contact the centres of the spheres are ``c = C2 - C1 = -L n + s`` apart (docs/theory.md,
-    section 1). What a bearing that carries nothing has opened is the difference of c, by the
-    nodes' displacements and rotations, from that: what is recorded as sliding on its top surface
-    is not between surfaces that touch. Where rotations of its nodes were not recorded its plates
-    count as parallel.
+    section 1). The opening of an unloaded bearing is the difference between that and the c of the
+    nodes' displacements and rotations: the recorded sliding on its top surface is not between
+    touching surfaces. If rotations of its nodes were not recorded, its plates count as parallel.
     """
     own = data.sel(bearing=name)
     axis = slider_axis(data, bearing, name)

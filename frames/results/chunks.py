@@ -1,4 +1,4 @@
-"""Runs in chunks: a file of numpy's format each, whole or not there, read where it is used."""
+"""Runs in chunks: a file of numpy's format each, whole or not there, read on use."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _DAMAGE = (OSError, ValueError, LookupError, TypeError, EOFError, BadZipFile, zl
 
 
 def write_chunk(path: Path, data: xr.Dataset, *, compress: bool = False, **marks: Any) -> None:
-    """Write runs and marks on them, in one move; attributes and marks are what JSON takes."""
+    """Write runs and marks on them, in one move; attributes and marks must be valid JSON."""
     arrays: dict[str, Any] = {}
     told: dict[str, Any] = {}
     for name, variable in data.variables.items():
@@ -62,7 +62,7 @@ def load_chunk(
 ) -> xr.Dataset:
     """Return the runs of a chunk, with its marks as `encoding`.
 
-    Lazy: numbers along `run` are read where they are used.
+    Lazy: numbers along `run` are read on use.
     """
     data: dict[str, xr.Variable] = {}
     labels: dict[str, xr.Variable] = {}
@@ -98,7 +98,7 @@ class Rows(BackendArray):
         return np.dtype(np.float64 if self.kind == "f" else object)
 
     def unread(self) -> Any:
-        """Return it for a Dataset, which reads it where it is used."""
+        """Return a Dataset's lazy array, which reads it on use."""
         return indexing.LazilyIndexedArray(self)
 
     def __getitem__(self, key: Any) -> Any:
@@ -132,7 +132,7 @@ def _outer(values: Any, key: tuple[Any, ...]) -> Any:
 
 @contextmanager
 def _opened(path: Path, error: type[ValueError]) -> Generator[Any, None, None]:
-    # The arrays of a chunk by name; errors, whatever kind of damage is found, in one.
+    # The arrays of a chunk by name; any kind of damage is one error.
     try:
         with path.open("rb") as content, np.load(content) as file:
             if (name := str(file[_NAME])) != path.name:

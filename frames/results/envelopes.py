@@ -1,4 +1,4 @@
-"""Tables of what was reached: envelopes of variables, ductility of what yields."""
+"""Tables of peaks: envelopes of variables, ductility of yielding parts."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ _LONGEST_SHEET = 31  # characters that Excel allows in the name of a sheet
 
 
 EXTREMES = ("largest", "time_of_largest", "smallest", "time_of_smallest")
-"""Variables of an envelope; a recording adds the name of what they are of: `largest_energy`."""
+"""Variables of an envelope; a recording adds the name of the quantity: `largest_energy`."""
 
 
 def envelope(values: xr.DataArray | xr.Dataset, variable: str | None = None) -> xr.Dataset:
-    """Return the extremes of a history and when they are reached.
+    """Return the extremes of a history and their times [units of the values, s].
 
     Parameters
     ----------
     values : xarray.DataArray or xarray.Dataset
-        With the dimension `time`, such as `member_forces` gives: of the steps that it holds. Or
-        the Dataset of a time history, with the name of a variable: of all steps of the run where
-        the recording kept extremes (`Recording`), else of those that it holds.
+        With the dimension `time`, as from `member_forces`: of its steps. Or the Dataset of a time
+        history, with the name of a variable: of all steps of the run if the recording kept extremes
+        (`Recording`), else of its steps.
     variable : str, optional
         Name of the variable of a Dataset.
 
@@ -42,7 +42,7 @@ def envelope(values: xr.DataArray | xr.Dataset, variable: str | None = None) -> 
     -------
     xarray.Dataset
         `largest`, `time_of_largest`, `smallest` and `time_of_smallest` [units of the values, s]
-        over the other dimensions; NaN where the history is. Its `to_dataframe()` is a table.
+        over the other dimensions; NaN if the history is NaN. Its `to_dataframe()` is a table.
 
     Raises
     ------
@@ -105,12 +105,12 @@ def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:
     Parameters
     ----------
     tables : mapping of str to pandas.DataFrame
-        Tables by name, such as `force_tables` gives; also what has a `to_dataframe()`, such as a
+        Tables by name, as from `force_tables`; also objects with `to_dataframe()`, such as a
         fragility curve, a rate or an incremental analysis.
     path : str or Path
-        A workbook where it ends in ".xlsx" (needs the package openpyxl: ``pip install
-        'lir-dcfp[excel]'``), else a folder, which is made. What stood there under the same names
-        is replaced.
+        A workbook if it ends in ".xlsx" (needs the package openpyxl: ``pip install
+        'lir-dcfp[excel]'``), else a folder, which is made. Existing files of the same names are
+        replaced.
 
     Raises
     ------
@@ -159,7 +159,7 @@ def write_tables(tables: Mapping[str, pd.DataFrame], path: str | Path) -> None:
 
 
 def _table(name: str, given: Any) -> pd.DataFrame:
-    # A table, or what has one.
+    # A table, or an object with one.
     found = given.to_dataframe() if hasattr(given, "to_dataframe") else given
     if not isinstance(found, pd.DataFrame):
         msg = f"tables[{name!r}] must be a pandas.DataFrame, not a {type(given).__name__}"
@@ -182,12 +182,12 @@ _STOREY = re.compile(r"storey-(\d+)-([xy])")
 
 
 def ductility(data: xr.Dataset) -> pd.DataFrame:
-    """Return how far each link that yields and each plastic hinge was deformed.
+    """Return deformation and ductility of each yielding link and plastic hinge [m, rad; -].
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a `time_history` of a structure that may yield, whatever its recording.
+        Result of a `time_history` of a structure that may yield, with any recording.
 
     Returns
     -------
@@ -196,19 +196,18 @@ def ductility(data: xr.Dataset) -> pd.DataFrame:
 
         - kind: "link" or "hinge";
         - largest: deformation against a force that resists it [m, rad]; of a hinge its plastic
-          rotation, the size of that about both axes [rad]; and its time [s], NaN where there was
-          none;
+          rotation, the size of that about both axes [rad]; and its time [s], NaN if there was none;
         - yield: deformation at first yield; NaN of hinges, which are rigid until then;
         - ductility: the one over the other [-]; of ties the deformation includes their slack. NaN
-          of hinges: it would need the rotation at which the member yields, ``M_p L / (6 E I)``
-          (ASCE/SEI 41, chapter 9), and data does not have the member. What codes limit is the
-          plastic rotation itself;
+          for hinges: it would need the rotation at which the member yields, ``M_p L / (6 E I)``
+          (ASCE/SEI 41, chapter 9), and data does not have the member. Codes limit the plastic
+          rotation itself;
         - residual: size of the deformation, or plastic rotation, that is left at the end of the
           run; NaN of a run that stopped before;
         - cumulative: plastic rotation run through [rad]; NaN of links;
-        - work: done on what is plastic [J], what hardening stores of it included; of ties taken up.
+        - work: plastic work [J], including the energy stored by hardening; of ties dissipated.
 
-        Without any rows where nothing can yield.
+        Without any rows if nothing can yield.
 
     Raises
     ------
@@ -251,18 +250,18 @@ def ductility(data: xr.Dataset) -> pd.DataFrame:
 
 
 def storey_ductility(data: xr.Dataset) -> pd.DataFrame:
-    """Return how far the storeys of a `shear_building` with a `storey_law` yielded.
+    """Return the ductility of the storeys of a `shear_building` with a `storey_law` [-, m].
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of its `time_history`.
+        Result of its `time_history`.
 
     Returns
     -------
     pandas.DataFrame
-        A row a storey from below, with the columns x and y: largest deformation over that at
-        yield [-]; residual_x and residual_y: what is left of it at the end of the run [m].
+        A row a storey from below, with the columns x and y: largest deformation over that at yield
+        [-]; residual_x and residual_y: deformation at the end of the run [m].
 
     Raises
     ------
@@ -302,5 +301,5 @@ def storey_ductility(data: xr.Dataset) -> pd.DataFrame:
 
 
 def _reached(size: float, at: float) -> tuple[float, float]:
-    # What was never reached has no time.
+    # Without a peak there is no time.
     return (float(size), float(at)) if size > 0.0 else (float(size), math.nan)

@@ -1,4 +1,4 @@
-"""What the assumption check finds, as objects from the run to the page; text where it is shown."""
+"""Findings of the assumption check, as objects; text for display."""
 
 from __future__ import annotations
 
@@ -20,26 +20,26 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """What the assumption check found on one feature.
+    """A finding of the assumption check on one feature.
 
     Attributes
     ----------
     feature : str
-        Of `Features.names()`; or "full_contact": what the level 'pendulum' takes for granted; or
-        "slip_stability": whether the residual slip holds; or "impacts": whether rims were met with
-        a slip; or "yield_displacement": whether elastic sliding before slip counts; or "yielding":
-        whether hinges turned further than they keep their strength; or "equilibrium",
-        "accelerations" and "time_step": whether the numbers of the run belong together.
+        One of `Features.names()`; or "full_contact": the assumption of the level 'pendulum';
+        "slip_stability": stability of the residual slip; "impacts": rim contact with a slip;
+        "yield_displacement": effect of elastic sliding before slip; "yielding": rotation of hinges
+        beyond their strength; "equilibrium", "accelerations" and "time_step": consistency of the
+        run's numbers.
     left_out : bool
-        Whether the run left it out.
+        True if the run left it out.
     mattered : bool
         Left out: whether that spoils the run. Modelled: whether it came into play.
     number : float
-        What the judgement rests on; the sentence says what it is.
+        Number behind the finding; the sentence defines it.
     sentence : str
         For people.
     doubtful : bool
-        Whether what came into play asks to be looked at.
+        True if an effect in play needs attention.
     bearings : tuple of str
         At the level "pendulum", for which it asks for the level "contact".
 
@@ -64,17 +64,17 @@ class Finding:
 
     @property
     def is_missing(self) -> bool:
-        """Whether the run should be repeated with what it left out."""
+        """True if the run should be repeated with the omitted effect."""
         return self.left_out and self.mattered
 
     @property
     def is_marked(self) -> bool:
-        """Whether it asks to be looked at."""
+        """True if it needs attention."""
         return self.is_missing or self.doubtful
 
     @property
     def line(self) -> str:
-        """It as text; "!" begins what is marked."""
+        """Its text; a marked one begins with "!"."""
         return worded(
             "{mark} {sentence}", mark="!" if self.is_marked else " ", sentence=self.sentence
         )
@@ -86,7 +86,7 @@ class Findings(tuple[Finding, ...]):
     __slots__ = ()
 
     def lines(self) -> list[str]:
-        """Return a line a finding: what was left out first, then what was modelled."""
+        """Return a line a finding: omitted effects first, then modelled ones."""
         return [found.line for found in self._in_order()]
 
     def doubts(self) -> tuple[str, ...]:
@@ -109,7 +109,7 @@ class Findings(tuple[Finding, ...]):
         return json.dumps(self.plain())
 
     def plain(self) -> list[dict[str, Any]]:
-        """Return them as JSON takes them, without what is not so: `findings_from` reads it."""
+        """Return them for JSON, without false entries: `findings_from` reads it."""
         return [
             {k: v.plain() if isinstance(v, Text) else v for k, v in vars(one).items() if v}
             for one in self
@@ -125,14 +125,14 @@ class Findings(tuple[Finding, ...]):
 
 
 def findings_of(data: xr.Dataset) -> Findings:
-    """Return what the assumption check of a result found when it was run."""
+    """Return the findings of the assumption check made with a result."""
     row = {n: data[n].item() for n in ("findings", "audit") if n in data and not data[n].ndim}
     own = row or data.attrs  # of a row of many runs, or of one alone
     return _read(own.get("findings"), own.get("audit", ""))
 
 
 def findings_by_run(data: xr.Dataset) -> list[Findings]:
-    """Return what the assumption checks of many runs found, or of one alone."""
+    """Return the findings of the assumption checks of many runs, or of one alone."""
     if "run" not in data.dims:
         return [findings_of(data)]
     audits = data["audit"].to_numpy().tolist()
@@ -148,7 +148,7 @@ def _read(kept: str | None, audit: object) -> Findings:
 
 
 def findings_from(found: Iterable[dict[str, Any]]) -> Findings:
-    """Return findings from what `Findings.plain` gave, through JSON or not."""
+    """Return findings from the output of `Findings.plain`, through JSON or not."""
     nothing = {"left_out": False, "mattered": False, "number": 0.0, "bearings": ()}
     whole = ({**nothing, **one} for one in found)
     return Findings(
@@ -160,7 +160,7 @@ def findings_from(found: Iterable[dict[str, Any]]) -> Findings:
 
 
 def doubts_of(data: xr.Dataset) -> tuple[str, ...]:
-    """Return what the assumption check of a result marks, a sentence each."""
+    """Return the marked findings of a result's assumption check, a sentence each."""
     return findings_of(data).doubts()
 
 
@@ -188,7 +188,7 @@ def finding(
     doubtful: object = False,
     bearings: Iterable[object] = (),
 ) -> Finding:
-    """Return what was found on a feature that was left out or not, in a sentence with its name."""
+    """Return the finding on a feature that was left out or not, in a sentence with its name."""
     label = feature.replace("_", " ")
     if out:
         sentence = worded("{feature} left out: {what}", feature=label, what=text)
@@ -208,7 +208,7 @@ def finding(
 
 
 def remark(feature: str, number: float, sentence: str, *, doubtful: bool) -> Finding:
-    """Return what was found on the numbers of a run, not on what it left out."""
+    """Return a finding on the numbers of a run, not on an omission."""
     return Finding(
         feature=feature,
         left_out=False,
@@ -220,7 +220,7 @@ def remark(feature: str, number: float, sentence: str, *, doubtful: bool) -> Fin
 
 
 def by_whom(happened: Extreme) -> str:
-    """Say of a quantity (bearing,), 1 once it happens: "3 of 9 bearings, first at 4.17 s"."""
+    """Return in words where a quantity (bearing,) is 1: "3 of 9 bearings, first at 4.17 s"."""
     those = happened.values > 0.0
     first = float(happened.at[those].min())
     return worded(

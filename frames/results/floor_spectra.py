@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 
 def floor_spectrum(data: xr.Dataset, periods: npt.ArrayLike, damping: float = 0.05) -> xr.DataArray:
-    """Return the response spectra of the levels' total accelerations, for what stands on floors.
+    """Return the response spectra of the levels' total accelerations, for floor equipment.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history of a model with levels.
+        Result of a time history of a model with levels.
     periods : array_like, shape (m,)
-        Natural periods of what stands there [s], >= 0.
+        Natural periods of the equipment [s], >= 0.
     damping : float
         Its part of the critical damping [-], in [0, 1).
 

@@ -49,9 +49,8 @@ def displacement(data: xr.Dataset) -> FloatArray:
 def vertical_force(data: xr.Dataset) -> FloatArray:
     """Return the axial force of the bearings (time, bearing), compression positive [N].
 
-    Where vertical coupling is left out: that of the vertical springs, and what lifting the static
-    load along the pendulum's path would have added, ``W / g`` times the acceleration of
-    ``L - sqrt(L^2 - U^2)``.
+    Without vertical coupling: the force of the vertical springs, plus the inertia of the static
+    load along the pendulum's path, ``W / g`` times the acceleration of ``L - sqrt(L^2 - U^2)``.
 
     Shapes: result (n_steps, n_bearings).
     """
@@ -79,7 +78,7 @@ def left_out(data: xr.Dataset) -> tuple[str, ...]:
 
 
 def rims_met(data: xr.Dataset) -> FloatArray:
-    """Return 1 where a bearing's slider presses on a rim, else 0 (time, bearing)."""
+    """Return 1 if a bearing's slider presses on a rim, else 0 (time, bearing)."""
     return formed(presses, rim_force(data))
 
 
@@ -110,7 +109,7 @@ def values_of(data: xr.Dataset, name: str, *dims: str) -> FloatArray:
 
 
 def formed(formula: Callable[..., Any], *of: FloatArray) -> FloatArray:
-    """Return what a formula makes of whole histories."""
+    """Return the result of a formula for whole histories."""
     return np.asarray(formula(*of))
 
 
@@ -126,7 +125,7 @@ def rim_force(data: xr.Dataset) -> FloatArray:
 
 
 def share_of_interface(data: xr.Dataset) -> FloatArray:
-    """Return the force of the interfaces over what friction holds (time, bearing)."""
+    """Return the force of the interfaces over their friction resistance (time, bearing)."""
     load = of_bearings(data, "axial_force")
     if "interface_preload" in data.variables:
         load = load + known(data, "interface_preload")
@@ -207,7 +206,7 @@ def sliding_work(data: xr.Dataset, first: int, last: int) -> FloatArray:
 
 
 def sliding_work_lower(data: xr.Dataset, first: int, last: int) -> FloatArray:
-    """Return the same sum of what friction is below that at high speed."""
+    """Return the same sum for the friction lost below that at high speed."""
     speed, load = _slid(data, first, last)
     drop, rate = (data.variables[f"friction_{name}"].to_numpy() for name in ("drop", "rate"))
     lower = drop * np.exp(-rate * speed)  # (3.1)
@@ -221,7 +220,7 @@ def sliding_work_lower(data: xr.Dataset, first: int, last: int) -> FloatArray:
 
 
 def sliding_work_pressed(data: xr.Dataset, first: int, last: int) -> FloatArray:
-    """Return the same sum of what pressure changes of it."""
+    """Return the same sum for the change by pressure."""
     if "pressure_rate" not in data:
         return np.zeros(())
     speed, load = _slid(data, first, last)
@@ -231,7 +230,7 @@ def sliding_work_pressed(data: xr.Dataset, first: int, last: int) -> FloatArray:
 
 
 def sliding_work_heated(data: xr.Dataset, first: int, last: int) -> FloatArray:
-    """Return the same sum of what temperature changes of it."""
+    """Return the same sum for the change by temperature."""
     if "softening_rate" not in data:
         return np.zeros(())
     speed, load = _slid(data, first, last)
@@ -276,7 +275,7 @@ def slip_loose(data: xr.Dataset, first: int, last: int) -> FloatArray:
 
 def rim_plastic(data: xr.Dataset, first: int, last: int) -> FloatArray:
     """Return by how much the plastic deformation of rims grew [m]."""
-    # What it grew by; a rim that breaks has no end of it, once.
+    # Its growth; a rim that breaks ends it, once.
     if "rim_plastic" not in data:
         return np.zeros(data.sizes["bearing"])
     largest = of_bearings(data, "rim_plastic", "surface").max(axis=-1)

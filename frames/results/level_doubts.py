@@ -1,4 +1,4 @@
-"""What the level 'pendulum' may have wrong in a run: which quantity, how much, at which bearings.
+"""Possible error of the level 'pendulum' in a run, by quantity and bearing.
 
 Sliders in full contact press on both rims at once, land on their whole face and slide on both
 surfaces at once. Real ones rock: one rim after the other, one edge before the other, first on the
@@ -32,8 +32,9 @@ DOUBTED = {
 """Quantities of a bearing, with their words."""
 
 MARKED = {name: 0.10 for name in DOUBTED if name != "rim_force"}
-"""Error of nine bearings in ten from which a run is marked with "!": what all checks rest on. Rim
-forces are doubtful wherever rims were met: the checks of rims read that for themselves."""
+"""Error of nine bearings in ten above which a run is marked with "!": it affects all checks. Rim
+forces are doubtful after any rim contact: the checks of rims account for that themselves.
+"""
 
 
 LEAST = 0.05
@@ -49,7 +50,7 @@ class Class(NamedTuple):
 
 
 SHORT_TRAVEL, LONG_TRAVEL = 1.5, 3.0
-"""Travels of bearings whose surfaces are of unlike friction [-]: `travels`."""
+"""Travels of bearings whose surfaces differ in friction [-]: `travels`."""
 STILL = 0.003
 """Displacement over the effective radius below which nothing is said of a bearing [-]."""
 
@@ -68,24 +69,24 @@ CLASSES = (UNEQUAL, LIFTED, ROCKED, TIPPED, MET, UNLIKE, SHORT, LANDED, MIDDLE)
 
 
 class LevelDoubts(NamedTuple):
-    """Bearings whose sliders rocked at the level 'pendulum', and what that may have made wrong."""
+    """Bearings whose sliders rocked at the level 'pendulum', and the possible errors."""
 
     bearings: tuple[str, ...]
-    """That the level 'contact' is asked for."""
+    """Names of the bearings that need the level 'contact'."""
     errors: FloatArray
-    """(n_bearings, 5) [-]: what nine bearings in ten of the class stay below, as `DOUBTED`."""
+    """(n_bearings, 5) [-]: bound for nine bearings in ten of the class, as `DOUBTED`."""
     names: tuple[str, ...]
-    """Of all bearings."""
+    """Names of all bearings."""
 
     @property
     def marked(self) -> bool:
-        """Whether more than rim forces is doubtful."""
+        """True if more than rim forces is doubtful."""
         limits = [MARKED.get(name, np.inf) for name in DOUBTED]
         return bool((self.errors > np.array(limits)).any())
 
     @property
     def sentence(self) -> str:
-        """What may be wrong, by how much."""
+        """The possible errors and their sizes."""
         worst = self.errors.max(axis=0)
         parts = [
             worded("{quantity} up to {error:.0f} %", quantity=name, error=100.0 * error)
@@ -116,7 +117,7 @@ def levels_of_bearings(data: xr.Dataset) -> tuple[str, ...]:
 
 
 def level_doubts(data: xr.Dataset) -> LevelDoubts:
-    """Return what bearings at the level 'pendulum' may have wrong in a run."""
+    """Return the possible errors of bearings at the level 'pendulum' in a run."""
     names = tuple(str(name) for name in names_of(data, "bearing"))
     met, lifted, share = (
         largest(data, name).values for name in ("rims_met", "lifted", "eccentricity")
@@ -133,7 +134,7 @@ def level_doubts(data: xr.Dataset) -> LevelDoubts:
 def errors_of(
     met: BoolArray, lifted: BoolArray, share: FloatArray, unequal: BoolArray, travel: FloatArray
 ) -> tuple[FloatArray, BoolArray]:
-    """Return what nine bearings in ten of the same class stay below, and which are in a class.
+    """Return the error bounds of nine bearings in ten of a class [-], and the bearings in a class.
 
     Shapes: met, lifted (..., n_bearings), share (..., n_bearings), unequal (n_bearings,), travel
     (..., n_bearings).
@@ -158,7 +159,7 @@ def errors_of(
 
 
 def travels(displacement: FloatArray, friction: FloatArray, length: FloatArray) -> FloatArray:
-    """Return how far bearings travelled over what brings both surfaces to slide [-].
+    """Return travel of bearings over the displacement at which both surfaces slide [-].
 
     The surface of the higher friction slides from about the difference of both coefficients times
     the effective radius on.

@@ -1,4 +1,4 @@
-"""What engineers read off a Dataset: drifts, floor accelerations, the energy balance."""
+"""Derived results of a Dataset: drifts, floor accelerations, the energy balance."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ ABSORBED = ENERGY_TERMS[1:]
 
 
 def energy_error(data: xr.Dataset) -> float:
-    """Measure how far the energy balance is from closing.
+    """Return the error of the energy balance [-].
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history.
+        Result of a time history.
 
     Returns
     -------
     float
-        Largest gap ``|input - (sum of all other terms)|`` over the largest input [-]; in joule
-        where there was no input.
+        Largest gap ``|input - (sum of all other terms)|`` over the largest input [-]; in joule if
+        there was no input.
 
     Examples
     --------
@@ -62,12 +62,12 @@ def energy_error(data: xr.Dataset) -> float:
 
 
 def storey_drift(data: xr.Dataset) -> xr.DataArray:
-    """Take the drifts of the storeys from a time history.
+    """Return the storey drift histories of a time history [-].
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history of a model with levels.
+        Result of a time history of a model with levels.
 
     Returns
     -------
@@ -114,7 +114,7 @@ def floor_acceleration(data: xr.Dataset) -> xr.DataArray:
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history of a model with levels.
+        Result of a time history of a model with levels.
 
     Returns
     -------
@@ -171,7 +171,7 @@ def floor_shares(data: xr.Dataset) -> FloatArray:
 
 
 def drift_by_line(data: xr.Dataset) -> xr.DataArray:
-    """Take the drifts at every line of nodes that stand over one another: corners drift most.
+    """Return the drifts of every line of nodes over one another [-]: corners drift most.
 
     A rigid motion in plan, turns about z included, has no drift. Tilt counts, as codes have it: a
     building that leans by an angle drifts by it.
@@ -179,16 +179,16 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history of a model with levels.
+        Result of a time history of a model with levels.
 
     Returns
     -------
     xarray.DataArray
         Drift ratio (time, line, axis x and y) [-] between a node of a level and the node of the
-        level below at the same place in plan; a line has the name of its upper node, and the
-        coordinate `storey` says which level that is of. If no node of a storey stands over
-        another, each upper node is compared with the place below it. This place moves with the
-        nearest node of the level below as with a rigid body.
+        level below at the same place in plan. A line has the name of its upper node, and the
+        coordinate `storey` is the level of that node. If no node of a storey is over another, each
+        upper node is compared with the place below it. This place moves with the nearest node of
+        the level below as with a rigid body.
 
     Raises
     ------
@@ -219,7 +219,7 @@ def drift_by_line(data: xr.Dataset) -> xr.DataArray:
 
 
 class Lines(NamedTuple):
-    """Where drifts are measured: pairs of nodes of neighbouring levels, each (m,)."""
+    """Lines of drifts: pairs of nodes of neighbouring levels, each (m,)."""
 
     lower: IntArray
     upper: IntArray
@@ -228,7 +228,7 @@ class Lines(NamedTuple):
 
 
 def lines_of(data: xr.Dataset) -> Lines:
-    """Return the lines of nodes over one another; where a storey has none, those nearest."""
+    """Return the lines of nodes over one another; if a storey has none, the nearest ones."""
     level = data["level_node"].to_numpy()
     place = data["node_position"].transpose("node", "axis").to_numpy()[:, :2]
     pairs = []
@@ -249,24 +249,24 @@ def lines_of(data: xr.Dataset) -> Lines:
 
 
 def uplift_gap(data: xr.Dataset) -> xr.DataArray:
-    """Return how far the bearings' contacts are open.
+    """Return the opening of the bearings' contacts [m].
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of a time history.
+        Result of a time history.
 
     Returns
     -------
     xarray.DataArray
-        The gap (time, bearing) [m], 0 where a contact is closed: from the place of the upper
-        sphere's centre over the lower one, which is ``c = L n + s`` where the contact just closes
-        (docs/theory.md, section 1); tilts of the plates shift it.
+        The gap (time, bearing) [m], 0 if a contact is closed. It is measured from the place of the
+        upper sphere's centre over the lower one, which is ``c = L n + s`` at the closing of the
+        contact (docs/theory.md, section 1); tilts of the plates shift it.
 
     Raises
     ------
     ValueError
-        If what it is made from was not recorded.
+        If an input was not recorded.
 
     Examples
     --------

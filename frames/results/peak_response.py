@@ -1,4 +1,4 @@
-"""What a time history reached: largest values of derived histories, their times, a few totals.
+"""Peaks of a time history: largest values of derived histories, their times, a few totals.
 
 The assumption check, the judgement of the energy and the table of peaks rest on these numbers
 alone. A result with all steps has them in its histories. A recording that leaves steps out takes
@@ -32,7 +32,7 @@ class Extreme(NamedTuple):
 
 
 def largest(data: xr.Dataset, name: str) -> Extreme:
-    """Return what was reached of a quantity."""
+    """Return the peak of a quantity."""
     kept = largest_kept(data, name)
     if kept is None:
         kept = extreme_of(QUANTITIES[name].of(data), data["time"].to_numpy())
@@ -40,7 +40,7 @@ def largest(data: xr.Dataset, name: str) -> Extreme:
 
 
 def _with_exceeded(data: xr.Dataset, name: str, found: Extreme) -> Extreme:
-    # With what ended the run, unless `data` is a part of it that ends before.
+    # With the end of the run, unless `data` is a part of it that ends before.
     attrs = data.attrs
     if attrs.get("exceeded") != name:
         return found
@@ -66,13 +66,13 @@ def with_exceeded(data: xr.Dataset) -> xr.Dataset:
 
 
 def extreme_of(history: FloatArray, time: FloatArray) -> Extreme:
-    """Return the largest of a history (time, ...) and when; NaN where it has one."""
+    """Return the largest of a history (time, ...) and its time; NaN if it contains one."""
     at = np.argmax(history, axis=0)
     return Extreme(np.take_along_axis(history, at[None], axis=0)[0], time[at])
 
 
 def larger_of(old: Extreme, new: Extreme) -> Extreme:
-    """Return the larger of both, the older where they are equal; what is not a number stays so."""
+    """Return the larger of both, the older if they are equal; NaN stays."""
     more = (new.values > old.values) | (np.isnan(new.values) & ~np.isnan(old.values))
     return Extreme(np.where(more, new.values, old.values), np.where(more, new.at, old.at))
 
@@ -107,9 +107,9 @@ def reached(data: xr.Dataset, name: str) -> FloatArray:
 
 
 def places_of(data: xr.Dataset, name: str) -> NDArray[np.str_]:
-    """Return the names of what a quantity is reached by: bearings, levels, storeys, lines.
+    """Return the names of a quantity's places: bearings, levels, storeys, lines.
 
-    None where the structure has none; one without a name of a quantity of the whole structure.
+    None if the structure has none; one without a name for a quantity of the whole structure.
     """
     dim = next(iter(QUANTITIES[name].dims), "")
     if not dim:

@@ -35,7 +35,7 @@ _STILL = 1e-9
 
 
 class Peak(NamedTuple):
-    """One line of the table: a number, and when and where it was reached."""
+    """One line of the table: a number, with its time and place."""
 
     quantity: str
     value: float
@@ -45,23 +45,23 @@ class Peak(NamedTuple):
 
 
 def peaks(data: xr.Dataset) -> pd.DataFrame:
-    """Return what a time history reached, for an engineer to read off.
+    """Return the peaks of a time history as a table.
 
     Parameters
     ----------
     data : xarray.Dataset
-        Of `time_history`, also one that was saved and loaded, and whatever its recording: one that
-        leaves out steps or variables has kept what was reached at all of them. Where it chose
-        bearings or nodes, the peaks are theirs.
+        Result of `time_history`, also one that was saved and loaded, with any recording: one
+        without some steps or variables keeps the peaks of all of them. If it chose bearings or
+        nodes, the peaks are theirs.
 
     Returns
     -------
     pandas.DataFrame
         A row a quantity with the columns value, unit (SI), time [s] and where. Displacements,
-        drifts, forces and accelerations in plan are sizes of vectors, of both horizontal
-        components at one instant: at most sqrt(2) times the larger of both peaks. What a run that
-        stopped before its end would have left is NaN; where it failed, "where" of the row "duration
-        computed" says how: the other rows are what it reached.
+        drifts, forces and accelerations in plan are sizes of vectors, of both horizontal components
+        at one instant: at most sqrt(2) times the larger of both peaks. Residual values of a run
+        that stopped early are NaN. If it failed, "where" of the row "duration computed" has the
+        reason, and the other rows are its peaks until then.
 
     Raises
     ------
@@ -100,8 +100,8 @@ def summary(results: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        A row for each quantity of `peaks` with its unit, and one each for the status and for what
-        the assumption check marks; a column for each system.
+        A row for each quantity of `peaks` with its unit, and one each for the status and for the
+        findings of the assumption check; a column for each system.
 
     Raises
     ------
@@ -152,7 +152,7 @@ def _peak(quantity: str, unit: str, found: Extreme, names: Any = ()) -> Peak:
 
 
 def _rows(data: xr.Dataset, name: str) -> Iterator[Peak]:
-    # Of a quantity, and what is formed of it.
+    # Row of a quantity, and its derived ratio.
     _, unit, _, _, kind, _, title, *_ = quantity = QUANTITIES[name]
     if kind == "final":
         left_over = final_if_complete(data, name.removesuffix("_left"))
@@ -189,11 +189,11 @@ _SHARES: dict[str, tuple[str, Callable[[xr.Dataset], FloatArray]]] = {
     "slip": ("overlap", lambda d: d.variables["slip_capacity"].to_numpy()),
     "base_shear": ("weight", lambda d: d.variables["weight"].to_numpy()),
 }
-"""What a peak is given over, too."""
+"""Peaks that are also given as a ratio, and their divisors."""
 
 
 def _of_heat(data: xr.Dataset, title: str) -> Iterator[Peak]:
-    # Of bearings that are heated.
+    # Bearings with heating.
     if "contact" not in data.dims:
         return
     found = largest(data, "temperature")
@@ -251,7 +251,7 @@ _SHOWN: dict[str, Callable[[xr.Dataset], BoolArray]] = {
     "link_ductility": can_yield,
     "link_force": _walls,
 }
-"""Which places of a quantity count, where not all do."""
+"""Places of a quantity that count, if not all do."""
 
 
 def _of_run(data: xr.Dataset) -> Iterator[Peak]:

@@ -1,4 +1,4 @@
-"""The quantities of time histories: the one table that says what is known of each.
+"""The quantities of time histories: one table with all their properties.
 
 A quantity is added by its row here and its formula in `frames.formulas`
 (docs/extending.md).
@@ -46,36 +46,37 @@ _IN_FIGURES = {"m": ("mm", 1e3), "N": ("kN", 1e-3), "m/s2": ("m/s²", 1.0), "%":
 
 
 class Quantity(NamedTuple):
-    """A number of a time history: what it is, and what tables, checks and figures say of it."""
+    """A number of a time history: its definition, and its text in tables, checks and figures."""
 
     dims: tuple[str, ...]
     unit: str
     meaning: str
     of: Callable[..., FloatArray]
-    """Its history (time, ...) of a Dataset; of a sum what steps first <= k < last add."""
+    """Its history (time, ...) in a Dataset; of a sum the increments of steps first <= k < last."""
     kind: Literal["peak", "final", "sum"] = "peak"
     """Largest value, value at the last step, or sum over steps."""
     by_step: bool = False
-    """Whether compiled code fills it, of each bearing at each step (`bearing_quantities`)."""
+    """True if compiled code fills it, for each bearing at each step (`bearing_quantities`)."""
     title: str = ""
     """Its row in the table of peaks."""
     demand: str = ""
     """Its title among demands and checks."""
     checked: str = ""
-    """Its title among checks, where tables of demands leave it out."""
+    """Its title among checks, if tables of demands leave it out."""
     note: str = ""
-    """Said beside the demand."""
+    """Remark beside the demand."""
     sign: float = 1.0
     """With which tables show it."""
     shown: str = ""
-    """Unit of figures, where that is not the usual one."""
+    """Unit of figures, if it is not the usual one."""
     raised: Literal["", "factor", "difference"] = ""
-    """How moved masses raise it. What begins at a threshold may be nothing while the masses are
-    where they are: a difference raises it."""
+    """Effect of moved masses. A quantity that begins at a threshold may be zero with the masses in
+    place: a difference raises it.
+    """
     limit: str = ""
     """Field of `DesignLimits` that it is held against."""
     symbol: str = ""
-    """Of that check."""
+    """Symbol in that check."""
 
     @property
     def in_figures(self) -> tuple[str, float]:
@@ -89,7 +90,7 @@ class Quantity(NamedTuple):
 
     @property
     def described(self) -> str:
-        """What the variable that keeps it is."""
+        """Description of the variable that keeps it."""
         whole = self.kind != "peak" or self.meaning.startswith("1:")
         return self.meaning if whole else f"largest {self.meaning}"
 
@@ -486,7 +487,7 @@ QUANTITIES: dict[str, Quantity] = {
         "sum",
     ),
 }
-"""All of them by name, in the order of tables; what begins with "1:" is 0 before it happens."""
+"""All of them by name, in the order of tables; a description that begins with "1:" is 0 before."""
 
 PEAKS = {name: each for name, each in QUANTITIES.items() if each.kind == "peak"}
 TOTALS = {name: each for name, each in QUANTITIES.items() if each.kind == "sum"}
@@ -499,4 +500,4 @@ DEMANDS = {name: each for name, each in QUANTITIES.items() if each.demand}
 """Rows of tables of demands."""
 
 JUDGED = DEMANDS | {name: each for name, each in QUANTITIES.items() if each.checked}
-"""The same, and what checks take besides."""
+"""The same, and further quantities of checks."""

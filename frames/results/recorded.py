@@ -1,4 +1,4 @@
-"""What a recording keeps besides its histories, and what a result says where it kept too little."""
+"""Contents of a recording besides its histories, and the message if it kept too little."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ EVERY_STEP = "every step"
 """Attribute `recording` of a result that holds all base steps and all variables."""
 
 ENDS = "first and last step"
-"""How that attribute begins where no step between is kept as a rule."""
+"""Beginning of that attribute if no step between is kept as a rule."""
 
 _OTHERS = {"peak_time", "peak_where", "peak_ground_velocity"}
 _RENAMED = {"masses_moved": "mass_shift"}
 PEAK = "peak_"
-"""Begins the names of what was reached at all steps: `frames.results.quantities`."""
+"""Beginning of the names of peaks over all steps: `frames.results.quantities`."""
 
 
 def is_of_all_steps(name: Hashable) -> bool:
-    """Return whether a variable holds what was reached at all steps."""
+    """Return True if a variable is a peak over all steps."""
     return str(name).startswith(PEAK) and name not in _OTHERS
 
 
@@ -39,7 +39,7 @@ def with_present_names(data: xr.Dataset) -> xr.Dataset:
 
 
 def largest_kept(data: xr.Dataset, name: str) -> tuple[FloatArray, FloatArray] | None:
-    """Return what a recording kept of a quantity: its largest values and their times [s]."""
+    """Return the peaks of a quantity in a recording: its largest values and their times [s]."""
     if PEAK + name not in data.variables:
         return None
     return data.variables[PEAK + name].values, data.variables[f"{PEAK}{name}_at"].values
@@ -52,7 +52,7 @@ def names_of(data: xr.Dataset, dim: str) -> NDArray[np.str_]:
 
 
 def noted(data: xr.Dataset) -> dict[str, str]:
-    """Return the attribute that tells what a history lacks; nothing where it holds every step."""
+    """Return the attribute with the omissions of a history; nothing if it has every step."""
     recording = str(data.attrs.get("recording", EVERY_STEP))
     return {} if recording == EVERY_STEP else {"recording": recording}
 
@@ -102,7 +102,7 @@ def require_whole_levels(data: xr.Dataset, what: str) -> None:
 
 
 def standing(data: xr.Dataset) -> FloatArray:
-    """Return 1 where a bearing stands, 0 where it has failed and its backup carries.
+    """Return 1 if a bearing carries, 0 if it has failed and its backup carries.
 
     Shapes: result (time, bearing).
     """

@@ -1,4 +1,4 @@
-"""Datasets in files: what stood there before is replaced only once the new file is complete.
+"""Datasets in files: an old file is replaced only once the new one is complete.
 
 All files that commands write go through `write_whole`, all tables through `csv_of`.
 """
@@ -32,17 +32,17 @@ def save(data: xr.Dataset, path: str | Path, *, compress: bool = False) -> None:
     data : xarray.Dataset
         Results of `time_history`, or any other.
     path : str or path
-        The file. An existing one is replaced at the end, in one move: whatever happens in between
-        leaves either the old results or the new ones.
+        The file. An existing one is replaced at the end, in one move: an interruption leaves either
+        the old results or the new ones.
     compress : bool
-        Whether histories are packed, in single precision (6e-8 of each value; the energy stays
-        double): a tenth of the size, as a rule.
+        True to pack histories in single precision (6e-8 of each value; the energy stays double):
+        usually a tenth of the size.
 
     Raises
     ------
     OSError
         If the file cannot be written (disk full, no such folder, no permission). The message names
-        it; nothing is left behind, and `data` can be saved elsewhere.
+        it; nothing is left behind, and you can save `data` elsewhere.
     TypeError
         If it is no Dataset.
 
@@ -93,7 +93,7 @@ def _content(groups: Mapping[str, xr.Dataset], *, compress: bool) -> memoryview:
 
 
 def _packed(data: xr.Dataset) -> dict[Hashable, dict[str, object]]:
-    # How histories are stored: compressed, in single precision but for the energy balance.
+    # Storage of histories: compressed, in single precision but for the energy balance.
     small: dict[str, object] = {"zlib": True, "complevel": 2, "shuffle": True}
     return {
         key: small if key == "energy" else {"dtype": "float32", **small}
@@ -135,7 +135,7 @@ def write_whole(path: str | Path, content: bytes | memoryview | str) -> None:
 
 
 def place_of(path: str | Path) -> Path:
-    """Return where a file or a folder really is."""
+    """Return the real path of a file or a folder, links resolved."""
     given = Path(path)
     folder, target = Path(os.path.realpath(given.parent)), Path(os.path.realpath(given))
     if given.name not in {"", ".."} and not target.is_relative_to(folder):
@@ -215,25 +215,25 @@ def from_text(cell: Any) -> Any:
 
 
 def load(path: str | Path, *, lazy: bool = False) -> xr.Dataset:
-    """Read a Dataset that `save` wrote.
+    """Read a Dataset written by `save`.
 
     Parameters
     ----------
     path : str or path
         The file.
     lazy : bool
-        Whether variables are read from the file only where they are used, for files that are
-        larger than what is wanted of them; close the Dataset in the end (or use it in a `with`).
+        True to read variables from the file only on use, for large files; close the Dataset in the
+        end (or use it in a `with`).
 
     Returns
     -------
     xarray.Dataset
-        As it was saved, in memory unless it is lazy.
+        The saved Dataset, in memory unless it is lazy.
 
     Raises
     ------
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     OSError
         If it holds no results.
 

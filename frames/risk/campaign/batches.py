@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from frames.risk.campaign.plan import Plan
 
 REFUSED = ValueError, ArithmeticError, AnalysisError
-"""Why a model may not be built or run: its row has the reason. Whatever else is a mistake."""
+"""Reasons for which a model may not be built or run, kept in its row. Any other error is a bug."""
 
 _PROBE_STEPS = 10
 _TIMING = "seconds of the time loop"
@@ -50,7 +50,7 @@ DIGEST = "run_digest"
 
 
 class Batch(NamedTuple):
-    """What a batch gave."""
+    """Results of a batch."""
 
     arrays: dict[str, Any]  # by name of variable, (runs, ...)
     histories: list[xr.Dataset]
@@ -72,7 +72,7 @@ class CampaignJob:
 
     @property
     def read(self) -> Recording | None:
-        """Which histories a run forms: those that are kept, or all for own measures."""
+        """Histories that a run forms: those that are kept, or all for user-defined measures."""
         return self.record or (Recording() if self.measures else None)
 
     def build(self, name: str, k: int) -> Frame:
@@ -92,12 +92,12 @@ class CampaignJob:
         return {name: motion_digest(motion) for name, motion in self.motions.items()}
 
     def digest(self, row: int, frame: str) -> str:
-        """Return a digest of what a run is of, by the fingerprint of its structure."""
+        """Return a digest of a run's input, by the fingerprint of its structure."""
         run = self.plan.run(row)
         return fingerprint([run.model, frame, self._motions[run.motion], run.scale])
 
     def digests(self, rows: Iterable[int]) -> Iterator[str]:
-        """Yield the digest of each run; "" where its model cannot be built."""
+        """Yield the digest of each run; "" if its model cannot be built."""
         last, frame = "", ""
         for row in rows:
             run = self.plan.run(row)
@@ -169,7 +169,7 @@ def compute(
 
 
 class _Runs:
-    # The runs of a batch, in parts: whatever keeps others from running is a part of its own.
+    # The runs of a batch, in parts: a run that could keep others from running is a part of its own.
 
     def __init__(
         self,
@@ -263,7 +263,7 @@ class _Runs:
 
 
 def _extra(data: xr.Dataset, layout: xr.Dataset) -> str:
-    # What results have that the results database has no place for, in words.
+    # Dimensions of the results that the results database lacks, in words.
     for dim in {*layout.dims} & {*data.dims} - {"run"}:
         if extra := _texts(data, dim) - _texts(layout, dim):
             return (
@@ -297,7 +297,7 @@ def _empty(variable: xr.DataArray, runs: int) -> Any:
 
 
 def _put(arrays: dict[str, Any], at: IntArray, found: xr.Dataset, layout: xr.Dataset) -> None:
-    # What was found at its places: by row, and by the names along the other dimensions.
+    # Results at their places: by row, and by the names along the other dimensions.
     place = {
         dim: {str(name): k for k, name in enumerate(layout[dim].to_numpy())} for dim in layout.dims
     }

@@ -46,7 +46,7 @@ FEWEST, MOST, PARTS = 16, 512, 8
 """Runs of a batch if nothing is said: a part of all, within bounds; with histories the fewest."""
 
 BATCHES = 512
-"""Where batches of the most runs would be more than this, they have more runs: each is files."""
+"""Largest number of batches, as each has files: campaigns with more runs have larger batches."""
 
 
 def usual_batch(runs: int) -> int:
@@ -55,7 +55,7 @@ def usual_batch(runs: int) -> int:
 
 
 class Campaign:
-    """Many time histories in a database on disk, which can be stopped at any moment and resumed.
+    """Many time histories in a database on disk, to be stopped at any moment and resumed.
 
     Parameters
     ----------
@@ -79,10 +79,10 @@ class Campaign:
         The attribute `motions`, the factors "scale" of the results and their digests are of motions
         at an intensity of 1.
     record : Recording, optional
-        Histories to be kept besides what is reached.
+        Histories to be kept besides the peaks.
     measures : dict of str to Measure, optional
-        Own numbers of each run by name: functions of its histories, which stand among the
-        quantities of the results then. NaN where a run stopped early.
+        User-defined numbers of each run by name: functions of its histories, added to the
+        quantities of the results. NaN if a run stopped early.
     batch : int, optional
         Runs of a batch, the least that is computed and written at once. None: an eighth of all,
         at least 16 and at most 512, or 512 batches; with histories or own measures 16; of a
@@ -191,7 +191,7 @@ class Campaign:
         accept_other_sources: bool = False,
         reuse: str | Path | Sequence[str | Path] | None = None,
     ) -> xr.Dataset:
-        """Run what is not done yet, and return the results.
+        """Run the remaining runs, and return the results.
 
         Parameters
         ----------
@@ -203,9 +203,9 @@ class Campaign:
             Called with a `BatchProgress` of the runs of this call; True writes it to the standard
             error.
         accept_other_sources : bool
-            Whether a results database that other sources or another version of the package began is
-            gone on with: where a change does not touch the numbers. The database keeps from which
-            run on. Everything else must be as it was planned, properties of the bearings included.
+            True to continue a results database that other sources or another version of the package
+            began, if the change does not affect the numbers. The database keeps the run at which
+            they changed. Everything else must be as planned, properties of the bearings included.
         reuse : str, path or sequence of them, optional
             Folders of other campaigns whose runs are taken over in place of being computed again:
             those of the same model, motion, scale and parameters, by the same sources and options.
@@ -218,20 +218,20 @@ class Campaign:
         Raises
         ------
         CampaignError
-            If the results database was planned otherwise, or begun by other sources of the package
-            (each difference is named), or is in use, no model can be set up, an own measure fails,
-            the cluster is lost, or runs of `reuse` were computed otherwise.
+            If the results database was planned otherwise, was begun by other sources of the package
+            (each difference is named), or is in use. If no model can be set up, a user-defined
+            measure fails, the cluster is lost, or runs of `reuse` were computed otherwise.
         OSError
-            If the results database cannot be written. What was done before stays.
+            If the results database cannot be written. Complete runs stay.
         KeyboardInterrupt
             After Ctrl-C; the batches done are in the results database.
 
         Warns
         -----
         AnalysisWarning
-            How many runs stopped early or have warnings.
+            If runs stopped early or have warnings, with their number.
         ModelWarning
-            What was warned of while models were built and set up.
+            If building or setting up a model gave warnings.
         """
         told = tell(progress)
         frames, layout = self._work.reference()
@@ -299,7 +299,7 @@ class Campaign:
         return self._work.plan.sets
 
     def results(self) -> xr.Dataset:
-        """Return what the runs reached so far: `CampaignStore.results`."""
+        """Return the results so far: `CampaignStore.results`."""
         return self.store.results()
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -311,7 +311,7 @@ class Campaign:
         return self.store.status()
 
     def digest(self) -> str:
-        """Return a digest of what the runs reached: `CampaignStore.digest`."""
+        """Return a digest of the results: `CampaignStore.digest`."""
         return self.store.digest()
 
 
@@ -335,7 +335,7 @@ def _at_intensities(
 
 
 class _Counting:
-    # How far the batches of one call are, for who is told.
+    # Progress of the batches of one call, for the listener.
 
     def __init__(self, plan: Plan, todo: list[int], told: Told | None) -> None:
         self.todo, self._told = todo, told

@@ -66,7 +66,7 @@ def over_cluster(
 
 
 def _shared(client: Any, payload: bytes) -> Any:
-    # What all batches need, as the result of a task: what is scattered dies with its worker.
+    # Common input of all batches, as the result of a task: scattered data die with their worker.
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="Sending large graph")
         return client.submit(_unpacked, payload, pure=False)
@@ -83,7 +83,7 @@ def _width(client: Any) -> int:
 
 
 def _result(future: Any, number: int) -> Batch | None:
-    # What a batch gave; None if it went with its worker before it was fetched.
+    # Results of a batch; None if it was lost with its worker before it was fetched.
     from distributed import CancelledError, KilledWorker
 
     if future.status in _GONE:

@@ -31,18 +31,18 @@ if TYPE_CHECKING:
 
 LIR, PLAIN, SAME_PLAN, LARGER = "LIR-DCFP", "DCFP", "DCFP of the same plan", "larger DCFP"
 OTHERS = PLAIN, SAME_PLAN, LARGER
-"""What an LIR-DCFP is compared with."""
+"""Devices of the comparison with an LIR-DCFP."""
 
 TESTED = "more", "less", "p", "q", "verdict"
-"""Columns of exact tests that stand beside a ratio."""
+"""Columns of exact tests beside a ratio."""
 
 Strength = float | Literal["unbreakable"]
-"""Of rims: force at which they yield over the design load [-], or what never yields nor breaks."""
+"""Strength of rims: yield force over the design load [-], or unbreakable."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ComparedDevices:
-    """Which devices are compared."""
+    """Devices of a comparison."""
 
     others: Sequence[str]  # of `OTHERS`
     # strengths of the rims over the design load, each of which all devices with rims have; empty:
@@ -82,7 +82,8 @@ class ComparedDevices:
         return found
 
     def _device(self, name: str, frame: Frame) -> Device:
-        # What a DCFP differs in from the LIR-DCFP; that of the same plan has smaller sliders.
+        # Differences of a DCFP from the LIR-DCFP; that of the same plate diameter has smaller
+        # sliders.
         if name == PLAIN:
             return Device(kind="DCFP")
         bearings = [link.bearing for link in frame.bearings.values()]
@@ -157,12 +158,12 @@ def filling_intensity(bearing: LIRBearing, period: float) -> float:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DeviceComparison:
-    """What a campaign says of devices under the same records."""
+    """Results of a campaign on devices under the same records."""
 
     frames: Mapping[str, Frame]  # the structure on each device
     # devices with the same rims, the LIR-DCFP first, by their rims
     groups: Mapping[str, Sequence[str]]
-    collapse: LimitState  # what counts as collapse
+    collapse: LimitState  # definition of collapse
     # intensity of the maximum considered earthquake, in the unit of the curves; None: it is not
     # known, and there are no margins
     considered: float | None

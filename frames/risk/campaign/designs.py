@@ -90,7 +90,8 @@ def _device(bearing: LIRBearing, given: Mapping[str, float]) -> LIRBearing:
 def _by_factors(
     bearing: LIRBearing, given: Mapping[str, float]
 ) -> tuple[dict[str, Any], float | None]:
-    # Values by name, those of factors times what the bearing has; and the factor on its friction.
+    # Values by name, those of factors times the bearing's own value; and the factor on its
+    # friction.
     factors = {f"{each}{FACTOR}": each for each in OF_BEARINGS}
     found: dict[str, Any] = {name: v for name, v in given.items() if name not in factors}
     of_friction = None

@@ -28,20 +28,22 @@ _LENGTH = number("m", "(0, 5)")
 
 @dataclass(frozen=True, kw_only=True)
 class Device:
-    """How the bearings of a device differ from those that a building stands on.
+    """Differences of a device's bearings from those of a building.
 
-    Without plan, capacity and moat the dishes stay: a smaller slider goes further in them. With one
-    of them all bearings have the same way to their rims, and plates that would touch at rest have
-    sliders that are higher in steps of 10 mm, with the length of the pendulum as it is.
+    Without plan, capacity and moat the concave plates stay: a smaller slider has a larger
+    displacement in them. With one of them all bearings have the same rim displacement. If plates
+    would touch at rest, their sliders are higher in steps of 10 mm, with an unchanged pendulum
+    length.
 
     Parameters
     ----------
     kind : {"LIR-DCFP", "DCFP"}
-        Whether the sliders are in two pieces, or rigid.
+        True if the sliders are in two pieces, False if rigid.
     pressure : float, optional
-        Of each slider under the load at rest of its bearing [Pa]: it makes radius and design load.
+        Pressure on each slider under the load of its bearing at rest [Pa]: it gives radius and
+        design load.
     slider_radius : float, optional
-        Of all sliders [m].
+        Radius of all sliders [m].
     wider : float
         Radius that each slider has more than its load asks [m].
     least_slider_radius : float, optional
@@ -53,21 +55,21 @@ class Device:
     moat : float, optional
         Displacement at the failure of the first bearing [m]: `moat_of`.
     interface_friction : float, optional
-        Of an LIR-DCFP [-].
+        Friction of the interface of an LIR-DCFP [-].
     rims : float, optional
         Force at which rims yield over the design load [-]; ``math.inf``: they never yield nor
         break. Default: as the bearings have them.
     equal_sliders : bool
-        Whether all sliders are as wide as the widest that a load asks.
+        True if all sliders are as wide as the widest one for a load.
     more_plan : float, optional
-        Diameter that the plan has more than that of the bearings, with their way to the rims around
-        the widest slider that a load asks [m]: in place of plan, for several structures.
+        Plate diameter beyond that of the bearings, with their rim displacement around the widest
+        slider for a load [m]: instead of plan, for several structures.
     rim_stiffness : float
         Over that of the bearings [-].
     rim_overrun : float, optional
         Deformation at which a rim breaks [m].
     backup : BackupSupport, optional
-        What carries after the failure of a bearing.
+        Support after the failure of a bearing.
 
     Raises
     ------
@@ -216,7 +218,7 @@ class Device:
         return min(self.rim_overrun or each.resolved()["rim_overrun"] for each in own.values())
 
     def _bearing(self, own: LIRBearing, sized: Mapping[str, Any]) -> LIRBearing:
-        # The rims are those of the bearing, whatever slides in them, but for what is said of them.
+        # The rims are those of the bearing for all sliders, except for given values.
         options = own.resolved()
         changes: dict[str, Any] = {**sized, "design_load": options["design_load"]}
         if self.kind == "DCFP":
@@ -251,8 +253,8 @@ def _dish(own: LIRBearing, slider: float) -> dict[str, Any]:
 def moat_of(bearings: Iterable[LIRBearing]) -> float:
     """Return the displacement at which the first bearing of a building fails [m].
 
-    The way to the rims, and the slip that the sliders carry, or the deformation at which a rim
-    breaks; without an end of its own, as of rims that never break, the way to the rims.
+    The rim displacement plus the slip capacity of the sliders, or plus the deformation at which a
+    rim breaks; the rim displacement if there is no such limit, as for unbreakable rims.
     """
     found = []
     for each in bearings:
@@ -264,10 +266,10 @@ def moat_of(bearings: Iterable[LIRBearing]) -> float:
 
 
 def device_ratios(frame: Frame, limits: DesignLimits | None = None) -> dict[str, Check]:
-    """Return the check of `device_checks` that governs each LIR-DCFP of a building, by its name.
+    """Return the governing check of `device_checks` of each LIR-DCFP of a building, by its name.
 
-    The slip is that which ends the first bearing: one diaphragm moves all alike. Properties are
-    nominal.
+    The slip is that at the failure of the first bearing: one diaphragm moves all equally.
+    Properties are nominal.
     """
     own = {name: link.bearing for name, link in frame.bearings.items()}
     own = {name: each for name, each in own.items() if not each.is_dcfp}
@@ -280,5 +282,5 @@ def device_ratios(frame: Frame, limits: DesignLimits | None = None) -> dict[str,
 
 
 def highest_ratio(frame: Frame) -> float:
-    """Return the largest ratio of `device_ratios` [-]: at most 1 where its LIR-DCFPs pass."""
+    """Return the largest ratio of `device_ratios` [-]: at most 1 if its LIR-DCFPs pass."""
     return max((check.ratio for check in device_ratios(frame).values()), default=0.0)

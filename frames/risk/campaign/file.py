@@ -1,4 +1,4 @@
-"""A campaign from its file: what is run, over which parameters and motions, where."""
+"""A campaign from its file: structures, parameters, motions, and the place of the results."""
 
 from __future__ import annotations
 
@@ -59,11 +59,11 @@ WEIGHS = {"D": 1.0, "L": 0.5, "S": 0.0}
 """Shares of dead load, live load and snow that buildings of campaigns carry [-]."""
 
 STORE = "results"
-"""Folder of the results beside the file, if nothing is said: the file's name and this."""
+"""Default name of the results folder beside the file: the file's name and this."""
 
 
 def campaign_file(path: str | Path) -> CampaignFile:
-    """Return a campaign's file, checked; the law of its bearings says what is a parameter."""
+    """Return a campaign's file, checked; its parameters depend on the law of the bearings."""
     folder = Path(path).parent
 
     def kind(data: dict[str, Any]) -> type[CampaignFile]:
@@ -90,7 +90,7 @@ def _path_of(file: CampaignFile) -> Path:
 
 
 def _law_of(data: dict[str, Any], table: type[Bearing]) -> type[FrictionLaw]:
-    # The friction law of the bottom surface; what is wrong with the file is left to its reading.
+    # The friction law of the bottom surface; errors of the file are left to its reading.
     try:
         friction = table.model_validate(data["bearing"]).friction
     except (ValueError, KeyError):
@@ -210,7 +210,7 @@ def loss_in(given: CampaignFile | str | Path) -> LossInput | None:
 
 
 def comparison_in(given: CampaignFile | str | Path) -> DeviceComparison | None:
-    """Return what a campaign's file compares; None without ``[compare]``."""
+    """Return the comparison of a campaign's file; None without ``[compare]``."""
     file = _read(given)
     if file.compare is None:
         return None
@@ -246,7 +246,7 @@ def run_search(
     workers: int | None = None,
     client: Any = None,
 ) -> pd.DataFrame:
-    """Return the points of the search of a campaign's file, run where they are not done."""
+    """Return the points of the search of a campaign's file, and run the missing ones."""
     file = _read(given)
     whole, asked = _path_of(file), file.analysis
     motions, scales = _motions(file, whole.resolve().parent)

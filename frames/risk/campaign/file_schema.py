@@ -1,4 +1,4 @@
-"""The keys of a campaign's file, and what of them belongs together."""
+"""The keys of a campaign's file, and their dependencies."""
 
 from __future__ import annotations
 
@@ -124,14 +124,14 @@ _Length = Annotated[Length, Field(gt=0.0)]
 _Strength = Annotated[Ratio, Field(gt=0.0)] | Literal["unbreakable"]
 
 MOST_COMPARED = 5
-"""Devices beside the first in one figure."""
+"""Largest number of devices besides the first in one figure."""
 
 GEOMETRY = "radius", "slider_height", "slider_radius", "capacity"
-"""Parameters that ``[parameters]`` does not vary beside devices of the file: they make them."""
+"""Parameters that ``[parameters]`` does not vary if the file has devices, which set them."""
 
 
 def _strength(given: object) -> float:
-    # Of rims over the design load; "unbreakable" is infinite.
+    # Strength of rims over the design load; "unbreakable" is infinite.
     return math.inf if given == "unbreakable" else si(given, "", "1.0")
 
 
@@ -158,7 +158,7 @@ SearchedNumbers.__doc__ = "``[search.parameters]``: numbers of a device, between
 
 
 class SearchTable(Table):
-    """``[search]``: the device, what of it is searched, and the limit state whose median counts."""
+    """``[search]``: the device, its searched parameters, and the limit state of the median."""
 
     device: str
     limit: str | None = None
@@ -171,7 +171,7 @@ class SearchTable(Table):
 
 
 class CampaignTable(Table):
-    """``[campaign]``: its name, plain bearings beside, Python files with friction laws."""
+    """``[campaign]``: name, comparison with plain bearings, Python files with friction laws."""
 
     name: str = Field(min_length=1)
     devices: tuple[Literal["LIR-DCFP", "DCFP"], ...] = Field(default=("LIR-DCFP",), min_length=1)
@@ -239,7 +239,7 @@ class Range(Table, Generic[T]):
 
 
 class Parameters(Table):
-    """``[parameters]``: what is varied of bearings and damping; its keys are of `parameters_of`."""
+    """``[parameters]``: varied values of bearings and damping; its keys are of `parameters_of`."""
 
 
 class CampaignAnalysis(Table):
@@ -284,7 +284,7 @@ class CompareTable(Table):
         return self
 
     def made(self) -> ComparedDevices:
-        """Return the devices where the file has none of its own."""
+        """Return the devices if the file has none of its own."""
         return ComparedDevices(
             others=self.devices,
             rims=self.rims,
@@ -293,7 +293,7 @@ class CompareTable(Table):
         )
 
     def collapse(self) -> LimitState:
-        """Return what counts as collapse."""
+        """Return the definition of collapse."""
         return collapse_limit(self.collapse_drift, self.collapse_ductility)
 
 

@@ -22,16 +22,16 @@ if TYPE_CHECKING:
     from frames.risk.fragility.sobol import SobolIndices
 
 WITHIN, WHOLE = "variance within records", "whole variance"
-"""What indices are shares of."""
+"""Variances of which indices are shares."""
 
 
 def index_table(
     data: xr.Dataset, distributions: Mapping[str, Any], *, samples: int, seed: int
 ) -> pd.DataFrame:
-    """Return indices of what was reached, a row a structure, factor, quantity and parameter.
+    """Return indices of the results, a row a structure, factor, quantity and parameter.
 
-    Values of failed bearings, and larger ones, count as the largest of the runs that are complete.
-    Where there are no indices, "no index" says why.
+    Values of failed bearings, and larger ones, count as the largest of the complete runs. If there
+    are no indices, "no index" has the reason.
     """
     done = np.array([outcome_of(str(each)) == COMPLETE for each in data["status"].to_numpy()])
     quantities = [name for name in QUANTITIES if name in data["quantity"].to_numpy()]

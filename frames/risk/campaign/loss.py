@@ -1,4 +1,4 @@
-"""Loss: repair of components by what runs reached, over intensity and a year, device by device."""
+"""Loss: repair of components after runs, over intensity and a year, device by device."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from frames.risk.fragility.runs import IntensityRuns
 
 DRIFT, BELOW, ABOVE = "drift", "floor acceleration", "floor acceleration above"
-"""What damages a component of a storey: its drift, the floor that it stands on or hangs from."""
+"""Demands on a component of a storey: its drift, the acceleration of the floor below or above it.
+"""
 
 POINTS = 1000
 """Intensities of the integration over the hazard, equally spaced in their logarithms."""
@@ -34,14 +35,14 @@ POINTS = 1000
 
 @dataclass(frozen=True, kw_only=True)
 class LossComponent:
-    """A kind of component: what damages it, and what its repair costs.
+    """A kind of component: its demand, fragility and repair cost.
 
     Parameters
     ----------
     name : str
         The component.
     damaged_by : {"drift", "floor acceleration", "floor acceleration above"}
-        Of its storey; the acceleration is that of the floor below it, or above it, in plan.
+        Demand of its storey; the acceleration is that of the floor below it, or above it, in plan.
     medians, dispersions : sequence of float, (damage states,)
         Lognormal curves of the damage states, which come one after the other: medians rise, drift
         [-] or acceleration [m/s2]; dispersions [-].
@@ -134,7 +135,7 @@ COLLAPSE = "collapse"
 
 
 class LossInput(NamedTuple):
-    """What a campaign's file says of losses."""
+    """Input on losses in a campaign's file."""
 
     components: tuple[LossComponent, ...]
     replacement: float  # cost of a new building, in the currency of the components
@@ -153,8 +154,8 @@ class ExpectedLoss:
         by component, that of collapse among them, "runs", and "unknown" ones that are left out.
     annual : pandas.DataFrame
         A row a structure: "loss [1/year]" with its interval and its parts; "ratio [-]", the loss of
-        the first structure over it; "below [-]" and "above [-]", shares of the loss that come from
-        below the lowest and above the highest intensity that was run.
+        the first structure over it; "below [-]" and "above [-]", shares of the loss from
+        intensities below the lowest and above the highest run.
 
     Examples
     --------
@@ -177,7 +178,7 @@ def expected_loss(
     resamples: int = RESAMPLES,
     seed: int = 1,
 ) -> ExpectedLoss:
-    """Return losses of structures whose records were run at the same intensities.
+    """Return expected losses of structures whose records were run at the same intensities.
 
     Parameters
     ----------
@@ -187,13 +188,13 @@ def expected_loss(
         Its runs by structure, ``IntensityRuns.from_dataset(data, ..., parameters="all")``, over the
         measure of the hazard; the first is the one that the others are compared with.
     components : sequence of LossComponent
-        What is repaired.
+        Repaired components.
     hazard : HazardCurve
         The hazard of the site.
     replacement : float
         Cost of a new building, in the currency of the components.
     collapse : LimitState
-        What counts as the loss of the building; a failed bearing always does.
+        Limit state for the loss of the building; a failed bearing always counts.
     confidence : float
         Confidence of the intervals [-].
     resamples, seed : int
@@ -233,7 +234,7 @@ def expected_loss(
         }
         total = np.sum([*parts.values()], axis=0)
         with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
-            drawn_means = np.nanmean(total[drawn], axis=1)  # NaN where all drawn are unknown
+            drawn_means = np.nanmean(total[drawn], axis=1)  # NaN if all drawn are unknown
         low, high = np.nanquantile(drawn_means, [tail, 1.0 - tail], axis=0)
         curve = {part: np.nanmean(values, axis=0) for part, values in parts.items()}
         mean = np.nanmean(total, axis=0)
@@ -260,7 +261,7 @@ def _ends(values: FloatArray, tail: float) -> list[float]:
 
 
 def _intensities(runs: Mapping[str, IntensityRuns], hazard: HazardCurve) -> FloatArray:
-    # Those of every record, or an error: a mean over other records is another one.
+    # Intensities of every record, or an error: a mean over other records would differ.
     for each in runs.values():
         own, other = each.intensity, hazard.intensity
         if own.unit != hazard.unit or (other is not None and not is_same(own, other)):
@@ -290,7 +291,7 @@ def _parts(
     replacement: float,
     collapse: LimitState,
 ) -> dict[str, FloatArray]:
-    # Parts of the expected loss of each run, over the cost of a new building; NaN where unknown.
+    # Parts of the expected loss of each run, over the cost of a new building; NaN if unknown.
     done = (data["model"] == name).to_numpy() & (data["status"] != "").to_numpy()
     own = data.isel(run=np.flatnonzero(done))
     lost = runs.exceeded(collapse)
@@ -307,7 +308,7 @@ def _parts(
 def _by_record(
     values: FloatArray, runs: IntensityRuns, records: list[str], at: FloatArray
 ) -> FloatArray:
-    # A table (records, intensities); the mean where there are several sets of parameters.
+    # A table (records, intensities); the mean if there are several sets of parameters.
     table = runs.table[["motion", "im"]].assign(value=values)
     wide = table.pivot_table(index="motion", columns="im", values="value", dropna=False)
     return np.asarray(wide.reindex(index=records, columns=at).to_numpy())

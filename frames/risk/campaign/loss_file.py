@@ -32,7 +32,7 @@ def read_components(path: Path) -> tuple[LossComponent, ...]:
     path : path
         CSV or a workbook with the columns "component", "damaged by" (drift, floor acceleration,
         floor acceleration above), "quantity" (one number, or "24 24 12" by storey from below),
-        "median" (0.01, "1 %", "0.5 g"), "dispersion" and "cost"; others are left alone. The damage
+        "median" (0.01, "1 %", "0.5 g"), "dispersion" and "cost"; others are ignored. The damage
         states of a component follow one another.
 
     Returns

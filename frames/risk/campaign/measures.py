@@ -32,7 +32,7 @@ class Measure:
         `record=Recording()`, until the end of its motion. A plain function or a lambda, whose
         source can be read: it is part of the campaign's plan.
     unit : str
-        SI unit of what it returns; "1" of a pure number.
+        SI unit of the returned number; "1" for a pure number.
 
     Raises
     ------
@@ -59,7 +59,7 @@ class Measure:
         self.digest()
 
     def digest(self) -> str:
-        """Return a digest of the function's source, and of what it uses of its module and around.
+        """Return a digest of the function's source and of the names that it uses.
 
         Returns
         -------
@@ -76,7 +76,7 @@ class Measure:
 
 
 def _told(function: FunctionType, module: str, seen: dict[str, Any]) -> dict[str, Any]:
-    # Source, defaults and what is used, of functions of the same module all the way down.
+    # Source, defaults and used names, of functions of the same module recursively.
     name = function.__qualname__
     if name in seen:
         return {"again": name}

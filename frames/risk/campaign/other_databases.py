@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
-    """Write the results database of a campaign of version 0.2 anew, in the present format.
+    """Convert the results database of a campaign of version 0.2 to the present format.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def convert_campaign(old: str | Path, new: str | Path) -> CampaignStore:
     Returns
     -------
     CampaignStore
-        With the same rows and histories. To run what it lacks, `Campaign.run` takes
+        With the same rows and histories. To run the missing ones, `Campaign.run` needs
         `accept_other_sources=True`.
 
     Raises
@@ -101,7 +101,7 @@ def _loaded(data: xr.Dataset) -> xr.Dataset:
 
 
 def rows_by_digest(data: xr.Dataset) -> dict[str, int]:
-    """Return a row of each run that is done by what the run is of: `CampaignJob.digest`."""
+    """Return a row of each complete run by the digest of its input: `CampaignJob.digest`."""
     digests = data[DIGEST].to_numpy().tolist() if DIGEST in data else []
     return {digest: row for row, digest in enumerate(digests) if digest}
 
@@ -113,7 +113,7 @@ _HISTORIES = "what was reached"
 def known_runs(
     stores: Sequence[str | Path], work: CampaignJob, planned: Mapping[str, Any]
 ) -> dict[str, tuple[xr.Dataset, int]]:
-    """Return runs of other results databases by what they are of: `CampaignJob.digest`."""
+    """Return runs of other results databases by the digest of their input: `CampaignJob.digest`."""
     found: dict[str, tuple[xr.Dataset, int]] = {}
     for path in stores:
         store = CampaignStore(path)

@@ -1,4 +1,4 @@
-"""A campaign as one HTML page: what was run, what failed and why, responses, fragility."""
+"""A campaign as one HTML page: runs, failures with causes, responses, fragility."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 def compared(
     comparison: DeviceComparison, tables: CampaignTables, *, figures: bool
 ) -> dict[str, Any]:
-    """Return what a campaign says of devices, by the names that the page has for it."""
+    """Return the comparison of devices of a campaign, by the names on the page."""
     pictures = []
     for rims, devices in comparison.groups.items() if figures else ():
         drawn = device_curves(
@@ -144,7 +144,7 @@ def _indices(indices: pd.DataFrame) -> Table:
 
 
 def _losses(tables: CampaignTables, *, figures: bool) -> dict[str, Any]:
-    # Losses by what the page has for them: numbers with their intervals in one cell, in per cent.
+    # Losses by the names on the page: numbers with their intervals in one cell, in per cent.
     annual, loss = tables.annual_loss, tables.loss
     words = pd.DataFrame({"loss a year [%]": _with_ends(100.0 * annual.iloc[:, 1:], LOSS, ".3g")})
     parts = [c for c in annual.columns[2:] if str(c).endswith(" [1/year]")]
@@ -285,7 +285,7 @@ def _curve(
 def write_page(
     tables: CampaignTables, path: Path, source: str, *, figures: bool = True
 ) -> list[Path]:
-    """Write what a campaign gave, as a page and tables beside it."""
+    """Write the results of a campaign, as a page and tables beside it."""
     campaign, models = tables.campaign, tables.by_factor
     failures, fragility = tables.failures, tables.fragility
     devices = None

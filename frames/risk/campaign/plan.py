@@ -103,7 +103,7 @@ def differences(stored: Mapping[str, Any], own: Mapping[str, Any]) -> list[str]:
 
 
 def listed(lines: list[str]) -> str:
-    """Return differences line by line, the first ones where there are many."""
+    """Return differences line by line, the first ones if there are many."""
     more = [f"... and {len(lines) - MOST_LINES} more"] if len(lines) > MOST_LINES else []
     return "\n".join(f"  {line}" for line in lines[:MOST_LINES] + more)
 
@@ -118,7 +118,7 @@ _ROWS = {"run", "model", "motion", "scale", "parameter_set"}
 
 
 def planned_rows(plan: Plan, layout: xr.Dataset) -> xr.Dataset:
-    """Return what is planned of all runs, as coordinates along `run`, beside results like these."""
+    """Return the plan of all runs, as coordinates along `run`, beside results like these."""
     names = () if plan.sample is None else plan.sample.names
     taken = {*names} & {*map(str, layout.variables), *_ROWS, "done", "motion_digest", OUTCOME}
     if taken:
@@ -138,11 +138,11 @@ def planned_rows(plan: Plan, layout: xr.Dataset) -> xr.Dataset:
 
 
 ROWS = ("model", "parameter_set", "motion", "scale")
-"""Columns that tell the run, before its parameters."""
+"""Columns that identify the run, before its parameters."""
 
 OUTCOME = "outcome"
 ENDS = ("status", "message", "doubts", "seconds_loop")
-"""Columns that tell how a run ended; `OUTCOME` stands before them."""
+"""Columns on the end of a run; `OUTCOME` is before them."""
 
 
 def run_table(data: xr.Dataset, parameters: Sequence[str]) -> pd.DataFrame:

@@ -1,4 +1,4 @@
-"""What a results database is planned with: all that must be the same for it to be resumed."""
+"""Plan of a results database: all input that must be the same to resume it."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ OLD = 1, 2, 3
 """Formats of version 0.2, which `convert_campaign` reads."""
 
 SOURCES = "sources", "program"
-"""ProjectInputs of a plan in which a database may differ where other sources are accepted."""
+"""Parts of a plan that may differ if other sources are accepted."""
 
 TAKEN_OVER = "gone on with"
-"""Part of a plan that tells which other sources were accepted, after how many runs."""
+"""Part of a plan with the accepted other sources, and the number of runs before each."""
 
 _NOT_COMPARED = {*SOURCES, "provenance", TAKEN_OVER}
 
 
 def described(work: CampaignJob, frames: Mapping[str, Frame]) -> dict[str, Any]:
-    """Return what a campaign is planned with, as plan.json holds it."""
+    """Return the plan of a campaign for plan.json."""
     plan = work.plan
     options = {name: value for name, value in work.options.items() if name != "features"}
     features = work.options["features"] or Features.all()
@@ -68,7 +68,7 @@ def described(work: CampaignJob, frames: Mapping[str, Frame]) -> dict[str, Any]:
 
 
 def unlike(stored: Mapping[str, Any], given: Mapping[str, Any]) -> tuple[list[str], list[str]]:
-    """Return in words what differs of two plans."""
+    """Return the differences of two plans in words."""
     latest = dict(stored)
     for taken in stored.get(TAKEN_OVER, []):
         latest |= taken
@@ -92,7 +92,7 @@ def bearing_properties(model: str, frame: Frame) -> dict[str, Any]:
 
 
 def _properties(bearing: LIRBearing) -> dict[str, Any]:
-    # Defaults filled in, then what the kernels read.
+    # Defaults filled in, then the values for kernels.
     record = np.asarray(bearing.to_record()).reshape(-1)[0]
     names = [name for name in record.dtype.names or () if name != "friction_table"]
     kernels = {name: record[name].tolist() for name in names}

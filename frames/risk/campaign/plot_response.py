@@ -34,7 +34,7 @@ _LINE = 0.42  # share of the place of a factor that bars take
 def response_by_factor(
     models: Mapping[str, IntensityRuns], *, axis: str = "factor on the motions"
 ) -> Figure:
-    """Draw what structures reached over the factor on the motions, and how many runs failed."""
+    """Draw the results of structures over the factor on the motions, and the failed runs."""
     shown = dict(list(models.items())[: len(ps.PALETTE)])
     units = {q: runs.units[q] for runs in shown.values() for q in QUANTITIES if q in runs.units}
     titles = [q for q in QUANTITIES if q in units][:_PANELS]
@@ -118,7 +118,7 @@ def _shares(panel: Axes, models: Mapping[str, IntensityRuns], outcome: str, titl
 _NAMES = "displacement drift floor_plan base_shear rim_force slip displacement_left slip_left"
 _TITLES = [TABLE[name].title for name in _NAMES.split()]
 QUANTITIES = (*_TITLES, f"{TABLE['base_shear'].title} over weight", DUCTILITY)
-"""Quantities of runs that the page shows, where a structure has them."""
+"""Quantities of runs on the page, if a structure has them."""
 
 FRACTILES = (0.16, 0.5, 0.84)
 
@@ -156,7 +156,7 @@ def fractiles(runs: IntensityRuns, quantity: str) -> dict[float, FloatArray]:
 
 
 def response_table(models: Mapping[str, IntensityRuns]) -> pd.DataFrame:
-    """Return what each structure reached at each factor on the motions."""
+    """Return the results of each structure at each factor on the motions."""
     rows = []
     unbuilt = any((runs.table["outcome"] == UNBUILT).any() for runs in models.values())
     for name, runs in models.items():

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Distribution(Protocol):
-    """What a parameter may follow: a frozen distribution of `scipy.stats`."""
+    """Distribution of a parameter: a frozen distribution of `scipy.stats`."""
 
     def ppf(self, q: FloatArray, /) -> FloatArray:
         """Return the values below which shares `q` lie."""
@@ -41,7 +41,7 @@ class ParameterSample:
     values : ndarray, (n, p)
         A row a set.
     origin : str
-        How they were drawn, with the seed; kept in a campaign's plan, not compared.
+        Method and seed of the sample; kept in a campaign's plan, not compared.
 
     Raises
     ------
@@ -129,8 +129,8 @@ def latin_hypercube(
     Parameters
     ----------
     parameters : mapping of str to distribution or sequence of float
-        Distributions of `scipy.stats` such as ``uniform(0.04, 0.03)``; of a sequence each value is
-        as likely.
+        Distributions of `scipy.stats` such as ``uniform(0.04, 0.03)``; the values of a sequence are
+        equally likely.
     size : int
         Number of sets.
     seed : int
@@ -161,7 +161,7 @@ def latin_hypercube(
 
 
 def sobol_sample(parameters: Mapping[str, Choice], size: int, *, seed: int = 0) -> ParameterSample:
-    """Return scrambled Sobol' points, which fill space evenly: arguments as `latin_hypercube`.
+    """Return scrambled Sobol' points, which fill space evenly; arguments as `latin_hypercube`.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def sobol_sample(parameters: Mapping[str, Choice], size: int, *, seed: int = 0) 
     size : int
         Number of sets, a power of 2: others lose the balance of the points.
     seed : int
-        Of the scrambling.
+        Seed of the scrambling.
 
     Returns
     -------

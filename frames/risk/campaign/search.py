@@ -31,29 +31,29 @@ if TYPE_CHECKING:
     Point = Mapping[str, float]
 
 SMOOTHING = 1e-3
-"""Of the response surface: runs are few, so that a point is not met exactly."""
+"""Smoothing of the response surface: runs are few, so that it does not pass through each point."""
 
 FRUITLESS = 256
 """Sobol' points drawn for each that is wanted, at most."""
 
 EVALUATIONS = 300
-"""Of the response surface by `scipy.optimize.direct`, at most."""
+"""Largest number of evaluations of the response surface by `scipy.optimize.direct`."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class MedianSearch:
-    """A search for the numbers at which the median intensity of a limit state is largest.
+    """Search for the parameters at which the median intensity of a limit state is largest.
 
-    Sobol' points first, then a response surface through the logarithms of their medians (a plane
-    and linear radial functions), whose maximum `scipy.optimize.direct` finds without a start: that
-    point is run, and the surface made anew, `trials` times.
+    The search starts with Sobol' points, and fits a response surface to the logarithms of their
+    medians (a plane and linear radial functions). `scipy.optimize.direct` finds its maximum; that
+    point is run, and the surface fitted anew, `trials` times.
 
     Parameters
     ----------
     build : callable
         Makes the structure of a point, a dict of str to float; a ValueError means there is none.
     bounds : mapping of str to (float, float)
-        Of each number, SI.
+        Bounds of each number [SI].
     limit : LimitState
         Whose median is made as large as can be.
     intensity : Intensity
@@ -61,15 +61,15 @@ class MedianSearch:
     scales : sequence of float
         Factors on the motions [-], a stripe each.
     constraint : callable, optional
-        Of a structure, at most 1 where it is allowed: the ratio of its checks.
+        Ratio of a structure's checks [-]; at most 1 if it is allowed.
     points : int
         First points.
     trials : int
         Points after them.
     dispersion : float
-        Of the lognormal curve whose mean over the stripes is that of the shares [-].
+        Dispersion of the lognormal curve whose mean over the stripes is that of the shares [-].
     seed : int
-        Of the first points.
+        Seed of the first points.
 
     Raises
     ------
@@ -78,8 +78,8 @@ class MedianSearch:
 
     Notes
     -----
-    With a dispersion that is known there is a median of few runs, even where a fit of both numbers
-    does not settle. Medians beyond the stripes rank points, and are no result.
+    With a known dispersion a few runs give a median, even if a fit of both numbers does not
+    converge. Medians beyond the stripes rank points, and are no result.
 
     Examples
     --------
@@ -128,7 +128,7 @@ class MedianSearch:
         client: Any = None,
         **options: Any,
     ) -> pd.DataFrame:
-        """Run the points, each stage a campaign that is gone on with, and return them.
+        """Run the points, each stage a resumed campaign, and return them.
 
         Parameters
         ----------
@@ -137,7 +137,7 @@ class MedianSearch:
         store : str or path
             Folder of the campaigns' results databases.
         workers, client : int, distributed.Client, optional
-            As of `Campaign.run`.
+            As for `Campaign.run`.
         **options
             Others of `Campaign`, as level and dt.
 
@@ -234,7 +234,7 @@ class MedianSearch:
         return [(point[name] - low) / (high - low) for name, (low, high) in self.bounds.items()]
 
     def _ratio(self, point: Point) -> float:
-        # Infinite where no structure can be made.
+        # Infinite if no structure can be made.
         try:
             frame = self.build({name: point[name] for name in self.bounds})
         except ValueError:

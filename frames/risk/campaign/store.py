@@ -26,7 +26,7 @@ ROWS, LAYOUT = f"rows{ENDING}", f"layout{ENDING}"
 
 
 class CampaignStatus(NamedTuple):
-    """How far a campaign is.
+    """Progress of a campaign.
 
     Attributes
     ----------
@@ -37,10 +37,10 @@ class CampaignStatus(NamedTuple):
     doubtful : int
         Runs in which the assumption check marks something.
     warnings : tuple of str
-        What was warned of while batches were computed.
+        Warnings while batches were computed.
     reused : int
-        Runs that were taken over, from other results databases or from an equal run of this one:
-        parameters that change nothing of a model, such as the interface of a plain DCFP.
+        Runs copied from other results databases, or from an equal run of this one: some parameters
+        do not change a model, for example the interface of a plain DCFP.
 
     Examples
     --------
@@ -84,21 +84,21 @@ class CampaignStore:
         self.path = Path(path)
 
     def __repr__(self) -> str:
-        """Return where it is."""
+        """Return its path."""
         return f"CampaignStore({str(self.path)!r})"
 
     @property
     def exists(self) -> bool:
-        """Whether there is a results database."""
+        """True if there is a results database."""
         return (self.path / PLAN).is_file()
 
     def plan(self) -> dict[str, Any]:
-        """Return what the results database was planned with.
+        """Return the plan of the results database.
 
         Returns
         -------
         dict
-            As it stands in plan.json: digests of models and motions, scales, parameters, options.
+            The content of plan.json: digests of models and motions, scales, parameters, options.
 
         Raises
         ------
@@ -165,13 +165,13 @@ class CampaignStore:
         return CampaignStatus(done, total, counts, doubtful, tuple(said), reused)
 
     def results(self) -> xr.Dataset:
-        """Return what the runs reached, read from the disk where it is used; also while it runs.
+        """Return the results of the runs, read from the disk on use; also while it runs.
 
         Returns
         -------
         xarray.Dataset
-            As `time_histories` gives it, a row a planned run; the parameters are coordinates
-            along `run`, and `done` says which rows are there: others are NaN and "".
+            As for `time_histories`, a row a planned run; the parameters are coordinates along
+            `run`, and `done` marks the complete rows: others are NaN and "".
 
         Raises
         ------
@@ -193,16 +193,16 @@ class CampaignStore:
         return data.assign_attrs(_origin(plan))
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Return the runs that are done as a table, also while the campaign runs.
+        """Return the complete runs as a table, also while the campaign runs.
 
         Returns
         -------
         pandas.DataFrame
-            A row a run that is done, by its number: model, parameter_set, motion, scale, the
-            parameters; outcome (as `IntensityRuns` has it), status, message, doubts, seconds_loop;
-            and a column a quantity of `frames.peaks`, SI, NaN where a structure has none or the run
-            reached nothing. `attrs["units"]` has the units by column, but for parameters, which are
-            what the bearing's fields or the function take; the other attributes are those of
+            A row a complete run, by its number: model, parameter_set, motion, scale, the
+            parameters; outcome (as in `IntensityRuns`), status, message, doubts, seconds_loop; and
+            a column a quantity of `frames.peaks`, SI, NaN if a structure has none or the run has no
+            value. `attrs["units"]` has the units by column, except for parameters, whose units are
+            those of the bearing's fields or of the function; the other attributes are those of
             `results()`.
 
         Raises
@@ -223,7 +223,7 @@ class CampaignStore:
         Returns
         -------
         xarray.Dataset
-            Over `time` or `step`, read where it is used.
+            Over `time` or `step`, read on use.
 
         Raises
         ------
@@ -243,12 +243,12 @@ class CampaignStore:
         raise CampaignError(msg)
 
     def digest(self) -> str:
-        """Return a digest of what the runs reached, bit by bit, times of computation left out.
+        """Return a digest of the results, bit by bit, times of computation left out.
 
         Returns
         -------
         str
-            64 hexadecimal digits, the same for one plan whatever computed it, and in which order.
+            64 hexadecimal digits, the same for one plan on any machine and in any order.
 
         Raises
         ------
@@ -286,7 +286,7 @@ class CampaignStore:
 
 
 def _origin(plan: Mapping[str, Any]) -> dict[str, str]:
-    # Attributes: what was planned, where it comes from, and what took over.
+    # Attributes: the plan, its origin, and other sources that continued it.
     found = {key: str(plan[key]) for key in ("program", "options", "record")}
     found |= plan.get("provenance", {})
     taken = [

@@ -1,4 +1,4 @@
-"""What writes the results database of a campaign: whole or not at all, one process at a time."""
+"""Writing of a campaign's results database: whole or not at all, one process at a time."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 def lacking_packages(*needed: str) -> str:
-    """Return what is missing and how to install it, in a sentence; nothing where all is there."""
+    """Return the missing packages and their installation, in a sentence; nothing if all exist."""
     missing = [name for name in needed or ("filelock",) if find_spec(name) is None]
     if not missing:
         return ""
@@ -39,9 +39,9 @@ def lacking_packages(*needed: str) -> str:
 
 @contextmanager
 def locked(path: Path) -> Generator[None, None, None]:
-    """Hold a lock file; that of a process that has died is seized.
+    """Hold a lock file; that of a process that has died is replaced.
 
-    The system lets go of it when its process ends. Who holds it stands in a file beside it, which
+    The system releases it when its process ends. The holder's name is in a file beside it, which
     others can read on every system.
     """
     from filelock import FileLock, Timeout
@@ -129,7 +129,7 @@ class StoreWriter(CampaignStore):
 
     @contextmanager
     def owned(self) -> Generator[None, None, None]:
-        """Hold the results database alone."""
+        """Hold the results database exclusively."""
         with locked(self.path / _LOCK):
             for cut in self.path.glob("*/.*.part"):  # of a process that was killed
                 cut.unlink(missing_ok=True)

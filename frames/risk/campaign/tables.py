@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from frames.risk.fragility.runs import IntensityRuns
 
 CONFIDENCE = 0.9
-"""Of intervals [-]."""
+"""Confidence of intervals [-]."""
 
 ALL_RECORDS = "all"
 """All sets of records together."""
@@ -146,7 +146,7 @@ class CampaignTables:
 
     @cached_property
     def response(self) -> pd.DataFrame:
-        """Fractiles of what was reached, a row a structure and factor on the motions."""
+        """Fractiles of the results, a row a structure and factor on the motions."""
         return response_table(self.by_factor)
 
     @cached_property
@@ -230,14 +230,14 @@ class CampaignTables:
 
     @cached_property
     def plan(self) -> pd.DataFrame:
-        """What was run, in words: a row a thing."""
+        """Description of the runs, in words: a row a property."""
         return _planned(self.campaign, self.data, self.axis)
 
 
 def _fitted(
     models: Mapping[str, IntensityRuns], limits: list[LimitState]
 ) -> tuple[dict[str, dict[str, Fragility]], pd.DataFrame]:
-    # Curves by limit state and structure, and their table; where there is none it says why.
+    # Curves by limit state and structure, and their table; without a curve it has the reason.
     found: dict[str, dict[str, Fragility]] = {}
     rows: list[dict[str, object]] = []
     for limit in limits:
@@ -263,7 +263,7 @@ def _fitted(
 
 
 def _planned(campaign: Campaign, data: xr.Dataset, axis: str) -> pd.DataFrame:
-    # What was run, in words.
+    # Description of the runs, in words.
     plan: dict[str, Any] = campaign.store.plan()
     rows = {
         "structures": ", ".join(plan["models"]),

@@ -1,1 +1,1 @@
-"""From many time histories to fragility, risk and what decides them."""
+"""Fragility, risk and sensitivity from many time histories."""

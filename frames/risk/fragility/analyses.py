@@ -35,7 +35,7 @@ def ida(
     known: IntensityRuns | None = None,
     **options: Any,
 ) -> IDA:
-    """Analyse a structure under motions of rising intensity, up to a limit state.
+    """Analyse a structure under motions of increasing intensity, up to a limit state.
 
     Each round is one call of `time_histories` with the next intensities of all motions.
 
@@ -48,14 +48,14 @@ def ida(
     intensity : IntensityMeasure
         The measure that rises.
     rules : HuntFill
-        How intensities are chosen.
+        Rules for the next intensities.
     limit : LimitState, optional
-        What is hunted; failure of a bearing if None.
+        Limit state of the search; failure of a bearing if None.
     known : IntensityRuns, optional
         Runs of the same structure and measure that are there already, as of an analysis that was
         interrupted: it goes on from them.
     **options
-        Of `time_histories`: `level`, `dt`, `workers` and so on.
+        Options of `time_histories`: `level`, `dt`, `workers` and so on.
 
     Returns
     -------
@@ -113,7 +113,7 @@ def _run_at(
     ((name, structure),) = structures.items()
     wanted = [(name, motion, factor) for motion, factor in cases]
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", AnalysisWarning)  # what it says is in the table
+        warnings.simplefilter("ignore", AnalysisWarning)  # the warnings are in the table
         # intensities begin low on purpose
         warnings.filterwarnings("ignore", ".*the bearings hardly slide", ModelWarning)
         data = time_histories({name: structure}, motions, cases=wanted, **options)
@@ -166,20 +166,20 @@ def multiple_stripes(
     intensity: IntensityMeasure,
     **options: Any,
 ) -> IntensityRuns:
-    """Analyse a structure under all motions, each scaled to each of some intensities.
+    """Analyse a structure under all motions, each scaled to each given intensity.
 
     Parameters
     ----------
     model : Frame
         The structure.
     motions : GroundMotion, or a sequence or mapping of them
-        The motions. Where each stripe has motions of its own, join the runs of several calls.
+        The motions. If each stripe has motions of its own, join the runs of several calls.
     levels : sequence of float
         Intensities of the stripes, in the unit of the measure.
     intensity : IntensityMeasure
         The measure.
     **options
-        Of `time_histories`.
+        Options of `time_histories`.
 
     Returns
     -------
@@ -220,7 +220,7 @@ def cloud_analysis(
     scales: Sequence[float] = (1.0,),
     **options: Any,
 ) -> IntensityRuns:
-    """Analyse a structure under motions as they are, or times a few factors.
+    """Analyse a structure under unscaled motions, or with a few factors.
 
     Parameters
     ----------
@@ -233,7 +233,7 @@ def cloud_analysis(
     scales : sequence of float
         Factors on all motions [-], positive.
     **options
-        Of `time_histories`.
+        Options of `time_histories`.
 
     Returns
     -------

@@ -56,7 +56,7 @@ def fit_cloud(
     Returns
     -------
     Fragility or CollapseFragility
-        A lognormal curve where nothing collapsed, else one of five parameters.
+        A lognormal curve if nothing collapsed, else one of five parameters.
 
     Raises
     ------
@@ -140,7 +140,7 @@ def fit_cloud(
 
 
 def _line(x: FloatArray, y: FloatArray, weights: FloatArray) -> FloatArray | None:
-    # Intercept, slope and standard deviation (of n - 2) of a line; None where it does not rise.
+    # Intercept, slope and standard deviation (of n - 2) of a line; None if it does not rise.
     total = weights.sum()
     if total < 3.0 or len(np.unique(x[weights > 0.0])) < 3:
         return None
@@ -158,7 +158,7 @@ def _of_line(line: FloatArray, goal: float) -> FloatArray:
 
 
 def _cloud_covariance(x: FloatArray, line: FloatArray, goal: float) -> FloatArray:
-    # Of ln median and dispersion, from least squares.
+    # Start of ln median and dispersion, from least squares.
     start, slope, spread = line
     design = np.column_stack([np.ones_like(x), x])
     whole = np.zeros((3, 3))

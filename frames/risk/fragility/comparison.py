@@ -19,16 +19,16 @@ from lir_element.texts import Shown
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Comparison(Shown):
-    """A second fragility over a first one, for the same records.
+    """Ratio of a second fragility to a first one, for the same records.
 
     Attributes
     ----------
     unit : str
         Unit of the intensity.
     medians : tuple of float
-        Of the first and the second curve.
+        Medians of the first and the second curve.
     resampled_medians : ndarray, shape (2, resamples)
-        The same of each resample; NaN where it allowed no fit.
+        The same of each resample; NaN if it allowed no fit.
     rates : tuple of float, or None
         Mean annual frequencies of both [1/year]; None without a hazard.
     resampled_rates : ndarray, shape (2, resamples), or None
@@ -57,7 +57,7 @@ class Comparison(Shown):
         ]
 
     def to_dataframe(self, confidence: float = 0.9) -> pd.DataFrame:
-        """Return the second over the first, and less the first, with their intervals.
+        """Return ratio and difference of the second to the first curve, with their intervals.
 
         Parameters
         ----------
@@ -69,7 +69,7 @@ class Comparison(Shown):
         pandas.DataFrame
             Rows "median, ratio [-]", "median, difference [...]" and with a hazard the same of the
             rate; columns "value", "low", "high" and "second better", the share of resamples in
-            which the second holds more, or is exceeded less often.
+            which the second has the larger capacity, or is exceeded less often.
 
         Raises
         ------
@@ -111,7 +111,7 @@ def compare_fragility(
 ) -> Comparison:
     """Compare two curves that were fitted to runs under the same records.
 
-    What records do to both alike does not count as uncertainty: each resample takes the same
+    A common effect of the records does not count as uncertainty: each resample uses the same
     records for both (paired bootstrap).
 
     Parameters
@@ -133,7 +133,7 @@ def compare_fragility(
 
     Notes
     -----
-    Curves that state no measure are compared by their units alone. Structures of unlike periods are
+    Curves without a measure are compared by their units alone. Structures of different periods are
     compared by rates, each with the hazard of its own measure (`mean_annual_frequency`).
 
     Examples

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class Estimate(Shown):
-    """How a curve was found: what both kinds of curves have in common.
+    """Fit of a curve: the common part of both kinds of curves.
 
     Attributes
     ----------
@@ -31,18 +31,18 @@ class Estimate(Shown):
     unit : str
         Unit of the intensity.
     intensity : IntensityMeasure or None
-        Its measure; None where it was not stated.
+        Its measure; None if it was not given.
     method : str
-        How it was fitted, with its source.
+        Method of the fit, with its source.
     records : tuple of str
         Names of the records that were resampled.
     seed : int
         Seed of the resampling: curves of the same records and seed are paired.
     parameters : ndarray, shape (resamples, p)
-        Parameters of each resample; NaN where it allowed no fit.
+        Parameters of each resample; NaN if it allowed no fit.
     data : pandas.DataFrame
-        What was fitted: "im", and "exceeded" out of "total" for stripes, "capacity" and "censored"
-        for an IDA, "demand" and "collapsed" for a cloud.
+        Fitted data: "im", and "exceeded" out of "total" for stripes, "capacity" and "censored" for
+        an IDA, "demand" and "collapsed" for a cloud.
     """
 
     name: str
@@ -73,7 +73,7 @@ class Estimate(Shown):
 
     @abstractmethod
     def _numbers(self) -> list[tuple[str, str]]:
-        """Return what is shown of its parameters."""
+        """Return its parameters for display."""
 
     @abstractmethod
     def probability(self, im: npt.ArrayLike) -> FloatArray:
@@ -163,9 +163,9 @@ class Fragility(Estimate):
     dispersion : float
         Standard deviation of the logarithm of the capacity [-].
     covariance : ndarray, shape (2, 2)
-        Of the estimates of ``ln median`` and the dispersion.
+        Covariance of the estimates of ``ln median`` and the dispersion.
     added : float
-        Dispersion that was added for what the records do not show [-]; part of `dispersion`.
+        Added dispersion for uncertainty besides the records [-]; part of `dispersion`.
 
     Examples
     --------
@@ -254,13 +254,13 @@ class Fragility(Estimate):
         return pd.DataFrame(columns, index=["median", "dispersion"])
 
     def with_dispersion(self, added: float) -> Fragility:
-        """Return the curve with what the records do not show: of model, materials, knowledge.
+        """Return the curve with added uncertainty of model, materials and knowledge.
 
         Parameters
         ----------
         added : float
-            Dispersion, in place of what was added before [-]; FEMA P695 (chapter 7) takes roots of
-            sums of squares of 0.10 to 0.50 each (to be confirmed).
+            Dispersion, instead of any added before [-]; FEMA P695 (chapter 7) combines 0.10 to 0.50
+            each by the root of the sum of squares (to be confirmed).
 
         Returns
         -------
@@ -328,12 +328,12 @@ class CollapseFragility(Estimate):
         return self._half(np.asarray(self.values))
 
     def resampled_medians(self) -> FloatArray:
-        """Return the median of each resample, (resamples,); NaN where it allowed no fit."""
+        """Return the median of each resample, (resamples,); NaN if it allowed no fit."""
         rows = self.parameters
         return np.array([self._half(row) if np.isfinite(row).all() else np.nan for row in rows])
 
     def _half(self, values: FloatArray) -> float:
-        # Both parts rise: one of them is at one half where the median is sought first.
+        # Both parts increase: at the first bracket of the median one of them is one half.
         from scipy.optimize import brentq
 
         log_a, b, _, c0, c1 = values

@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
 
 Kept: TypeAlias = IntensityRuns | IDA | Fragility | CollapseFragility | HazardCurve | Risk
-"""What can be saved."""
+"""Objects that can be saved."""
 
 FORMAT = "lir-dcfp fragility 1"
-"""First line of such a file: what it is, and its version."""
+"""First line of a file: its kind and version."""
 
 _KINDS: dict[str, type] = {
     kind.__name__: kind
@@ -42,12 +42,12 @@ _PARTS: dict[str, type] = {
 
 
 def save_fragility(found: Kept, path: str | Path) -> None:
-    """Write runs, an incremental analysis, a fragility curve, a hazard or a rate to a JSON file.
+    """Save runs, an incremental analysis, a fragility curve, a hazard or a rate to a JSON file.
 
     Parameters
     ----------
     found : IntensityRuns, IDA, Fragility, CollapseFragility, HazardCurve or Risk
-        All of it is kept: runs with their plan, curves with their resamples.
+        The file is complete: runs with their plan, curves with their resamples.
     path : str or path
         The file; an existing one is replaced at the end, in one move.
 
@@ -74,7 +74,7 @@ def save_fragility(found: Kept, path: str | Path) -> None:
 
 
 def load_fragility(path: str | Path) -> Any:
-    """Read what `save_fragility` wrote.
+    """Read a file of `save_fragility`.
 
     Parameters
     ----------
@@ -84,14 +84,14 @@ def load_fragility(path: str | Path) -> Any:
     Returns
     -------
     IntensityRuns, IDA, Fragility, CollapseFragility, HazardCurve or Risk
-        What was saved.
+        The saved object.
 
     Raises
     ------
     FragilityError
         If the file holds nothing of the kind.
     OSError
-        If there is no such file.
+        If the file does not exist.
 
     Examples
     --------

@@ -32,7 +32,7 @@ LEAST_FITS = 0.5
 """Share of resamples that must allow a fit."""
 
 Fit = Callable[[FloatArray], FloatArray | None]
-"""Of the weights of the records (n,) to parameters, None where they allow no fit."""
+"""Fit from the weights of the records (n,) to parameters, None if they allow no fit."""
 
 
 def checked_runs(
@@ -74,7 +74,7 @@ def resampled(count: int, fit: Fit, size: int, resamples: int, seed: int) -> Flo
 
 
 def no_fit(at: FloatArray, over: FloatArray) -> str:
-    """Say why outcomes (n,) at intensities (n,) determine no curve."""
+    """Return the reason that outcomes (n,) at intensities (n,) determine no curve."""
     if not over.any() or over.all():
         what = "no run exceeds" if not over.any() else "all runs exceed"
         return f"{what} the limit state: run {'higher' if not over.any() else 'lower'} intensities"
@@ -103,7 +103,7 @@ def fit_stripes(
     im : array_like, shape (n,)
         Intensity of each run.
     exceeded : array_like, shape (n,)
-        1 where the limit state was exceeded, 0 where not; NaN is left out.
+        1 if the limit state was exceeded, 0 if not; NaN is left out.
     records : sequence of str
         Record of each run: runs of one record are resampled together.
     name, unit : str
@@ -211,7 +211,7 @@ def fit_capacities(
     records : sequence of str
         The records.
     censored : array_like of bool, shape (n,), optional
-        Where the limit state was not reached up to `capacity`.
+        True if the limit state was not reached up to `capacity`.
     method : {"moments", "likelihood"}, optional
         Mean and standard deviation of the logarithms (of n - 1), or maximum likelihood, which
         takes censored ones; by default the one that the data need.

@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class HuntFill:
-    """Rules by which the next intensities of a record follow from what is known of it.
+    """Rules for the next intensities of a record, from its earlier runs.
 
-    From `first` upwards in steps, each longer by `growth` than the one before, until the limit is
-    exceeded (hunt); then into the gap about the limit, a third of it above what holds, until it is
-    narrow (bracket); what runs are left go into the widest gaps below (fill).
+    Hunt: steps from `first` upwards, each longer by `growth` than the one before, until the limit
+    is exceeded. Bracket: runs within the gap about the limit, a third of it above the lower end,
+    until it is narrow. Fill: the remaining runs in the widest gaps below.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ class HuntFill:
     step : float, optional
         First step of the hunt; `first` if None.
     growth : float, optional
-        What each step is longer by; half of `first` if None.
+        Increase of each step; half of `first` if None.
     resolution : float
         Gap about the limit over its upper end at which the bracketing ends [-].
     runs : int
@@ -76,14 +76,14 @@ class HuntFill:
             raise FragilityError(msg)
 
     def next_intensities(self, im: npt.ArrayLike, exceeded: npt.ArrayLike) -> tuple[float, ...]:
-        """Return the intensities that a record is to be run at next; none: it is done.
+        """Return the next intensities of a record; none if it is complete.
 
         Parameters
         ----------
         im : array_like, shape (n,)
             Intensities that it was run at.
         exceeded : array_like, shape (n,)
-            1 where the limit was exceeded, 0 where not, NaN where the run failed.
+            1 if the limit was exceeded, 0 if not, NaN if the run failed.
 
         Returns
         -------

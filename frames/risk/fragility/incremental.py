@@ -1,4 +1,4 @@
-"""What an incremental dynamic analysis found: curves, capacities, fractiles."""
+"""Results of an incremental dynamic analysis: curves, capacities, fractiles."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ class IDA(Shown):
     runs : IntensityRuns
         All runs.
     limit : LimitState
-        What was hunted.
+        Limit state of the search.
     rules : HuntFill
-        How intensities were chosen.
+        Rules for the next intensities.
 
     Notes
     -----
@@ -50,7 +50,7 @@ class IDA(Shown):
     rules: HuntFill
 
     def __post_init__(self) -> None:
-        # that the rules chose the intensities goes with the runs, whatever is made of them
+        # the runs keep that the rules chose the intensities
         plans = self.runs.of("plan")
         table = self.runs.table.assign(plan=np.where(plans == GIVEN, HUNT, plans))
         object.__setattr__(self, "runs", replace(self.runs, table=table))
@@ -71,8 +71,8 @@ class IDA(Shown):
         Returns
         -------
         pandas.DataFrame
-            Rising intensities "im" and demands "demand": infinite where a bearing failed; runs
-            that failed numerically are left out.
+            Rising intensities "im" and demands "demand": infinite if a bearing failed; runs that
+            failed numerically are left out.
 
         Raises
         ------
@@ -97,11 +97,12 @@ class IDA(Shown):
         Returns
         -------
         pandas.DataFrame
-            A row a motion: "capacity" where the demand reaches the limit, on the line between two
-            runs, or their geometric mean where a bearing failed at the upper one (the same where
-            the limit is zero; half of the upper one where no run holds); "lower" and "upper" runs;
-            "censored" where no run exceeds it, the capacity then being that of the highest run;
-            "resurrects" where a run above one that exceeds does not; "failed" runs.
+            A row a motion. "capacity": intensity at which the demand reaches the limit, on the line
+            between two runs, or their geometric mean if a bearing failed at the upper one (also if
+            the limit is zero; half of the upper one if no run is below the limit). "lower" and
+            "upper": these runs. "censored": no run exceeds the limit, and the capacity is that of
+            the highest run. "resurrects": a run above one that exceeds does not exceed. "failed":
+            number of failed runs.
 
         Raises
         ------
@@ -157,14 +158,14 @@ class IDA(Shown):
         im : array_like, optional
             Intensities; 60 up to the highest run if None.
         percent : sequence of float
-            Which fractiles [%]; by default those of plus and minus a standard deviation.
+            Fractiles [%]; by default those of plus and minus a standard deviation.
 
         Returns
         -------
         pandas.DataFrame
-            A row an intensity, a column a fractile: infinite where that part of the motions fails
-            a bearing, NaN where a motion was not run as high. No value is interpolated between
-            motions of which one fails.
+            A row an intensity, a column a fractile: infinite if that share of the motions fails a
+            bearing, NaN if a motion was not run as high. No value is interpolated between motions
+            of which one fails.
 
         Raises
         ------
@@ -208,7 +209,7 @@ def capacities_of(runs: IntensityRuns, limit: LimitState) -> pd.DataFrame:
 def _first_crossing(
     im: FloatArray, exceeds: BoolArray, values: FloatArray | None, limit: float | None
 ) -> dict[str, float | bool]:
-    # Of the runs of one motion in rising order.
+    # Runs of one motion in rising order.
     if not exceeds.any():
         top = float(im[-1])
         return {

@@ -1,4 +1,4 @@
-"""Intensity measures of ground motions: what fragility is a function of."""
+"""Intensity measures of ground motions, for fragility curves."""
 
 from __future__ import annotations
 
@@ -48,9 +48,9 @@ OWN = "an Intensity, or a measure with unit, label and of(motion)"
 
 @runtime_checkable
 class IntensityMeasure(Protocol):
-    """An intensity measure: an `Intensity`, or one of your own.
+    """An intensity measure: an `Intensity`, or a user-defined one.
 
-    Where motions are scaled to an intensity (`ida`, `multiple_stripes`, ``Campaign(intensities=)``)
+    If motions are scaled to an intensity (`ida`, `multiple_stripes`, ``Campaign(intensities=)``),
     it must grow with a power of the factor on the motion; the power is measured.
 
     Examples
@@ -72,7 +72,7 @@ class IntensityMeasure(Protocol):
 
     @property
     def label(self) -> str:
-        """What it is, in a few words; two of one label and unit are the same measure."""
+        """Its name, in a few words; two of one label and unit are the same measure."""
         ...
 
     def of(self, motion: GroundMotion, /) -> float:
@@ -94,7 +94,7 @@ class StatedMeasure:
 
 
 class Measured(Protocol):
-    """What is a function of an intensity."""
+    """A function of an intensity."""
 
     @property
     def unit(self) -> str:
@@ -103,7 +103,7 @@ class Measured(Protocol):
 
     @property
     def intensity(self) -> IntensityMeasure | None:
-        """Its measure, None where it was not stated."""
+        """Its measure, None if it was not given."""
         ...
 
 
@@ -126,8 +126,8 @@ class Intensity:
     damping : float
         Damping of Sa and Sa_avg [-].
     measure : str
-        What is taken of both horizontal components (`pair_spectrum`): "RotD50", "RotD100",
-        "geometric mean", "SRSS", "arithmetic mean", "x" or "y". The hazard must be of the same.
+        Combination of both horizontal components (`pair_spectrum`): "RotD50", "RotD100", "geometric
+        mean", "SRSS", "arithmetic mean", "x" or "y". The hazard must have the same.
 
     Raises
     ------
@@ -195,7 +195,7 @@ class Intensity:
 
     @property
     def label(self) -> str:
-        """What it is, in a few words."""
+        """Its name, in a few words."""
         if self.kind == "scale":
             return "factor on the motion"
         at = ""
@@ -245,7 +245,7 @@ class Intensity:
         return found
 
     def _of_pair(self, motion: GroundMotion) -> float:
-        # Of histories as the path of a pair; of integrals each component, or each direction.
+        # Histories as the path of a pair; integrals of each component, or each direction.
         dt = motion.dt
         x, y = (np.zeros(motion.n_steps) if a is None else a for a in (motion.x, motion.y))
         if self.kind in {"PGV", "PGD"}:
@@ -273,7 +273,7 @@ def is_same(first: IntensityMeasure, second: IntensityMeasure) -> bool:
 
 
 def unit_of(unit: str | None, intensity: IntensityMeasure | None) -> str:
-    """Return the unit of intensities, where it is told by their measure, too."""
+    """Return the unit of intensities, checked against that of their measure."""
     if intensity is not None:
         require_type("intensity", intensity, IntensityMeasure, OWN)
         if unit not in {None, intensity.unit}:
@@ -286,7 +286,7 @@ def unit_of(unit: str | None, intensity: IntensityMeasure | None) -> str:
 def require_one_measure(
     first: Measured, second: Measured, names: tuple[str, str] = ("the first", "the second")
 ) -> None:
-    """Refuse two things that are of unlike intensities."""
+    """Refuse two objects of different intensity measures."""
     told = [
         each.unit if each.intensity is None else f"{each.intensity.label} [{each.unit}]"
         for each in (first, second)

@@ -47,7 +47,7 @@ def binomial(
     if not (len(some) and len(others) and others.max() > some.min()):
         return None
     model = package.binomial.BinomialGLM(im, count, total, link=link, cluster=clusters)
-    with np.errstate(all="ignore"):  # on its way: what counts is whether it converged
+    with np.errstate(all="ignore"):  # intermediate values; convergence is checked below
         fit = package.engine.fit_likelihood(model, start=start, warn=False)
     if not fit.converged or not fit.params[1] > 0.0:
         return None

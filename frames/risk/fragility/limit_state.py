@@ -1,4 +1,4 @@
-"""Limit states: what of a run counts as exceeding them."""
+"""Limit states, and the runs that exceed them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class LimitState:
-    """What is exceeded when a demand is above its limit, or a bearing fails.
+    """A limit state: exceeded if a demand is above its limit, or a bearing fails.
 
     Failure of a bearing (a status of `lir_element.RunStatus` with `is_bearing_failure`) exceeds
     every limit state: it is collapse of the isolation. A run that went on with the backup of a
@@ -27,11 +27,11 @@ class LimitState:
     Parameters
     ----------
     name : str
-        What it is called.
+        Its name.
     quantity : str, optional
         A quantity of `frames.peaks`; None: failure of a bearing alone.
     limit : float, optional
-        What the demand must not be above, in the quantity's SI unit.
+        Upper limit of the demand, in the quantity's SI unit.
 
     Raises
     ------
@@ -69,12 +69,12 @@ class LimitState:
 
     @staticmethod
     def interface_slip(bearing: LIRBearing) -> LimitState:
-        """Return slip of the interface beyond the one that it holds, s* (`slip_stability`).
+        """Return the limit state of interface slip beyond its stable limit s* (`slip_stability`).
 
         Parameters
         ----------
         bearing : LIRBearing
-            The bearing, or the one with the least s* where they differ.
+            The bearing, or the one with the least s* if they differ.
 
         Returns
         -------

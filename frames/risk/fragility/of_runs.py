@@ -29,15 +29,15 @@ def fragility_of(
     Parameters
     ----------
     runs : IDA or IntensityRuns
-        Of `ida`, `multiple_stripes`, `cloud_analysis`, or read from `time_histories`.
+        Runs of `ida`, `multiple_stripes`, `cloud_analysis`, or read from `time_histories`.
     limit : LimitState
         The limit state.
     method : {"capacities", "stripes", "cloud"}, optional
-        `fit_capacities` (by default of an IDA and of its runs), `fit_cloud` (by default of
-        `cloud_analysis`, where the limit state has a demand: a regression, which takes few runs but
-        trusts in its line), or `fit_stripes` (by default of other runs: whether each exceeds the
-        limit). Runs of an IDA have capacities alone: their intensities were chosen by their
-        outcome, which biases both other fits.
+        `fit_capacities`: default for an IDA and its runs. `fit_cloud`: default for `cloud_analysis`
+        if the limit state has a demand; a regression, which needs few runs but assumes a line.
+        `fit_stripes`: default for other runs, by the exceedance of the limit in each. Runs of an
+        IDA have capacities alone: their intensities were chosen by their outcome, which biases both
+        other fits.
     resamples, seed : int
         Resamples of the records for the bands, and their seed.
 
@@ -49,8 +49,8 @@ def fragility_of(
     Raises
     ------
     FragilityError
-        If the runs do not determine a curve, or do not suit the method: what of them was chosen by
-        their outcome is told by the column "plan" of their table.
+        If the runs do not determine a curve, or do not suit the method; the column "plan" of their
+        table marks runs that were chosen by their outcome.
     ImportError
         If the method needs the package `pyFragility` (extra "fragility") and it is not installed.
 

@@ -29,7 +29,7 @@ def paired_tests(
     measures: Sequence[LimitState | str],
     rate: float = 0.1,
 ) -> pd.DataFrame:
-    """Test structures against others, record by record, by exact two-sided sign tests.
+    """Compare structures record by record, by exact two-sided sign tests.
 
     A record differs at a scale if one structure alone exceeds the limit state (McNemar's exact
     test), or if its demand is larger. The row of scale infinity counts each record once, by the
@@ -95,7 +95,7 @@ def _scores(runs: IntensityRuns, measure: LimitState | str) -> pd.Series[float]:
 
 
 def _counted(own: pd.Series[float], other: pd.Series[float]) -> Iterator[dict[str, float]]:
-    # A row a scale and one of all; two failed bearings are alike.
+    # A row a scale and one of all; two failed bearings count as equal.
     both = pd.concat([own, other], axis=1, join="inner").dropna()
     more = (both[0] > both[1]).astype(int) - (both[0] < both[1]).astype(int)
     for scale, signs in more.groupby(level="scale"):

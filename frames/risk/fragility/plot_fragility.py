@@ -47,7 +47,7 @@ def fragility_curves(
     confidence: float = 0.9,
     label: str | None = None,
 ) -> Figure:
-    """Draw fragility curves with their confidence bands and what they were fitted to.
+    """Draw fragility curves with their confidence bands and the fitted data.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def fragility_curves(
     confidence : float
         Confidence of the bands [-]; bands of a curve that was given are not drawn.
     label : str, optional
-        What the intensity is; its measure's `Intensity.label` if None.
+        Label of the intensity; its measure's `Intensity.label` if None.
 
     Returns
     -------
@@ -105,7 +105,7 @@ def fragility_curves(
 
 
 def _named(what: str, given: Any, kinds: tuple[type, ...], one: str) -> list[tuple[str, Any]]:
-    # What is drawn, by name.
+    # Curves to draw, by name.
     if isinstance(given, kinds):
         given = [given]
     pairs = (
@@ -147,14 +147,14 @@ def _data(panel: Axes, curve: Fragility | CollapseFragility, size: float, color:
 def risk_deaggregation(
     risks: Risk | Sequence[Risk] | Mapping[str, Risk], *, label: str | None = None
 ) -> Figure:
-    """Draw which intensities contribute to the mean annual frequency of exceedance.
+    """Draw the contribution of intensities to the mean annual frequency of exceedance.
 
     Parameters
     ----------
     risks : Risk, or a sequence or mapping of up to six
-        Of `mean_annual_frequency`, of one intensity measure.
+        Results of `mean_annual_frequency`, of one intensity measure.
     label : str, optional
-        What the intensity is.
+        Label of the intensity.
 
     Returns
     -------
@@ -199,7 +199,7 @@ def risk_deaggregation(
 
 
 def _middle(one: Risk) -> tuple[float, float]:
-    # Ends of where all but a thousandth of the contributions are.
+    # Range of all contributions but a thousandth.
     share = one.to_dataframe()["share"].to_numpy()
     inside: FloatArray = one.im[(share > 5e-4) & (share < 1.0 - 5e-4)]
     ends = inside if len(inside) else one.im
@@ -212,9 +212,9 @@ def tornado_chart(found: Tornado, *, label: str = "result", unit: str = "") -> F
     Parameters
     ----------
     found : Tornado
-        Of `tornado`.
+        Result of `tornado`.
     label, unit : str
-        What the result is, and its unit.
+        Label of the result, and its unit.
 
     Returns
     -------

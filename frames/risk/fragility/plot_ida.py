@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from frames._types import FloatArray
 
 MARKED = 0.06
-"""Room to the right of the demands where failures of bearings are marked, of their width [-]."""
+"""Space to the right of the demands for marks of failed bearings, over their width [-]."""
 
 
 def ida_curves(
@@ -44,14 +44,14 @@ def ida_curves(
     quantity : str
         A quantity of `frames.peaks`: the demand.
     limit : LimitState, optional
-        Drawn as a line, where it is one of the quantity.
+        Drawn as a line if it is a limit of the quantity.
     percent : sequence of float
         Fractiles [%].
 
     Returns
     -------
     Figure
-        Intensities over demands; a curve ends flat where a bearing failed.
+        Intensities over demands; a curve ends flat if a bearing failed.
 
     Raises
     ------
@@ -118,7 +118,7 @@ def stripes(runs: IntensityRuns, quantity: str, *, limit: LimitState | None = No
     quantity : str
         A quantity of `frames.peaks`: the demand.
     limit : LimitState, optional
-        Drawn as a line where it is one of the quantity; runs that exceed it are filled.
+        Drawn as a line if it is a limit of the quantity; runs that exceed it are filled.
 
     Returns
     -------

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 ALL_SETS = "all"
 
 Sets: TypeAlias = "int | Mapping[str, float] | Literal['all'] | None"
-"""Which sets of parameters of a campaign: a number, values by name, all of them together."""
+"""Sets of parameters of a campaign: a number, values by name, all of them together."""
 
 _SHOWN = 3
 
@@ -40,7 +40,7 @@ def rows_of(data: xr.Dataset, model: str | None, parameters: Sets) -> xr.Dataset
     chosen = names[0] if model is None else model
     require_choice("model", chosen, names, error=FragilityError)
     own = _of_sets(runs.where(model=chosen), parameters)
-    done = own.of("status") != ""  # what a campaign has not run yet
+    done = own.of("status") != ""  # runs of a campaign that are not complete
     if "done" in data.coords:
         done &= own.of("done")
     if not done.any():

@@ -39,7 +39,7 @@ def of_campaign(
     model: str | None,
     scale: float | None,
 ) -> FloatArray:
-    """Return results of a structure's runs at one factor, (sets, motions); NaN where unknown."""
+    """Return results of a structure's runs at one factor, (sets, motions); NaN if unknown."""
     data = given if isinstance(given, xr.Dataset) else given.results()
     own = rows_of(data, model, "all")
     scales = sorted({*own["scale"].to_numpy().tolist()})

@@ -42,7 +42,7 @@ class RiskWarning(UserWarning):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Risk(Shown):
-    """How often a limit state is exceeded.
+    """Annual rate of exceedance of a limit state.
 
     Attributes
     ----------
@@ -51,11 +51,11 @@ class Risk(Shown):
     unit : str
         Unit of the intensity.
     intensity : IntensityMeasure or None
-        Its measure, of the curve or of the hazard; None where neither states it.
+        Its measure, of the curve or of the hazard; None if neither has one.
     rate : float
         Mean annual frequency of exceedance [1/year], of intensities within the hazard curve.
     resampled : ndarray, shape (resamples,)
-        The same for each resample of the records; NaN where it allowed no fit.
+        The same for each resample of the records; NaN if it allowed no fit.
     above : float
         Most that intensities above the hazard curve could add [1/year]: its rate there.
     im, contribution : ndarray, shape (m,)
@@ -147,8 +147,7 @@ def mean_annual_frequency(curve: Estimate, hazard: HazardCurve) -> Risk:
     curve : Fragility or CollapseFragility
         The fragility.
     hazard : HazardCurve
-        The hazard, of the same intensity measure; where it states none, the engineer answers for
-        it.
+        The hazard, of the same intensity measure; you must ensure that if it has no measure.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Runs at known intensities: their outcome and demands, whatever they are made into."""
+"""Runs at known intensities: their outcome and demands, for fragility and loss."""
 
 from __future__ import annotations
 
@@ -28,9 +28,10 @@ if TYPE_CHECKING:
 
 COMPLETE, FAILURE, UNKNOWN = "complete", "bearing failure", "numerical failure"
 UNBUILT = "not built"
-"""Outcomes: the run is complete; a bearing failed (`RunStatus.is_bearing_failure`), which is
-collapse; the analysis failed, which says nothing of the structure; a set of parameters makes no
-structure, so that nothing was analysed."""
+"""Outcomes. The run is complete; a bearing failed (`RunStatus.is_bearing_failure`), which is
+collapse; the analysis failed, without a result for the structure; a set of parameters makes no
+structure, so that nothing was analysed.
+"""
 
 STRIPES, CLOUD, HUNT, GIVEN = "stripes", "cloud", "hunt", "given"
 """Plans of runs: intensities that are common to the motions; factors on them; intensities that
@@ -42,7 +43,7 @@ FIXED = ("motion", "scale", "im", "outcome", "status", "message")
 
 
 def outcome_of(status: str) -> str:
-    """Return what a status of `time_histories` means for a limit state."""
+    """Return the outcome for a limit state of a status of `time_histories`."""
     if status == NOT_BUILT:
         return UNBUILT
     require_choice("status", status, [s.name.lower() for s in RunStatus], error=FragilityError)
@@ -60,11 +61,11 @@ class IntensityRuns(Rows, Shown):
     ----------
     table : pandas.DataFrame
         A row a run: "motion", "scale" [-], "im" (in `intensity.unit`), "outcome", "status",
-        "message", a column a quantity of `frames.peaks` (SI); and "plan", how the intensity was
-        chosen: "stripes", "cloud", "hunt" (by the outcome of runs before) or "given", which is also
-        what holds without the column.
+        "message", a column a quantity of `frames.peaks` (SI). "plan" is the choice of the
+        intensity: "stripes", "cloud", "hunt" (by the outcome of earlier runs) or "given", the
+        default without the column.
     intensity : IntensityMeasure
-        What "im" is.
+        Intensity measure of "im".
     units : mapping of str to str
         Units of the quantities.
 
@@ -137,25 +138,24 @@ class IntensityRuns(Rows, Shown):
         parameters: Sets = None,
         plan: str = GIVEN,
     ) -> IntensityRuns:
-        """Read the runs of one structure from what `time_histories` or a campaign handed back.
+        """Read the runs of one structure from `time_histories` or a campaign.
 
         Parameters
         ----------
         data : xarray.Dataset
-            Of `time_histories` or of a campaign; runs that are not done are left out.
+            Results of `time_histories` or of a campaign; incomplete runs are left out.
         motions : GroundMotion, or a sequence or mapping of them
             The motions that were run, before the scales of `data`, by the names of `data`. Their
             digests must be those of the coordinate "motion_digest".
         intensity : IntensityMeasure
             The measure.
         model : str, optional
-            Which structure; needed where there are several.
+            Name of the structure; needed if there are several.
         parameters : int, mapping of str to float, or "all", optional
-            Which set of parameters of a campaign, by its number or its values; needed where there
-            are several. "all" pools them: what they scatter is part of the dispersion then.
+            Set of parameters of a campaign, by its number or its values; needed if there are
+            several. "all" pools them: their scatter is then part of the dispersion.
         plan : {"given", "stripes", "cloud", "hunt"}
-            How the intensities were chosen: "hunt" where they followed from outcomes of runs
-            before.
+            Choice of the intensities: "hunt" if they followed from outcomes of earlier runs.
 
         Returns
         -------
@@ -225,12 +225,12 @@ class IntensityRuns(Rows, Shown):
         Returns
         -------
         ndarray, shape (n,)
-            Demands [SI]; infinite where a bearing failed, NaN where the analysis failed.
+            Demands [SI]; infinite if a bearing failed, NaN if the analysis failed.
 
         Raises
         ------
         FragilityError
-            If the structure has no such quantity.
+            If the structure does not have the quantity.
         """
         require_choice("quantity", quantity, tuple(self.units), error=FragilityError)
         found = self.table[quantity].to_numpy(dtype=np.float64)
@@ -238,7 +238,7 @@ class IntensityRuns(Rows, Shown):
         return np.where(outcome == COMPLETE, found, np.where(outcome == FAILURE, np.inf, np.nan))
 
     def exceeded(self, limit: LimitState) -> FloatArray:
-        """Return whether each run exceeds a limit state.
+        """Return the exceedance of a limit state in each run.
 
         Parameters
         ----------
@@ -248,7 +248,7 @@ class IntensityRuns(Rows, Shown):
         Returns
         -------
         ndarray, shape (n,)
-            1 or 0, NaN where the analysis failed or nothing was built.
+            1 or 0, NaN if the analysis failed or nothing was built.
 
         Raises
         ------

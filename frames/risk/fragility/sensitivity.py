@@ -1,4 +1,4 @@
-"""Sensitivity: what of the assumptions decides a result, one at a time."""
+"""Sensitivity of a result to the assumptions, one at a time."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 Batch = Callable[[list[dict[str, float]]], "Sequence[float]"]
-"""Of many sets of parameters to a result each: one call for all, so that it can run a batch."""
+"""Function from many sets of parameters to a result each: one call for all, for a batch."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,8 +53,8 @@ def tornado(results_of: Batch, parameters: Mapping[str, tuple[float, float, floa
     Parameters
     ----------
     results_of : callable
-        Called once with a list of sets of parameters, dicts of numbers by name; returns a result
-        each, such as a median displacement of a batch of time histories.
+        Function that is called once with a list of sets of parameters (dicts of numbers by name)
+        and returns a result each, such as a median displacement of a batch of time histories.
     parameters : mapping of str to (float, float, float)
         Low, base and high value by name.
 
@@ -70,8 +70,8 @@ def tornado(results_of: Batch, parameters: Mapping[str, tuple[float, float, floa
 
     Notes
     -----
-    Take low and high as wide as what is not known: gradients by small differences are rough (by
-    friction 7 % over a range of 0.4 %), as peaks with stick, slip and impacts are not smooth.
+    Choose low and high as wide as the uncertainty. Gradients by small differences are rough (by
+    friction 7 % over a range of 0.4 %), because peaks with stick, slip and impacts are not smooth.
 
     Examples
     --------

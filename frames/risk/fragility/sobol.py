@@ -42,16 +42,16 @@ class SobolIndices:
     Attributes
     ----------
     table : pandas.DataFrame
-        A row a parameter: "first" index, what it explains alone, and "total" index, with all that
-        it does together with others; each with "low" and "high" of its confidence interval. NaN
-        where the interval is too wide. Of results by record they are conditional on the record:
-        shares of the variance within records.
+        A row a parameter: "first" index, its own share, and "total" index, its share with all
+        interactions; each with "low" and "high" of its confidence interval. NaN if the interval is
+        too wide. With results by record they are conditional on the record: shares of the variance
+        within records.
     mean, deviation : float
-        Of the result, of all records together.
+        Variance of the result, of all records together.
     runs : int
         Results that were formed.
     groups : pandas.DataFrame or None
-        Of results by record: the same of "record" and of all "parameters" together, shares of the
+        With results by record: the same of "record" and of all "parameters" together, shares of the
         whole variance.
     left_out : int
         Samples left out, of all records together, because a result of them is not known.
@@ -99,9 +99,9 @@ def sobol_indices(
     Parameters
     ----------
     results_of : callable, array_like, Campaign, CampaignStore or xarray.Dataset
-        As for `tornado`; called once with all sets. Or results that are there, one for each set of
+        As for `tornado`; called once with all sets. Or existing results, one for each set of
         `saltelli_sample` of the same distributions, samples and seed, of the shape (sets,) or, by
-        record, (sets, records); NaN where one is not known. Or a campaign of that sample.
+        record, (sets, records); NaN for an unknown one. Or a campaign of that sample.
     distributions : mapping of str to distribution
         Independent distributions of the parameters: frozen ones of `scipy.stats`, such as
         ``scipy.stats.uniform(0.05, 0.02)``, or others that have a method `ppf`.
@@ -114,14 +114,15 @@ def sobol_indices(
     widest : float
         Width of the interval beyond which an index is no result [-].
     quantity : str or callable
-        Of a campaign: a quantity of `frames.peaks`, or a function that returns one number for each
+        For a campaign: a quantity of `frames.peaks`, or a function that returns one number for each
         run of the Dataset of one structure.
     at_most : float, optional
-        Of a campaign: the value that larger ones, and those of failed bearings, count as [SI].
+        For a campaign: upper limit of the values [SI]; larger ones and those of failed bearings
+        count as this.
     model : str, optional
-        Of a campaign: the structure; needed if there are several.
+        For a campaign: the structure; needed if there are several.
     scale : float, optional
-        Of a campaign: the factor on the motions; needed if there are several.
+        For a campaign: the factor on the motions; needed if there are several.
 
     Returns
     -------
@@ -203,7 +204,7 @@ class _Ends(NamedTuple):
     high: FloatArray
 
     def frame(self, widest: float) -> pd.DataFrame:
-        """Return the table, values NaN where their interval is too wide."""
+        """Return the table; values are NaN if their interval is too wide."""
         shown = np.where(self.high - self.low <= widest, np.clip(self.values, 0.0, 1.0), np.nan)
         columns = {
             f"{kind}{end}": np.clip(found[k], 0.0, 1.0)
@@ -221,7 +222,7 @@ def _with_ends(
 
 
 def _resampled(table: FloatArray, known: BoolArray, rng: np.random.Generator) -> _Parts:
-    # Samples drawn anew, and records where there are several.
+    # Samples drawn anew, and records if there are several.
     _, records, samples = table.shape
     drawn = rng.integers(0, samples, samples)
     rows = rng.integers(0, records, records) if records > 1 else np.zeros(1, dtype=int)
@@ -229,7 +230,7 @@ def _resampled(table: FloatArray, known: BoolArray, rng: np.random.Generator) ->
 
 
 def _parts(table: FloatArray, known: BoolArray) -> _Parts:
-    # Of results (parameters + 2, records, samples), of which some are known.
+    # Results (parameters + 2, records, samples), of which some are known.
     shares = np.zeros((2, len(table) - 2))
     variance = 0.0
     for k, kept in enumerate(known):
@@ -293,7 +294,7 @@ def _require_enough(table: FloatArray, known: BoolArray) -> None:
 
 
 def _warn_of_width(found: list[_Ends], widest: float, samples: int) -> None:
-    # Of the widest interval; widths fall with the square root of the samples.
+    # The widest interval; widths decrease with the square root of the samples.
     width, kind, k, ends = max(
         (
             (float(each.high[kind, k] - each.low[kind, k]), kind, k, each)
