@@ -8,6 +8,7 @@ summaries of the pages that are there.
 from __future__ import annotations
 
 import builtins
+import csv
 import os
 import re
 from dataclasses import dataclass, field
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FOLDER = Path(__file__).parents[1] / "docs" / "validation"
+ROBUSTNESS = FOLDER / "robustness.md"
+"""Sections of several scripts."""
 DPI = 120
 CLAIMS = (
     "static_test",
@@ -175,6 +178,28 @@ def render(script: dict[str, Any], name: str = "", **values: Any) -> str:
 
 TEMPLATES.globals["table"] = table
 TEMPLATES.filters |= {"f": number, "rows": rows}
+
+
+def as_csv(name: str, caller: Callable[[], str]) -> str:
+    """Keep a table of a template as CSV, docs/validation/tables/<name>.csv; return a link to it."""
+    lines = [re.split(r"(?<!\\)\|", line)[1:-1] for line in caller().strip().splitlines()]
+    cells = [[cell.strip(" *`").replace("\\|", "|") for cell in line] for line in lines]
+    path = FOLDER / "tables" / f"{name}.csv"
+    path.parent.mkdir(exist_ok=True)
+    with path.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([cells[0], *cells[2:]])
+    return f"[{path.name}](tables/{path.name}) ({len(cells) - 2} rows)"
+
+
+TEMPLATES.globals["as_csv"] = as_csv
+
+
+def put(page: Path, part: str, text: str) -> None:
+    """Replace a script's part of a page, between its marks."""
+    begin, end = (f"<!-- {part}: {word} -->" for word in ("begin", "end"))
+    before, rest = page.read_text(encoding="utf-8").split(begin)
+    after = rest.split(end)[1]
+    page.write_text(f"{before}{begin}\n\n{text.strip()}\n\n{end}{after}", encoding="utf-8")
 
 
 def figure(claim: Claim, name: str, caption: str, suffix: str = "png") -> str:

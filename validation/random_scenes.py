@@ -1,4 +1,4 @@
-"""Random test cases by the thousand: writes docs/validation/random_scenes.md.
+"""Random test cases by the thousand: writes their section of docs/validation/robustness.md.
 
     python -m validation.random_scenes --seed 1 --count 5000 --workers 2
     python -m validation.random_scenes --seed 1 --only 1234
@@ -27,6 +27,7 @@ from validation.fuzzing.page import write
 from validation.fuzzing.pool import in_children, kept, series_parser
 from validation.fuzzing.scenes import random_scene
 from validation.fuzzing.trial import try_scene
+from validation.page import ROBUSTNESS, put
 from validation.scenes import LEVELS_STATIC, static_bearing
 
 if TYPE_CHECKING:
@@ -35,7 +36,6 @@ if TYPE_CHECKING:
 Task = tuple[str, int]
 """Test case or building, and its number."""
 
-TARGET = Path(__file__).parents[1] / "docs" / "validation" / "random_scenes.md"
 LIMIT = 300.0
 """Longest time for a test case with all its runs [s]."""
 
@@ -108,7 +108,7 @@ def arguments(given: Sequence[str] | None) -> argparse.Namespace:
         help="of all test cases; drawn unless given",
     )
     parser.add_argument("--building", action="store_true", help="NUMBER is that of a building")
-    parser.add_argument("--page", type=Path, default=TARGET, help="where the page is written")
+    parser.add_argument("--page", type=Path, default=ROBUSTNESS, help="that has the section")
     found = parser.parse_args(given)
     for name in ("count", "workers"):
         if getattr(found, name) < 1:
@@ -150,7 +150,7 @@ def main(given: Sequence[str] | None = None) -> int:
     call = f"python -m validation.random_scenes --seed {chosen.seed} --count {count}"
     if chosen.level:
         call += f" --level {chosen.level}"
-    chosen.page.write_text(write(found["scene"], found["building"], call, spent), encoding="utf-8")
+    put(chosen.page, "random_scenes", write(found["scene"], found["building"], call, spent))
     return sum(bool(entry["findings"]) for entries in found.values() for entry in entries)
 
 

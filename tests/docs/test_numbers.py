@@ -113,7 +113,7 @@ def of_features() -> Iterator[tuple[str, str]]:
 
 
 def of_random_scenes() -> Iterator[tuple[str, str]]:
-    page = VALIDATION("random_scenes")
+    page = VALIDATION("robustness")
     keys = ("without uplift", "without uplift, not `inaccurate`", "with uplift")
     calm, sound, lifted = (rows(page, key)[0] for key in keys)
     yield (

@@ -9,6 +9,7 @@ import pytest
 from jinja2 import meta
 
 import validation
+from validation import page
 from validation.measurements.opensees_cost import BASE, verdict
 from validation.page import CLAIMS, FOLDER, TEMPLATES, index
 from validation.study import runner, shown
@@ -16,11 +17,10 @@ from validation.study import runner, shown
 MEASUREMENTS = (
     "benchmark",
     "speed_error",
-    "hard_cases",
     "opensees_hard_cases",
     "opensees_cost",
     "opensees_public_models",
-    "random_scenes",
+    "robustness",
     "slip",
     "study",
     "study_summary",
@@ -92,7 +92,7 @@ def test_the_index_is_that_of_the_pages():
 @pytest.mark.parametrize("name", MEASUREMENTS)
 def test_measurements_are_in_the_index(name):
     assert f"({name}.md)" in text_of("README")
-    command = name.replace("study_", "study[. ]")
+    command = name.replace("study_", "study[. ]").replace("robustness", "random_scenes")
     assert re.search(rf"python -m validation\.(measurements\.)?{command}\b", text_of(name))
 
 
@@ -102,6 +102,19 @@ def test_pages_and_figures_belong_to_claims():
     shown = {target for name in pages for target in FIGURE.findall(text_of(name))}
     there = {f"figures/{path.name}" for path in (FOLDER / "figures").iterdir()}
     assert there == shown
+
+
+def test_tables_belong_to_pages():
+    linked = re.findall(r"\(tables/([^)]+)\)", "".join(map(text_of, MEASUREMENTS + CLAIMS)))
+    kept = {path.name for path in (FOLDER / "tables").iterdir()}
+    assert set(linked) == {name for name in kept if not name.startswith("study")}
+
+
+def test_tables_are_kept_as_csv(tmp_path, monkeypatch):
+    monkeypatch.setattr(page, "FOLDER", tmp_path)
+    link = page.as_csv("runs", lambda: "\n| case | `a` |\n| --- | --- |\n| x, y | **no** |\n")
+    assert link == "[runs.csv](tables/runs.csv) (1 rows)"
+    assert (tmp_path / "tables/runs.csv").read_text() == 'case,a\n"x, y",no\n'
 
 
 def test_figures_are_small():

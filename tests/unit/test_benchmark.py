@@ -138,7 +138,8 @@ def test_the_page_of_goals_judges_them(ratio, said):
     assert f"| {own}; 2026-01-01 |" in goals_text(given)
 
 
-def test_the_page_says_how_often_opensees_costs_what_is_spent_here():
+def test_the_page_says_how_often_opensees_costs_what_is_spent_here(tmp_path, monkeypatch):
+    monkeypatch.setattr("validation.page.FOLDER", tmp_path)
     given = kept(25.0)
     kinds = "singleFPBearing, TripleFrictionPendulum"
     assert [row[1:] for row in short(given)] == [

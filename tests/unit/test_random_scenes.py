@@ -380,28 +380,31 @@ def test_tasks_are_scenes_with_buildings_in_between():
     assert list(tasks(25, 4, -1.0)) == []
 
 
-def test_the_page_lists_what_was_found():
+def test_the_page_lists_what_was_found(tmp_path, monkeypatch):
+    monkeypatch.setattr("validation.page.FOLDER", tmp_path)
     entries = [lost(("scene", n), how, SEED) for n, how in ((3, "hang"), (4, "crash"))]
     building = lost(("building", 0), "crash", SEED)
-    page = write(entries, [building], "the command", "no time")
-    assert page.count("| hang | no report: hang |") == 1
-    assert page.count("| crash | no report: crash |") == 2
-    assert "| no end within the limit of time | 2 | **1** |" in page
-    assert "2 test cases and 1 buildings" in page
-    assert (
-        '| level="auto" against all features: the peak differs by more than 0.01 | 1 | 0 |'
-        in page  # test case 4
+    assert "2 test cases and 1 buildings" in write(entries, [building], "the command", "no time")
+    kinds, found = (
+        (tmp_path / f"tables/random_scenes-{name}.csv").read_text()
+        for name in ("checks", "findings")
     )
+    assert found.count(",hang,no report: hang,") == 1
+    assert found.count(",crash,no report: crash,") == 2
+    assert "no end within the limit of time,2,1\n" in kinds
+    assert 'the peak differs by more than 0.01",1,0\n' in kinds  # test case 4
     json.dumps(entries)
 
 
 @pytest.mark.nightly
-def test_the_command(tmp_path, capsys):
-    kept, page = tmp_path / "kept.jsonl", tmp_path / "page.md"
-    call = ["--count", "1", "--buildings", "1", "--page", str(page), "--keep", str(kept)]
+def test_the_command(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("validation.page.FOLDER", tmp_path)
+    kept, target = tmp_path / "kept.jsonl", tmp_path / "page.md"
+    target.write_text("# Robustness\n<!-- random_scenes: begin --><!-- random_scenes: end -->")
+    call = ["--count", "1", "--buildings", "1", "--page", str(target), "--keep", str(kept)]
     main(call)
     assert len(kept.read_text(encoding="utf-8").splitlines()) == 2
-    assert page.read_text(encoding="utf-8").startswith("# Random test cases\n")
+    assert "## Random test cases\n" in target.read_text(encoding="utf-8")
     main(["--only", "26"])
     assert "number: 26" in capsys.readouterr().out
     with pytest.raises(SystemExit):

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 Entry = dict[str, Any]
 """A report as it is kept: `Report.as_dict`."""
 
-MOST_LISTED = 60
-"""Rows of the list of findings."""
 SHARES = (0.5, 0.9, 0.95, 0.99, 1.0)
 GOALS = {False: (0.99, 0.01), True: (0.95, 0.03)}
 """Without and with uplift: share of the test cases [-], largest error of the peak [-]."""

@@ -234,7 +234,7 @@ def a_stick_on_a_grid(rng: np.random.Generator) -> tuple[list[LIRBearing], Build
         base_mass=base,
         plan=(bays, width),
         damping=damping,
-        overturning=False,  # as the test cases of docs/validation/random_scenes.md
+        overturning=False,  # as the test cases of docs/validation/robustness.md
     )
 
 

@@ -1,4 +1,4 @@
-"""Hard cases at every level: writes docs/validation/hard_cases.md.
+"""Hard cases at every level: writes their section of docs/validation/robustness.md.
 
     python -m validation.measurements.hard_cases
 
@@ -21,13 +21,12 @@ from lir_element import RunStatus, cyclic_test
 from lir_element.errors import AnalysisWarning
 from validation.measurements.hard_scenes import Case, cases
 from validation.measures import response
-from validation.page import FOLDER, render
+from validation.page import ROBUSTNESS, put, render
 from validation.scenes import example_bearing
 
 if TYPE_CHECKING:
     import xarray as xr
 
-TARGET = FOLDER / "hard_cases.md"
 REFERENCE_TOLERANCE = 1e-9
 LEDGER = 1e-3
 """Largest gap of the energy balance that passes [-]."""
@@ -204,8 +203,21 @@ def line(entry: Outcome) -> str:
 
 
 def write(found: list[Outcome]) -> str:
-    """Return the page."""
-    return render(globals(), found=found)
+    """Return the section."""
+    return render(globals(), found=found, rows=summary(found))
+
+
+def summary(found: list[Outcome]) -> list[list[str]]:
+    """Return a row a level: runs, how many completed or failed, errors of peaks, energy gap."""
+    rows = []
+    for level in ("pendulum", "contact"):
+        own = [entry for entry in found if entry.level == level]
+        errors = sorted(entry.error for entry in own if not np.isnan(entry.error))
+        complete = sum(entry.status == "ok" for entry in own)
+        part = [level, f"{len(own)}", f"{complete}", f"{len(own) - complete}"]
+        sizes = [f"{errors[len(errors) // 2]:.2g}", f"{errors[-1]:.2g}"]
+        rows.append([*part, *sizes, f"{max(entry.ledger for entry in own):.0e}"])
+    return rows
 
 
 def main() -> None:
@@ -215,9 +227,7 @@ def main() -> None:
         found += run_case(case)
         print("\n".join(line(entry) for entry in found[-len(case.runs) - 1 :]), flush=True)
     found += creep()
-    page = write(found)
-    TARGET.write_text(page, encoding="utf-8")
-    print(page)
+    put(ROBUSTNESS, "hard_cases", write(found))
 
 
 if __name__ == "__main__":
