@@ -8,14 +8,14 @@ import pandas as pd
 import pytest
 from scipy import stats
 
-from frames.risk import HazardCurve, IntensityRuns, LimitState
+from frames.design import Spectrum
+from frames.risk import HazardCurve, Intensity, IntensityRuns, LimitState
 from frames.risk.campaign.comparison import collapse_limit, dish_diameter
-from frames.risk.campaign.file import campaign_file, loss_in, models_in
+from frames.risk.campaign.file import campaign_file, comparison_in, loss_in, models_in
 from frames.risk.campaign.loss import annual_losses
 from lir_element import DesignWarning
 from lir_element.units import STANDARD_GRAVITY
 from validation.study.capacities import bounds_of, fitted
-from validation.study.hazards import CONSIDERED_PERIOD, INTENSITY, L_AQUILA, italian, sites
 from validation.study.runner import HERE, files_of
 from validation.study.uncertainty import effects
 
@@ -53,7 +53,7 @@ def test_records_fail_between_two_stripes():
         scale=1.0, message=""
     )
     frame["outcome"] = [outcome.get(s, "numerical failure") for s in frame["status"]]
-    runs = IntensityRuns(frame, INTENSITY, {"drift": "1"})
+    runs = IntensityRuns(frame, Intensity(kind="Sa", period=3.0), {"drift": "1"})
     found = bounds_of(runs, LimitState("drift", "drift", 0.02), ["a", "b", "c"])
     np.testing.assert_array_equal(found, [[1.0, 2.0], [0.0, 1.0], [1.0, np.inf]])
 
@@ -61,29 +61,56 @@ def test_records_fail_between_two_stripes():
 # Hazard, consequences, annual loss
 
 
-def test_the_spectrum_of_the_italian_code():
-    # 475 years, ground C: S = 1.7 - 0.6 * 2.364 * 0.26614 = 1.3225, C_C = 1.05 * 0.34696**-0.33
-    # = 1.4889, T_C = 0.51660 s, T_D = 4 * 0.26614 + 1.6 = 2.66454 s
-    expected = 2.6099 * 1.3225 * 2.364 * 0.51660 * 2.66454 / 9.0
-    assert italian(*L_AQUILA[6], 3.0) == pytest.approx(expected, rel=1e-3)
-    # 2,475 years: T_D = 3.4459 s is beyond 3 s; S = 1.7 - 0.6 * 2.4576 * 0.46147 = 1.0195
-    corner = 1.05 * 0.38472 ** (1.0 - 0.33)
-    assert italian(*L_AQUILA[8], 3.0) == pytest.approx(
-        4.5255 * 1.0195 * 2.4576 * corner / 3.0, rel=1e-3
-    )
+L_AQUILA = (  # a_g [m/s2], F_0 [-] and T*_C [s] of the nine return periods of NTC 2008
+    (0.78911, 2.3995, 0.27228),
+    (1.0405, 2.3321, 0.28125),
+    (1.2258, 2.318, 0.28932),
+    (1.4242, 2.3043, 0.29671),
+    (1.6403, 2.3015, 0.30931),
+    (1.9075, 2.3152, 0.31802),
+    (2.6099, 2.364, 0.34696),
+    (3.3433, 2.4001, 0.36415),
+    (4.5255, 2.4576, 0.38472),
+)
+CALIFORNIA = (  # return period [years], Sa(2.99 s) [g]
+    (43.0, 144.0, 289.0, 475.0, 949.0, 1485.0, 2475.0, 3899.0, 7462.0, 10000.0),
+    (0.04, 0.10, 0.17, 0.24, 0.35, 0.42, 0.50, 0.57, 0.69, 0.75),
+)
+
+
+def italian(a_g: float, f_0: float, t_star: float) -> float:
+    """Return Sa(3 s) of NTC 2018 on ground C [m/s2]."""
+    share = a_g / STANDARD_GRAVITY
+    soil = float(np.clip(1.70 - 0.60 * f_0 * share, 1.0, 1.5))
+    t_c, t_d = 1.05 * t_star**0.67, 4.0 * share + 1.6
+    return a_g * soil * f_0 * t_c / 3.0 * min(1.0, t_d / 3.0)
 
 
 def test_hazards_go_through_what_is_known():
-    santiago, angeles, aquila = sites()
-    assert angeles.at(CONSIDERED_PERIOD) == pytest.approx(STANDARD_GRAVITY * 1.054 / 3.0)
-    assert angeles.at(475.0) / angeles.at(CONSIDERED_PERIOD) == pytest.approx(0.24 / 0.50)
-    assert santiago.at(1950.0) / santiago.at(475.0) == pytest.approx(0.72 / 0.55)
-    assert aquila.at(475.0) == pytest.approx(italian(*L_AQUILA[6], 3.0))
-    for site in sites():
-        rate = np.asarray(site.curve.rate)
-        assert rate[0] == pytest.approx(1.0 / 30.0)
-        moved = site.moved(2.0)
-        assert moved.rates(2.0) == pytest.approx(1.0 / CONSIDERED_PERIOD)
+    hazards = loss_in(HERE / "loss.toml").hazard
+    considered = comparison_in(HERE / "loss.toml").considered
+    design = float(Spectrum.nch2745("II", 2).acceleration(3.0))
+    expected = {
+        "Santiago": [(475, design), (1950, design * 0.72 / 0.55)],
+        "Los Angeles": np.transpose(CALIFORNIA) * [1.0, STANDARD_GRAVITY * 1.054 / 3.0 / 0.50],
+        "L'Aquila": [
+            (years, italian(*row))
+            for years, row in zip(
+                (30, 50, 72, 101, 140, 201, 475, 975, 2475), L_AQUILA, strict=True
+            )
+        ],
+    }
+    assert {name.split(", ")[0] for name in hazards} == {*expected}
+    for site, points in expected.items():
+        years, im = np.array(points).T
+        own, moved = (hazards[f"{site}, {kind}"] for kind in ("as it is", "moved"))
+        np.testing.assert_allclose(own.rates(np.clip(im, *own.ends)), 1.0 / years, rtol=1e-3)
+        np.testing.assert_allclose(moved.im / own.im, moved.im[0] / own.im[0], rtol=1e-4)
+        assert own.rate[0] == moved.rate[0] == pytest.approx(1.0 / 30.0)
+        assert moved.rates(considered) == pytest.approx(1.0 / 2475.0, rel=1e-3)
+        slopes = np.diff(np.log(own.rate)) / np.diff(np.log(own.im))
+        assert slopes[-1] == pytest.approx(slopes[-2], rel=1e-3)
+        assert years[0] == 30 or slopes[0] == pytest.approx(slopes[1], rel=1e-3)
 
 
 def test_components_are_those_of_the_file():

@@ -561,6 +561,17 @@ def test_losses_are_those_of_numpy_and_scipy(folder: Path, data: xr.Dataset) -> 
         assert annual.loc[device, "above [-]"] == pytest.approx(above, rel=1e-3)
     ratio = annual["loss [1/year]"].iloc[0] / annual["loss [1/year]"]
     np.testing.assert_allclose(annual["ratio [-]"].iloc[1:], ratio.iloc[1:], rtol=1e-6)
+    points = '[["0.05 g", 60], ["0.2 g", 600], ["0.9 g", 40000]]'
+    several = LOSS.replace("hazard =", "[loss.hazards]\nhere =") + f"rare = {points}\n"
+    (folder / "loss.toml").write_text(FILE + several)
+    with warnings.catch_warnings(action="ignore", category=AnalysisWarning):
+        done = run(app, ["campaign", str(folder / "loss.toml"), *store])
+    assert done.exit_code == 0, done.output
+    both = pd.read_csv(page.with_name("campaign-annual_loss.csv")).set_index("structure")
+    of = {name: table.drop(columns="hazard") for name, table in both.groupby("hazard")}
+    pd.testing.assert_frame_equal(of["here"], annual)
+    np.testing.assert_allclose(of["rare"].iloc[:, :3], 0.5 * annual.iloc[:, :3], rtol=1e-6)
+    assert "rare, DCFP, rims of 0.5 W" in page.read_text()
 
 
 def test_components_stand_in_storeys_from_below() -> None:
@@ -595,6 +606,8 @@ def test_components_stand_in_storeys_from_below() -> None:
         ("loss.toml", 'hazard = "hazard.csv"', 'hazard = [["1 m/s2", 30]]', "loss.hazard"),
         ("loss.toml", "2e4\n", '2e4\nintensity = "PGA"\n', "[fragility] has another measure"),
         ("loss.toml", 'hazard = "hazard.csv"', 'hazard = "none.csv"', "none.csv"),
+        ("loss.toml", 'hazard = "hazard.csv"', "", "loss: has neither hazard nor [loss.hazards]"),
+        ("loss.toml", "hazard =", '[loss.hazards]\na = "none.csv"\nb =', "[loss.hazards.a]"),
     ],
 )
 def test_what_is_no_loss_is_refused(

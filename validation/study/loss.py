@@ -1,4 +1,4 @@
-"""Own numbers and figures of the part on loss: sites, annual rates, shape of spectra."""
+"""Own numbers and figures of the part on loss: hazards, annual rates, shape of spectra."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from frames.risk.campaign.page import loss_curves
 from frames.risk.campaign.tables import CONFIDENCE
 from validation.study.capacities import bounds_of, draws, fitted
 from validation.study.capacities import interval as ends_of
-from validation.study.hazards import CONSIDERED_PERIOD, SHORTEST, sites  # noqa: F401
 from validation.study.rounded import with_interval
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    import pandas as pd
     from matplotlib.figure import Figure
 
     from frames.risk import HazardCurve
@@ -48,46 +48,40 @@ ABOVE, BELOW, NEITHER = "higher", "lower", "not told apart"
 
 
 def numbers(every: Mapping[str, CampaignTables]) -> dict[str, Any]:
-    """Return losses and rates by site, and what the shape of spectra does to collapse."""
+    """Return losses and rates by hazard, and what the shape of spectra does to collapse."""
     tables = every["loss"]
     assert tables.comparison is not None
     at = tables.comparison.considered or 0.0
-    hazards = {}
-    for site in sites():
-        hazards[f"{site.name}, as it is"] = site.curve
-        hazards[f"{site.name}, moved"] = site.moved(at)
+    given: Any = loss_in(tables.file)
+    others = [each for each in given.components if each.name != STRUCTURE]
+    less = given._asdict() | {"components": others, "confidence": CONFIDENCE}
     return {
-        "annual": {name: losses(tables, each) for name, each in hazards.items()},
-        "without": {name: losses(tables, each, STRUCTURE) for name, each in hazards.items()},
-        "rates": {name: rates(tables, each) for name, each in hazards.items()},
+        "annual": losses(tables.annual_loss),
+        "without": losses(expected_loss(tables.data, tables.runs, **less).annual),
+        "rates": {name: rates(tables, each) for name, each in given.hazard.items()},
         "shape": shape(tables, at),
         "components": [
             [each.name, each.damaged_by, list(each.medians), list(each.costs), each.quantity[0]]
-            for each in _given(tables).components
+            for each in given.components
         ],
-        "sites": {
-            site.name: {
-                "source": site.source,
-                "slope": site.slope(),
-                "at": [site.at(years) for years in (475.0, CONSIDERED_PERIOD)],
-                "period": float(1.0 / site.curve.rates(at)),
-            }
-            for site in sites()
-        },
+        "hazards": {name: hazard_points(each, at) for name, each in given.hazard.items()},
     }
 
 
-def _given(tables: CampaignTables) -> Any:
-    return loss_in(tables.file)
+def hazard_points(hazard: HazardCurve, at: float) -> dict[str, float]:
+    """Return intensities of 475 and 2,475 years [m/s2], the slope, the return period of one."""
+    log_im, log_rate = np.log(hazard.im), np.log(hazard.rate)
+    often, rare = np.exp(np.interp(np.log([475.0, 2475.0]), -log_rate, log_im)).tolist()
+    slope = float(np.log(2475.0 / 475.0) / np.log(rare / often))
+    period = 1.0 / float(hazard.rates(at))
+    return {"475 years": often, "2475 years": rare, "slope": slope, "period": period}
 
 
-def losses(tables: CampaignTables, hazard: HazardCurve, left_out: str = "") -> dict[str, Any]:
-    """Return the annual loss of each device with its interval, parts and ratio."""
-    told = _given(tables)._asdict() | {"hazard": hazard, "confidence": CONFIDENCE}
-    told["components"] = [each for each in told["components"] if each.name != left_out]
-    table = expected_loss(tables.data, tables.runs, **told, resamples=DRAWS).annual
-    return {
-        str(row["structure"]): {
+def losses(annual: pd.DataFrame) -> dict[str, dict[str, Any]]:
+    """Return the loss a year of each hazard and device with its interval, parts and ratio."""
+    found: dict[str, dict[str, Any]] = {}
+    for _, row in annual.iterrows():
+        found.setdefault(str(row["hazard"]), {})[str(row["structure"])] = {
             "loss": [row[f"loss{end} [1/year]"] for end in ("", ", low", ", high")],
             "ratio": None
             if np.isnan(row["ratio [-]"])
@@ -95,8 +89,7 @@ def losses(tables: CampaignTables, hazard: HazardCurve, left_out: str = "") -> d
             "collapse": row["collapse [1/year]"] / row["loss [1/year]"],
             "beyond": [row["below [-]"], row["above [-]"]],
         }
-        for _, row in table.iterrows()
-    }
+    return found
 
 
 def rates(tables: CampaignTables, hazard: HazardCurve) -> dict[str, dict[str, Any]]:

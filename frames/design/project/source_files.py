@@ -189,7 +189,9 @@ def _named(file: Any, folder: Path) -> list[Path]:
         names = [structure.file, *structure.library]
     points = getattr(getattr(file, "spectrum", None), "points", None)
     loss = getattr(file, "loss", None)
-    tables = [points] if loss is None else [points, loss.components, loss.hazard]
+    tables = [points]
+    if loss is not None:
+        tables += [loss.components, loss.hazard, *loss.hazards.values()]
     names += [each for each in tables if isinstance(each, Path)]
     if motions.folder is not None:
         names.append(motions.folder / motions.table)

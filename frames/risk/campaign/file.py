@@ -50,8 +50,9 @@ if TYPE_CHECKING:
 
     from frames.design.project.schema_structure import Structure
     from frames.frame import Frame
-    from frames.risk.campaign.file_schema import FragilityTable
+    from frames.risk.campaign.file_schema import FragilityTable, HazardPoints
     from frames.risk.campaign.sampling import ParameterSample
+    from frames.risk.fragility.hazard_curve import HazardCurve
     from frames.risk.fragility.intensity import Intensity
     from lir_element import FrictionLaw, LIRBearing
 
@@ -193,17 +194,25 @@ def loss_in(given: CampaignFile | str | Path) -> LossInput | None:
     asked, measure, folder = file.loss, file.measured(), _path_of(file).resolve().parent
     if asked is None or measure is None:
         return None
-    hazard, collapse = asked.hazard, collapse_limit(asked.collapse_drift)
+    collapse = collapse_limit(asked.collapse_drift)
     if asked.collapse_drift is None and file.compare is not None:
         collapse = file.compare.collapse()
+
+    def hazard(given: HazardPoints) -> HazardCurve:
+        if isinstance(given, Path):
+            return read_hazard(folder / given, measure)
+        return hazard_of(given, measure)
+
+    several = {
+        name: in_section(f"loss.hazards.{name}", partial(hazard, each))
+        for name, each in asked.hazards.items()
+    }
     return in_section(
         "loss",
         lambda: LossInput(
             components=read_components(folder / asked.components),
             replacement=asked.replacement,
-            hazard=read_hazard(folder / hazard, measure)
-            if isinstance(hazard, Path)
-            else hazard_of(hazard, measure),
+            hazard=several if asked.hazard is None else hazard(asked.hazard),
             collapse=collapse,
         ),
     )

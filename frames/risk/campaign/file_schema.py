@@ -101,18 +101,29 @@ class FragilityTable(MeasureTable):
         return found + ([LimitState.bearing_failure()] if self.bearing_failure else [])
 
 
+_Point = tuple[Acceleration, Annotated[float, Field(gt=0.0)]]
+HazardPoints = Path | Annotated[tuple[_Point, ...], Field(min_length=2)]
+"""A file, or intensities and their return periods [years]."""
+
+
 class LossTable(MeasureTable):
-    """``[loss]``: components and their repair, the hazard of the site, collapse."""
+    """``[loss]``: components and their repair, one hazard or several by name, collapse."""
 
     components: Path
     replacement: float = Field(gt=0.0)
-    hazard: (
-        Path
-        | Annotated[
-            tuple[tuple[Acceleration, Annotated[float, Field(gt=0.0)]], ...], Field(min_length=2)
-        ]
-    )
+    hazard: HazardPoints | None = None
+    hazards: dict[str, HazardPoints] = Field(default_factory=dict)
     collapse_drift: Annotated[Ratio, Field(gt=0.0)] | None = None
+
+    @model_validator(mode="after")
+    def _one_hazard_or_several(self) -> Self:
+        if (self.hazard is None) != bool(self.hazards):
+            found = "hazard and" if self.hazards else "neither hazard nor"
+            msg = (
+                f'has {found} [loss.hazards]: give hazard = [["0.5 m/s2", 50], ["3 m/s2", 2475]], '
+            )
+            raise ValueError(msg + "or several hazards by name")
+        return self
 
 
 T = TypeVar("T")

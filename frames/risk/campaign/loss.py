@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,6 +15,7 @@ from scipy import special
 from frames.risk._errors import FragilityError
 from frames.risk.fragility.curve import checked_confidence
 from frames.risk.fragility.fitting import RESAMPLES
+from frames.risk.fragility.hazard_curve import HazardCurve
 from frames.risk.fragility.intensity import is_same
 from lir_element.argument_checks import require_choice, require_positive
 
@@ -21,7 +23,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from frames._types import FloatArray
-    from frames.risk.fragility.hazard_curve import HazardCurve
     from frames.risk.fragility.limit_state import LimitState
     from frames.risk.fragility.runs import IntensityRuns
 
@@ -130,8 +131,8 @@ class LossComponent:
         return np.asarray((self.cost(demand) * np.asarray(self.quantity)).sum(axis=1))
 
 
-COLLAPSE = "collapse"
-"""Part of the loss that is the whole building."""
+LOSS, COLLAPSE = "loss", "collapse"
+"""The whole loss, and its part that is the whole building."""
 
 
 class LossInput(NamedTuple):
@@ -139,7 +140,7 @@ class LossInput(NamedTuple):
 
     components: tuple[LossComponent, ...]
     replacement: float  # cost of a new building, in the currency of the components
-    hazard: HazardCurve
+    hazard: HazardCurve | dict[str, HazardCurve]
     collapse: LimitState
 
 
@@ -153,9 +154,9 @@ class ExpectedLoss:
         A row a structure and intensity: "loss [-]" with "low" and "high" of its interval, its parts
         by component, that of collapse among them, "runs", and "unknown" ones that are left out.
     annual : pandas.DataFrame
-        A row a structure: "loss [1/year]" with its interval and its parts; "ratio [-]", the loss of
-        the first structure over it; "below [-]" and "above [-]", shares of the loss from
-        intensities below the lowest and above the highest run.
+        A row a structure, of each "hazard" if there are several: "loss [1/year]" with its interval
+        and its parts; "ratio [-]", the loss of the first structure over it; "below [-]" and
+        "above [-]", shares of the loss from intensities below the lowest and above the highest run.
 
     Examples
     --------
@@ -170,7 +171,7 @@ def expected_loss(
     data: xr.Dataset,
     runs: Mapping[str, IntensityRuns],
     components: Sequence[LossComponent],
-    hazard: HazardCurve,
+    hazard: HazardCurve | Mapping[str, HazardCurve],
     *,
     replacement: float,
     collapse: LimitState,
@@ -189,8 +190,8 @@ def expected_loss(
         measure of the hazard; the first is the one that the others are compared with.
     components : sequence of LossComponent
         Repaired components.
-    hazard : HazardCurve
-        The hazard of the site.
+    hazard : HazardCurve or mapping of str to HazardCurve
+        Hazard of the site, or hazards by name, all of one measure.
     replacement : float
         Cost of a new building, in the currency of the components.
     collapse : LimitState
@@ -221,48 +222,77 @@ def expected_loss(
     "Campaigns: very many time histories" (docs/campaigns.md), its section Loss.
     """
     cost = require_positive("replacement", replacement, error=FragilityError)
+    hazards = {"": hazard} if isinstance(hazard, HazardCurve) else dict(hazard)
+    if not hazards:
+        msg = "hazard is empty: give at least one HazardCurve"
+        raise FragilityError(msg)
     tail = 0.5 * (1.0 - checked_confidence(confidence))
     records = sorted({name for each in runs.values() for name in each.motions})
     drawn = np.random.default_rng(seed).integers(0, len(records), (resamples, len(records)))
-    rows, yearly = [], {}
-    means: dict[str, FloatArray] = {}
-    at = _intensities(runs, hazard)
-    for name, each in runs.items():
+    at, unit = _intensities(runs, hazards), next(iter(hazards.values())).unit
+    rows, resampled = [], {}
+    means: dict[str, dict[str, FloatArray]] = {}
+    for name, own in runs.items():
         parts = {
-            part: _by_record(values, each, records, at)
-            for part, values in _parts(data, name, each, components, cost, collapse).items()
+            part: _by_record(values, own, records, at)
+            for part, values in _parts(data, name, own, components, cost, collapse).items()
         }
         total = np.sum([*parts.values()], axis=0)
         with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
-            drawn_means = np.nanmean(total[drawn], axis=1)  # NaN if all drawn are unknown
-        low, high = np.nanquantile(drawn_means, [tail, 1.0 - tail], axis=0)
-        curve = {part: np.nanmean(values, axis=0) for part, values in parts.items()}
+            again = resampled[name] = np.nanmean(total[drawn], axis=1)  # NaN if all are unknown
         mean = np.nanmean(total, axis=0)
+        curve = {part: np.nanmean(values, axis=0) for part, values in parts.items()}
+        means[name] = {LOSS: mean, **curve}
+        low, high = np.nanquantile(again, [tail, 1.0 - tail], axis=0)
         table = {"loss [-]": mean, "loss, low [-]": low, "loss, high [-]": high}
         table |= {f"{part} [-]": values for part, values in curve.items()}
         table |= {"runs": np.full(len(at), len(records)), "unknown": np.isnan(total).sum(axis=0)}
-        rows.append(pd.DataFrame({"structure": name, f"im [{hazard.unit}]": at, **table}))
-        means[name] = annual_losses(drawn_means, at, hazard)
-        yearly[name] = _year(curve, mean, at, hazard)
-    annual = pd.DataFrame(yearly).T
-    first = next(iter(means))
-    for name, own in means.items():
-        annual.loc[name, ["loss, low [1/year]", "loss, high [1/year]"]] = _ends(own, tail)
-        if name != first:
-            ratio = yearly[first]["loss [1/year]"] / yearly[name]["loss [1/year]"]
-            columns = ["ratio [-]", "ratio, low [-]", "ratio, high [-]"]
-            annual.loc[name, columns] = [ratio, *_ends(means[first] / own, tail)]
-    annual.insert(0, "structure", annual.index)
-    return ExpectedLoss(pd.concat(rows, ignore_index=True), annual.reset_index(drop=True))
+        rows.append(pd.DataFrame({"structure": name, f"im [{unit}]": at, **table}))
+    yearly = []
+    for label, each in hazards.items():
+        yearly.append(pd.DataFrame(_annual(means, resampled, at, each, tail)))
+        if each is not hazard:
+            yearly[-1].insert(0, "hazard", label)
+    return ExpectedLoss(pd.concat(rows, ignore_index=True), pd.concat(yearly, ignore_index=True))
+
+
+def _annual(
+    means: Mapping[str, Mapping[str, FloatArray]],
+    resampled: Mapping[str, FloatArray],
+    at: FloatArray,
+    hazard: HazardCurve,
+    tail: float,
+) -> Iterator[dict[str, object]]:
+    # A row a structure: loss, parts, shares from beyond the intensities, ratio of the first.
+    first, first_drawn = None, None
+    highest = float(hazard.rates(np.clip(at[-1], *hazard.ends)))
+    for name, each in means.items():
+        one, *parts = annual_losses(np.array([*each.values()]), at, hazard).tolist()
+        own = annual_losses(resampled[name], at, hazard)
+        inside = float(annual_losses(each[LOSS], at, hazard, lowest=float(at[0])))
+        low, high = _ends(own, tail)
+        row: dict[str, object] = {"structure": name, "loss [1/year]": one}
+        row |= {"loss, low [1/year]": low, "loss, high [1/year]": high}
+        row |= {f"{part} [1/year]": v for part, v in zip(list(each)[1:], parts, strict=True)}
+        row["below [-]"] = max(one - inside, 0.0) / one if one > 0.0 else 0.0
+        row["above [-]"] = float(each[LOSS][-1]) * highest / one if one > 0.0 else 0.0
+        if first is None or first_drawn is None:
+            first, first_drawn = one, own
+        else:
+            low, high = _ends(first_drawn / own, tail)
+            row |= {"ratio [-]": first / one, "ratio, low [-]": low, "ratio, high [-]": high}
+        yield row
 
 
 def _ends(values: FloatArray, tail: float) -> list[float]:
     return [float(v) for v in np.nanquantile(values, [tail, 1.0 - tail])]
 
 
-def _intensities(runs: Mapping[str, IntensityRuns], hazard: HazardCurve) -> FloatArray:
+def _intensities(
+    runs: Mapping[str, IntensityRuns], hazards: Mapping[str, HazardCurve]
+) -> FloatArray:
     # Intensities of every record, or an error: a mean over other records would differ.
-    for each in runs.values():
+    for each, hazard in itertools.product(runs.values(), hazards.values()):
         own, other = each.intensity, hazard.intensity
         if own.unit != hazard.unit or (other is not None and not is_same(own, other)):
             label = hazard.unit if other is None else other.label
@@ -312,26 +342,6 @@ def _by_record(
     table = runs.table[["motion", "im"]].assign(value=values)
     wide = table.pivot_table(index="motion", columns="im", values="value", dropna=False)
     return np.asarray(wide.reindex(index=records, columns=at).to_numpy())
-
-
-def _year(
-    parts: Mapping[str, FloatArray], mean: FloatArray, at: FloatArray, hazard: HazardCurve
-) -> dict[str, float]:
-    # Annual loss and its parts, and the shares from beyond the intensities.
-    one = float(annual_losses(mean, at, hazard))
-    found = {"loss [1/year]": one, "loss, low [1/year]": np.nan, "loss, high [1/year]": np.nan}
-    found |= {
-        f"{part} [1/year]": float(annual_losses(values, at, hazard))
-        for part, values in parts.items()
-    }
-    low, high = hazard.ends
-    beyond = float(mean[-1] * hazard.rates(np.clip(at[-1], low, high)))
-    inside = annual_losses(mean, at, hazard, lowest=float(at[0]))
-    below = one - float(inside)
-    return found | {
-        "below [-]": below / one if one > 0.0 else 0.0,
-        "above [-]": beyond / one if one > 0.0 else 0.0,
-    }
 
 
 def annual_losses(

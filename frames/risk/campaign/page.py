@@ -146,12 +146,14 @@ def _indices(indices: pd.DataFrame) -> Table:
 def _losses(tables: CampaignTables, *, figures: bool) -> dict[str, Any]:
     # Losses by the names on the page: numbers with their intervals in one cell, in per cent.
     annual, loss = tables.annual_loss, tables.loss
-    words = pd.DataFrame({"loss a year [%]": _with_ends(100.0 * annual.iloc[:, 1:], LOSS, ".3g")})
-    parts = [c for c in annual.columns[2:] if str(c).endswith(" [1/year]")]
-    for name in [str(c) for c in parts if not str(c).startswith("loss,")]:
+    keys = [name for name in ("hazard", "structure") if name in annual]
+    first = annual["structure"].iloc[0]
+    annual = annual.set_index(annual[keys].agg(", ".join, axis=1)).drop(columns=keys)
+    words = pd.DataFrame({"loss a year [%]": _with_ends(100.0 * annual, LOSS, ".3g")}, annual.index)
+    parts = [str(c) for c in annual.columns if str(c).endswith(" [1/year]")]
+    for name in [each for each in parts if not each.startswith("loss")]:
         words[f"of it {name.removesuffix(' [1/year]')} [%]"] = 100.0 * annual[name] / annual[LOSS]
     if "ratio [-]" in annual:
-        first = annual["structure"].iloc[0]
         words[f"{first} over it"] = _with_ends(annual, "ratio [-]", ".2f")
     for name in ("below [-]", "above [-]"):
         words[name.replace("[-]", "what was run [%]")] = 100.0 * annual[name]
@@ -163,11 +165,11 @@ def _losses(tables: CampaignTables, *, figures: bool) -> dict[str, Any]:
         }
     )
     return {
-        "annual": page_table(words.set_index(annual["structure"]), "structure"),
+        "annual": page_table(words, " and ".join(keys)),
         "curves": page_table(curves, tables.axis),
         "pictures": [picture("Expected loss", loss_curves(loss, tables.axis))] if figures else [],
         "unknown": int(loss["unknown"].sum()),
-        "beyond": annual.loc[(annual["above [-]"] > BEYOND), "structure"].tolist(),
+        "beyond": annual.index[annual["above [-]"] > BEYOND].tolist(),
     }
 
 
